@@ -5,7 +5,6 @@ mod diagnose;
 mod ends;
 mod help;
 mod inputs;
-mod journal;
 mod links;
 mod loss;
 mod materials;
@@ -94,6 +93,18 @@ fn write_material(path: &Path, side: u32, roughness: u8) {
     });
 }
 
+/// Ground truths and methods in folders, with materials `m0.png` and so on. The roughness of a method is larger by a number.
+fn data_set(methods: &[(&str, u8)], materials: u8) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more) in [("gt", 0)].iter().chain(methods) {
+        std::fs::create_dir(folder.path().join(name)).unwrap();
+        for i in 0..materials {
+            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
+        }
+    }
+    folder
+}
+
 /// Writes a packed material of four tiles.
 fn write_tiles(path: &Path, side: u32, at: impl Fn(u32, u32) -> [u8; 3]) {
     RgbImage::from_fn(4 * side, side, |x, y| Rgb(at(x, y))).save(path).unwrap();
@@ -122,8 +133,12 @@ fn folder() -> TempDir {
     folder
 }
 
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).unwrap()
+}
+
 fn losses_as_json(folder: &Path, args: &str) -> Value {
-    serde_json::from_str(&succeed(folder, &format!("loss {args} --format json"))).unwrap()
+    json(&succeed(folder, &format!("loss {args} --format json")))
 }
 
 fn keys(object: &Value) -> Vec<&str> {

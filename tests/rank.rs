@@ -12,8 +12,9 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::rank;
 use svbrdf_files::dataset::{
-    KnownLoss, Mark, MaterialResult, Pick, PredictionResult, Ranking, best_by_metric, interval_of_mean,
-    interval_of_positive_mean, summarize_marks, summarize_metrics,
+    DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, MethodSummary, Pick,
+    PredictionResult, Ranking, Source, best_by_metric, interval_of_mean, interval_of_positive_mean,
+    summarize_marks, summarize_metrics,
 };
 use svbrdf_files::samples;
 
@@ -117,8 +118,8 @@ fn an_interval_of_losses_has_no_negative_end() {
     assert!(0.0 < low && low < high, "{low}, {high}");
     let results: Vec<MaterialResult> =
         skewed.iter().enumerate().map(|(i, loss)| result(i, &[("a", Some(*loss))])).collect();
-    let ranking = ranked(&["a"], &results, Pick::Fixed);
-    let [low, high] = ranking.methods[0].interval95_scenes;
+    let Ranking { methods, .. } = ranked(&["a"], &results, Pick::Fixed).ranking;
+    let [low, high] = methods[0].interval95_scenes;
     assert!(0.0 < low && low < high, "{low}, {high}");
 }
 
@@ -155,8 +156,15 @@ fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
     }
 }
 
-fn ranked(methods: &[&str], results: &[MaterialResult], pick: Pick) -> Ranking {
-    Ranking::new(&methods.iter().map(|method| (*method).to_owned()).collect::<Vec<_>>(), results, pick)
+fn ranked(methods: &[&str], results: &[MaterialResult], pick: Pick) -> DatasetReport {
+    let methods = methods.iter().map(|method| (*method).to_owned()).collect();
+    let settings = DatasetSettings::new(Source::Table("pairs.csv".into()), "printed", 0.01, 0, &[]);
+    let settings = DatasetSettings { methods, ..settings };
+    DatasetReport::new(settings, DatasetReading::default(), results.to_vec(), pick)
+}
+
+fn summary<'a>(report: &'a DatasetReport, method: &str) -> &'a MethodSummary {
+    report.ranking.methods.iter().find(|summary| summary.method == method).unwrap()
 }
 
 #[test]
@@ -167,7 +175,7 @@ fn methods_are_compared_over_the_materials_of_both() {
             result(i, &[("a", Some(base)), ("b", Some(base + 0.05 + 0.001 * (i % 3) as f64))])
         })
         .collect();
-    let [a, b] = ranked(&["b", "a"], &results, Pick::Fixed).methods.try_into().unwrap();
+    let [a, b] = ranked(&["b", "a"], &results, Pick::Fixed).ranking.methods.try_into().unwrap();
     assert_eq!((a.method.as_str(), a.materials, a.failures), ("a", 9, 0));
     assert_eq!((b.materials, b.failures), (9, 0));
     assert!((a.mean - 0.5).abs() < 1e-12 && (a.median - 0.5).abs() < 1e-12, "{a:?}");
@@ -193,7 +201,8 @@ fn a_method_that_lacks_materials_is_never_the_best() {
             )
         })
         .collect();
-    let ranking = ranked(&["none", "few", "b", "a"], &results, Pick::Fixed);
+    let report = ranked(&["none", "few", "b", "a"], &results, Pick::Fixed);
+    let ranking = &report.ranking;
     let names: Vec<&str> = ranking.methods.iter().map(|summary| summary.method.as_str()).collect();
     assert_eq!(names, ["a", "b", "few", "none"]);
     let [a, b, few, none] = ranking.methods.clone().try_into().unwrap();
@@ -205,7 +214,7 @@ fn a_method_that_lacks_materials_is_never_the_best() {
     let over = ranking.over(4).join("\n");
     assert!(over.contains("the 4 materials that all 2 compared methods have"), "{over}");
     assert!(over.contains("few has 1 of 4 materials: not compared"), "{over}");
-    let best = best_by_metric(&ranking, &results, Pick::Fixed);
+    let best = best_by_metric(&report);
     assert_eq!(best["rmse_roughness"], [true, true, false, false]);
 }
 
@@ -226,7 +235,7 @@ fn methods_that_lack_one_material_each_are_compared_over_the_others() {
             )
         })
         .collect();
-    let ranking = ranked(&["a", "b", "c"], &results, Pick::Fixed);
+    let ranking = ranked(&["a", "b", "c"], &results, Pick::Fixed).ranking;
     assert_eq!(ranking.common, [1, 2, 3].into());
     let [a, b, c] = ranking.methods.clone().try_into().unwrap();
     assert!((a.mean - 0.3).abs() < 1e-12 && (b.mean - 0.33).abs() < 1e-12, "{a:?} {b:?}");
@@ -234,7 +243,7 @@ fn methods_that_lack_one_material_each_are_compared_over_the_others() {
     assert!(ranking.over(6)[0].contains("the 3 of 6 materials"), "{:?}", ranking.over(6));
     // Methods without a material in common have no place.
     let apart = [result(0, &[("a", Some(0.1)), ("b", None)]), result(1, &[("a", None), ("b", Some(0.2))])];
-    let ranking = ranked(&["a", "b"], &apart, Pick::Fixed);
+    let ranking = ranked(&["a", "b"], &apart, Pick::Fixed).ranking;
     assert!(ranking.methods.iter().all(|one| !one.is_compared && !one.ties_with_best()));
     assert!(ranking.best().is_none() && ranking.over(2)[0].contains("nothing is compared"));
 }
@@ -254,14 +263,14 @@ fn equal_maps_leave_the_mean_psnr_finite() {
             result
         })
         .collect();
-    let ranking = ranked(&["a", "b", "same"], &results, Pick::Fixed);
-    let of = |place: usize| summarize_metrics(&ranking, &ranking.methods[place], &results, Pick::Fixed)["psnr_diffuse"];
+    let report = ranked(&["a", "b", "same"], &results, Pick::Fixed);
+    let of = |place: usize| summarize_metrics(&report, &report.ranking.methods[place])["psnr_diffuse"];
     let square_errors = (1..12).map(|i| 10_f64.powf(-(20.0 + 0.1 * f64::from(i)) / 10.0)).sum::<f64>();
     assert!((of(0).mean - (-10.0 * (square_errors / 12.0).log10())).abs() < 1e-12, "{:?}", of(0));
     let [low, high] = of(1).interval95_materials.unwrap();
     assert!(30.0 < low && low < of(1).mean && of(1).mean < high && high < 31.2, "{:?}", of(1));
     assert_eq!(of(2).mean, f64::INFINITY);
-    let best = best_by_metric(&ranking, &results, Pick::Fixed);
+    let best = best_by_metric(&report);
     assert_eq!(best["psnr_diffuse"], [false, false, true], "equal maps are the best");
 }
 
@@ -289,9 +298,8 @@ fn marks_are_counted_by_material_and_method_and_follow_the_pick() {
         result(2, &[("a", Some(0.3)), ("b", None)]),
     ];
     let of = |method: &str, pick| {
-        let ranking = ranked(&["a", "b"], &results, pick);
-        let place = ranking.methods.iter().position(|summary| summary.method == method).unwrap();
-        summarize_marks(&ranking, &ranking.methods[place], &results, pick)
+        let report = ranked(&["a", "b"], &results, pick);
+        summarize_marks(&report, summary(&report, method))
     };
     let fixed = of("a", Pick::Fixed).unwrap();
     assert_eq!((fixed.materials, fixed.marked, fixed.not_resolvable), (2, 2, 1));
@@ -304,7 +312,7 @@ fn marks_are_counted_by_material_and_method_and_follow_the_pick() {
     let mean = of("a", Pick::Mean).unwrap();
     assert_eq!((mean.marked, mean.by["exposure"], mean.not_resolvable), (2, 1, 0));
     let none = ranked(&["a"], &results[2..], Pick::Fixed);
-    assert_eq!(summarize_marks(&none, &none.methods[0], &results[2..], Pick::Fixed), None);
+    assert_eq!(summarize_marks(&none, summary(&none, "a")), None);
 }
 
 #[test]
@@ -313,8 +321,8 @@ fn of_several_samples_the_pick_counts() {
         [("a", Some(0.3)), ("a", Some(0.1)), ("a", None), ("a", Some(0.2)), ("b", None), ("b", Some(0.4))];
     let results = [result(0, &losses)];
     let of = |pick| {
-        let summaries = ranked(&["a", "b"], &results, pick).methods;
-        ["a", "b"].map(|name| summaries.iter().find(|summary| summary.method == name).unwrap().mean)
+        let report = ranked(&["a", "b"], &results, pick);
+        ["a", "b"].map(|name| summary(&report, name).mean)
     };
     assert_eq!(of(Pick::Fixed)[0], 0.3);
     assert!(of(Pick::Fixed)[1].is_nan(), "the first one of b is broken");
@@ -333,9 +341,8 @@ fn metrics_over_materials_follow_the_pick_of_the_losses() {
     };
     let results: Vec<MaterialResult> = (0..5).map(methods).collect();
     let metrics = |method: &str, pick| {
-        let ranking = ranked(&["a", "b", "c"], &results, pick);
-        let place = ranking.methods.iter().position(|summary| summary.method == method).unwrap();
-        summarize_metrics(&ranking, &ranking.methods[place], &results, pick)
+        let report = ranked(&["a", "b", "c"], &results, pick);
+        summarize_metrics(&report, summary(&report, method))
     };
     let mean = |method: &str, pick| metrics(method, pick)["rmse_roughness"];
     for (pick, expected) in [(Pick::Fixed, 3.2), (Pick::Best, 3.0), (Pick::Mean, 3.1)] {
@@ -369,12 +376,12 @@ fn the_best_of_a_metric_ties_with_what_the_materials_cannot_separate() {
     };
     let results: Vec<MaterialResult> = (0..8).map(of).collect();
     // In the order of their losses: a, c, b, and d, which has none.
-    let best = best_by_metric(&ranked(&["a", "b", "c", "d"], &results, Pick::Fixed), &results, Pick::Fixed);
+    let best = best_by_metric(&ranked(&["a", "b", "c", "d"], &results, Pick::Fixed));
     assert_eq!(best["rmse_roughness"], [true, true, false, false]);
     // Of similarities the largest is the best.
     assert_eq!(best["ssim11_roughness"], [false, false, true, false]);
     assert_eq!(best.len(), 2);
     // Two materials separate nothing.
-    let best = best_by_metric(&ranked(&["a", "b"], &results[..2], Pick::Fixed), &results[..2], Pick::Fixed);
+    let best = best_by_metric(&ranked(&["a", "b"], &results[..2], Pick::Fixed));
     assert_eq!(best["rmse_roughness"], [true, true]);
 }

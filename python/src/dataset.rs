@@ -29,7 +29,7 @@ pub struct DatasetAsked {
     strict: bool,
     metrics: bool,
     diagnose: bool,
-    journal: Option<PathBuf>,
+    results: Option<PathBuf>,
     /// Read options of the ground truths, then of the predictions, as JSON.
     read: [String; 2],
     /// Read options of methods by name, as JSON.
@@ -58,15 +58,16 @@ pub fn rank_dataset(
     let methods = asked.methods.into_iter().map(|(name, path)| Method { name, path }).collect();
     let source = Source::Folders { ground_truths: asked.ground_truths, methods };
     let cases = source.cases().map_err(exception)?;
-    let settings = DatasetSettings::new(source, convention.name, asked.target_error, asked.seed, &cases)
-        .with_metrics(asked.metrics)
-        .with_diagnoses(asked.diagnose);
-    let journal = asked.journal.as_deref();
-    let DatasetResults { results, recomputed } =
-        work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, journal, progress))?;
+    let settings = DatasetSettings {
+        metrics: asked.metrics,
+        diagnose: asked.diagnose,
+        ..DatasetSettings::new(source, convention.name, asked.target_error, asked.seed, &cases)
+    };
+    let folder = asked.results.as_deref();
+    let DatasetResults { results, notes } =
+        work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, folder, progress))?;
     let report = DatasetReport::new(settings, reading, results, pick);
-    let recomputed = recomputed.iter().map(ToString::to_string);
-    for warning in recomputed.chain(report.doubts()) {
+    for warning in notes.into_iter().chain(report.doubts()) {
         py.import("warnings")?.call_method1("warn", (warning,))?;
     }
     Views::new(&report)

@@ -27,17 +27,15 @@ def dataset(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def of_command_line(program: str, dataset: Path, *options: str) -> Any:
-    """The ranking of both methods as the command line's JSON."""
-    folders = [str(dataset / name) for name in ("gt", "good", "bad")]
-    command = [program, "rank", "--dataset", *folders, "--target-error", "5%", "--format", "json", *options]
-    return json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
-
-
 def text_of_command_line(program: str, dataset: Path, *options: str) -> str:
+    """The ranking of both methods."""
     folders = [str(dataset / name) for name in ("gt", "good", "bad")]
     command = [program, "rank", "--dataset", *folders, "--target-error", "5%", *options]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def of_command_line(program: str, dataset: Path, *options: str) -> Any:
+    return json.loads(text_of_command_line(program, dataset, "--format", "json", *options))
 
 
 def ranked(dataset: Path, **options: Any) -> svbrdf.DatasetReport:
@@ -139,38 +137,29 @@ def test_metrics_are_those_of_the_command_line(program: str, dataset: Path, pick
     assert "metrics" not in without.to_dict()["results"][0]["predictions"][0]
 
 
-def test_an_interrupted_run_continues_from_its_journal(program: str, dataset: Path) -> None:
-    journal = dataset / "run.jsonl"
-    whole = ranked(dataset, journal=journal)
-    complete = journal.read_text()
-    assert len(complete.splitlines()) == 9
-    of_command_line(program, dataset, "--journal", str(dataset / "other.jsonl"))
-    assert (dataset / "other.jsonl").read_text() == complete
+def test_results_are_kept_for_both_surfaces(program: str, dataset: Path) -> None:
+    kept = dataset / "kept"
 
-    # Two materials are done, one of them with another loss; the third was being written. What is done is not computed
-    # again.
-    settings, *lines = complete.splitlines()
-    loss = whole.results[2].loss
-    assert loss is not None
-    planted = 1.01 * loss
-    changed = lines[1].replace(f'"loss":{loss!r}', f'"loss":{planted!r}')
-    assert changed != lines[1]
-    journal.write_text("\n".join([settings, lines[4], changed, lines[0][:40]]))
-    seen: list[tuple[int, int]] = []
-    resumed = ranked(dataset, journal=str(journal), progress=lambda *counts: seen.append(counts))
-    assert seen[-1] == (6, 6)
-    assert resumed.results[2].loss == planted
-    assert [r for r in resumed.results if r.loss != planted] == [r for r in whole.results if r.loss != loss]
-    assert journal.read_text() == complete.replace(f'"loss":{loss!r}', f'"loss":{planted!r}')
+    def times() -> dict[str, int]:
+        return {file.name: file.stat().st_mtime_ns for file in kept.iterdir()}
 
-    # The command line continues it, too.
-    journal.write_text("\n".join([settings, lines[4], changed, ""]))
-    found = of_command_line(program, dataset, "--journal", str(journal))
-    assert json.loads(json.dumps(resumed.to_dict()))["methods"] == found["methods"]
+    whole = ranked(dataset, results=kept)
+    before = times()
+    # One prediction of 17 is broken.
+    assert len(before) == 16
+    assert json.loads(json.dumps(whole.to_dict())) == of_command_line(program, dataset, "--results", str(kept))
+    assert times() == before
 
-    with pytest.raises(svbrdf.Error, match="it is of other settings, materials or methods"):
-        ranked(dataset, journal=journal, seed=1)
-    with pytest.raises(svbrdf.Error, match="it is of other settings, materials or methods"):
-        ranked(dataset, journal=journal, metrics=True)
+    # What is not there is computed, and what is damaged is, with a warning.
+    (gone, damaged) = list(kept.iterdir())[:2]
+    gone.unlink()
+    damaged.write_text(damaged.read_text()[:-40])
+    with pytest.warns(UserWarning, match=f"{damaged.name} cannot be used"):
+        again = ranked(dataset, results=str(kept))
+    assert again.to_dict() == whole.to_dict()
+    assert {name for name, time in times().items() if before.get(name) != time} == {gone.name, damaged.name}
+
+    ranked(dataset, results=kept, seed=1)
+    assert len(times()) == 32
     with pytest.raises(OSError, match="cannot write"):
-        ranked(dataset, journal=dataset / "nowhere" / "run.jsonl")
+        ranked(dataset, results=dataset / "nowhere" / "kept")

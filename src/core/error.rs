@@ -120,14 +120,6 @@ pub enum Error {
     #[error("{name} has a loss of {loss}, above the limit of {limit}")]
     AboveLimit { name: String, loss: f64, limit: f64 },
 
-    /// A file of results of a data set cannot be continued or joined with others.
-    #[error("{} cannot be used: {problem}; delete it or name another file, or give what it was made with", path.display())]
-    BadJournal { path: PathBuf, problem: String },
-
-    /// Another process adds results to a journal.
-    #[error("{} is being written by {owner}; wait until it ends, or name another journal: every shard has its own", path.display())]
-    JournalInUse { path: PathBuf, owner: String },
-
     /// No prediction of a data set has a loss.
     #[error(
         "no prediction has a loss: {failed} of {failed} failed, the first of them, {name}: {problem}; correct the predictions"

@@ -11,6 +11,8 @@ use crate::{inputs, own};
 
 /// The program and its version, as the files that it writes name it.
 pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
+/// How the names of temporary files begin.
+pub(crate) const TEMPORARY: &str = ".svbrdf-";
 /// A chain of links that is longer has no end.
 const MOST_LINKS: usize = 40;
 
@@ -140,7 +142,7 @@ pub fn replace_own(
     replace(path, progress, write)
 }
 
-/// [`replace`] for a file that the program reads, changes and writes again, such as a journal. It is an input from then on.
+/// [`replace`] for a file that the program reads, changes and writes again, such as a sidecar file. It is an input from then on.
 ///
 /// # Errors
 /// As [`replace`].
@@ -215,7 +217,7 @@ fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
     #[cfg(unix)]
     builder.permissions(permissions);
-    builder.prefix(".svbrdf-").tempfile_in(folder)
+    builder.prefix(TEMPORARY).tempfile_in(folder)
 }
 
 fn unwritable(path: &Path, source: io::Error, remedy: &'static str) -> Error {

@@ -10,6 +10,8 @@ use std::io::{self, BufReader, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use sha2::{Digest as _, Sha256};
+
 use svbrdf_core::error::Error;
 
 use crate::memory;
@@ -142,6 +144,23 @@ impl NamedFile {
         read.map(|_| bytes).map_err(unreadable)
     }
 
+    /// The SHA-256 of everything that it holds, in hexadecimal.
+    ///
+    /// # Errors
+    /// As [`Self::open`]; [`Error::NotAFile`] for a pipe, which could not be read again.
+    pub(crate) fn digest(&self) -> Result<String, Error> {
+        if is_pipe_at(&self.path) {
+            return Err(Error::NotAFile { path: self.path.clone(), found: "a pipe" });
+        }
+        let (mut file, mut buffer, mut hash) = (self.open()?, vec![0; 1 << 16], Sha256::new());
+        loop {
+            match file.read(&mut buffer).map_err(|source| Error::unreadable(&self.path, source))? {
+                0 => return Ok(hexadecimal(hash)),
+                count => hash.update(&buffer[..count]),
+            }
+        }
+    }
+
     /// Everything that it holds, in UTF-8, without a byte order mark.
     ///
     /// # Errors
@@ -156,6 +175,11 @@ impl NamedFile {
         }
         Ok(text)
     }
+}
+
+/// A digest as text.
+pub(crate) fn hexadecimal(hash: Sha256) -> String {
+    hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The open file. It is not waited for: a pipe that has taken the place of a file opens at once, and is refused.

@@ -23,6 +23,12 @@ fn is_device(name: &Path) -> bool {
     cfg!(windows) && name.components().any(|part| is_one(&part.as_os_str().to_string_lossy()))
 }
 
+/// What every file system and address takes of a name.
+pub(crate) fn plain(name: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
+    name.chars().take(48).map(plain).collect()
+}
+
 /// Whether the file `path` lies outside of `folder`, links followed.
 pub(crate) fn is_outside(path: &Path, folder: &Path) -> bool {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };

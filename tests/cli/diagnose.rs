@@ -4,14 +4,10 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::{folder, succeed, write_tiles};
+use super::{folder, json, succeed, write_tiles};
 
 const SIDE: u32 = 32;
 const READ: &str = "--preset deschaintre --read order=ndrs";
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap()
-}
 
 /// Writes a packed material with bumps; `change` sees each stored texel of a map (0 normals, 1 diffuse, 2 roughness, 3 specular).
 fn write(path: &Path, change: impl Fn(u32, [u8; 3]) -> [u8; 3]) {
@@ -261,10 +257,9 @@ fn a_data_set_counts_the_materials_of_each_method_by_their_marks() {
     let csv = rank("--diagnose --format csv");
     assert!(csv.lines().next().unwrap().ends_with(",floor,resolvable,marked"), "{csv}");
     assert_eq!(csv.lines().filter(|line| line.ends_with(",true,normal_y")).count(), 2, "{csv}");
-    // A run that was kept prints the same, and has what results depend on in its head.
-    rank("--diagnose --journal run.jsonl");
-    assert_eq!(rank("--diagnose --journal run.jsonl"), text);
-    assert_eq!(succeed(folder.path(), "rank --merge run.jsonl"), text);
+    // Kept results print the same.
+    rank("--diagnose --results kept");
+    assert_eq!(rank("--diagnose --results kept"), text);
     assert!(!rank("").contains("number of materials"));
 }
 

@@ -8,20 +8,13 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
-use super::{command, fail, folder, run_in, succeed, text, write_material};
+use super::{command, fail, files, folder, run_in, succeed, text};
 
 const RANK: &str = "rank --dataset gt ours --target-error 30%";
 
 /// A ground truth and a method with two materials each.
 fn data_set() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, more) in [("gt", 0), ("ours", 20)] {
-        fs::create_dir(folder.path().join(name)).unwrap();
-        for i in 0..2_u8 {
-            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
-        }
-    }
-    folder
+    super::data_set(&[("ours", 20)], 2)
 }
 
 /// The code and stderr of a run that must end soon.
@@ -33,41 +26,45 @@ fn soon(folder: &Path, args: &str) -> (Option<i32>, String) {
 }
 
 #[test]
-fn a_lock_is_no_link_no_pipe_and_no_other_file() {
+fn a_result_is_no_link_no_pipe_and_no_folder() {
     let folder = data_set();
     let of = |name: &str| folder.path().join(name);
-    let lock = of("run.jsonl.lock");
+    let args = format!("{RANK} --results kept");
+    succeed(folder.path(), &args);
+    let result = of("kept").join(&files(&of("kept"))[0]);
     let precious = fs::read(of("gt/m0.png")).unwrap();
-    fs::write(of("notes.txt"), "process of a paper\n").unwrap();
-    let cases: [(&str, &dyn Fn()); 6] = [
-        ("link to gt/m0.png", &|| symlink("gt/m0.png", &lock).unwrap()),
-        ("remove the link", &|| symlink("none", &lock).unwrap()),
-        ("hard link", &|| fs::hard_link(of("notes.txt"), &lock).unwrap()),
-        ("no lock", &|| fs::hard_link(of("gt/m0.png"), &lock).unwrap()),
-        ("no regular file", &|| assert!(Command::new("mkfifo").arg(&lock).status().unwrap().success())),
-        ("no lock", &|| fs::write(&lock, "dependencies of a project\n").unwrap()),
+    let cases: [(&str, &dyn Fn()); 4] = [
+        ("link to ../gt/m0.png", &|| symlink("../gt/m0.png", &result).unwrap()),
+        ("remove the link", &|| symlink("none", &result).unwrap()),
+        ("no regular file", &|| assert!(Command::new("mkfifo").arg(&result).status().unwrap().success())),
+        ("no regular file", &|| fs::create_dir(&result).unwrap()),
     ];
     for (problem, place) in cases {
+        fs::remove_file(&result).unwrap();
         place();
-        let (code, stderr) = soon(folder.path(), &format!("{RANK} --journal run.jsonl"));
+        let (code, stderr) = soon(folder.path(), &args);
         assert!(code == Some(1) && stderr.contains(problem), "{problem}: {code:?} {stderr}");
         assert!(fs::read(of("gt/m0.png")).unwrap() == precious, "{problem}");
-        assert_eq!(fs::read_to_string(of("notes.txt")).unwrap(), "process of a paper\n");
-        assert!(!of("none").exists() && lock.symlink_metadata().is_ok(), "{problem}: the lock is gone");
-        fs::remove_file(&lock).unwrap();
+        assert!(!of("kept/none").exists() && result.symlink_metadata().is_ok(), "{problem}");
     }
-    // That of a process that was killed.
-    fs::write(&lock, "process 1\n").unwrap();
-    succeed(folder.path(), &format!("{RANK} --journal run.jsonl"));
-    assert!(!lock.exists());
+    // Whoever names a link to a folder means the folder.
+    symlink("other", of("link")).unwrap();
+    fs::create_dir(of("other")).unwrap();
+    succeed(folder.path(), &format!("{RANK} --results link"));
+    assert_eq!(files(&of("other")).len(), 2);
 }
 
 #[test]
-fn a_journal_is_no_pipe() {
+fn a_material_of_a_pipe_is_read_once_and_not_kept() {
     let folder = data_set();
-    assert!(Command::new("mkfifo").arg(folder.path().join("run.jsonl")).status().unwrap().success());
-    let (code, stderr) = soon(folder.path(), &format!("{RANK} --journal run.jsonl"));
-    assert!(code == Some(1) && stderr.contains("a pipe"), "{code:?} {stderr}");
+    let of = |name: &str| folder.path().join(name);
+    assert!(Command::new("mkfifo").arg(of("pipe.png")).status().unwrap().success());
+    fs::write(of("pairs.csv"), "ground_truth,prediction\ngt/m0.png,pipe.png\n").unwrap();
+    let (from, to) = (of("ours/m0.png"), of("pipe.png"));
+    // Not joined: it waits for a reader.
+    std::thread::spawn(move || fs::write(to, fs::read(from).unwrap()));
+    let (code, stderr) = soon(folder.path(), "rank --pairs pairs.csv --target-error 30% --results kept");
+    assert_eq!((code, files(&of("kept")).len()), (Some(0), 0), "{stderr}");
 }
 
 #[test]
@@ -107,7 +104,7 @@ fn renderings_of_a_protocol_are_not_written_through_links() {
     assert_eq!(fs::read_to_string(of("other.txt")).unwrap(), "kept");
 }
 
-/// Lists, journals, scenes, sessions and sidecar files, through a link and by a second name.
+/// Lists, results, scenes, sessions and sidecar files, through a link and by a second name.
 #[test]
 fn nothing_that_was_read_is_replaced() {
     let folder = folder();
@@ -119,11 +116,11 @@ fn nothing_that_was_read_is_replaced() {
     fs::write(of("s.svbrdf-session.json"), session).unwrap();
     fs::write(of("gt.svbrdf.json"), r#"{"albedo": "srgb"}"#).unwrap();
     let pairs = "rank --pairs pairs.csv --target-error 30%";
-    succeed(at, &format!("{pairs} --journal run.jsonl"));
+    succeed(at, &format!("{pairs} --results kept"));
+    let result = format!("kept/{}", files(&of("kept"))[0]);
     for (args, input, output) in [
         (format!("{pairs} --format html -o link.html"), "pairs.csv", "link.html"),
-        (format!("{pairs} --journal run.jsonl --format html -o link.html"), "run.jsonl", "link.html"),
-        ("rank --merge run.jsonl --format html -o link.html".to_owned(), "run.jsonl", "link.html"),
+        (format!("{pairs} --results kept --format html -o link.html"), &result, "link.html"),
         (
             "report s.svbrdf-session.json --target-error 30% -o link.html".to_owned(),
             "s.svbrdf-session.json",
@@ -142,15 +139,6 @@ fn nothing_that_was_read_is_replaced() {
             assert!(fs::read(of(input)).unwrap() == before, "{args}");
         }
     }
-}
-
-#[test]
-fn a_journal_is_not_replaced_by_the_page_of_its_run() {
-    let folder = data_set();
-    let output = run_in(folder.path(), &format!("{RANK} --journal run.html --format html -o run.html"));
-    let stderr = text(&output.stderr);
-    assert!(output.status.code() == Some(1) && stderr.contains("made from"), "{stderr}");
-    assert!(fs::read_to_string(folder.path().join("run.html")).unwrap().starts_with("{\"svbrdf-journal\""));
 }
 
 /// Other materials of a folder tell how one is read; a command that is repeated finds its own output there.

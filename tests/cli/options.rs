@@ -59,7 +59,7 @@ const WITHOUT_PHOTO: [&str; 9] =
     ["verbose", "scene", "scene-number", "flash", "fov", "corners", "transfer", "clip", "falloff"];
 
 /// The subcommands with arguments that select a mode; options are added to these.
-const MODES: [(&str, Shows); 50] = [
+const MODES: [(&str, Shows); 49] = [
     ("loss gt.png a.png", Shows::Everything),
     ("loss gt.png a.png --target-error 30%", Shows::Everything),
     ("loss gt.png a.png --scenes one.json", Shows::Everything),
@@ -83,7 +83,6 @@ const MODES: [(&str, Shows); 50] = [
     ("rank --dataset set/gt set/ours --target-error 30%", Shows::Everything),
     ("rank --dataset set/gt set/ours --target-error 30% --format html -o x.html", Shows::Everything),
     ("rank --pairs pairs.csv --target-error 30%", Shows::Everything),
-    ("rank --merge journal.jsonl", Shows::Everything),
     ("blame gt.png a.png", Shows::Everything),
     ("blame gt.png a.png --scenes one.json", Shows::Everything),
     ("diagnose gt.png a.png", Shows::Everything),
@@ -162,7 +161,7 @@ const VALUES: [(&str, &str); 57] = [
     ("range", "0.125"),
     ("columns", "roughness"),
     ("crop", "1,1,3,3"),
-    ("journal", "kept.jsonl"),
+    ("results", "kept"),
     ("shard", "1/2"),
     ("pick", "mean"),
     ("figures", "worst:1"),
@@ -194,7 +193,7 @@ const PREMISES: [(&str, [&str; 2], &str); 6] = [
     ("exemplar", ["gt.png", "rows.png"], ""),
     ("non-finite", ["gt.png", "nan"], ""),
     ("dielectric-f0", ["gt.png", "metal"], ""),
-    ("shard", ["", ""], "--journal kept.jsonl"),
+    ("shard", ["", ""], "--results kept"),
     ("scene-number", ["one.json", "two.json"], ""),
     ("photo difference", ["", ""], "-o y.png"),
 ];
@@ -257,16 +256,6 @@ fn fixture() -> TempDir {
     write_data_set(folder.path());
     let pairs = "gt.png,a.png\ngt.png,b.png\nb.png,a.png\nrows.png,a.png\nnan,a.png\nmetal,a.png\n";
     fs::write(of("pairs.csv"), format!("ground_truth,prediction\n{pairs}")).unwrap();
-    succeed(folder.path(), "rank --dataset set/gt set/ours --target-error 30% --journal journal.jsonl");
-    // A loss that is known less well than it should be.
-    let journal = fs::read_to_string(of("journal.jsonl")).unwrap();
-    let start = journal.rfind("\"interval95\":[").unwrap();
-    let end = start + journal[start..].find(']').unwrap();
-    fs::write(
-        of("journal.jsonl"),
-        format!("{}\"interval95\":[0.0,9.0{}", &journal[..start], &journal[end..]),
-    )
-    .unwrap();
     folder
 }
 

@@ -3,14 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{fail, folder, run_in, succeed, text, write_material};
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap()
-}
+use super::{fail, folder, json, run_in, succeed, text, write_material};
 
 #[test]
 fn predictions_of_a_pattern_are_ranked() {
@@ -41,13 +36,7 @@ fn predictions_of_a_pattern_are_ranked() {
 
 /// Ground truths and two methods; of the second, a file is missing and one is broken.
 fn data_set() -> TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
-        fs::create_dir(folder.path().join(name)).unwrap();
-        for i in 0..7_u8 {
-            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
-        }
-    }
+    let folder = super::data_set(&[("ours", 8), ("theirs", 40)], 7);
     fs::remove_file(folder.path().join("theirs/m3.png")).unwrap();
     fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();
     folder
@@ -94,52 +83,9 @@ fn a_bad_file_of_a_data_set_is_reported_and_not_fatal() {
     assert!(table.contains("7 of 7 materials") && table.contains("95% over materials"), "{table}");
     let rows = succeed(folder.path(), &format!("{RANK} --format csv"));
     assert_eq!(rows.lines().count(), 15, "{rows}");
+    assert!(fail(folder.path(), &format!("{RANK} --resize-to gt"), 64).contains("not resized"));
     let latex = succeed(folder.path(), &format!("{RANK} --format latex"));
     assert!(latex.contains("ours & \\textbf{") && !latex.contains("theirs & \\textbf{"), "{latex}");
-}
-
-#[test]
-fn an_interrupted_run_continues_with_an_identical_result() {
-    let folder = data_set();
-    let of = |name: &str| folder.path().join(name);
-    let whole = succeed(folder.path(), &format!("{RANK} --format json"));
-    let with_journal = format!("{RANK} --format json --journal run.jsonl");
-    assert_eq!(succeed(folder.path(), &with_journal), whole);
-    let journal = fs::read_to_string(of("run.jsonl")).unwrap();
-    assert_eq!(journal.lines().count(), 8);
-
-    // Two materials are done, in another order, and the third was being written.
-    let lines: Vec<&str> = journal.lines().collect();
-    let cut = [lines[0], lines[4], lines[2], &lines[1][..40]].join("\n");
-    fs::write(of("run.jsonl"), &cut).unwrap();
-    // What is done is not computed again.
-    assert_eq!(succeed(folder.path(), &with_journal), whole);
-    assert_eq!(fs::read_to_string(of("run.jsonl")).unwrap(), journal);
-
-    let stderr = fail(folder.path(), &format!("{RANK} --seed 1 --journal run.jsonl"), 1);
-    assert!(stderr.contains("other settings"), "{stderr}");
-    fs::write(of("other.jsonl"), "{}\n").unwrap();
-    let stderr = fail(folder.path(), &format!("{RANK} --journal other.jsonl"), 1);
-    assert!(stderr.contains("no journal"), "{stderr}");
-}
-
-#[test]
-fn parts_of_a_data_set_join_to_the_whole() {
-    let folder = data_set();
-    for part in 1..=3 {
-        succeed(folder.path(), &format!("{RANK} --shard {part}/3 --journal part{part}.jsonl"));
-    }
-    for format in ["text", "json", "csv", "latex"] {
-        let whole = succeed(folder.path(), &format!("{RANK} --format {format}"));
-        let merged = succeed(folder.path(), &format!("rank --merge part*.jsonl --format {format}"));
-        assert_eq!(merged, whole);
-    }
-    let stderr = fail(folder.path(), "rank --merge part1.jsonl part3.jsonl", 1);
-    assert!(stderr.contains("2 of 7 materials are in none"), "{stderr}");
-    assert!(fail(folder.path(), &format!("{RANK} --resize-to gt"), 64).contains("not resized"));
-    for wrong in ["0/3", "4/3", "1", "a/b"] {
-        fail(folder.path(), &format!("{RANK} --shard {wrong} --journal x.jsonl"), 64);
-    }
 }
 
 #[test]

@@ -68,16 +68,6 @@ fn a_page_has_the_losses_the_verdicts_the_failures_and_figures_of_the_worst() {
 }
 
 #[test]
-fn a_page_of_journals_has_no_pictures() {
-    let folder = data_set();
-    succeed(folder.path(), &format!("{RANK} --journal j.jsonl"));
-    succeed(folder.path(), "rank --merge j.jsonl --format html -o merged.html");
-    let page = fs::read_to_string(folder.path().join("merged.html")).unwrap();
-    assert!(page.contains("4 of 4 materials") && !page.contains("<img"));
-    fail(folder.path(), "rank --merge j.jsonl --format html -o merged.html --figures all", 64);
-}
-
-#[test]
 fn a_page_is_a_file_of_a_data_set_and_replaces_no_material() {
     let folder = data_set();
     let no_file = fail(folder.path(), &format!("{RANK} --format html"), 64);

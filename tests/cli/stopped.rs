@@ -7,7 +7,7 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use super::{command, files, folder, succeed, svbrdf, write_material};
+use super::{command, files, folder, succeed, write_material};
 
 /// Width and height of the material: writing it takes a while.
 const LARGE: u32 = 640;
@@ -187,50 +187,65 @@ fn a_limit_of_the_size_of_files_is_an_error_that_leaves_nothing() {
 
 /// A data set of so many materials that a run of it can be killed on its way.
 fn data_set() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
-        fs::create_dir(folder.path().join(name)).unwrap();
-        for i in 0..MATERIALS {
-            write_material(&folder.path().join(name).join(format!("m{i:02}.png")), 32, 60 + i + more);
-        }
-    }
-    fs::write(folder.path().join("theirs/m03.png"), "not an image").unwrap();
+    let folder = super::data_set(&[("ours", 8), ("theirs", 40)], MATERIALS);
+    fs::write(folder.path().join("theirs/m3.png"), "not an image").unwrap();
     folder
 }
 
-const MATERIALS: u8 = 12;
+const MATERIALS: u8 = 10;
 const RANK: &str = "rank --dataset gt ours theirs --target-error 3% --metrics";
+
+/// Starts a run with a results folder, of one material after the other: many cores would be done with all at once. Returns it when
+/// two results are there.
+fn rank(folder: &Path) -> Child {
+    let mut command = command("env");
+    command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_svbrdf")]);
+    command.args(RANK.split(' ')).args(["--results", "kept"]).current_dir(folder);
+    command.env("RAYON_NUM_THREADS", "1").stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    while kept(folder).len() < 2 && child.try_wait().unwrap().is_none() {
+        sleep(Duration::from_millis(1));
+    }
+    child
+}
+
+/// The results that are there.
+fn kept(folder: &Path) -> Vec<String> {
+    let kept = folder.join("kept");
+    let names = if kept.exists() { files(&kept) } else { Vec::new() };
+    names.into_iter().filter(|name| !name.starts_with('.')).collect()
+}
 
 #[test]
 fn a_data_set_run_that_is_killed_and_continued_prints_the_bytes_of_a_whole_one() {
     let folder = data_set();
-    let journal = folder.path().join("run.jsonl");
-    let mut child = svbrdf()
-        .args(RANK.split(' ').chain(["--journal", "run.jsonl"]))
-        .current_dir(folder.path())
-        // One material after the other: many cores would be done with all at once.
-        .env("RAYON_NUM_THREADS", "1")
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    // The settings and two materials.
-    let lines = || fs::read_to_string(&journal).map_or(0, |text| text.lines().count());
-    while lines() < 3 && child.try_wait().unwrap().is_none() {
-        sleep(Duration::from_millis(1));
-    }
+    let mut child = rank(folder.path());
     child.kill().unwrap();
     child.wait().unwrap();
-    let left = fs::read(&journal).unwrap();
-    let done = lines();
-    assert!((3..=usize::from(MATERIALS)).contains(&done), "{done} lines: the run was not interrupted");
+    let left = kept(folder.path());
+    assert!(
+        (2..2 * usize::from(MATERIALS) - 1).contains(&left.len()),
+        "{left:?}: the run was not interrupted"
+    );
+    let time =
+        |name: &String| fs::metadata(folder.path().join("kept").join(name)).unwrap().modified().unwrap();
+    let times: Vec<_> = left.iter().map(time).collect();
     for format in ["csv", "json", "latex"] {
-        let whole = succeed(folder.path(), &format!("{RANK} --format {format} --journal whole.jsonl"));
-        fs::write(&journal, &left).unwrap();
-        let continued = succeed(folder.path(), &format!("{RANK} --format {format} --journal run.jsonl"));
-        assert_eq!(continued, whole, "{format}");
-        assert_eq!(fs::read(&journal).unwrap(), fs::read(folder.path().join("whole.jsonl")).unwrap());
-        fs::remove_file(folder.path().join("whole.jsonl")).unwrap();
+        let whole = succeed(folder.path(), &format!("{RANK} --format {format}"));
+        assert_eq!(succeed(folder.path(), &format!("{RANK} --format {format} --results kept")), whole);
+    }
+    assert_eq!(left.iter().map(time).collect::<Vec<_>>(), times, "results were computed again");
+}
+
+#[test]
+fn a_signal_while_results_are_computed_leaves_no_temporary_file() {
+    let folder = data_set();
+    for signal in ["TERM", "INT", "HUP"] {
+        let mut child = rank(folder.path());
+        send(signal, &child);
+        let status = child.wait().unwrap();
+        assert!(status.success() || status.code() == Some(130), "{signal}: {status}");
+        assert_eq!(files(&folder.path().join("kept")), kept(folder.path()), "{signal}");
+        fs::remove_dir_all(folder.path().join("kept")).unwrap();
     }
 }

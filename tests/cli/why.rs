@@ -2,11 +2,7 @@
 
 use serde_json::Value;
 
-use super::{fail, folder, run_in, succeed, text, write_material, write_tiles};
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap()
-}
+use super::{fail, folder, json, run_in, succeed, text, write_material, write_tiles};
 
 #[test]
 fn blame_adds_up_in_every_format() {

@@ -166,7 +166,7 @@ def rank_dataset(
     strict: bool = False,
     metrics: bool = False,
     diagnose: bool = False,
-    journal: Source | None = None,
+    results: Source | None = None,
     read_ground_truth: Mapping[str, Any] | None = None,
     read_predictions: Mapping[str, Any] | None = None,
     read_methods: Mapping[str, Mapping[str, Any]] | None = None,
@@ -190,8 +190,8 @@ def rank_dataset(
         metrics: Whether to compute metrics of the maps, too: RMSE, L1, angles and SSIM. docs/metrics.md defines them.
         diagnose: Whether to mark what an error of exposure, alignment or reading explains of each loss, as
             `svbrdf.diagnose` does, and the losses that the ground truth does not resolve.
-        journal: A file that keeps results while they come: an interrupted run continues where it was. It is the file of
-            `svbrdf rank --dataset --journal`, which can continue it, too.
+        results: A folder of losses: those that are in it are used, and the others are added as they come. It is the
+            folder of `svbrdf rank --dataset --results`.
         read_ground_truth: Options of `svbrdf.read` for the ground truths, such as `{"albedo": "srgb"}`.
         read_predictions: The same for the predictions.
         read_methods: The same for the predictions of some methods, by name: `{"ours": {"normal_y": "down"}}`. They
@@ -200,11 +200,11 @@ def rank_dataset(
 
     Warns:
         UserWarning: Files were read on an assumption that is in doubt: one warning for each method, and one for the
-            ground truths. `results` has every assumption.
+            ground truths. `DatasetReport.results` has every assumption. A file of `results` is damaged.
 
     Raises:
-        OSError: A folder cannot be read, or the journal cannot be written.
-        svbrdf.Error: A folder has no materials, an option has no such value, or the journal is of other settings.
+        OSError: A folder cannot be read, or the folder of results cannot be written.
+        svbrdf.Error: A folder has no materials, or an option has no such value.
     """
     check_goals(target_error=target_error)
     check_whole("seed", seed)
@@ -218,7 +218,7 @@ def rank_dataset(
         "strict": strict,
         "metrics": metrics,
         "diagnose": diagnose,
-        "journal": journal,
+        "results": results,
         "read": [_options(given) for given in (read_ground_truth, read_predictions)],
         "read_methods": {name: _options(given) for name, given in (read_methods or {}).items()},
     }

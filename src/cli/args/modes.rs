@@ -75,9 +75,9 @@ pub const NO_PROTOCOL: Mode =
 
 /// `rank` of the predictions of one ground truth.
 pub const RANK_PREDICTIONS: Mode = Mode {
-    reason: "a ranking of the predictions of one material has no journal, no samples, no metrics and no marks, unlike one with \
+    reason: "a ranking of the predictions of one material has no results folder, no samples, no metrics and no marks, unlike one with \
         --dataset or --pairs (`svbrdf metrics` and `svbrdf diagnose` print them)",
-    unused: &[&["journal", "shard", "pick", "metrics", "diagnose", "output", "figures"]],
+    unused: &[&["results", "shard", "pick", "metrics", "diagnose", "output", "figures"]],
 };
 /// `rank` of a data set in a format that is printed.
 pub const RANK_PRINTED: Mode = Mode {
@@ -88,25 +88,6 @@ pub const RANK_PRINTED: Mode = Mode {
 pub const RANK_DATA_SET: Mode = Mode {
     reason: "materials of a data set are not resized and have one capture each",
     unused: &[&["resize-to", "repeat"]],
-};
-/// `rank --merge`.
-pub const RANK_MERGE: Mode = Mode {
-    reason: "journals hold results, and what these were made with",
-    unused: &[
-        READING,
-        &[
-            "verbose",
-            "journal",
-            "shard",
-            "target-error",
-            "seed",
-            "metrics",
-            "diagnose",
-            "repeat",
-            "convention",
-            "figures",
-        ],
-    ],
 };
 
 /// `render` of maps.

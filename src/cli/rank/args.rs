@@ -22,23 +22,19 @@ use crate::cli::output::CommandError;
 #[command(after_help = "Example:\n  svbrdf rank --dataset gt/ ours/ theirs/ --format latex")]
 pub struct RankArgs {
     /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method
-    #[arg(long, conflicts_with_all = ["pairs", "merge"], requires = "ground_truth")]
+    #[arg(long, conflicts_with = "pairs", requires = "ground_truth")]
     pub dataset: bool,
 
     /// GT is a CSV table of pairs
-    #[arg(long, conflicts_with = "merge", requires = "ground_truth")]
+    #[arg(long, requires = "ground_truth")]
     pub pairs: bool,
 
-    /// GT and PRED are journals of parts of a data set, which are joined
-    #[arg(long, requires = "ground_truth")]
-    pub merge: bool,
+    /// Uses the losses of a data set that are in this folder, and adds the others to it as they come
+    #[arg(long, value_name = "DIR")]
+    pub results: Option<PathBuf>,
 
-    /// Keeps results in this file while they come; an interrupted run continues where it was
-    #[arg(long, value_name = "FILE")]
-    pub journal: Option<PathBuf>,
-
-    /// Evaluates the i-th of n parts of a data set; --merge joins their journals
-    #[arg(long, value_name = "I/N", requires = "journal")]
+    /// Evaluates the i-th of n parts of a data set; without it, the same command prints the table of all parts
+    #[arg(long, value_name = "I/N", requires = "results")]
     pub shard: Option<Shard>,
 
     /// Which of several predictions of a material counts: the first (fixed), the mean of all, or the best

@@ -1,34 +1,71 @@
 //! Methods over many materials.
 
-use std::path::PathBuf;
-
 use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
 use svbrdf_core::report::Report as _;
-use svbrdf_files::dataset::{self, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Merged};
+use svbrdf_files::dataset::{
+    self, Case, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Shard, Source,
+};
 
 use super::args::{RankArgs, RankFormat, check_limit};
 use super::cases::{reading, source};
 use super::html;
-use crate::cli::args::{Given, NamedPath, modes, wildcards};
-use crate::cli::output::{CommandError, exit, target, watched};
+use crate::cli::args::{Given, modes};
+use crate::cli::output::stop::stoppable;
+use crate::cli::output::{CommandError, exit, target, watched_on};
 
 pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
-    html::check(args, given)?;
-    let Merged { settings, reading, results } =
-        if args.merge { merged(args, given)? } else { evaluated(args, given)? };
+    given.check(&modes::RANK_DATA_SET)?;
+    let source = source(args)?;
+    let cases = source.cases()?;
+    html::check(args, given, &cases)?;
+    let evaluate = |progress: &Progress| evaluate(args, source, cases, progress);
+    let writes = args.results.is_some() || args.format == RankFormat::Html;
+    if writes { stoppable(evaluate) } else { evaluate(&Progress::default()) }
+}
+
+fn evaluate(
+    args: &RankArgs,
+    source: Source,
+    cases: Vec<Case>,
+    progress: &Progress,
+) -> Result<(), CommandError> {
+    let convention = args.comparison.convention.unwrap_or_default();
+    let settings = DatasetSettings {
+        metrics: args.metrics,
+        diagnose: args.diagnose,
+        ..DatasetSettings::new(source, convention.name, args.target_error, args.seed.seed, &cases)
+    };
+    let reading = reading(args, &settings.methods)?;
+    let cases = part(args.shard, cases);
+    let results = args.results.as_deref();
+    let DatasetResults { results, notes } = watched_on(progress, "comparing materials", |progress| {
+        dataset::run(&cases, &settings, &reading, results, progress)
+    })?;
+    notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
     for (material, prediction, problem) in failures(&results) {
         exit::tell(&format!("note: {material}, {prediction}: {problem}"));
     }
     let report = DatasetReport::new(settings, reading, results, args.pick);
     tell_reading(args, &report);
     match args.format {
-        RankFormat::Html => html::write(args, &report)?,
+        RankFormat::Html => html::write(args, &report, &cases, progress)?,
         format => exit::put(&format.write(&report, DatasetReport::latex)?)?,
     }
     check_any(&report)?;
     target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)?;
     let means = report.ranking.methods.into_iter().filter(|summary| summary.materials > 0);
     check_limit(args.fail_above, means.map(|summary| (summary.method, summary.mean)))
+}
+
+/// The cases of a shard, which is reported.
+fn part(shard: Option<Shard>, cases: Vec<Case>) -> Vec<Case> {
+    let Some(shard) = shard else { return cases };
+    let all = cases.len();
+    let part = shard.part(cases);
+    let Shard { number, of } = shard;
+    exit::tell(&format!("note: part {number} of {of}: {} of {all} materials", part.len()));
+    part
 }
 
 /// Reports how the files were read: with `--verbose` every remark; otherwise the doubts, where the format does not print them.
@@ -38,14 +75,6 @@ fn tell_reading(args: &RankArgs, report: &DatasetReport) {
     } else if args.format != RankFormat::Text {
         report.conditions().iter().for_each(|condition| exit::tell(&format!("note: {condition}")));
     }
-}
-
-/// The results of the journals that stand for GT and PRED.
-fn merged(args: &RankArgs, given: &Given) -> Result<Merged, CommandError> {
-    given.check(&modes::RANK_MERGE)?;
-    let paths: Vec<NamedPath> = args.comparison.materials.paths().cloned().map(NamedPath::from).collect();
-    let paths: Vec<PathBuf> = wildcards::expanded(&paths)?.into_iter().map(|given| given.path).collect();
-    Ok(dataset::merged(&paths)?)
 }
 
 /// The error of a data set without any loss.
@@ -70,21 +99,4 @@ fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &st
         let failed = result.predictions.iter().filter_map(|p| Some((p, p.result.as_ref().err()?)));
         failed.map(|(p, problem)| (result.material.as_str(), p.method.as_str(), problem.as_str()))
     })
-}
-
-fn evaluated(args: &RankArgs, given: &Given) -> Result<Merged, CommandError> {
-    given.check(&modes::RANK_DATA_SET)?;
-    let source = source(args)?;
-    let cases = source.cases()?;
-    let convention = args.comparison.convention.unwrap_or_default();
-    let settings = DatasetSettings::new(source, convention.name, args.target_error, args.seed.seed, &cases)
-        .with_metrics(args.metrics)
-        .with_diagnoses(args.diagnose);
-    let cases = args.shard.map_or(cases.clone(), |shard| shard.part(cases));
-    let reading = reading(args, &settings.methods)?;
-    let DatasetResults { results, recomputed } = watched("comparing materials", |progress| {
-        dataset::run(&cases, &settings, &reading, args.journal.as_deref(), progress)
-    })?;
-    recomputed.iter().for_each(|recomputed| exit::tell(&format!("note: {recomputed}")));
-    Ok(Merged { settings, reading, results })
 }

@@ -15,5 +15,5 @@ pub use args::RankArgs;
 /// # Errors
 /// Where a material cannot be read or used, other than in a data set; where a loss is above `--fail-above`, after all are printed.
 pub fn run(args: RankArgs, given: &Given) -> Result<(), CommandError> {
-    if args.dataset || args.pairs || args.merge { many::run(&args, given) } else { one::run(args, given) }
+    if args.dataset || args.pairs { many::run(&args, given) } else { one::run(args, given) }
 }

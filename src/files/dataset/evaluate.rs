@@ -1,10 +1,10 @@
 //! The losses of all predictions of all materials.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+use std::path::Path;
 
 use rayon::prelude::*;
+use serde_json::json;
 
 use svbrdf_core::diagnose::{Storage, diagnose, floor};
 use svbrdf_core::error::Error;
@@ -19,41 +19,48 @@ use super::record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
 use super::remark::Remark;
-use crate::read::{self, Read, ReadOptions};
+use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
+use crate::atomic::SOFTWARE;
+use crate::read::{self, Dependencies, Neighbours, ReadOptions};
 
-/// The result of a material, and the files that it was computed from.
-#[derive(Debug)]
-pub(super) struct Evaluated {
-    pub(super) result: MaterialResult,
-    /// The path of the ground truth, then that of each prediction, with the files that were read.
-    pub(super) read: Vec<(PathBuf, Vec<PathBuf>)>,
-    /// When the first of them was opened, or earlier.
-    pub(super) start: SystemTime,
+/// The results of a run over a data set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DatasetResults {
+    /// Of every case, in order.
+    pub results: Vec<MaterialResult>,
+    /// The files of the results folder that cannot be used: lines.
+    pub notes: Vec<String>,
 }
 
-/// Computes the losses of `cases`, in parallel; `done` gets each result as soon as it is there, in any order.
+/// The results of `cases` in order, computed in parallel.
 ///
 /// Each prediction has as many of the scenes of its material as its target error needs, at most [`most_scenes`]: the scenes are the
-/// first ones of one sequence, and no loss depends on which other predictions there are. A material that cannot be read or compared has a
-/// result, too, with the reason. A material is one step of `progress`. The results do not depend on the number of threads, nor on which
-/// other materials there are.
+/// first ones of one sequence. A material that cannot be read or compared has a result, too, with the reason. A material is one step of
+/// `progress`. The results do not depend on the number of threads, nor on which other materials and predictions there are.
+///
+/// A loss in the folder `results` is not computed again, and each new one is added to it as it comes. The folder is made where there is
+/// none. What fails is not kept, and tried again.
 ///
 /// # Errors
-/// [`Error::Cancelled`], [`Error::UnknownName`] for an unknown convention, and those of `done`.
-pub(super) fn evaluate(
+/// [`Error::Cancelled`], [`Error::UnknownName`] for an unknown convention; [`Error::Unwritable`] and [`Error::Unreadable`] of the folder.
+pub fn run(
     cases: &[Case],
     settings: &DatasetSettings,
     reading: &DatasetReading,
+    results: Option<&Path>,
     progress: &Progress,
-    done: impl Fn(Evaluated) -> Result<(), Error> + Sync,
-) -> Result<(), Error> {
-    let run = Run { settings, convention: settings.convention.parse()?, reading, progress };
+) -> Result<DatasetResults, Error> {
+    let convention = settings.convention.parse()?;
+    let results = results.map(ResultsFolder::open).transpose()?;
+    let run = Run { settings, convention, reading, results, progress };
     let seeds = settings.seeds();
     progress.begin(cases.len() as u64);
-    cases.par_iter().try_for_each(|case| {
-        done(run.material(case, seeds.get(case.index).copied().unwrap_or(settings.seed))?)?;
-        progress.step()
-    })
+    let of_case = |case: &Case| {
+        let result = run.material(case, seeds.get(case.index).copied().unwrap_or(settings.seed))?;
+        progress.step().map(|()| result)
+    };
+    let found = cases.par_iter().map(of_case).collect::<Result<_, _>>()?;
+    Ok(DatasetResults { results: found, notes: run.results.map(ResultsFolder::notes).unwrap_or_default() })
 }
 
 /// What the results of all materials depend on.
@@ -61,32 +68,104 @@ struct Run<'a> {
     settings: &'a DatasetSettings,
     convention: Convention,
     reading: &'a DatasetReading,
+    /// Those that are known.
+    results: Option<ResultsFolder>,
     progress: &'a Progress,
 }
 
 impl Run<'_> {
-    fn material(&self, case: &Case, seed: u64) -> Result<Evaluated, Error> {
-        let start = SystemTime::now();
+    fn material(&self, case: &Case, seed: u64) -> Result<MaterialResult, Error> {
+        let truth = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
+        let key = |candidate| self.key(case, candidate, truth.as_ref()?, seed);
+        let keys: Vec<Option<Key>> = case.candidates.iter().map(key).collect();
+        let load = |key: &Option<Key>| self.results.as_ref()?.load(&case.material, key.as_ref()?);
+        let known: Vec<Option<PairResult>> = keys.iter().map(load).collect();
+        let (index, material) = (case.index, case.material.clone());
+        let of = |(candidate, known): (&Candidate, &Option<PairResult>)| match known {
+            Some(known) => Some(known.prediction.clone()),
+            None => candidate.missing.clone().map(|problem| without_loss(candidate, problem)),
+        };
+        // Where a result is known, so is the ground truth.
+        if let Some(PairResult { reading, floor, .. }) = known.iter().flatten().next().cloned()
+            && let Some(predictions) = case.candidates.iter().zip(&known).map(of).collect()
+        {
+            return Ok(MaterialResult { index, material, seed, reading, floor, predictions });
+        }
         let truth = open(&case.ground_truth, &self.reading.ground_truths, self.reading.strict);
-        let mut read = vec![(case.ground_truth.clone(), truth.files.clone())];
         let floor = self.floor(&truth, seed)?;
         let mut predictions = Vec::new();
-        for candidate in &case.candidates {
-            let opened = self.open(candidate, &truth);
-            read.push((candidate.path.clone(), opened.files.clone()));
-            predictions.push(self.prediction(candidate, &truth, opened, floor.unwrap_or(0.0), seed)?);
+        for ((candidate, key), known) in case.candidates.iter().zip(keys).zip(known) {
+            let prediction = match known {
+                Some(known) => known.prediction,
+                None => self.new_prediction(case, candidate, &truth, floor, (key, seed))?,
+            };
+            predictions.push(prediction);
         }
-        let (index, material) = (case.index, case.material.clone());
-        let result = MaterialResult { index, material, seed, reading: truth.remarks, floor, predictions };
-        Ok(Evaluated { result, read, start })
+        Ok(MaterialResult { index, material, seed, reading: truth.remarks, floor, predictions })
+    }
+
+    /// Those of a material, where there is a results folder and the material can be located.
+    fn dependencies(&self, path: &Path, options: &ReadOptions) -> Option<Dependencies> {
+        self.results.as_ref().and_then(|_| Dependencies::of(path, options).ok())
+    }
+
+    /// What the result of a prediction depends on; `None` where it cannot be known before it is computed.
+    fn key(&self, case: &Case, candidate: &Candidate, truth: &Dependencies, seed: u64) -> Option<Key> {
+        let Candidate { method, sample, path, .. } = candidate;
+        let prediction = self.dependencies(path, self.reading.of_method(method))?;
+        // How it is read is a part of the digest.
+        let material =
+            |path: &Path, sha256: &str| json!({"path": path.display().to_string(), "sha256": sha256});
+        let DatasetSettings { convention, target_error, metrics, diagnose, .. } = self.settings;
+        // Another version may compute other numbers, and remark on other things.
+        let of = json!({
+            "software": SOFTWARE,
+            "convention": convention,
+            "target_error": target_error,
+            "seed": seed,
+            "metrics": metrics,
+            "diagnose": diagnose,
+            "strict": self.reading.strict,
+            "ground_truth": material(&case.ground_truth, &truth.sha256),
+            "prediction": material(path, &prediction.sha256),
+            "method": method,
+            "sample": sample,
+        });
+        Some(Key { of, files: truth.files.iter().chain(&prediction.files).cloned().collect() })
+    }
+
+    /// The result of a prediction that is not known, which is kept if it has a loss.
+    fn new_prediction(
+        &self,
+        case: &Case,
+        candidate: &Candidate,
+        truth: &Opened,
+        floor: Option<f64>,
+        (key, seed): (Option<Key>, u64),
+    ) -> Result<PredictionResult, Error> {
+        let opened = self.open(candidate, truth);
+        // Not of files that were written while they were read.
+        let found = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
+        let now = found.and_then(|found| self.key(case, candidate, &found, seed));
+        let kept = key.filter(|key| now.as_ref() == Some(key)).and_then(|key| {
+            let looked_at = truth.neighbours.iter().chain(&opened.neighbours);
+            let neighbours: Option<Vec<_>> = looked_at.map(|one| KnownNeighbours::of(one, &key)).collect();
+            Some((key, neighbours?))
+        });
+        let prediction = self.prediction(candidate, truth, opened, floor.unwrap_or(0.0), seed)?;
+        if let (Some(folder), Some((key, neighbours)), Ok(_)) = (&self.results, kept, &prediction.result) {
+            let (reading, prediction) = (truth.remarks.clone(), prediction.clone());
+            let result = PairResult { reading, floor, prediction, neighbours };
+            folder.add(&case.material, &key, &result, self.progress)?;
+        }
+        Ok(prediction)
     }
 
     /// A prediction of the size of the ground truth, or why there is none.
     fn open(&self, candidate: &Candidate, truth: &Opened) -> Opened {
-        let none = |problem| Opened { found: Err(problem), remarks: Vec::new(), files: Vec::new() };
         let truth = match (&truth.found, &candidate.missing) {
-            (Err(problem), _) => return none(format!("ground truth: {problem}")),
-            (_, Some(problem)) => return none(problem.clone()),
+            (Err(problem), _) => return Opened::failed(format!("ground truth: {problem}")),
+            (_, Some(problem)) => return Opened::failed(problem.clone()),
             (Ok(truth), None) => truth,
         };
         let opened = open(&candidate.path, self.reading.of_method(&candidate.method), self.reading.strict);
@@ -116,17 +195,8 @@ impl Run<'_> {
             (None, Err(problem)) => Err(problem),
             (None, Ok(_)) => Err("no loss".to_owned()),
         };
-        let Candidate { method, sample, path, .. } = candidate;
-        let (method, path) = (method.clone(), path.display().to_string());
-        Ok(PredictionResult {
-            method,
-            sample: *sample,
-            path,
-            result,
-            reading: opened.remarks,
-            metrics,
-            marks,
-        })
+        let reading = opened.remarks;
+        Ok(PredictionResult { result, reading, metrics, marks, ..without_loss(candidate, String::new()) })
     }
 
     fn loss(&self, (truth, prediction): Pair<'_>, seed: u64) -> Result<KnownLoss, Error> {
@@ -161,6 +231,14 @@ impl Run<'_> {
     }
 }
 
+/// The result of a prediction that was not read.
+fn without_loss(candidate: &Candidate, problem: String) -> PredictionResult {
+    let Candidate { method, sample, path, .. } = candidate.clone();
+    let path = path.display().to_string();
+    let (metrics, marks) = (BTreeMap::new(), None);
+    PredictionResult { method, sample, path, result: Err(problem), reading: Vec::new(), metrics, marks }
+}
+
 /// A ground truth and a prediction of one size.
 type Pair<'a> = (&'a OpenedMaterial, &'a OpenedMaterial);
 
@@ -168,8 +246,13 @@ type Pair<'a> = (&'a OpenedMaterial, &'a OpenedMaterial);
 struct Opened {
     found: Result<OpenedMaterial, String>,
     remarks: Vec<Remark>,
-    /// The files that were read.
-    files: Vec<PathBuf>,
+    neighbours: Option<Neighbours>,
+}
+
+impl Opened {
+    fn failed(problem: String) -> Self {
+        Self { found: Err(problem), remarks: Vec::new(), neighbours: None }
+    }
 }
 
 /// A material that was read, and how it is stored.
@@ -179,16 +262,14 @@ struct OpenedMaterial {
 }
 
 fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
-    let read: Read<f32> = match read::read(path, options, &Progress::default()) {
+    let read = match read::read::<f32>(path, options, &Progress::default()) {
         Ok(read) => read,
-        Err(problem) => {
-            return Opened { found: Err(problem.to_string()), remarks: Vec::new(), files: Vec::new() };
-        }
+        Err(problem) => return Opened::failed(problem.to_string()),
     };
     let guesses = if strict { read.refuse_guesses(path) } else { Ok(()) };
     let (remarks, storage) = (Remark::of(&read), read.storage());
     let found = guesses.map(|()| OpenedMaterial { material: read.material, storage });
-    Opened { found: found.map_err(|problem| problem.to_string()), remarks, files: read.files }
+    Opened { found: found.map_err(|problem| problem.to_string()), remarks, neighbours: read.neighbours }
 }
 
 /// The metrics of the maps.

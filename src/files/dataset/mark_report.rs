@@ -5,21 +5,19 @@ use std::collections::BTreeSet;
 use svbrdf_core::report::aligned;
 
 use super::mark_summary::{MarkSummary, summarize_marks};
-use super::pick::Pick;
-use super::ranking::Ranking;
-use super::record::MaterialResult;
+use super::ranking::DatasetReport;
 
 /// The table of [`rows`] as text; empty without diagnoses.
-pub(super) fn text(ranking: &Ranking, results: &[MaterialResult], pick: Pick) -> String {
-    let rows = rows(ranking, results, pick);
+pub(super) fn text(report: &DatasetReport) -> String {
+    let rows = rows(report);
     if rows.is_empty() { String::new() } else { format!("\n{}", aligned(&rows)) }
 }
 
 /// The numbers of materials, a column for each method, below a row of headings; no rows without diagnoses.
-pub(crate) fn rows(ranking: &Ranking, results: &[MaterialResult], pick: Pick) -> Vec<Vec<String>> {
-    let methods = &ranking.methods;
+pub(crate) fn rows(report: &DatasetReport) -> Vec<Vec<String>> {
+    let methods = &report.ranking.methods;
     let columns: Vec<Option<MarkSummary>> =
-        methods.iter().map(|summary| summarize_marks(ranking, summary, results, pick)).collect();
+        methods.iter().map(|summary| summarize_marks(report, summary)).collect();
     let known: Vec<&MarkSummary> = columns.iter().flatten().collect();
     if known.is_empty() {
         return Vec::new();

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
-use super::pick::{Pick, counted, counted_loss};
-use super::ranking::{MethodSummary, Ranking};
-use super::record::{MaterialResult, PredictionResult};
+use super::pick::{counted, counted_loss};
+use super::ranking::{DatasetReport, MethodSummary};
+use super::record::PredictionResult;
 
 /// The marks of a method over the materials that were diagnosed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -23,14 +23,10 @@ pub struct MarkSummary {
     pub to_best_not_resolvable: Option<usize>,
 }
 
-/// The marks of a method of `ranking` over all materials that it has; `None` where no prediction was diagnosed. Of several predictions of
+/// The marks of a method of a report over all materials that it has; `None` where no prediction was diagnosed. Of several predictions of
 /// a material, those count that count for the loss; the material has the marks of all of them.
-pub fn summarize_marks(
-    ranking: &Ranking,
-    summary: &MethodSummary,
-    results: &[MaterialResult],
-    pick: Pick,
-) -> Option<MarkSummary> {
+pub fn summarize_marks(report: &DatasetReport, summary: &MethodSummary) -> Option<MarkSummary> {
+    let DatasetReport { ranking, results, pick, .. } = report;
     let method = summary.method.as_str();
     let best = ranking.best().map(|best| best.method.as_str()).filter(|best| *best != method);
     let mut summary = MarkSummary {
@@ -42,7 +38,7 @@ pub fn summarize_marks(
     };
     for result in results {
         let of = |prediction: &&PredictionResult| prediction.marks.is_some();
-        let diagnosed: Vec<_> = counted(result, method, pick).into_iter().filter(of).collect();
+        let diagnosed: Vec<_> = counted(result, method, *pick).into_iter().filter(of).collect();
         if diagnosed.is_empty() {
             continue;
         }
@@ -51,7 +47,7 @@ pub fn summarize_marks(
         let names: BTreeSet<&str> = marks.map(|mark| mark.hypothesis.as_str()).collect();
         summary.marked += usize::from(!names.is_empty());
         names.into_iter().for_each(|name| *summary.by.entry(name.to_owned()).or_default() += 1);
-        let loss = |method: &str| counted_loss(result, method, pick).map(|known| known.loss);
+        let loss = |method: &str| counted_loss(result, method, *pick).map(|known| known.loss);
         summary.not_resolvable += usize::from(result.is_below_floor(loss(method)));
         if let (Some(best), Some(count)) = (best, &mut summary.to_best_not_resolvable) {
             let difference = loss(method).zip(loss(best)).map(|(a, b)| (a - b).abs());

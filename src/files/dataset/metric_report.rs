@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use svbrdf_core::report::{aligned, bold, escaped, latex};
 
 use super::metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
-use super::pick::Pick;
-use super::ranking::Ranking;
+use super::ranking::DatasetReport;
 use super::record::MaterialResult;
 
 /// The names of the metrics of the results.
@@ -16,14 +15,15 @@ pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {
 }
 
 /// A table of the means over materials with their intervals, a column for each method; empty without metrics.
-pub(super) fn text(ranking: &Ranking, results: &[MaterialResult], pick: Pick) -> String {
-    let names = names(results);
+pub(super) fn text(report: &DatasetReport) -> String {
+    let names = names(&report.results);
     if names.is_empty() {
         return String::new();
     }
-    let columns = columns(ranking, results, pick);
+    let columns = columns(report);
     let mut heading = vec!["metric, mean over materials".to_owned()];
-    heading.extend(ranking.methods.iter().flat_map(|summary| [summary.method.clone(), "95%".to_owned()]));
+    heading
+        .extend(report.ranking.methods.iter().flat_map(|summary| [summary.method.clone(), "95%".to_owned()]));
     let row = |name: &str| {
         let cells = columns.iter().flat_map(|metrics| cells(metrics.get(name)));
         [name.to_owned()].into_iter().chain(cells).collect()
@@ -34,13 +34,13 @@ pub(super) fn text(ranking: &Ranking, results: &[MaterialResult], pick: Pick) ->
 
 /// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
 /// without metrics.
-pub(super) fn latex_table(ranking: &Ranking, results: &[MaterialResult], pick: Pick) -> String {
-    let methods = &ranking.methods;
-    let best = best_by_metric(ranking, results, pick);
+pub(super) fn latex_table(report: &DatasetReport) -> String {
+    let methods = &report.ranking.methods;
+    let best = best_by_metric(report);
     if best.is_empty() {
         return String::new();
     }
-    let columns = columns(ranking, results, pick);
+    let columns = columns(report);
     let row = |(name, best): (&String, &Vec<bool>)| {
         let cell = |(metrics, &best): (&BTreeMap<String, MetricSummary>, &bool)| {
             metrics.get(name).map_or("--".to_owned(), |metric| bold(&number(metric.mean), best))
@@ -56,12 +56,8 @@ pub(super) fn latex_table(ranking: &Ranking, results: &[MaterialResult], pick: P
 }
 
 /// The metrics of each method.
-fn columns(
-    ranking: &Ranking,
-    results: &[MaterialResult],
-    pick: Pick,
-) -> Vec<BTreeMap<String, MetricSummary>> {
-    ranking.methods.iter().map(|method| summarize_metrics(ranking, method, results, pick)).collect()
+fn columns(report: &DatasetReport) -> Vec<BTreeMap<String, MetricSummary>> {
+    report.ranking.methods.iter().map(|method| summarize_metrics(report, method)).collect()
 }
 
 /// A number in LaTeX.

@@ -7,9 +7,8 @@ use serde::Serialize;
 use svbrdf_core::statistics::median;
 
 use super::bootstrap::{interval_of_mean, interval_of_positive_mean};
-use super::pick::{Pick, counted};
-use super::ranking::{MethodSummary, Ranking};
-use super::record::MaterialResult;
+use super::pick::counted;
+use super::ranking::{DatasetReport, MethodSummary};
 
 /// A metric of a method over the materials that its mean loss is over.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -65,13 +64,8 @@ impl Scale {
     }
 }
 
-/// The metrics of a method of `ranking` by name. Of several predictions of a material, those count that count for the loss.
-pub fn summarize_metrics(
-    ranking: &Ranking,
-    method: &MethodSummary,
-    results: &[MaterialResult],
-    pick: Pick,
-) -> BTreeMap<String, MetricSummary> {
+/// The metrics of a method of a report by name. Of several predictions of a material, those count that count for the loss.
+pub fn summarize_metrics(report: &DatasetReport, method: &MethodSummary) -> BTreeMap<String, MetricSummary> {
     let summary = |(name, errors): (&str, BTreeMap<usize, f64>)| {
         let scale = Scale::of(name);
         let mut errors: Vec<f64> = errors.into_values().collect();
@@ -83,7 +77,7 @@ pub fn summarize_metrics(
         };
         (name.to_owned(), summary)
     };
-    errors_of(ranking, method, results, pick).into_iter().map(summary).collect()
+    errors_of(report, method).into_iter().map(summary).collect()
 }
 
 /// Whether larger values of a metric are better ones: similarities and signal-to-noise ratios.
@@ -91,28 +85,20 @@ pub fn is_better_larger(metric: &str) -> bool {
     Scale::of(metric) != Scale::Error
 }
 
-/// For each metric by name: which methods of `ranking` are the best one, or cannot be separated from it. Only methods that are compared
+/// For each metric by name: which methods of the ranking are the best one, or cannot be separated from it. Only methods that are compared
 /// are; a method ties with the best one where the 95% interval of the mean of their differences includes 0 or is unknown.
-pub fn best_by_metric(
-    ranking: &Ranking,
-    results: &[MaterialResult],
-    pick: Pick,
-) -> BTreeMap<String, Vec<bool>> {
-    let errors: Vec<_> =
-        ranking.methods.iter().map(|method| errors_of(ranking, method, results, pick)).collect();
+pub fn best_by_metric(report: &DatasetReport) -> BTreeMap<String, Vec<bool>> {
+    let methods = &report.ranking.methods;
+    let errors: Vec<_> = methods.iter().map(|method| errors_of(report, method)).collect();
     let names: BTreeSet<&str> = errors.iter().flat_map(|errors| errors.keys().copied()).collect();
-    let best_of = |name: &str| {
-        let compared = |(summary, errors): (&MethodSummary, &Errors<'_>)| {
-            errors.get(name).filter(|_| summary.is_compared).cloned()
-        };
-        let of: Vec<Option<BTreeMap<usize, f64>>> =
-            ranking.methods.iter().zip(&errors).map(compared).collect();
+    let best_of = |name: &str| -> Vec<bool> {
+        let compared = methods
+            .iter()
+            .zip(&errors)
+            .map(|(method, errors)| errors.get(name).filter(|_| method.is_compared));
         let mean = |errors: &BTreeMap<usize, f64>| mean(&errors.values().copied().collect::<Vec<_>>());
-        let best = of.iter().flatten().min_by(|a, b| mean(a).total_cmp(&mean(b)));
-        let ties = |errors: &Option<BTreeMap<usize, f64>>| {
-            errors.as_ref().zip(best).is_some_and(|(errors, best)| ties(errors, best))
-        };
-        of.iter().map(ties).collect()
+        let best = compared.clone().flatten().min_by(|a, b| mean(a).total_cmp(&mean(b)));
+        compared.map(|errors| errors.zip(best).is_some_and(|(errors, best)| ties(errors, best))).collect()
     };
     names.into_iter().map(|name| (name.to_owned(), best_of(name))).collect()
 }
@@ -130,15 +116,10 @@ fn mean(values: &[f64]) -> f64 {
 /// The errors of each metric by the index of the material.
 type Errors<'a> = BTreeMap<&'a str, BTreeMap<usize, f64>>;
 
-fn errors_of<'a>(
-    ranking: &Ranking,
-    method: &MethodSummary,
-    results: &'a [MaterialResult],
-    pick: Pick,
-) -> Errors<'a> {
+fn errors_of<'a>(report: &'a DatasetReport, method: &MethodSummary) -> Errors<'a> {
     let mut errors: Errors<'a> = BTreeMap::new();
-    for result in ranking.results_of(method, results) {
-        let counted = counted(result, &method.method, pick);
+    for result in report.ranking.results_of(method, &report.results) {
+        let counted = counted(result, &method.method, report.pick);
         for name in counted.first().map(|prediction| prediction.metrics.keys()).into_iter().flatten() {
             let scale = Scale::of(name);
             let all = counted.iter().filter_map(|prediction| prediction.metrics.get(name));

@@ -1,16 +1,13 @@
 //! Many materials: the losses of several methods over a data set, with intervals over materials.
 //!
 //! A data set is a list of [`Case`]s, one for each material: [`cases_of_folders`] matches folders by name, [`cases_of_table`] reads a table of
-//! pairs. [`run`] gives a [`MaterialResult`] for each and keeps them in a journal, so that an interrupted run continues; [`merged`]
-//! joins the journals of parts of a run, and a [`Ranking`] compares the methods by them.
+//! pairs. [`run`] gives a [`MaterialResult`] for each and keeps the losses in a results folder, so that no run computes them again; a
+//! [`Ranking`] compares the methods by them.
 
 mod bootstrap;
 mod doubts;
 mod evaluate;
-mod fingerprint;
-mod journal;
 mod list;
-mod lock;
 pub(crate) mod mark_report;
 mod mark_summary;
 mod metric_report;
@@ -22,20 +19,18 @@ mod remark;
 mod repetition;
 mod report;
 mod report_json;
-mod run;
+mod results;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
 pub use doubts::{DoubtCount, ReadingSummary};
-pub use journal::{Merged, Recomputed, merged};
+pub use evaluate::{DatasetResults, run};
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use mark_summary::{MarkSummary, summarize_marks};
 pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
 pub use pick::{Pick, counted_loss, counted_sample};
-pub use ranking::{MethodDifference, MethodSummary, Ranking};
+pub use ranking::{DatasetReport, MethodDifference, MethodSummary, Ranking};
 pub use record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
     PredictionResult, Source,
 };
 pub use remark::Remark;
-pub use report::DatasetReport;
-pub use run::{DatasetResults, run};

@@ -7,10 +7,33 @@ use svbrdf_core::statistics::median;
 
 use super::bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
 use super::pick::{Pick, counted_loss};
-use super::record::{KnownLoss, MaterialResult};
+use super::record::{DatasetReading, DatasetSettings, KnownLoss, MaterialResult};
 
 /// The 97.5% quantile of the normal distribution.
 const Z: f64 = 1.959_964;
+
+/// The results of a data set, and what they say about the methods.
+#[derive(Clone, Debug)]
+pub struct DatasetReport {
+    pub settings: DatasetSettings,
+    pub reading: DatasetReading,
+    pub pick: Pick,
+    pub ranking: Ranking,
+    pub results: Vec<MaterialResult>,
+}
+
+impl DatasetReport {
+    /// The report of `results`; of several predictions of a material, `pick` says which counts.
+    pub fn new(
+        settings: DatasetSettings,
+        reading: DatasetReading,
+        results: Vec<MaterialResult>,
+        pick: Pick,
+    ) -> Self {
+        let ranking = Ranking::new(&settings.methods, &results, pick);
+        Self { settings, reading, pick, ranking, results }
+    }
+}
 
 /// The methods over a data set, and the materials that they are compared over.
 ///

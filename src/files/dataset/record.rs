@@ -8,7 +8,6 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use svbrdf_core::diagnose::Finding;
 use svbrdf_core::loss::Estimate;
 
-use super::fingerprint::fnv1a;
 use super::remark::Remark;
 use crate::read::ReadOptions;
 
@@ -35,7 +34,7 @@ pub struct Candidate {
 }
 
 /// Where the materials of a data set are, as the user named them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
     /// Folders of materials of the same names.
@@ -50,7 +49,7 @@ pub enum Source {
 }
 
 /// A method by its name.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Method {
     pub name: String,
     /// The folder of its predictions, or a pattern: a path in which `{}` stands for the name of a material.
@@ -63,8 +62,8 @@ fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error>
     serializer.collect_str(&path.display())
 }
 
-/// The settings that the results of all materials have in common: results of other settings cannot be joined with them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The settings that the results of all materials have in common.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DatasetSettings {
     /// Where the materials are.
     pub source: Source,
@@ -78,10 +77,10 @@ pub struct DatasetSettings {
     /// In order.
     pub methods: Vec<String>,
     /// Whether results have metrics of the maps.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub metrics: bool,
     /// Whether results have the marks of a diagnosis.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub diagnose: bool,
 }
 
@@ -107,18 +106,6 @@ impl DatasetSettings {
         }
     }
 
-    /// The same settings, with metrics of the maps or without.
-    #[must_use]
-    pub fn with_metrics(self, metrics: bool) -> Self {
-        Self { metrics, ..self }
-    }
-
-    /// The same settings, with the marks of a diagnosis or without.
-    #[must_use]
-    pub fn with_diagnoses(self, diagnose: bool) -> Self {
-        Self { diagnose, ..self }
-    }
-
     /// The seed of the scenes of each material, in order: by its name, and for materials of one name by their order, so that it does
     /// not depend on which other materials there are.
     pub fn seeds(&self) -> Vec<u64> {
@@ -134,15 +121,22 @@ impl DatasetSettings {
     }
 }
 
+/// FNV-1a (Fowler, Noll and Vo) of bytes, 64 bits.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0100_0000_01b3;
+    bytes.iter().fold(BASIS, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
+}
+
 /// How the materials of a data set are read.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct DatasetReading {
     pub ground_truths: ReadOptions,
     /// Of all methods but those of `methods`.
     pub predictions: ReadOptions,
     /// By the name of a method.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub methods: BTreeMap<String, ReadOptions>,
     /// Whether a material that can only be read by guesses has no result.
     pub strict: bool,
@@ -156,7 +150,7 @@ impl DatasetReading {
 }
 
 /// The results of one material.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MaterialResult {
     pub index: usize,
     pub material: String,
@@ -165,7 +159,7 @@ pub struct MaterialResult {
     /// What was noticed and assumed in reading the ground truth.
     pub reading: Vec<Remark>,
     /// The loss that the ground truth cannot resolve, where diagnoses were asked for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub floor: Option<f64>,
     pub predictions: Vec<PredictionResult>,
 }

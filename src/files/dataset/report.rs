@@ -7,9 +7,9 @@ use svbrdf_core::text::line;
 use super::doubts::ReadingSummary;
 use super::mark_report;
 use super::metric_report;
-use super::pick::{Pick, counted};
-use super::ranking::{MethodSummary, Ranking};
-use super::record::{DatasetReading, DatasetSettings, Mark, MaterialResult, PredictionResult};
+use super::pick::counted;
+use super::ranking::{DatasetReport, MethodSummary};
+use super::record::{DatasetSettings, Mark, MaterialResult, PredictionResult};
 use super::remark::Remark;
 use super::repetition;
 use crate::atomic::SOFTWARE;
@@ -46,28 +46,7 @@ const COLUMNS: [&str; 14] = [
 /// The columns of diagnoses.
 const MARKS: [&str; 3] = ["floor", "resolvable", "marked"];
 
-/// The results of a data set, and what they say about the methods.
-#[derive(Clone, Debug)]
-pub struct DatasetReport {
-    pub settings: DatasetSettings,
-    pub reading: DatasetReading,
-    pub pick: Pick,
-    pub ranking: Ranking,
-    pub results: Vec<MaterialResult>,
-}
-
 impl DatasetReport {
-    /// The report of `results`; of several predictions of a material, `pick` says which counts.
-    pub fn new(
-        settings: DatasetSettings,
-        reading: DatasetReading,
-        results: Vec<MaterialResult>,
-        pick: Pick,
-    ) -> Self {
-        let ranking = Ranking::new(&settings.methods, &results, pick);
-        Self { settings, reading, pick, ranking, results }
-    }
-
     /// The command that makes these results again.
     pub fn command(&self) -> String {
         repetition::command(&self.settings, &self.reading, self.pick)
@@ -126,7 +105,7 @@ impl DatasetReport {
         let comments = self.conditions().into_iter().chain([self.repetition()]);
         let comments: String = comments.map(|comment| format!("% {}\n", line(&comment))).collect();
         let losses = latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows);
-        comments + &losses + &metric_report::latex_table(&self.ranking, &self.results, self.pick)
+        comments + &losses + &metric_report::latex_table(self)
     }
 
     /// How to repeat the ranking: a line.
@@ -186,8 +165,8 @@ impl Report for DatasetReport {
             self.pick,
             self.losses(),
             lines(self.conditions()),
-            mark_report::text(&self.ranking, &self.results, self.pick),
-            metric_report::text(&self.ranking, &self.results, self.pick),
+            mark_report::text(self),
+            metric_report::text(self),
             self.repetition(),
         )
     }

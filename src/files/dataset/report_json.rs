@@ -7,8 +7,8 @@ use serde::{Serialize, Serializer};
 use super::doubts::ReadingSummary;
 use super::mark_summary::{MarkSummary, summarize_marks};
 use super::metric_summary::{MetricSummary, summarize_metrics};
+use super::ranking::DatasetReport;
 use super::record::{DatasetReading, DatasetSettings, MaterialResult};
-use super::report::DatasetReport;
 use crate::atomic::SOFTWARE;
 
 #[derive(Serialize)]
@@ -72,8 +72,8 @@ impl Serialize for DatasetReport {
                 .and_then(|difference| difference.interval95_materials),
             ties_with_best: summary.ties_with_best(),
             reading: readings.remove(summary.method.as_str()),
-            metrics: summarize_metrics(ranking, summary, results, *pick),
-            marks: summarize_marks(ranking, summary, results, *pick),
+            metrics: summarize_metrics(self, summary),
+            marks: summarize_marks(self, summary),
         });
         let is_common = |result: &&MaterialResult| ranking.common.contains(&result.index);
         DatasetJson {

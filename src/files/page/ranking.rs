@@ -99,9 +99,8 @@ fn verdict(summary: &MethodSummary) -> &'static str {
 
 /// The metrics of the maps, where there are any: a row for each, a column for each method.
 fn metrics(report: &DatasetReport) -> String {
-    let of =
-        |summary: &MethodSummary| summarize_metrics(&report.ranking, summary, &report.results, report.pick);
-    let all: Vec<_> = report.ranking.methods.iter().map(of).collect();
+    let all: Vec<_> =
+        report.ranking.methods.iter().map(|summary| summarize_metrics(report, summary)).collect();
     let mut names: Vec<&String> = all.iter().flat_map(|metrics| metrics.keys()).collect();
     names.sort();
     names.dedup();
@@ -124,7 +123,7 @@ fn metrics(report: &DatasetReport) -> String {
 
 /// The marks of diagnoses, where there are any.
 fn marks(report: &DatasetReport) -> String {
-    let rows = mark_report::rows(&report.ranking, &report.results, report.pick);
+    let rows = mark_report::rows(report);
     let Some((headings, rows)) = rows.split_first() else { return String::new() };
     let headings: String =
         headings.iter().map(|heading| format!(r#"<th scope="col">{}</th>"#, escaped(heading))).collect();

@@ -21,6 +21,7 @@ use super::ranking::MaterialView;
 use crate::atomic::replace_own;
 use crate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
 use crate::own;
+use crate::paths::plain;
 use crate::read::{self, ReadOptions};
 use crate::session_window::Display;
 
@@ -100,9 +101,7 @@ fn folder(page: &Path) -> PathBuf {
 
 /// The file of the figure of a material: its place in the data set, and of its name what every file system and address takes.
 fn file_name(result: &MaterialResult) -> String {
-    let plain = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
-    let name: String = result.material.chars().take(48).map(plain).collect();
-    format!("{:04}-{name}.html", result.index + 1)
+    format!("{:04}-{}.html", result.index + 1, plain(&result.material))
 }
 
 /// The indices of the materials that have a figure.

@@ -27,10 +27,11 @@ mod recognize;
 mod record;
 mod stored;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use assemble::Read;
+pub use gather::Neighbours;
 pub use gather::map_report::MapReport;
 pub use locate::is_prefix;
 pub use locate::sidecar::Sidecar;
@@ -48,12 +49,14 @@ pub use record::{
     What,
 };
 
+use sha2::{Digest as _, Sha256};
+
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
-use crate::open::NamedFile;
+use crate::open::{NamedFile, hexadecimal};
 use crate::{inputs, memory};
 
 use decode::pictures;
@@ -140,6 +143,37 @@ fn read_with<T: Real>(
     Ok(read)
 }
 
+/// What the reading of a material depends on, but for [`Neighbours`]: only the pixels tell whether these count.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Dependencies {
+    /// In hexadecimal: of the options, of what was located by names, listings and documents, and of the content of the sidecar file and
+    /// of `files`.
+    pub sha256: String,
+    /// Every file that may be decoded.
+    pub files: Vec<PathBuf>,
+}
+
+impl Dependencies {
+    /// Those of the material at `path`.
+    ///
+    /// # Errors
+    /// Where the material cannot be located, or one of the files not be read.
+    pub fn of(path: &Path, options: &ReadOptions) -> Result<Self, Error> {
+        let saved = Sidecar::load(path)?;
+        let used = saved.clone().overridden_by(options, &[]);
+        let located = locate::locate(path, &saved, &used)?;
+        let sidecar = Sidecar::path_for(path);
+        let mut hash = Sha256::new();
+        hash.update(format!("{sidecar:?} {saved:?} {used:?} {located:?}"));
+        let mut files = Vec::new();
+        for file in located.files() {
+            hash.update(file.digest()?);
+            files.push(file.path().to_owned());
+        }
+        Ok(Self { sha256: hexadecimal(hash), files })
+    }
+}
+
 /// The names that the material at `path` may have once it is read, found without its pixels; at least one.
 pub fn possible_names(path: &Path, options: &ReadOptions) -> Vec<String> {
     let saved = Sidecar::load(path).unwrap_or_default();
@@ -199,6 +233,7 @@ fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read
     let memory = memory::reserve(bytes, || format!("the material {}", stored.name))?;
     let maps = map_report::reports(&stored);
     let evidence = gather::evidences(&stored, options);
+    let neighbours = evidence.neighbours().cloned();
     let mut linear = interpret::interpret(stored, evidence, options)?;
     let planes = assemble::planes(&mut linear, options);
     let [width, height] = linear.size;
@@ -207,6 +242,7 @@ fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read
         assumptions: linear.assumptions,
         notes: linear.notes,
         files: linear.files,
+        neighbours,
         maps,
         options: *options,
         saved: ReadOptions::AUTO,

@@ -7,6 +7,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 
 use crate::memory::Reserved;
+use crate::read::gather::Neighbours;
 use crate::read::gather::map_report::MapReport;
 use crate::read::options::ReadOptions;
 use crate::read::record::{Assumption, Certainty, Note};
@@ -21,6 +22,8 @@ pub struct Read<T> {
     pub notes: Vec<Note>,
     /// The files that were read, each once, for watching. None for a material from memory.
     pub files: Vec<PathBuf>,
+    /// The pictures of other materials that were looked at, where its own pixels leave the encoding of its colours open.
+    pub neighbours: Option<Neighbours>,
     /// A report on each map as stored.
     pub maps: Vec<MapReport>,
     /// The options that it was read with: those of the caller and, unless it excluded them, those of the sidecar file.

@@ -12,6 +12,7 @@ use crate::read::record::Evidence;
 use crate::read::stored::{StoredMap, StoredMaterial};
 pub(super) use heights::HeightEvidence;
 pub(super) use log_odds::{PRIOR, SURE};
+pub use neighbours::Neighbours;
 
 /// The evidence about how colours are stored.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,8 @@ pub(super) enum ColourEvidence {
     Pair {
         diffuse: Vec<Evidence>,
         specular: Vec<Evidence>,
+        /// Those that were looked at.
+        neighbours: Option<Neighbours>,
     },
 }
 
@@ -31,6 +34,16 @@ pub(super) enum ColourEvidence {
 pub(super) struct Evidences {
     pub colours: ColourEvidence,
     pub heights: Option<HeightEvidence>,
+}
+
+impl Evidences {
+    /// The neighbours that were looked at.
+    pub(super) fn neighbours(&self) -> Option<&Neighbours> {
+        match &self.colours {
+            ColourEvidence::Pair { neighbours, .. } => neighbours.as_ref(),
+            _ => None,
+        }
+    }
 }
 
 /// The evidence about a material that is to be read with `options`.
@@ -65,9 +78,10 @@ fn pair(diffuse: &StoredMap, specular: &StoredMap, roughness: Option<Roughness>)
     }
     common.extend(colours::measured(&diffuse.raster, &specular.raster));
     let total: f64 = common.iter().map(|one| one.log_odds()).sum();
-    if total.abs() < SURE {
-        common.extend(neighbours::evidence(&diffuse.file, &specular.file));
-    }
+    let pictures = || [diffuse.file.clone(), specular.file.clone()];
+    let neighbours = (total.abs() < SURE).then(|| Neighbours::of(pictures()));
+    common.extend(neighbours.as_ref().and_then(Neighbours::evidence));
     let bright = colours::too_bright(&diffuse.raster, &specular.raster);
-    ColourEvidence::Pair { diffuse: common.iter().copied().chain(bright).collect(), specular: common }
+    let diffuse = common.iter().copied().chain(bright).collect();
+    ColourEvidence::Pair { diffuse, specular: common, neighbours }
 }

@@ -28,7 +28,7 @@ fn detected(evidence: ColourEvidence) -> [Inferred<Albedo>; 2] {
     match evidence {
         ColourEvidence::Specified => [None, None],
         ColourEvidence::Alone(dark) => [Some(alone(dark)), None],
-        ColourEvidence::Pair { diffuse, specular } => [diffuse, specular].map(verdict).map(Some),
+        ColourEvidence::Pair { diffuse, specular, .. } => [diffuse, specular].map(verdict).map(Some),
     }
 }
 
@@ -114,7 +114,7 @@ mod tests {
     fn the_verdict_rests_on_the_evidence_that_was_gathered() {
         let albedo = |evidence: &[Evidence]| {
             let (diffuse, specular) = (evidence.to_vec(), evidence.to_vec());
-            let [diffuse, specular] = detected(ColourEvidence::Pair { diffuse, specular });
+            let [diffuse, specular] = detected(ColourEvidence::Pair { diffuse, specular, neighbours: None });
             assert_eq!(diffuse, specular);
             diffuse.map(|(albedo, _, certainty)| (albedo, certainty)).unwrap()
         };

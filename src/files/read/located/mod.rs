@@ -14,10 +14,11 @@ use svbrdf_core::error::Error;
 
 use crate::open::NamedFile;
 
-use binding::LocatedBinding;
+use binding::{BoundSource, LocatedBinding};
 use gltf::LocatedGltf;
 use mtl::LocatedMtl;
 use mtlx::LocatedMtlx;
+use picture::{LocatedPicture, PictureSource};
 use set::LocatedSet;
 
 /// All that may be at a path.
@@ -39,6 +40,15 @@ impl Located {
         let candidates = candidates.into_iter().collect();
         Self { bound: Vec::new(), candidates, folders: Vec::new(), name: None }
     }
+
+    /// Every file that may be decoded, neighbours excepted.
+    pub(crate) fn files(&self) -> impl Iterator<Item = NamedFile> + '_ {
+        let bound = self.bound.iter().filter_map(|binding| match &binding.source {
+            BoundSource::File { file, .. } => Some(file.clone()),
+            BoundSource::Constant(_) => None,
+        });
+        bound.chain(self.candidates.iter().flat_map(Candidate::files))
+    }
 }
 
 /// One way in which the maps of a material may be stored.
@@ -52,6 +62,24 @@ pub(crate) enum Candidate {
 }
 
 impl Candidate {
+    /// Every file that may be decoded, neighbours excepted.
+    fn files(&self) -> Vec<NamedFile> {
+        let of = |picture: &LocatedPicture| match &picture.source {
+            PictureSource::File(file) => Some(file.clone()),
+            PictureSource::Embedded { .. } => None,
+        };
+        match self {
+            Self::Picture(picture) => vec![picture.file.clone()],
+            Self::Set(set) => set.files.names().map(|name| set.file(name)).collect(),
+            Self::Gltf(gltf) => {
+                let embedded = gltf.buffers.iter().cloned().chain([NamedFile::by_user(&gltf.path)]);
+                gltf.pictures.iter().filter_map(of).chain(embedded).collect()
+            }
+            Self::Mtl(mtl) => mtl.textures.iter().filter_map(|texture| of(&texture.picture)).collect(),
+            Self::Mtlx(mtlx) => mtlx.pictures.iter().filter_map(of).collect(),
+        }
+    }
+
     /// The name of the material.
     pub(crate) fn name(&self) -> String {
         match self {

@@ -1,5 +1,6 @@
 //! One picture of a material: where its bytes are, and what it is expected to be.
 
+use std::fmt;
 use std::path::PathBuf;
 
 use crate::open::NamedFile;
@@ -13,7 +14,7 @@ pub(crate) struct LocatedPicture {
 }
 
 /// The place of the bytes of a picture.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(crate) enum PictureSource {
     File(NamedFile),
     /// Bytes within the file of this path.
@@ -21,4 +22,14 @@ pub(crate) enum PictureSource {
         within: PathBuf,
         bytes: Vec<u8>,
     },
+}
+
+/// Without the bytes: there may be millions.
+impl fmt::Debug for PictureSource {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::File(file) => f.debug_tuple("File").field(file).finish(),
+            Self::Embedded { within, .. } => f.debug_tuple("Embedded").field(within).finish(),
+        }
+    }
 }

@@ -54,6 +54,12 @@ pub(crate) struct SetFiles {
 }
 
 impl SetFiles {
+    /// The names of all pictures, also of those that count only where the pixels of others call for them.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
+        let labelled = self.files.iter().chain(&self.other_normals).map(|one| &one.file);
+        labelled.chain(&self.unlabelled).chain(&self.misnamed).chain(&self.heights)
+    }
+
     /// Sorts out the pictures of the folder that are not those of the set of this `stem`: some may be maps of it all the same.
     /// The others are reported where the `whole` folder was wanted.
     pub(crate) fn leave(&mut self, others: Vec<LabelledFile>, stem: &[String], whole: bool) {
