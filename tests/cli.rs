@@ -25,6 +25,7 @@ mod read;
 mod report;
 mod results;
 mod scenes;
+mod schema;
 mod session;
 mod sidecar;
 mod steps;

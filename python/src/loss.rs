@@ -34,7 +34,7 @@ pub fn loss(
             answer(py, &asked, &materials.map(CoreMaterial::double).collect::<Vec<_>>(), progress)
         }
     }?;
-    Views::new(&LossReport { paths: asked.paths, ..report.renamed(&asked.names) })
+    Views::new(&report.renamed(&asked.names).read_from(asked.paths, Vec::new()))
 }
 
 /// The answer for the first of `materials` as the ground truth and the others as predictions.
@@ -50,8 +50,7 @@ fn answer<T: Compute>(
     work::run(py, progress, |progress| LossReport::answer(&comparison, &question, progress))
 }
 
-/// The ranking of `predictions` against `ground_truth`, and the index of each in its order; `repeats` are further captures of the
-/// ground truth.
+/// The ranking of `predictions` against `ground_truth`; `repeats` are further captures of the ground truth.
 #[pyfunction]
 pub fn rank(
     py: Python<'_>,
@@ -61,17 +60,17 @@ pub fn rank(
     target_error: f64,
     repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(Views, Vec<usize>)> {
+) -> PyResult<Views> {
     let (convention, materials) = (asked.convention()?, singles(ground_truth, &predictions));
     let all: Vec<_> = materials.iter().map(|material| &**material).collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?;
     let comparison = comparison.at_most(most_scenes(predictions.len()));
     let request = Request::Accuracy { target: target_error, seed: asked.seed };
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
-    let mut report = RankReport::new(asked.compared(all[0], &convention), target_error, asked.named(outcome));
+    let mut report = RankReport::new(asked.compared(all[0], &convention), target_error, &asked.named(outcome));
     if ground_truth.storage.has_steps() || !repeats.is_empty() {
         let (floor, captures) = floor_of(py, (ground_truth, &repeats), &convention, asked.seed, progress)?;
-        report = report.with_floor(floor, captures);
+        report = report.with_floor(&floor, captures);
     }
-    Ok((Views::new(&report)?, report.places.iter().map(|place| place.index).collect()))
+    Views::new(&report)
 }

@@ -91,17 +91,17 @@ pub fn diagnose(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
     let each = Each::new(ground_truth, &predictions, &asked)?;
-    let (floor, captures) = floor_of(py, (ground_truth, &repeats), &each.convention, asked.seed, progress)?;
+    let floor = floor_of(py, (ground_truth, &repeats), &each.convention, asked.seed, progress)?;
     let storages: Vec<_> = predictions.iter().map(|prediction| &prediction.storage).collect();
     let of_truth = &ground_truth.storage;
     let found = each.answers(py, progress, |index, prediction, progress| {
         let (pair, storages) = ([each.ground_truth(), prediction], [of_truth, storages[index]]);
-        diagnosis::diagnose(pair, storages, &each.convention, floor.mean, asked.seed, progress)
+        diagnosis::diagnose(pair, storages, &each.convention, floor.0.mean, asked.seed, progress)
     })?;
     let diagnoses = found.into_iter().map(|(prediction, found)| Diagnosis { prediction, ..found }).collect();
     let seams = diagnosis::seams(each.ground_truth());
     let compared = each.compared();
-    Views::new(&DiagnoseReport { compared, seed: asked.seed, floor, captures, seams, diagnoses })
+    Views::new(&DiagnoseReport::new(compared, asked.seed, floor, seams, diagnoses))
 }
 
 /// The loss that a ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of
@@ -141,7 +141,7 @@ pub fn worst(
         why::worst(each.ground_truth(), prediction, &each.convention, asked.seed, why::TAIL, progress)
     })?;
     let found = found.into_iter().map(|(prediction, found)| why::Worst { prediction, ..found }).collect();
-    Views::new(&WorstReport { compared: each.compared(), tail: why::TAIL, found })
+    Views::new(&WorstReport::new(each.compared(), why::TAIL, found))
 }
 
 /// The `top` scenes with the largest losses.
@@ -160,7 +160,7 @@ pub fn scenes(
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?.without_pilot();
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
     let compared = asked.compared(all[0], &convention);
-    Views::new(&ScenesReport::new(compared, asked.named(outcome)).top(top))
+    Views::new(&ScenesReport::new(compared, &asked.named(outcome), top))
 }
 
 /// The axes of a map over directions.

@@ -36,7 +36,7 @@ def test_a_report_has_the_losses_the_call_and_the_readings(tmp_path: Path) -> No
     path, read = tmp_path / "report.html", svbrdf.read(file, normal_y="up", albedo="linear")
     svbrdf.report(ground_truth, read, path, target_error=0.1, seed=3, layout="wipe", exposure=1.5)
     page = path.read_text()
-    loss = svbrdf.loss(ground_truth, read, target_error=0.1, seed=3).loss
+    loss = svbrdf.loss(ground_truth, read, target_error=0.1, seed=3).results[0].loss
     assert f"<td>{loss:.4f}</td>" in page or f"<td>{loss:.3f}</td>" in page
     text = html.unescape(page)
     assert f"svbrdf.report(<svbrdf.Material 'truth'>, [svbrdf.read({str(file)!r}, " in text
@@ -68,7 +68,7 @@ def test_a_figure_is_the_figure_alone_in_a_sandbox() -> None:
 def test_a_table_has_the_numbers_and_escaped_names() -> None:
     report = svbrdf.loss(*pair(), near=2)
     table = report._repr_html_()
-    assert f"<td>{report.loss:.6g}</td>" in table
+    assert f"<td>{report.results[0].loss:.6g}</td>" in table
     assert "<script" not in table
     assert table.count("</table>") == 1
     assert html.escape("</table><script>alert(1)</script>") + "\\u{202e}&amp;&quot;" in table

@@ -35,6 +35,11 @@ const GENERATED: [Generated; 11] = [
         script: "cargo test --test main write_shaders -- --ignored",
     },
     Generated {
+        name: "types",
+        files: "python/package/svbrdf/_reports.py",
+        script: "cargo build && python3 python/tests/report_types.py ${CARGO_TARGET_DIR:-target}/debug/svbrdf",
+    },
+    Generated {
         name: "report",
         files: "docs/example-report.html",
         script: "cargo run -- report -o docs/example-report.html --max-size 2MB",

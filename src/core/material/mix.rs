@@ -1,5 +1,6 @@
 //! Materials with some maps of one material and the other maps of another.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Material, Planes};
@@ -7,7 +8,7 @@ use crate::error::Error;
 use crate::math::real::Real;
 
 /// One of the four maps of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Map {
     Normal,

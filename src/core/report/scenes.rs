@@ -1,39 +1,89 @@
 //! The scenes of a loss, worst first.
 
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, position, scenes_line};
 use super::table::{Cell, Table, aligned};
 use crate::loss::Outcome;
 use crate::model::scene::Scene;
-use crate::why::{Distribution, RankedScene, worst_first};
+use crate::why::{Distribution, worst_first};
 
-/// The losses of single scenes, sorted by the mean of the losses of all predictions in them.
-#[derive(Clone, Debug)]
+/// The scenes with the largest losses, sorted by the mean of the losses of all predictions in them, worst first. Its JSON is a
+/// scene file, too.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ScenesReport {
-    pub compared: Compared,
-    pub outcome: Outcome,
-    /// The scenes that are listed.
-    pub ranked: Vec<RankedScene>,
+    #[serde(flatten)]
+    compared: Compared,
+    /// `None` where the scenes were listed.
+    seed: Option<u64>,
+    /// The number of scenes that these are the worst of.
+    of: usize,
+    /// One per prediction.
+    results: Vec<ScenesLoss>,
+    scenes: Vec<Scene>,
+    /// The number of each listed scene among all.
+    #[serde(skip)]
+    indices: Vec<usize>,
+    /// The lines above the table.
+    #[serde(skip)]
+    heading: String,
+}
+
+/// The loss of a prediction in single scenes.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct ScenesLoss {
+    prediction: String,
+    /// Over all scenes.
+    loss: f64,
+    /// The loss of each listed scene.
+    losses: Vec<f64>,
 }
 
 impl ScenesReport {
-    /// The report of all scenes of `outcome`.
-    pub fn new(compared: Compared, outcome: Outcome) -> Self {
-        let ranked = worst_first(&outcome);
-        Self { compared, outcome, ranked }
+    /// The report of the `count` worst scenes of `outcome`.
+    pub fn new(compared: Compared, outcome: &Outcome, count: usize) -> Self {
+        let mut ranked = worst_first(outcome);
+        ranked.truncate(count);
+        let heading = compared.heading("losses of scenes")
+            + &scenes_line(outcome.sampling.as_ref(), &outcome.scenes, compared.size);
+        let distributions = outcome.losses.iter();
+        let distributions = distributions
+            .filter_map(|loss| Some(distribution(&loss.prediction, &Distribution::of(&loss.per_scene)?)));
+        let results = outcome.losses.iter().enumerate().map(|(index, loss)| ScenesLoss {
+            prediction: loss.prediction.clone(),
+            loss: loss.estimate.mean,
+            losses: ranked.iter().map(|ranked| ranked.losses[index]).collect(),
+        });
+        Self {
+            heading: heading + &distributions.collect::<String>(),
+            compared,
+            seed: outcome.sampling.map(|sampling| sampling.seed),
+            of: outcome.scenes.len(),
+            results: results.collect(),
+            scenes: ranked.iter().map(|ranked| ranked.scene).collect(),
+            indices: ranked.iter().map(|ranked| ranked.index).collect(),
+        }
     }
 
-    /// The same report with the `count` worst scenes only.
-    #[must_use]
-    pub fn top(mut self, count: usize) -> Self {
-        self.ranked.truncate(count);
-        self
+    /// The titles `start`, then the predictions.
+    fn columns(&self, start: &[&str]) -> Vec<String> {
+        let names = self.results.iter().map(|result| result.prediction.as_str());
+        start.iter().copied().chain(names).map(str::to_owned).collect()
     }
 
-    fn names(&self) -> impl Iterator<Item = String> {
-        self.outcome.losses.iter().map(|loss| loss.prediction.clone())
+    /// A row for each scene: what `start` gives for its number, then what `loss` gives for each loss.
+    fn rows<C, const N: usize>(
+        &self,
+        start: impl Fn(usize, &Scene) -> [C; N],
+        loss: impl Fn(f64) -> C,
+    ) -> Vec<Vec<C>> {
+        let row = |(k, (&index, scene)): (usize, (&usize, &Scene))| {
+            let losses = self.results.iter().map(|result| loss(result.losses[k]));
+            start(index, scene).into_iter().chain(losses).collect()
+        };
+        self.indices.iter().zip(&self.scenes).enumerate().map(row).collect()
     }
 }
 
@@ -48,68 +98,20 @@ fn distribution(prediction: &str, d: &Distribution) -> String {
 
 impl Report for ScenesReport {
     fn text(&self) -> String {
-        let distributions = self.outcome.losses.iter();
-        let distributions: String = distributions
-            .filter_map(|loss| Some(distribution(&loss.prediction, &Distribution::of(&loss.per_scene)?)))
-            .collect();
-        let titles = ["scene", "kind", "view", "light"].map(str::to_owned);
-        let mut rows = vec![titles.into_iter().chain(self.names()).collect::<Vec<_>>()];
-        rows.extend(self.ranked.iter().map(|ranked| {
-            let Scene { kind, view, light } = ranked.scene;
-            let start = [ranked.index.to_string(), kind.to_string(), position(view), position(light)];
-            start.into_iter().chain(ranked.losses.iter().map(|loss| format!("{loss:.6}"))).collect()
-        }));
-        let heading = self.compared.heading("losses of scenes");
-        let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes, self.compared.size);
-        format!("{heading}{scenes}\n{distributions}\n{}", aligned(&rows))
+        let start = |index: usize, scene: &Scene| {
+            [index.to_string(), scene.kind.to_string(), position(scene.view), position(scene.light)]
+        };
+        let mut rows = vec![self.columns(&["scene", "kind", "view", "light"])];
+        rows.extend(self.rows(start, |loss| format!("{loss:.6}")));
+        format!("{}\n{}", self.heading, aligned(&rows))
     }
 
     fn table(&self) -> Table {
-        let fixed = ["scene", "kind", "view_x", "view_y", "view_z", "light_x", "light_y", "light_z"];
-        let row = |ranked: &RankedScene| {
-            let Scene { kind, view, light } = ranked.scene;
-            let numbers = view.iter().chain(&light).chain(&ranked.losses).map(|&number| Cell::from(number));
-            [ranked.index.into(), kind.to_string().into()].into_iter().chain(numbers).collect()
+        let start = ["scene", "kind", "view_x", "view_y", "view_z", "light_x", "light_y", "light_z"];
+        let cells = |index: usize, &Scene { kind, view: [x, y, z], light: [a, b, c] }: &Scene| {
+            let [x, y, z, a, b, c] = [x, y, z, a, b, c].map(Cell::from);
+            [index.into(), kind.to_string().into(), x, y, z, a, b, c]
         };
-        Table::new(fixed.map(str::to_owned).into_iter().chain(self.names()), self.ranked.iter().map(row))
-    }
-}
-
-/// A scene file, too.
-#[derive(Serialize)]
-struct ScenesJson<'a> {
-    #[serde(flatten)]
-    compared: &'a Compared,
-    seed: Option<u64>,
-    /// The number of scenes that these are the worst of.
-    of: usize,
-    results: Vec<ScenesEntry<'a>>,
-    scenes: Vec<Scene>,
-}
-
-#[derive(Serialize)]
-struct ScenesEntry<'a> {
-    prediction: &'a str,
-    /// Over all scenes.
-    loss: f64,
-    /// The loss of each listed scene.
-    losses: Vec<f64>,
-}
-
-impl Serialize for ScenesReport {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let results = self.outcome.losses.iter().enumerate().map(|(index, loss)| ScenesEntry {
-            prediction: &loss.prediction,
-            loss: loss.estimate.mean,
-            losses: self.ranked.iter().map(|ranked| ranked.losses[index]).collect(),
-        });
-        let object = ScenesJson {
-            compared: &self.compared,
-            seed: self.outcome.sampling.map(|sampling| sampling.seed),
-            of: self.outcome.scenes.len(),
-            results: results.collect(),
-            scenes: self.ranked.iter().map(|ranked| ranked.scene).collect(),
-        };
-        object.serialize(serializer)
+        Table::new(self.columns(&start), self.rows(cells, Cell::from))
     }
 }
