@@ -126,7 +126,3 @@ fn folder() -> TempDir {
 fn losses_as_json(folder: &Path, args: &str) -> Value {
     serde_json::from_str(&succeed(folder, &format!("loss {args} --format json"))).unwrap()
 }
-
-fn keys(object: &Value) -> Vec<&str> {
-    object.as_object().unwrap().keys().map(String::as_str).collect()
-}

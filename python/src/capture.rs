@@ -47,7 +47,7 @@ pub fn capture(
 ) -> PyResult<Views> {
     let setting = asked.setting()?;
     let materials: Vec<_> = materials.iter().map(|material| material.single()).collect();
-    let named = asked.names.iter().zip(&materials).map(|(name, material)| (name.as_str(), &**material));
+    let named = asked.names.iter().zip(&materials).map(|(name, material)| (name.as_str(), material));
     let report = work::run(py, progress, |progress| CaptureReport::new(setting, named, progress))?;
     Views::new(&report)
 }

@@ -85,7 +85,7 @@ pub fn photo<'py>(
         convention,
     };
     let materials: Vec<_> = materials.iter().map(|material| material.single()).collect();
-    let named = asked.names.iter().zip(&materials).map(|(name, material)| (name.as_str(), &**material));
+    let named = asked.names.iter().zip(&materials).map(|(name, material)| (name.as_str(), material));
     let report = work::run(py, progress, |progress| PhotoReport::new(setting, named, progress))?;
     let differences = report.results.iter().map(|result| {
         let image = result.compared.difference(kind);

@@ -107,14 +107,6 @@ def test_a_material_of_one_texel_is_diagnosed() -> None:
     assert len(report.predictions[0].findings) == 15
 
 
-def test_remedies_are_the_same_in_data_frame_and_csv(program: str, materials: Materials) -> None:
-    truth, prediction = materials[0], materials[1][0]
-    frame = svbrdf.diagnose(truth, prediction).to_pandas()
-    arguments = [program, "diagnose", str(truth), str(prediction), "--format", "csv"]
-    assert_is_csv(frame, subprocess.run(arguments, check=True, capture_output=True, text=True).stdout)
-    assert "rough:normal-y=down" in set(frame["remedy"])
-
-
 def test_a_protocol_takes_files_with_their_options_and_no_scenes(materials: Materials) -> None:
     ground_truth, predictions = materials
     flipped = svbrdf.read(predictions[0], normal_y="down")

@@ -1,5 +1,6 @@
 """Reports: the JSON of the command line with its keys as attributes, its text and its CSV."""
 
+import html
 import json
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -10,12 +11,13 @@ from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin, get_type_h
 
 from . import _core
 from ._scenes import Scene, scene_from
-from ._table import MOST_ROWS, escaped, html_table
 
 if TYPE_CHECKING:
     import pandas as pd
 
 _R = TypeVar("_R", bound="Report")
+MOST_ROWS = 60
+"""A table of more rows is shown as the text of its report."""
 
 
 class Record(Mapping[str, Any]):
@@ -97,7 +99,23 @@ class Report(Record):
     def _repr_html_(self) -> str:
         if not 0 < len(self._rows) <= MOST_ROWS:
             return f"<pre>{escaped(self.text)}</pre>"
-        return html_table(self.text.partition("\n\n")[0], self._columns, self._rows)
+        heading = "<br>".join(escaped(line) for line in self.text.partition("\n\n")[0].splitlines())
+        titles = "".join(f'<th scope="col">{escaped(column)}</th>' for column in self._columns)
+        rows = "".join(f"<tr>{''.join(f'<td>{cell(value)}</td>' for value in row)}</tr>" for row in self._rows)
+        return f"<div><p>{heading}</p><table><thead><tr>{titles}</tr></thead><tbody>{rows}</tbody></table></div>"
+
+
+def cell(value: Any) -> str:
+    """A value as text; floats in 6 digits, None as nothing."""
+    if value is None or isinstance(value, bool):
+        return {None: "", True: "yes", False: "no"}[value]
+    return f"{value:.6g}" if isinstance(value, float) else escaped(str(value))
+
+
+def escaped(text: str) -> str:
+    """The text with markup escaped, and characters that steer its direction written as escapes."""
+    steady = (c if c.isprintable() or c in "\n\u00a0" else c.encode("unicode_escape").decode() for c in text)
+    return html.escape("".join(steady))
 
 
 def report_of(kind: type[_R], views: "_core.Views", *, stacklevel: int = 3, **arrays: Any) -> _R:

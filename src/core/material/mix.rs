@@ -1,5 +1,7 @@
 //! Materials with some maps of one material and the other maps of another.
 
+use std::sync::Arc;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -54,6 +56,6 @@ impl<T: Real> Material<T> {
             specular: of(Map::Specular).specular.clone(),
             roughness: of(Map::Roughness).roughness.clone(),
         };
-        Ok(Self { name: self.name.clone(), width: self.width, height: self.height, planes })
+        Ok(Self { name: self.name.clone(), width: self.width, height: self.height, planes: Arc::new(planes) })
     }
 }

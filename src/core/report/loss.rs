@@ -196,27 +196,6 @@ impl LossReport {
         Self { few_scenes, ..self }
     }
 
-    /// The same report with other names: the ground truth first, then each prediction.
-    #[must_use]
-    pub fn renamed(mut self, names: &[String]) -> Self {
-        let Some((ground_truth, predictions)) = names.split_first() else { return self };
-        self.ground_truth.clone_from(ground_truth);
-        for (result, name) in self.results.iter_mut().zip(predictions) {
-            result.prediction.clone_from(name);
-        }
-        for (loss, name) in self.outcome.losses.iter_mut().zip(predictions) {
-            loss.prediction.clone_from(name);
-        }
-        let few = self.few_scenes.as_mut().map(|few| &mut few.differences);
-        for differences in [&mut self.differences].into_iter().chain(few) {
-            for (difference, name) in differences.iter_mut().zip(predictions.iter().skip(1)) {
-                difference.prediction.clone_from(name);
-                difference.to.clone_from(&predictions[0]);
-            }
-        }
-        self
-    }
-
     /// The same report of materials that were read from `paths`, the ground truth first, and of the `steps` of a training run: empty, or
     /// `None` for others.
     #[must_use]

@@ -119,17 +119,6 @@ impl MapReport {
             directions: Some((moved, map)),
         })
     }
-
-    /// The same report with other names: the ground truth first, then each prediction.
-    #[must_use]
-    pub fn renamed(mut self, names: &[String]) -> Self {
-        let Some((ground_truth, predictions)) = names.split_first() else { return self };
-        self.compared.ground_truth.clone_from(ground_truth);
-        for (entry, name) in self.results.iter_mut().zip(predictions) {
-            entry.prediction.clone_from(name);
-        }
-        self
-    }
 }
 
 fn names(comparison: &Comparison<'_, f32>) -> impl Iterator<Item = String> {

@@ -44,40 +44,23 @@ impl Cell {
     }
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
+macro_rules! cells_of {
+    ($($from:ty, $value:ident => $cell:expr;)+) => {
+        $(impl From<$from> for Cell {
+            fn from($value: $from) -> Self {
+                $cell
+            }
+        })+
+    };
 }
 
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        Self::Text(text)
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(number: usize) -> Self {
-        Self::Integer(number as u64)
-    }
-}
-
-impl From<u64> for Cell {
-    fn from(number: u64) -> Self {
-        Self::Integer(number)
-    }
-}
-
-impl From<f64> for Cell {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
-    }
-}
-
-impl From<bool> for Cell {
-    fn from(truth: bool) -> Self {
-        Self::Truth(truth)
-    }
+cells_of! {
+    &str, text => Self::Text(text.to_owned());
+    String, text => Self::Text(text);
+    usize, number => Self::Integer(number as u64);
+    u64, number => Self::Integer(number);
+    f64, number => Self::Number(number);
+    bool, truth => Self::Truth(truth);
 }
 
 impl<T: Into<Self>> From<Option<T>> for Cell {
