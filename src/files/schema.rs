@@ -12,8 +12,11 @@ use crate::capture::CaptureReport;
 use crate::dataset::DatasetReport;
 use crate::photograph::PhotoReport;
 
+/// The name of a report, and its schema.
+pub type ReportSchema = (&'static str, fn() -> Schema);
+
 /// The schema of each report by its name: that of its command, `capture` for `photo --capture`, `dataset` for `rank --dataset`.
-pub const REPORTS: [(&str, fn() -> Schema); 11] = [
+pub const REPORTS: [ReportSchema; 11] = [
     ("loss", of::<LossReport>),
     ("rank", of::<RankReport>),
     ("blame", of::<BlameReport>),
