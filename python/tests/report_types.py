@@ -29,12 +29,6 @@ WITH_ARRAYS = ("MapReport", "PhotoReport")
 """The package adds their arrays."""
 
 
-def schemas(program: str) -> dict[str, Any]:
-    """The schema of each report by its name."""
-    found: dict[str, Any] = json.loads(subprocess.run([program, "schema"], check=True, capture_output=True).stdout)
-    return found
-
-
 def module(program: str) -> str:
     """The module of the types; a class stands before those that have it."""
     classes: dict[str, str] = {}
@@ -47,7 +41,8 @@ def module(program: str) -> str:
         if classes.setdefault(name, text) != text:
             raise ValueError(f"two classes are called {name}")
 
-    for schema in schemas(program).values():
+    printed = subprocess.run([program, "schema"], check=True, capture_output=True).stdout
+    for schema in json.loads(printed).values():
         add(schema["title"], schema, schema.get("$defs", {}), "Report")
     names = "".join(f'    "{name}",\n' for name in sorted(classes) if name not in WITH_ARRAYS)
     return "\n\n".join([f"{HEAD}\n__all__ = [\n{names}]\n", *classes.values()])

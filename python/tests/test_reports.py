@@ -44,12 +44,11 @@ CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
         lambda gt, p: svbrdf.loss(gt, p, scenes=svbrdf.named_scenes("flash", fov=30)),
     ),
     "metrics of a protocol": (["--protocol", "matfusion"], lambda gt, p: svbrdf.metrics(gt, p, protocol="matfusion")),
-    "photo": (["--flash", "--fov", "45", "--falloff"], lambda photo, p: photo_of(photo, p)),
+    "photo": (
+        ["--flash", "--fov", "45", "--falloff"],
+        lambda photo, p: svbrdf.photo(photo, p, flash=True, fov=45.0, falloff=True),
+    ),
 }
-
-
-def photo_of(photo: Path, materials: list[Path]) -> svbrdf.PhotoReport:
-    return svbrdf.photo(photo, materials, flash=True, fov=45.0, falloff=True)
 
 
 @pytest.fixture(scope="module")
@@ -136,12 +135,8 @@ def test_metrics_over_scenes_have_intervals_and_a_finite_exposure(materials: Mat
 
 def printed(program: str, case: str, materials: Materials, output: str) -> str:
     first, others = arguments(case, materials)
-    command = [program, case.split()[0], str(first), *map_to_text(others), *CASES[case][0], "--format", output]
+    command = [program, case.split()[0], str(first), *map(str, others), *CASES[case][0], "--format", output]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
-
-
-def map_to_text(paths: list[Path]) -> list[str]:
-    return [str(path) for path in paths]
 
 
 def without_repetition(text: str) -> str:
@@ -238,7 +233,7 @@ def test_a_map_over_texels_has_the_mean_of_the_loss_and_the_csv_of_the_command_l
         assert values.mean() == pytest.approx(summary.mean, rel=1e-6) == pytest.approx(loss.loss, rel=1e-5)
         assert summary.row is not None
         assert values[summary.row, summary.column].mean() == pytest.approx(summary.largest, rel=1e-6)
-    command = [program, "map", str(ground_truth), *map_to_text(predictions), "-o", str(tmp_path / "map.csv")]
+    command = [program, "map", str(ground_truth), *map(str, predictions), "-o", str(tmp_path / "map.csv")]
     ended = subprocess.run([*command, "--near", "4", "--distant", "2"], check=True, capture_output=True, text=True)
     assert problems(program, "map", report.to_dict()) == []
     assert str(report) + "\n" == ended.stdout
@@ -259,7 +254,7 @@ def test_a_map_over_directions_is_that_of_the_command_line(
         assert np.nanmean(values) == pytest.approx(summary.mean, rel=1e-12)
         assert np.nanmax(values) == summary.largest
         assert (np.isnan(values) == ~inside).all()
-    command = [program, "map", str(ground_truth), *map_to_text(predictions), "-o", str(tmp_path / "map.csv")]
+    command = [program, "map", str(ground_truth), *map(str, predictions), "-o", str(tmp_path / "map.csv")]
     options = ["--over", over, "--side", "12", "--fixed", "0.2,0.1,1"]
     ended = subprocess.run([*command, *options], check=True, capture_output=True, text=True)
     assert problems(program, "map", report.to_dict()) == []
@@ -332,7 +327,7 @@ def test_a_capture_is_that_of_the_command_line(program: str, materials: Material
     assert [(means.photographs, means.count) for means in right.means] == [("fitted", 5), ("held out", 1)]
     assert report.photographs[5].held_out
     assert report.scenes[1].light == (-0.3, 0.1, 2.0)
-    command = [program, "photo", "--capture", str(captured), *map_to_text(paths), "--hold-out", "5"]
+    command = [program, "photo", "--capture", str(captured), *map(str, paths), "--hold-out", "5"]
     printed = {
         output: subprocess.run([*command, "--format", output], check=True, capture_output=True, text=True).stdout
         for output in ("text", "json", "csv")

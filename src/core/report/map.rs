@@ -133,6 +133,11 @@ fn roles(moved: Endpoint) -> [&'static str; 2] {
     }
 }
 
+/// A prediction, a direction, and the loss there with its standard error.
+type DirectionRow<'a> = (&'a str, [f64; 3], [f64; 2]);
+/// A prediction, the column and row of a texel, and its loss in each channel.
+type TexelRow<'a> = (&'a str, [usize; 2], [f32; 3]);
+
 impl Report for MapReport {
     fn text(&self) -> String {
         let start: [Column<'_, &MapSummary, String>; 3] = [
@@ -158,34 +163,41 @@ impl Report for MapReport {
     fn table(&self) -> Table {
         match &self.directions {
             Some((_, map)) => {
-                let columns = ["prediction", "x", "y", "z", "loss", "standard_error"];
-                Table::new(
-                    columns,
-                    self.results.iter().enumerate().flat_map(|(p, entry)| of_map(p, entry, map)),
-                )
+                let columns: [Column<'_, DirectionRow<'_>>; 6] = [
+                    ("prediction", |(prediction, ..)| (*prediction).into()),
+                    ("x", |(_, direction, _)| direction[0].into()),
+                    ("y", |(_, direction, _)| direction[1].into()),
+                    ("z", |(_, direction, _)| direction[2].into()),
+                    ("loss", |(.., [loss, _])| (*loss).into()),
+                    ("standard_error", |(.., [_, error])| (*error).into()),
+                ];
+                let all = self.results.iter().zip(&map.losses).zip(&map.standard_errors);
+                let rows = all.flat_map(|((summary, losses), errors)| {
+                    let cells = map.directions.iter().zip(losses).zip(errors);
+                    let row = |((direction, &loss), &error): ((&Option<[f64; 3]>, _), _)| {
+                        Some((summary.prediction.as_str(), (*direction)?, [loss, error]))
+                    };
+                    cells.filter_map(row)
+                });
+                Table::of(&columns, rows)
             }
             None => {
-                let columns = ["prediction", "column", "row", "red", "green", "blue"];
-                let all = self.results.iter().zip(&self.images);
-                Table::new(columns, all.flat_map(|(entry, image)| of_image(entry, image)))
+                let columns: [Column<'_, TexelRow<'_>>; 6] = [
+                    ("prediction", |(prediction, ..)| (*prediction).into()),
+                    ("column", |(_, [column, _], _)| (*column).into()),
+                    ("row", |(_, [_, row], _)| (*row).into()),
+                    ("red", |(.., [red, _, _])| Cell::Single(*red)),
+                    ("green", |(.., [_, green, _])| Cell::Single(*green)),
+                    ("blue", |(.., [_, _, blue])| Cell::Single(*blue)),
+                ];
+                let rows = self.results.iter().zip(&self.images).flat_map(|(summary, image)| {
+                    let all = image.pixels.iter().enumerate();
+                    all.map(|(at, pixel)| {
+                        (summary.prediction.as_str(), [at % image.width, at / image.width], *pixel)
+                    })
+                });
+                Table::of(&columns, rows)
             }
         }
     }
-}
-
-/// The rows of the directions of the prediction with index `index`.
-fn of_map(index: usize, entry: &MapSummary, map: &Hemisphere) -> impl Iterator<Item = Vec<Cell>> {
-    let cells = map.directions.iter().zip(&map.losses[index]).zip(&map.standard_errors[index]);
-    cells.filter_map(|((direction, &loss), &error)| {
-        let numbers = (*direction)?.into_iter().chain([loss, error]).map(Cell::from);
-        Some([entry.prediction.as_str().into()].into_iter().chain(numbers).collect())
-    })
-}
-
-/// The rows of the texels of a prediction.
-fn of_image(entry: &MapSummary, image: &Image<f32>) -> impl Iterator<Item = Vec<Cell>> {
-    image.pixels.iter().enumerate().map(|(at, pixel)| {
-        let start = [entry.prediction.as_str().into(), (at % image.width).into(), (at / image.width).into()];
-        start.into_iter().chain(pixel.map(Cell::Single)).collect()
-    })
 }

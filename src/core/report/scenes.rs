@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, position, scenes_line};
-use super::table::{Cell, Table, aligned};
+use super::table::{Cell, Column, Table, aligned};
 use crate::loss::Outcome;
 use crate::model::scene::Scene;
 use crate::why::{Distribution, worst_first};
@@ -66,25 +66,6 @@ impl ScenesReport {
             indices: ranked.iter().map(|ranked| ranked.index).collect(),
         }
     }
-
-    /// The titles `start`, then the predictions.
-    fn columns(&self, start: &[&str]) -> Vec<String> {
-        let names = self.results.iter().map(|result| result.prediction.as_str());
-        start.iter().copied().chain(names).map(str::to_owned).collect()
-    }
-
-    /// A row for each scene: what `start` gives for its number, then what `loss` gives for each loss.
-    fn rows<C, const N: usize>(
-        &self,
-        start: impl Fn(usize, &Scene) -> [C; N],
-        loss: impl Fn(f64) -> C,
-    ) -> Vec<Vec<C>> {
-        let row = |(k, (&index, scene)): (usize, (&usize, &Scene))| {
-            let losses = self.results.iter().map(|result| loss(result.losses[k]));
-            start(index, scene).into_iter().chain(losses).collect()
-        };
-        self.indices.iter().zip(&self.scenes).enumerate().map(row).collect()
-    }
 }
 
 fn distribution(prediction: &str, d: &Distribution) -> String {
@@ -98,20 +79,33 @@ fn distribution(prediction: &str, d: &Distribution) -> String {
 
 impl Report for ScenesReport {
     fn text(&self) -> String {
-        let start = |index: usize, scene: &Scene| {
-            [index.to_string(), scene.kind.to_string(), position(scene.view), position(scene.light)]
-        };
-        let mut rows = vec![self.columns(&["scene", "kind", "view", "light"])];
-        rows.extend(self.rows(start, |loss| format!("{loss:.6}")));
+        let names = self.results.iter().map(|result| result.prediction.as_str());
+        let titles: Vec<_> = ["scene", "kind", "view", "light"].into_iter().chain(names).collect();
+        let mut rows = vec![titles.into_iter().map(str::to_owned).collect::<Vec<_>>()];
+        rows.extend(self.indices.iter().zip(&self.scenes).enumerate().map(|(k, (index, scene))| {
+            let start =
+                [index.to_string(), scene.kind.to_string(), position(scene.view), position(scene.light)];
+            let losses = self.results.iter().map(|result| format!("{:.6}", result.losses[k]));
+            start.into_iter().chain(losses).collect()
+        }));
         format!("{}\n{}", self.heading, aligned(&rows))
     }
 
     fn table(&self) -> Table {
-        let start = ["scene", "kind", "view_x", "view_y", "view_z", "light_x", "light_y", "light_z"];
-        let cells = |index: usize, &Scene { kind, view: [x, y, z], light: [a, b, c] }: &Scene| {
-            let [x, y, z, a, b, c] = [x, y, z, a, b, c].map(Cell::from);
-            [index.into(), kind.to_string().into(), x, y, z, a, b, c]
-        };
-        Table::new(self.columns(&start), self.rows(cells, Cell::from))
+        let columns: [Column<'_, (&usize, &Scene)>; 8] = [
+            ("scene", |(index, _)| (**index).into()),
+            ("kind", |(_, scene)| scene.kind.to_string().into()),
+            ("view_x", |(_, scene)| scene.view[0].into()),
+            ("view_y", |(_, scene)| scene.view[1].into()),
+            ("view_z", |(_, scene)| scene.view[2].into()),
+            ("light_x", |(_, scene)| scene.light[0].into()),
+            ("light_y", |(_, scene)| scene.light[1].into()),
+            ("light_z", |(_, scene)| scene.light[2].into()),
+        ];
+        let mut table = Table::of(&columns, self.indices.iter().zip(&self.scenes));
+        for result in &self.results {
+            table.push(result.prediction.clone(), result.losses.iter().map(|&loss| Cell::from(loss)));
+        }
+        table
     }
 }

@@ -107,6 +107,14 @@ impl Table {
         Self::new(columns.iter().map(|(name, _)| *name), rows.into_iter().map(cells))
     }
 
+    /// Adds a column with a cell for each row.
+    pub fn push(&mut self, column: String, cells: impl IntoIterator<Item = Cell>) {
+        self.columns.push(column);
+        for (row, cell) in self.rows.iter_mut().zip(cells) {
+            row.push(cell);
+        }
+    }
+
     /// The table as CSV (RFC 4180) with a heading; an unknown value is an empty cell.
     ///
     /// # Errors
