@@ -24,6 +24,7 @@ mod read;
 mod report;
 mod results;
 mod scenes;
+mod schema;
 mod session;
 mod sidecar;
 mod steps;
@@ -139,8 +140,4 @@ fn json(text: &str) -> Value {
 
 fn losses_as_json(folder: &Path, args: &str) -> Value {
     json(&succeed(folder, &format!("loss {args} --format json")))
-}
-
-fn keys(object: &Value) -> Vec<&str> {
-    object.as_object().unwrap().keys().map(String::as_str).collect()
 }

@@ -3,11 +3,10 @@
 use std::time::Duration;
 
 use pyo3::prelude::*;
-use svbrdf_core::loss::{Outcome, Question, Request, SceneChoice};
+use svbrdf_core::loss::{Question, Request, SceneChoice};
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_core::report::Compared;
 
 use crate::errors::exception;
 use crate::material::CoreMaterial;
@@ -76,30 +75,23 @@ impl Asked {
         Ok(self.question()?.request)
     }
 
-    /// The first lines of a report on comparisons with `ground_truth`.
-    pub fn compared<T: Real>(&self, ground_truth: &Material<T>, convention: &Convention) -> Compared {
-        let compared = Compared::new(ground_truth, convention);
-        Compared { ground_truth: self.names.first().cloned().unwrap_or_default(), ..compared }
+    /// The ground truth and the predictions of a comparison as the report calls them: each as `of` takes it from Python.
+    pub fn materials<T: Real>(
+        &self,
+        ground_truth: &CoreMaterial,
+        predictions: &[PyRef<'_, CoreMaterial>],
+        of: impl Fn(&CoreMaterial) -> Material<T>,
+    ) -> Vec<Material<T>> {
+        let all = std::iter::once(ground_truth).chain(predictions.iter().map(|prediction| &**prediction));
+        all.zip(&self.names).map(|(material, name)| of(material).renamed(name)).collect()
     }
 
-    /// The names of the predictions.
-    pub fn predictions(&self) -> &[String] {
-        self.names.get(1..).unwrap_or_default()
+    /// [`Asked::materials`] in f32.
+    pub fn singles(
+        &self,
+        ground_truth: &CoreMaterial,
+        predictions: &[PyRef<'_, CoreMaterial>],
+    ) -> Vec<Material<f32>> {
+        self.materials(ground_truth, predictions, CoreMaterial::single)
     }
-
-    /// The outcome with the names of the predictions.
-    pub fn named(&self, mut outcome: Outcome) -> Outcome {
-        for (loss, name) in outcome.losses.iter_mut().zip(self.predictions()) {
-            loss.prediction.clone_from(name);
-        }
-        outcome
-    }
-}
-
-/// The ground truth and the predictions of a comparison in f32: copies only of those in f64.
-pub fn singles<'a>(
-    ground_truth: &'a CoreMaterial,
-    predictions: &'a [PyRef<'_, CoreMaterial>],
-) -> Vec<std::borrow::Cow<'a, Material<f32>>> {
-    std::iter::once(ground_truth).chain(predictions.iter().map(|p| &**p)).map(CoreMaterial::single).collect()
 }

@@ -25,14 +25,6 @@ pub struct CaptureAsked {
     convention: String,
 }
 
-/// The comparison with a capture.
-#[derive(Debug, IntoPyObject)]
-pub struct CaptureItems {
-    views: Views,
-    /// What reading the photographs noticed, each with the name of its photograph.
-    notes: Vec<String>,
-}
-
 impl CaptureAsked {
     fn setting(&self) -> PyResult<CaptureSetting> {
         let transfer = self.transfer.as_deref().map(str::parse).transpose().map_err(exception)?;
@@ -52,21 +44,10 @@ pub fn capture(
     materials: Vec<PyRef<'_, CoreMaterial>>,
     asked: CaptureAsked,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<CaptureItems> {
+) -> PyResult<Views> {
     let setting = asked.setting()?;
-    let outside = setting.capture.outside().map(|file| {
-        format!(
-            "{} lies outside of the folder of {}, which names it",
-            file.display(),
-            setting.capture.file.display()
-        )
-    });
-    let mut notes: Vec<String> = outside.collect();
     let materials: Vec<_> = materials.iter().map(|material| material.single()).collect();
-    let named = asked.names.iter().zip(&materials).map(|(name, material)| (name.as_str(), &**material));
+    let named = asked.names.iter().zip(&materials).map(|(name, material)| (name.as_str(), material));
     let report = work::run(py, progress, |progress| CaptureReport::new(setting, named, progress))?;
-    for read in &report.photographs {
-        notes.extend(read.notes.iter().map(|note| format!("{}: {note}", read.name)));
-    }
-    Ok(CaptureItems { views: Views::new(&report)?, notes })
+    Views::new(&report)
 }

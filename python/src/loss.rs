@@ -1,15 +1,14 @@
 //! The rendering loss, and rankings by it.
 
-use std::borrow::Cow;
 use std::str::FromStr;
 
 use pyo3::prelude::*;
 use svbrdf_core::loss::{Comparison, Compute, Precision, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::rank::most_scenes;
-use svbrdf_core::report::{LossReport, RankReport};
+use svbrdf_core::report::{Compared, LossReport, RankReport};
 
-use crate::asked::{Asked, singles};
+use crate::asked::Asked;
 use crate::errors::exception;
 use crate::material::CoreMaterial;
 use crate::report::Views;
@@ -25,33 +24,30 @@ pub fn loss(
     asked: Asked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let materials = std::iter::once(ground_truth).chain(predictions.iter().map(|p| &**p));
     let report = match Precision::from_str(&asked.precision).map_err(exception)? {
-        Precision::F32 => {
-            answer(py, &asked, &materials.map(CoreMaterial::single).collect::<Vec<_>>(), progress)
-        }
+        Precision::F32 => answer(py, &asked, &asked.singles(ground_truth, &predictions), progress),
         Precision::F64 => {
-            answer(py, &asked, &materials.map(CoreMaterial::double).collect::<Vec<_>>(), progress)
+            let materials = asked.materials(ground_truth, &predictions, CoreMaterial::double);
+            answer(py, &asked, &materials, progress)
         }
     }?;
-    Views::new(&LossReport { paths: asked.paths, ..report.renamed(&asked.names) })
+    Views::new(&report.read_from(asked.paths, Vec::new()))
 }
 
 /// The answer for the first of `materials` as the ground truth and the others as predictions.
 fn answer<T: Compute>(
     py: Python<'_>,
     asked: &Asked,
-    materials: &[Cow<'_, Material<T>>],
+    materials: &[Material<T>],
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<LossReport> {
     let question = asked.question()?;
-    let all: Vec<_> = materials.iter().map(|material| &**material).collect();
-    let comparison = Comparison::new(all[0], &all[1..], asked.convention()?).map_err(exception)?;
+    let predictions: Vec<_> = materials[1..].iter().collect();
+    let comparison = Comparison::new(&materials[0], &predictions, asked.convention()?).map_err(exception)?;
     work::run(py, progress, |progress| LossReport::answer(&comparison, &question, progress))
 }
 
-/// The ranking of `predictions` against `ground_truth`, and the index of each in its order; `repeats` are further captures of the
-/// ground truth.
+/// The ranking of `predictions` against `ground_truth`; `repeats` are further captures of the ground truth.
 #[pyfunction]
 pub fn rank(
     py: Python<'_>,
@@ -61,17 +57,17 @@ pub fn rank(
     target_error: f64,
     repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(Views, Vec<usize>)> {
-    let (convention, materials) = (asked.convention()?, singles(ground_truth, &predictions));
-    let all: Vec<_> = materials.iter().map(|material| &**material).collect();
+) -> PyResult<Views> {
+    let (convention, materials) = (asked.convention()?, asked.singles(ground_truth, &predictions));
+    let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?;
     let comparison = comparison.at_most(most_scenes(predictions.len()));
     let request = Request::Accuracy { target: target_error, seed: asked.seed };
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
-    let mut report = RankReport::new(asked.compared(all[0], &convention), target_error, asked.named(outcome));
+    let mut report = RankReport::new(Compared::new(all[0], &convention), target_error, &outcome);
     if ground_truth.storage.has_steps() || !repeats.is_empty() {
         let (floor, captures) = floor_of(py, (ground_truth, &repeats), &convention, asked.seed, progress)?;
-        report = report.with_floor(floor, captures);
+        report = report.with_floor(&floor, captures);
     }
-    Ok((Views::new(&report)?, report.places.iter().map(|place| place.index).collect()))
+    Views::new(&report)
 }

@@ -1,6 +1,5 @@
 //! Materials: from arrays, to arrays and pictures.
 
-use std::borrow::Cow;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -136,18 +135,18 @@ pub fn double(material: Material<f64>, storage: Storage) -> CoreMaterial {
 
 impl CoreMaterial {
     /// The material in f32: a copy only where it is in f64.
-    pub fn single(&self) -> Cow<'_, Material<f32>> {
+    pub fn single(&self) -> Material<f32> {
         match &self.values {
-            Values::F32(material) => Cow::Borrowed(material),
-            Values::F64(material) => Cow::Owned(material.cast()),
+            Values::F32(material) => material.clone(),
+            Values::F64(material) => material.cast(),
         }
     }
 
     /// The material in f64: a copy only where it is in f32.
-    pub fn double(&self) -> Cow<'_, Material<f64>> {
+    pub fn double(&self) -> Material<f64> {
         match &self.values {
-            Values::F32(material) => Cow::Owned(material.cast()),
-            Values::F64(material) => Cow::Borrowed(material),
+            Values::F32(material) => material.cast(),
+            Values::F64(material) => material.clone(),
         }
     }
 }

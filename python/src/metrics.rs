@@ -7,10 +7,10 @@ use pyo3::prelude::*;
 use svbrdf_core::loss::{Request, check_same_size};
 use svbrdf_core::metrics::{RenderedScenes, of_maps, of_matfusion, of_renderings};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::report::MetricsReport;
+use svbrdf_core::report::{Compared, MetricsReport};
 use svbrdf_files::read;
 
-use crate::asked::{Asked, singles};
+use crate::asked::Asked;
 use crate::errors::exception;
 use crate::material::{CoreMaterial, read_options};
 use crate::report::Views;
@@ -38,16 +38,16 @@ pub fn metrics(
         convention: &convention,
         exposure_ev: exposure,
     };
-    let all = singles(ground_truth, &predictions);
+    let all = asked.singles(ground_truth, &predictions);
     let mut results = Vec::new();
-    for (prediction, name) in all[1..].iter().zip(asked.predictions()) {
+    for prediction in &all[1..] {
         let metrics = work::run(py, progress, |progress| {
             let of_renderings = of_renderings(&all[0], prediction, &rendered, progress)?;
             Ok([of_maps(&all[0], prediction)?, of_renderings].concat())
         })?;
-        results.push((name.clone(), metrics));
+        results.push((prediction.name().to_owned(), metrics));
     }
-    let compared = asked.compared(&all[0], &convention);
+    let compared = Compared::new(&all[0], &convention);
     Views::new(&MetricsReport::new(&compared, sampling.as_ref(), &rendered, results))
 }
 
@@ -62,9 +62,10 @@ pub fn matfusion(
     options: Vec<Option<String>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let truth = ground_truth.double();
-    for prediction in &predictions {
-        check_same_size(&truth, &prediction.double()).map_err(exception)?;
+    let materials = asked.materials(ground_truth, &predictions, CoreMaterial::double);
+    let truth = &materials[0];
+    for prediction in &materials[1..] {
+        check_same_size(truth, prediction).map_err(exception)?;
     }
     let stored = |source: (&Option<String>, &Option<String>)| match source {
         (Some(path), Some(options)) => {
@@ -80,10 +81,10 @@ pub fn matfusion(
     };
     let planes = asked.paths.iter().zip(&options).map(stored).collect::<PyResult<Vec<_>>>()?;
     let mut results = Vec::new();
-    for (prediction, name) in planes[1..].iter().zip(asked.predictions()) {
+    for (planes_of, prediction) in planes[1..].iter().zip(&materials[1..]) {
         let metrics =
-            work::run(py, progress, |progress| of_matfusion(&planes[0], prediction, truth.size(), progress))?;
-        results.push((name.clone(), metrics));
+            work::run(py, progress, |progress| of_matfusion(&planes[0], planes_of, truth.size(), progress))?;
+        results.push((prediction.name().to_owned(), metrics));
     }
     Views::new(&MetricsReport::matfusion(truth.name(), truth.size(), results))
 }

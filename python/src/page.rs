@@ -12,7 +12,7 @@ use svbrdf_files::atomic::write_text;
 use svbrdf_files::page::{Findings, Repetition, Report, View, check_destination, exposure};
 use svbrdf_files::session_window::Display;
 
-use crate::asked::{Asked, singles};
+use crate::asked::Asked;
 use crate::errors::exception;
 use crate::material::CoreMaterial;
 use crate::model::SceneTuple;
@@ -60,9 +60,7 @@ pub fn page(
     let view = of_page.view()?;
     let request = of_page.call.is_some().then(|| asked.request()).transpose()?;
     let convention = asked.convention()?;
-    let materials = singles(ground_truth, &predictions).into_iter().zip(&asked.names);
-    let materials: Vec<_> =
-        materials.map(|(material, name)| material.into_owned().renamed(name.clone())).collect();
+    let materials = asked.singles(ground_truth, &predictions);
     work::run(py, progress, |progress| {
         let findings = match (materials.as_slice(), &request) {
             ([ground_truth, predictions @ ..], Some(request)) if !predictions.is_empty() => {

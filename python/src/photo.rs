@@ -39,10 +39,8 @@ pub struct PhotoAsked {
 #[derive(Debug, IntoPyObject)]
 pub struct PhotoItems<'py> {
     views: Views,
-    /// What reading the photograph noticed.
-    notes: Vec<String>,
-    /// In the order of the results: height x width x 3 in f32, NaN where the photograph is clipped.
-    differences: Vec<Bound<'py, PyByteArray>>,
+    /// In the order of the results, (width, height) and height x width x 3 in f32, NaN where the photograph is clipped.
+    differences: Vec<([usize; 2], Bound<'py, PyByteArray>)>,
 }
 
 impl PhotoAsked {
@@ -78,7 +76,6 @@ pub fn photo<'py>(
     let transfer = asked.transfer.as_deref().map(str::parse).transpose().map_err(exception)?;
     let options = PhotographOptions { transfer, clip: asked.clip, light_colour: None };
     let photograph = work::run(py, None, |_| read_photograph(&asked.photo, &options))?;
-    let notes = photograph.notes.iter().map(ToString::to_string).collect();
     let setting = PhotoSetting {
         name: asked.photo.display().to_string(),
         corners: asked.corners.map_or_else(|| Corners::whole(photograph.size()), Corners),
@@ -88,11 +85,12 @@ pub fn photo<'py>(
         convention,
     };
     let materials: Vec<_> = materials.iter().map(|material| material.single()).collect();
-    let named = asked.names.iter().zip(&materials).map(|(name, material)| (name.as_str(), &**material));
+    let named = asked.names.iter().zip(&materials).map(|(name, material)| (name.as_str(), material));
     let report = work::run(py, progress, |progress| PhotoReport::new(setting, named, progress))?;
     let differences = report.results.iter().map(|result| {
         let image = result.compared.difference(kind);
-        arrays::bytes(py, 3 * image.pixels.len(), image.pixels.into_iter().flatten())
+        let size = [image.width, image.height];
+        Ok((size, arrays::bytes(py, 3 * image.pixels.len(), image.pixels.into_iter().flatten())?))
     });
-    Ok(PhotoItems { views: Views::new(&report)?, notes, differences: differences.collect::<PyResult<_>>()? })
+    Ok(PhotoItems { views: Views::new(&report)?, differences: differences.collect::<PyResult<_>>()? })
 }

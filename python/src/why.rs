@@ -1,10 +1,8 @@
 //! Causes of a loss: maps, scenes, texels and directions.
 
-use std::borrow::Cow;
-
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use svbrdf_core::diagnose::{self as diagnosis, Diagnosis};
+use svbrdf_core::diagnose as diagnosis;
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::material::Material;
@@ -15,27 +13,26 @@ use svbrdf_core::report::{BlameReport, Compared, DiagnoseReport, MapReport, Scen
 use svbrdf_core::why;
 
 use crate::arrays;
-use crate::asked::{Asked, singles};
+use crate::asked::Asked;
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
 use crate::report::Views;
 use crate::work;
 
 /// A question that is asked of each prediction alone.
-struct Each<'a> {
+struct Each {
     convention: Convention,
     /// The ground truth first.
-    materials: Vec<Cow<'a, Material<f32>>>,
-    asked: &'a Asked,
+    materials: Vec<Material<f32>>,
 }
 
-impl<'a> Each<'a> {
+impl Each {
     fn new(
-        ground_truth: &'a CoreMaterial,
-        predictions: &'a [PyRef<'_, CoreMaterial>],
-        asked: &'a Asked,
+        ground_truth: &CoreMaterial,
+        predictions: &[PyRef<'_, CoreMaterial>],
+        asked: &Asked,
     ) -> PyResult<Self> {
-        Ok(Self { convention: asked.convention()?, materials: singles(ground_truth, predictions), asked })
+        Ok(Self { convention: asked.convention()?, materials: asked.singles(ground_truth, predictions) })
     }
 
     fn ground_truth(&self) -> &Material<f32> {
@@ -43,22 +40,21 @@ impl<'a> Each<'a> {
     }
 
     fn compared(&self) -> Compared {
-        self.asked.compared(self.ground_truth(), &self.convention)
+        Compared::new(self.ground_truth(), &self.convention)
     }
 
-    /// What `answer` computes for each prediction by its index, and its name.
+    /// What `answer` computes for each prediction by its index.
     fn answers<T: Send>(
         &self,
         py: Python<'_>,
         progress: Option<&Bound<'_, PyAny>>,
         answer: impl Fn(usize, &Material<f32>, &Progress) -> Result<T, CoreError> + Sync,
-    ) -> PyResult<Vec<(String, T)>> {
-        let named = self.materials[1..].iter().zip(self.asked.predictions()).enumerate();
-        let one = |(index, (prediction, name)): (usize, (&Cow<'a, Material<f32>>, &String))| {
-            let found = work::run(py, progress, |progress| answer(index, prediction, progress))?;
-            Ok((name.clone(), found))
+    ) -> PyResult<Vec<T>> {
+        let all = self.materials[1..].iter().enumerate();
+        let one = |(index, prediction): (usize, &Material<f32>)| {
+            work::run(py, progress, |progress| answer(index, prediction, progress))
         };
-        named.map(one).collect()
+        all.map(one).collect()
     }
 }
 
@@ -72,11 +68,9 @@ pub fn blame(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
     let (each, request) = (Each::new(ground_truth, &predictions, &asked)?, asked.request()?);
-    let found = each.answers(py, progress, |_, prediction, progress| {
+    let attributions = each.answers(py, progress, |_, prediction, progress| {
         why::attribute(each.ground_truth(), prediction, &each.convention, &request, progress)
     })?;
-    let attributions =
-        found.into_iter().map(|(prediction, found)| why::Attribution { prediction, ..found }).collect();
     Views::new(&BlameReport::new(each.compared(), &request, attributions))
 }
 
@@ -91,17 +85,16 @@ pub fn diagnose(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
     let each = Each::new(ground_truth, &predictions, &asked)?;
-    let (floor, captures) = floor_of(py, (ground_truth, &repeats), &each.convention, asked.seed, progress)?;
+    let floor = floor_of(py, (ground_truth, &repeats), &each.convention, asked.seed, progress)?;
     let storages: Vec<_> = predictions.iter().map(|prediction| &prediction.storage).collect();
     let of_truth = &ground_truth.storage;
-    let found = each.answers(py, progress, |index, prediction, progress| {
+    let diagnoses = each.answers(py, progress, |index, prediction, progress| {
         let (pair, storages) = ([each.ground_truth(), prediction], [of_truth, storages[index]]);
-        diagnosis::diagnose(pair, storages, &each.convention, floor.mean, asked.seed, progress)
+        diagnosis::diagnose(pair, storages, &each.convention, floor.0.mean, asked.seed, progress)
     })?;
-    let diagnoses = found.into_iter().map(|(prediction, found)| Diagnosis { prediction, ..found }).collect();
     let seams = diagnosis::seams(each.ground_truth());
     let compared = each.compared();
-    Views::new(&DiagnoseReport { compared, seed: asked.seed, floor, captures, seams, diagnoses })
+    Views::new(&DiagnoseReport::new(compared, asked.seed, floor, seams, diagnoses))
 }
 
 /// The loss that a ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of
@@ -121,7 +114,7 @@ pub fn floor_of(
         let floor = |progress: &Progress| diagnosis::floor(&truth, storage, convention, seed, progress);
         return Ok((work::run(py, progress, floor)?, None));
     }
-    let repeats: Vec<Material<f32>> = repeats.iter().map(|repeat| repeat.single().into_owned()).collect();
+    let repeats: Vec<Material<f32>> = repeats.iter().map(|repeat| repeat.single()).collect();
     let floor =
         |progress: &Progress| diagnosis::floor_of_captures(&truth, &repeats, convention, seed, progress);
     Ok((work::run(py, progress, floor)?, Some(1 + repeats.len())))
@@ -140,8 +133,7 @@ pub fn worst(
     let found = each.answers(py, progress, |_, prediction, progress| {
         why::worst(each.ground_truth(), prediction, &each.convention, asked.seed, why::TAIL, progress)
     })?;
-    let found = found.into_iter().map(|(prediction, found)| why::Worst { prediction, ..found }).collect();
-    Views::new(&WorstReport { compared: each.compared(), tail: why::TAIL, found })
+    Views::new(&WorstReport::new(each.compared(), why::TAIL, found))
 }
 
 /// The `top` scenes with the largest losses.
@@ -155,12 +147,11 @@ pub fn scenes(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
     let (convention, request) = (asked.convention()?, asked.request()?);
-    let materials = singles(ground_truth, &predictions);
-    let all: Vec<_> = materials.iter().map(|material| &**material).collect();
+    let materials = asked.singles(ground_truth, &predictions);
+    let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?.without_pilot();
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
-    let compared = asked.compared(all[0], &convention);
-    Views::new(&ScenesReport::new(compared, asked.named(outcome)).top(top))
+    Views::new(&ScenesReport::new(Compared::new(all[0], &convention), &outcome, top))
 }
 
 /// The axes of a map over directions.
@@ -195,8 +186,8 @@ pub fn map<'py>(
     over: Option<DirectionsAsked>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<MapItems<'py>> {
-    let (convention, materials) = (asked.convention()?, singles(ground_truth, &predictions));
-    let all: Vec<_> = materials.iter().map(|material| &**material).collect();
+    let (convention, materials) = (asked.convention()?, asked.singles(ground_truth, &predictions));
+    let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?.without_pilot();
     let report = match over {
         None => {
@@ -208,7 +199,6 @@ pub fn map<'py>(
             work::run(py, progress, |p| MapReport::over_directions(&comparison, moved, fixed, side, p))
         }
     }?;
-    let report = report.renamed(&asked.names);
     let views = Views::without_rows(&report)?;
     let Some((_, map)) = &report.directions else {
         let pixels = report

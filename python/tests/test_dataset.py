@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 import svbrdf
 from conftest import maps
+from test_schemas import problems
 
 
 @pytest.fixture
@@ -43,14 +44,22 @@ def ranked(dataset: Path, **options: Any) -> svbrdf.DatasetReport:
     return svbrdf.rank_dataset(dataset / "gt", methods, **{"target_error": 0.05, **options})
 
 
+def predictions(report: svbrdf.DatasetReport) -> list[svbrdf.PredictionResult]:
+    return [prediction for result in report.results for prediction in result.predictions]
+
+
+def loss_of(prediction: svbrdf.PredictionResult) -> float | None:
+    return None if prediction.result.Ok is None else prediction.result.Ok.loss
+
+
 @pytest.mark.parametrize("pick", ["fixed", "mean", "best"])
 def test_a_data_set_has_the_numbers_of_the_command_line(program: str, dataset: Path, pick: Any) -> None:
     found = of_command_line(program, dataset, "--pick", pick)
     report = ranked(dataset, pick=pick)
-    got = json.loads(json.dumps(report.to_dict()))
-    assert got == found
+    assert report.to_dict() == found
+    assert problems(program, "dataset", found) == []
     expected = [p["result"].get("Ok", {}).get("loss") for result in found["results"] for p in result["predictions"]]
-    assert [result.loss for result in report.results] == expected
+    assert [loss_of(prediction) for prediction in predictions(report)] == expected
     # The good method lacks a material: it is not compared.
     assert [(summary.method, summary.compared) for summary in report.methods] == [("bad", True), ("good", False)]
     assert repr(report) + "\n" == text_of_command_line(program, dataset, "--pick", pick)
@@ -63,11 +72,12 @@ def test_a_data_set_has_the_numbers_of_the_command_line(program: str, dataset: P
 def test_the_marks_of_a_data_set_are_those_of_the_command_line(program: str, dataset: Path) -> None:
     found = of_command_line(program, dataset, "--diagnose")
     report = ranked(dataset, diagnose=True)
-    assert json.loads(json.dumps(report.to_dict())) == found
+    assert report.to_dict() == found
+    assert problems(program, "dataset", found) == []
     assert repr(report) + "\n" == text_of_command_line(program, dataset, "--diagnose")
     expected = {entry["method"]: entry["marks"]["marked"] for entry in found["methods"]}
     assert {method.method: method.marks.marked for method in report.methods if method.marks} == expected
-    marks = [result.marks for result in report.results if result.loss is not None]
+    marks = [prediction.marks for prediction in predictions(report) if loss_of(prediction) is not None]
     assert all(mark is not None for mark in marks)
     assert ranked(dataset).methods[0].marks is None
 
@@ -77,11 +87,11 @@ def test_a_broken_file_is_a_result_that_says_why(dataset: Path) -> None:
     report = svbrdf.rank_dataset(
         dataset / "gt", {"ours": dataset / "good"}, target_error=0.1, progress=lambda *counts: seen.append(counts)
     )
-    (failed,) = [result for result in report.results if result.loss is None]
-    assert (failed.material, failed.method) == ("m3", "ours")
-    assert failed.error is not None
-    assert "cannot decode" in failed.error
-    assert "m3.exr" in failed.error
+    (failed,) = [prediction for prediction in predictions(report) if loss_of(prediction) is None]
+    assert failed == report.results[3].predictions[0]
+    assert failed.result.Err is not None
+    assert "cannot decode" in failed.result.Err
+    assert "m3.exr" in failed.result.Err
     assert seen[-1] == (8, 8)
 
 
@@ -99,12 +109,13 @@ def test_doubts_in_reading_are_warned_of_by_method(tmp_path: Path) -> None:
     (summary,) = report.methods
     assert summary.reading is not None
     assert ("without normal map", 1) in [(doubt.doubt, doubt.materials) for doubt in summary.reading.doubts]
-    assert any(remark.startswith("missing: normal") for remark in report.results[0].reading)
+    assert any(remark.text.startswith("missing: normal") for remark in predictions(report)[0].reading)
 
 
 def test_read_options_reach_the_files_and_wrong_ones_are_refused(dataset: Path) -> None:
     def first(**options: Any) -> float | None:
-        return svbrdf.rank_dataset(dataset / "gt", dataset / "bad", target_error=0.1, **options).results[0].loss
+        report = svbrdf.rank_dataset(dataset / "gt", dataset / "bad", target_error=0.1, **options)
+        return loss_of(predictions(report)[0])
 
     assert first(read_predictions={"roughness": "gloss"}) != first()
     with pytest.raises(svbrdf.Error, match="unknown variant"):
@@ -121,12 +132,12 @@ def test_read_options_reach_the_files_and_wrong_ones_are_refused(dataset: Path) 
 def test_metrics_are_those_of_the_command_line(program: str, dataset: Path, pick: Any) -> None:
     found = of_command_line(program, dataset, "--pick", pick, "--metrics")
     report = ranked(dataset, pick=pick, metrics=True)
-    got = json.loads(json.dumps(report.to_dict()))
-    assert got == found
+    assert report.to_dict() == found
+    assert problems(program, "dataset", found) == []
     assert repr(report) + "\n" == text_of_command_line(program, dataset, "--pick", pick, "--metrics")
     expected = [prediction for result in found["results"] for prediction in result["predictions"]]
-    assert [dict(result.metrics) for result in report.results] == [p.get("metrics", {}) for p in expected]
-    worse, better = (report.methods[i].metrics["rmse_roughness"] for i in (0, 1))
+    assert [one.metrics for one in predictions(report)] == [p.get("metrics") for p in expected]
+    worse, better = ((report.methods[i].metrics or {})["rmse_roughness"] for i in (0, 1))
     assert worse.mean is not None
     assert better.mean is not None
     assert worse.mean > better.mean > 0

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 import svbrdf
 from conftest import maps
-from svbrdf._table import html_table
 
 HOSTILE = '</table><script>alert(1)</script>\u202e&"'
 
@@ -36,7 +35,7 @@ def test_a_report_has_the_losses_the_call_and_the_readings(tmp_path: Path) -> No
     path, read = tmp_path / "report.html", svbrdf.read(file, normal_y="up", albedo="linear")
     svbrdf.report(ground_truth, read, path, target_error=0.1, seed=3, layout="wipe", exposure=1.5)
     page = path.read_text()
-    loss = svbrdf.loss(ground_truth, read, target_error=0.1, seed=3).loss
+    loss = svbrdf.loss(ground_truth, read, target_error=0.1, seed=3).results[0].loss
     assert f"<td>{loss:.4f}</td>" in page or f"<td>{loss:.3f}</td>" in page
     text = html.unescape(page)
     assert f"svbrdf.report(<svbrdf.Material 'truth'>, [svbrdf.read({str(file)!r}, " in text
@@ -68,17 +67,16 @@ def test_a_figure_is_the_figure_alone_in_a_sandbox() -> None:
 def test_a_table_has_the_numbers_and_escaped_names() -> None:
     report = svbrdf.loss(*pair(), near=2)
     table = report._repr_html_()
-    assert f"<td>{report.loss:.6g}</td>" in table
+    assert f"<td>{report.results[0].loss:.6g}</td>" in table
     assert "<script" not in table
     assert table.count("</table>") == 1
     assert html.escape("</table><script>alert(1)</script>") + "\\u{202e}&amp;&quot;" in table
 
 
-def test_a_table_of_many_rows_says_how_many_are_hidden() -> None:
-    table = html_table("a\nb", ["x", "y"], [[i, None] for i in range(1000)])
-    assert table.count("<tr>") == 61
-    assert "<p>a<br>b</p>" in table
-    assert "940 more rows" in table
+def test_a_table_of_many_rows_is_shown_as_text() -> None:
+    shown = [svbrdf.scenes(*pair(), near=61, distant=0, top=top)._repr_html_() for top in (60, 61)]
+    assert [text.count("<tr>") for text in shown] == [61, 0]
+    assert shown[1].startswith("<pre>losses of scenes against truth")
 
 
 NOTEBOOK = """

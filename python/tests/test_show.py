@@ -32,7 +32,7 @@ def test_the_program_gets_a_session_that_is_removed_afterwards(tmp_path: Path, m
     assert (first, second) == ("0/a_b.exr", "1/material.exr")
     assert (Path(session).parent / other).resolve() == Path("other.png").resolve()
     # Floats of 32 bits: the material of the window is the material.
-    assert svbrdf.loss(ground_truth, svbrdf.read(copy / first, normal_y="up")).loss == 0
+    assert svbrdf.loss(ground_truth, svbrdf.read(copy / first, normal_y="up")).results[0].loss == 0
 
 
 @pytest.mark.filterwarnings("ignore::svbrdf.AssumptionWarning")
@@ -55,7 +55,7 @@ def test_the_session_gives_the_loss_bit_for_bit(program: str, tmp_path: Path) ->
     ground_truth, *predictions = materials
     expected = svbrdf.loss(ground_truth, predictions, near=4)
     assert [result["loss"] for result in found["results"]] == [result.loss for result in expected.results]
-    assert found["results"][0]["loss"] != svbrdf.loss(ground_truth, svbrdf.read(folder), near=4).loss
+    assert found["results"][0]["loss"] != svbrdf.loss(ground_truth, svbrdf.read(folder), near=4).results[0].loss
     assert len({result.loss for result in expected.results[:2]}) == 2
 
 

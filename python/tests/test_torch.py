@@ -93,7 +93,7 @@ def test_the_loss_is_that_of_the_core_for_the_same_seed(precision: Any, conventi
     ]
     for sampler in ("random", "sobol"):
         papers: dict[str, Any] = {"near": 6, "distant": 3, "sampler": sampler}
-        expected = svbrdf.loss(*small, seed=3, convention=convention, precision="f64", **papers).loss
+        expected = svbrdf.loss(*small, seed=3, convention=convention, precision="f64", **papers).results[0].loss
         given = [converted(tensors(m), DTYPES[precision]) for m in small]
         got = sv.RenderingLoss(convention=convention, sampler=sampler)(given[1], given[0], seed=3).item()
         print(f"\nloss of seed 3, {convention}, {sampler}, {precision}: {abs(got / expected - 1):.1e}")
@@ -114,7 +114,7 @@ def test_the_golden_losses_are_met(golden: Path, precision: Any) -> None:
         for name in conventions.get(path.name[:2], []):
             expected = case["expected"][name]
             got = sv.RenderingLoss(convention=name, scenes=scenes)(prediction, ground_truth).item()
-            core = svbrdf.loss(*materials, scenes=scenes, convention=name, precision="f64").loss
+            core = svbrdf.loss(*materials, scenes=scenes, convention=name, precision="f64").results[0].loss
             worst = max(worst, abs(got - core) / core)
             assert got == pytest.approx(expected["loss"], rel=max(1e-9, BOUNDS[precision]))
     print(f"\ngolden losses, {precision}: {worst:.1e}")

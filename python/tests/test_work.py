@@ -79,7 +79,7 @@ def test_the_interpreter_goes_on_while_a_loss_is_computed() -> None:
 
 def of_child(seed: int) -> float:
     ground_truth, prediction, _ = svbrdf.built_in()
-    return svbrdf.loss(ground_truth, prediction, seed=seed).loss
+    return svbrdf.loss(ground_truth, prediction, seed=seed).results[0].loss
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")

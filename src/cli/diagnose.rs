@@ -45,14 +45,14 @@ pub fn run(args: &DiagnoseArgs, given: &Given) -> Result<(), CommandError> {
     let opened = job.materials.open::<f32>()?;
     let (truth, convention) = (&opened.ground_truth, &job.convention);
     let seed = args.seed.seed;
-    let (floor, captures) = floor_of(&args.floor, &job, &opened, seed)?;
+    let floor = floor_of(&args.floor, &job, &opened, seed)?;
     let (of_truth, storages) = (&opened.storages[0], &opened.storages[1..]);
     let one = |(prediction, storage): (&Material<f32>, &Storage)| {
         let (pair, storages) = ([truth, prediction], [of_truth, storage]);
-        watched("diagnosing", |progress| diagnose(pair, storages, convention, floor.mean, seed, progress))
+        watched("diagnosing", |progress| diagnose(pair, storages, convention, floor.0.mean, seed, progress))
     };
     let diagnoses = opened.predictions.iter().zip(storages).map(one).collect::<Result<Vec<_>, _>>()?;
     let compared = Compared::new(truth, convention);
-    let report = DiagnoseReport { compared, seed, floor, captures, seams: seams(truth), diagnoses };
+    let report = DiagnoseReport::new(compared, seed, floor, seams(truth), diagnoses);
     Ok(exit::put(&args.format.write(&report)?)?)
 }

@@ -125,7 +125,7 @@ pub fn run(mut args: LossArgs, given: &Given) -> Result<(), CommandError> {
     };
     let materials = job.comparison.materials;
     let paths = materials.paths.iter().map(|path| Some(path.display().to_string())).collect();
-    let report = LossReport { paths, steps, ..report };
+    let report = report.read_from(paths, steps);
     exit::put(&args.format.write(&report)?)?;
     target::warn_of(report.missed(), materials.strict)
 }

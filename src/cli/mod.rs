@@ -17,6 +17,7 @@ mod rank;
 mod render;
 mod report;
 mod scenes;
+mod schema;
 mod strip;
 mod study;
 mod version;
@@ -104,6 +105,7 @@ enum Subcommands {
     Metrics(metrics::MetricsArgs),
     Photo(photo::PhotoArgs),
     Study(study::StudyArgs),
+    Schema(schema::SchemaArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
     #[command(hide = true)]
@@ -171,6 +173,7 @@ impl Cli {
             Subcommands::Metrics(args) => metrics::run(&args, given),
             Subcommands::Photo(args) => photo::run(args, given),
             Subcommands::Study(args) => study::run(&args, given),
+            Subcommands::Schema(args) => schema::run(&args),
             Subcommands::Info(args) => info::run(&args, given),
             Subcommands::Convert(args) => convert::run(&args),
             Subcommands::Completions(args) => generate::completions(&args, Self::command()),

@@ -45,5 +45,5 @@ pub fn run(args: &ScenesArgs, given: &Given) -> Result<(), CommandError> {
     let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let compared = Compared::new(&opened.ground_truth, &job.convention);
-    Ok(exit::put(&args.format.write(&ScenesReport::new(compared, outcome).top(args.top))?)?)
+    Ok(exit::put(&args.format.write(&ScenesReport::new(compared, &outcome, args.top))?)?)
 }

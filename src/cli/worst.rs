@@ -49,7 +49,7 @@ pub fn run(args: &WorstArgs, given: &Given) -> Result<(), CommandError> {
     };
     let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     let compared = Compared::new(&opened.ground_truth, &job.convention);
-    let report = WorstReport { compared, tail: args.distance_tail, found };
+    let report = WorstReport::new(compared, args.distance_tail, found);
     exit::put(&args.format.write(&report)?)?;
     target::warn_of(report.missed(), job.materials.strict)
 }

@@ -35,6 +35,7 @@ pub mod photograph;
 pub mod read;
 pub mod samples;
 pub mod scene_file;
+pub mod schema;
 pub mod session;
 pub mod session_window;
 pub mod source;

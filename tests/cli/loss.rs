@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{fail, folder, keys, losses_as_json, run_in, succeed, text, write_material};
+use super::{fail, folder, losses_as_json, run_in, succeed, text, write_material};
 
 #[test]
 fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
@@ -26,16 +26,12 @@ fn the_loss_of_the_built_in_pair_is_the_same_in_every_format() {
 }
 
 #[test]
-fn json_is_one_object_with_exactly_these_keys() {
+fn json_has_the_losses_with_the_settings_that_they_depend_on() {
     let folder = folder();
     let json = losses_as_json(
         folder.path(),
         "gt.png a.png b.png --seed 5 --near 6 --distant 3 --convention multi-image-2019",
     );
-    let top = "backend convention differences distant epsilon few_scenes ground_truth ground_truth_path interval95_from near \
-        precision results \
-        sampler scenes seed size target_error target_reached texels";
-    assert_eq!(keys(&json).join(" "), top);
     assert_eq!((&json["ground_truth"], &json["ground_truth_path"]), (&json!("gt"), &json!("gt.png")));
     assert_eq!((&json["precision"], &json["texels"]), (&json!("f32"), &json!("all")));
     assert_eq!(losses_as_json(folder.path(), "gt.png a.png --near 6 --texels 12")["texels"], json!(12));
@@ -43,13 +39,11 @@ fn json_is_one_object_with_exactly_these_keys() {
     assert_eq!((&json["size"], &json["seed"]), (&json!([8, 8]), &json!(5)));
     assert_eq!((&json["near"], &json["distant"]), (&json!(6), &json!(3)));
     let result = &json["results"][1];
-    assert_eq!(keys(result), ["interval95", "loss", "losses", "path", "prediction", "standard_error"]);
     assert_eq!((&result["prediction"], &result["path"]), (&json!("b"), &json!("b.png")));
     let losses: Vec<f64> =
         result["losses"].as_array().unwrap().iter().map(|loss| loss.as_f64().unwrap()).collect();
     assert!((losses.iter().sum::<f64>() / 9.0 - result["loss"].as_f64().unwrap()).abs() < 1e-12);
     assert_eq!(json["scenes"].as_array().unwrap().len(), 9);
-    assert_eq!(keys(&json["scenes"][0]), ["kind", "light", "view"]);
     let [low, high] = [0, 1].map(|i| result["interval95"][i].as_f64().unwrap());
     assert!((low..high).contains(&result["loss"].as_f64().unwrap()));
 }

@@ -104,7 +104,7 @@ fn shown(pool: &Pool, exposure: CaptureExposure, materials: &[&Material<f32>; 3]
             let outliers = result.photographs.iter().filter(|one| one.outlier.is_any()).count();
             shown.marked += u64::from(outliers > 0);
             shown.photographs += outliers;
-            let [found, expected] = [result, of_material(&whole, material)].map(|one| one.groups().remove(0));
+            let [found, expected] = [result, of_material(&whole, material)].map(|one| one.means[0].clone());
             let pairs = [(found.log, expected.log), (found.rmse, expected.rmse), (found.ssim, expected.ssim)];
             for (inside, (found, expected)) in shown.inside.iter_mut().zip(pairs) {
                 *inside += u64::from(holds(&found.unwrap(), expected.unwrap().mean));

@@ -148,18 +148,18 @@ fn a_capture_of_known_lights_has_one_exposure_and_ranks_the_right_material_first
     let [right, wrong] = [&report.results[0], &report.results[1]];
     let factor = right.factor.unwrap();
     assert!((factor / expected - 1.0).abs() < 1e-5, "{factor}, {expected}");
-    let means = right.groups();
+    let means = &right.means;
     assert_eq!((means.len(), means[0].name, means[0].count), (1, "all", 9));
     let [log, rmse, ssim] = [means[0].log, means[0].rmse, means[0].ssim].map(Option::unwrap);
     assert!(log.mean < 1e-5 && rmse.mean < 1e-5 && (ssim.mean - 1.0).abs() < 1e-6, "{means:?}");
     assert!(outliers(&report, 0).is_empty());
-    let worse = wrong.groups()[0].log.unwrap();
+    let worse = wrong.means[0].log.unwrap();
     assert!(worse.mean > 0.01 && worse.interval95.unwrap()[0] > 0.0, "{worse:?}");
     // A planted fault: without the falloff that the photographs have, neither exposure nor difference are right.
     let text = fs::read_to_string(folder.path().join("capture.json")).unwrap();
     fs::write(folder.path().join("capture.json"), text.replace("true", "false")).unwrap();
     let plain = of_folder(folder.path(), &[&truth]);
-    assert!(plain.results[0].groups()[0].log.unwrap().mean > 0.05);
+    assert!(plain.results[0].means[0].log.unwrap().mean > 0.05);
     let declared = plain.setting.declared_factor();
     assert_eq!(declared, None);
 }
@@ -174,7 +174,7 @@ fn a_darker_photograph_and_one_of_another_light_are_found() {
     assert_eq!(found.iter().map(|(k, _)| *k).collect::<Vec<_>>(), [4, 6], "{found:?}");
     assert!(found[0].1.exposure, "{found:?}");
     let result = &report.results[0];
-    let ev = |k: usize| result.photographs[k].own_ev().unwrap();
+    let ev = |k: usize| result.photographs[k].own_exposure_ev.unwrap();
     assert!((ev(4) - ev(0) - 1.0).abs() < 1e-4, "{} and {}", ev(4), ev(0));
     // The capture has the exposure of the others.
     assert!((result.factor.unwrap() / (2.5 * 2.5 / 12.0) - 1.0).abs() < 1e-3, "{:?}", result.factor);
@@ -198,7 +198,7 @@ fn photographs_that_are_held_out_do_not_move_the_exposure() {
     let report = compared(setting, &[&truth]);
     let result = &report.results[0];
     assert!((result.factor.unwrap() / (2.5 * 2.5 / 12.0) - 1.0).abs() < 1e-5);
-    let [fitted, out] = result.groups().try_into().unwrap();
+    let [fitted, out] = result.means.clone().try_into().unwrap();
     assert_eq!([(fitted.name, fitted.count), (out.name, out.count)], [("fitted", 4), ("held out", 5)]);
     assert!(fitted.log.unwrap().mean < 1e-5 && out.log.unwrap().mean > 0.3, "{out:?}");
     assert_eq!(result.log(), out.log.unwrap().mean);
@@ -209,7 +209,7 @@ fn photographs_that_are_held_out_do_not_move_the_exposure() {
     let each = self::setting(folder.path(), CaptureExposure::Photograph, &[]).unwrap();
     let each = compared(each, &[&truth]);
     assert_eq!(each.results[0].factor, None);
-    assert!(each.results[0].groups()[0].log.unwrap().mean < 1e-5);
+    assert!(each.results[0].means[0].log.unwrap().mean < 1e-5);
 }
 
 #[test]
@@ -220,8 +220,8 @@ fn a_clipped_photograph_is_left_out_of_the_means() {
     fs::write(&path, npy([SIDE as u64, SIDE as u64, 3], &vec![f32::NAN; SIDE * SIDE * 3])).unwrap();
     let report = of_folder(folder.path(), &[&truth]);
     let one = &report.results[0].photographs[3];
-    assert_eq!((one.clipped, one.log, one.own_factor, one.ssim), (SIDE * SIDE, None, None, None));
-    let log = report.results[0].groups()[0].log.unwrap();
+    assert_eq!((one.clipped, one.log, one.own_exposure_ev, one.ssim), (SIDE * SIDE, None, None, None));
+    let log = report.results[0].means[0].log.unwrap();
     assert!(log.mean < 1e-5 && log.interval95.is_some());
     let csv = report.csv().unwrap();
     assert_eq!(csv.lines().count(), 1 + 1 + 9, "{csv}");

@@ -26,7 +26,7 @@ fn a_capture_of_materialgan_has_the_exposure_of_its_light() {
     assert_eq!(report.photographs[0].transfer_from, "as MaterialGAN encodes");
     let ev = (result.factor.unwrap() / report.setting.declared_factor().unwrap()).log2();
     assert!(ev.abs() < 0.01, "{ev} stops from light_pow");
-    let log = result.groups()[0].log.unwrap().mean;
+    let log = result.means[0].log.unwrap().mean;
     assert!(log < 0.02 && report.results[1].log() > 2.0 * log, "{log}");
     assert!(report.text().contains("gamma 2.2 as MaterialGAN encodes, falloff of the light divided out"));
     // Planted faults: the colour of the light ignored, another power, another curve.

@@ -10,7 +10,7 @@ struct Generated {
 }
 
 /// What others are made of comes first.
-const GENERATED: [Generated; 11] = [
+const GENERATED: [Generated; 12] = [
     Generated {
         name: "locks",
         files: "Cargo.lock, python/Cargo.lock, tests/fuzz/Cargo.lock",
@@ -33,6 +33,11 @@ const GENERATED: [Generated; 11] = [
         name: "shaders",
         files: "src/files/page/shaders.json",
         script: "cargo test --test main write_shaders -- --ignored",
+    },
+    Generated {
+        name: "types",
+        files: "python/package/svbrdf/_reports.py",
+        script: "cargo build && python3 python/tests/report_types.py ${CARGO_TARGET_DIR:-target}/debug/svbrdf",
     },
     Generated {
         name: "report",

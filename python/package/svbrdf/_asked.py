@@ -3,18 +3,19 @@
 import numbers
 import os
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from . import _core
 from ._arrays import Precision
 from ._material import Material, Source, opened
 from ._progress import Report as Progress
 from ._progress import reported
-from ._report import views
+from ._report import Report, report_of
 from ._scenes import Scene, check_whole, read_scenes
 
 Scenes = Sequence[Scene] | Source
 Predictions = Material | Source | Sequence[Material | Source]
+_R = TypeVar("_R", bound=Report)
 
 
 class Asked:
@@ -64,11 +65,12 @@ class Asked:
 
 
 def answered(
-    ask: "Callable[..., _core.Views]", asked: Asked, doing: str, progress: bool | Progress, *more: Any
-) -> tuple[dict[str, Any], dict[str, Any]]:
-    """The arguments of `Report` from a report of the core, and its values: called by a function of the package.
+    kind: type[_R], ask: "Callable[..., _core.Views]", asked: Asked, doing: str, progress: bool | Progress, *more: Any
+) -> _R:
+    """A report of the core: called by a function of the package.
 
     Args:
+        kind: The type of the report.
         ask: The function of the core.
         asked: Its first arguments.
         doing: The title of the bar of the progress.
@@ -77,8 +79,7 @@ def answered(
     """
     with reported(doing, progress) as report:
         found = ask(*asked.core, *more, report)
-    arguments = views(found, stacklevel=4)
-    return arguments, arguments["_values"]
+    return report_of(kind, found, stacklevel=4)
 
 
 def repeated(repeats: Predictions | Sequence[Material | Source]) -> list[_core.CoreMaterial]:

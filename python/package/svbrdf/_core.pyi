@@ -66,67 +66,21 @@ class MapItems(TypedDict):
 
 class PhotoItems(TypedDict):
     views: Views
-    notes: list[str]
-    differences: list[bytearray]
+    differences: list[tuple[tuple[int, int], bytearray]]
 
-class CaptureItems(TypedDict):
-    views: Views
-    notes: list[str]
+# Of a ground truth, its predictions, the arguments that comparisons have in common and further ones, the progress last.
+loss: Callable[..., Views]
+rank: Callable[..., Views]
+blame: Callable[..., Views]
+worst: Callable[..., Views]
+scenes: Callable[..., Views]
+diagnose: Callable[..., Views]
+matfusion: Callable[..., Views]
+metrics: Callable[..., Views]
+map: Callable[..., MapItems]
 
-def loss(
-    ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
-) -> Views: ...
-def rank(
-    ground_truth: CoreMaterial,
-    predictions: Sequence[CoreMaterial],
-    asked: Mapping[str, Any],
-    target_error: float,
-    repeats: Sequence[CoreMaterial],
-    progress: Report,
-) -> tuple[Views, list[int]]: ...
-def blame(
-    ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
-) -> Views: ...
-def worst(
-    ground_truth: CoreMaterial, predictions: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report
-) -> Views: ...
-def scenes(
-    ground_truth: CoreMaterial,
-    predictions: Sequence[CoreMaterial],
-    asked: Mapping[str, Any],
-    top: int,
-    progress: Report,
-) -> Views: ...
-def map(
-    ground_truth: CoreMaterial,
-    predictions: Sequence[CoreMaterial],
-    asked: Mapping[str, Any],
-    over: Mapping[str, Any] | None,
-    progress: Report,
-) -> MapItems: ...
-def diagnose(
-    ground_truth: CoreMaterial,
-    predictions: Sequence[CoreMaterial],
-    asked: Mapping[str, Any],
-    repeats: Sequence[CoreMaterial],
-    progress: Report,
-) -> Views: ...
-def matfusion(
-    ground_truth: CoreMaterial,
-    predictions: Sequence[CoreMaterial],
-    asked: Mapping[str, Any],
-    options: Sequence[str | None],
-    progress: Report,
-) -> Views: ...
-def metrics(
-    ground_truth: CoreMaterial,
-    predictions: Sequence[CoreMaterial],
-    asked: Mapping[str, Any],
-    exposure: float,
-    progress: Report,
-) -> Views: ...
 def photo(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> PhotoItems: ...
-def capture(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> CaptureItems: ...
+def capture(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> Views: ...
 def rank_dataset(asked: Mapping[str, Any], progress: Report) -> Views: ...
 
 class PageItems(TypedDict):

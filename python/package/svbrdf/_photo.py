@@ -2,71 +2,24 @@
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from numpy.typing import NDArray
 
-from . import _core
+from . import _core, _reports
 from ._arrays import from_bytes
 from ._asked import Predictions, photographed
 from ._material import Source
 from ._progress import Report as Progress
 from ._progress import reported
-from ._report import Report, views
-from ._scenes import Scene, read_scenes, scenes_from
+from ._report import report_of
+from ._scenes import Scene, read_scenes
 
 
-@dataclass(frozen=True)
-class PhotoStatistics:
-    """A difference over the texels that are not clipped."""
-
-    mean: float
-    median: float
-    p95: float
-    """The 95th percentile."""
-
-
-@dataclass(frozen=True)
-class PhotoResult:
-    """A material against the photograph."""
-
-    material: str
-    """The name of the material."""
-    size: tuple[int, int]
-    """(width, height) in texels."""
-    clipped: int
-    """The number of texels that are left out."""
-    factor: float
-    """The photograph was multiplied by it: the median of rendering / photograph."""
-    exposure_ev: float
-    """The factor in stops."""
-    log: PhotoStatistics
-    absolute: PhotoStatistics
-    relative: PhotoStatistics
-
-
-@dataclass(frozen=True, repr=False, kw_only=True)
-class PhotoReport(Report):
+class PhotoReport(_reports.PhotoReport):
     """Materials against a photograph, the smallest mean log difference first."""
 
-    photograph: str
-    """Its path."""
-    size: tuple[int, int]
-    """(width, height) in pixels."""
-    transfer: str
-    corners: tuple[tuple[float, float], ...]
-    """Top left, top right, bottom right and bottom left of the material, in pixels."""
-    falloff: bool
-    """Whether the falloff of the light is divided out of the photograph."""
-    convention: str
-    epsilon: float
-    results: tuple[PhotoResult, ...]
-    scenes: tuple[Scene, ...]
-    """The one scene of the photograph."""
-    notes: tuple[str, ...]
-    """What reading the photograph noticed."""
-    differences: tuple[NDArray[Any], ...] = field(compare=False)
+    differences: tuple[NDArray[Any], ...]
     """The difference of each result: height x width x 3, NaN where the photograph is clipped."""
 
 
@@ -132,25 +85,8 @@ def photo(
     )
     with reported("rendering", progress) as report:
         found = _core.photo(*asked, report)
-    arguments = views(found["views"])
-    values = arguments["_values"]
-    results = tuple(_result(entry) for entry in values["results"])
-    fields = {
-        **values,
-        "size": tuple(values["size"]),
-        "corners": tuple(tuple(corner) for corner in values["corners"]),
-        "results": results,
-        "scenes": scenes_from(values["scenes"]),
-        "notes": tuple(found["notes"]),
-    }
-    pictures = zip(found["differences"], results, strict=True)
-    differences = tuple(from_bytes(data, result.size, 3, "f32") for data, result in pictures)
-    return PhotoReport(**arguments, **fields, differences=differences)
-
-
-def _result(entry: dict[str, Any]) -> PhotoResult:
-    statistics = {key: PhotoStatistics(**entry[key]) for key in ("log", "absolute", "relative")}
-    return PhotoResult(**{**entry, **statistics, "size": tuple(entry["size"])})
+    differences = tuple(from_bytes(data, size, 3, "f32") for size, data in found["differences"])
+    return report_of(PhotoReport, found["views"], differences=differences)
 
 
 def _scene(scene: Scene | Source | None, number: int | None, flash: bool, fov: float | None) -> Scene | None:

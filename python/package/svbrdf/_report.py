@@ -1,41 +1,89 @@
-"""Reports: results as the command line prints them, as dictionaries and as data frames."""
+"""Reports: the JSON of the command line with its keys as attributes, its text and its CSV."""
 
+import html
 import json
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Mapping
 from copy import deepcopy
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from functools import cache
+from types import UnionType
+from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin, get_type_hints
 
 from . import _core
-from ._table import escaped, html_table
+from ._scenes import Scene, scene_from
 
 if TYPE_CHECKING:
     import pandas as pd
 
-
-@dataclass(frozen=True)
-class Estimate:
-    """A mean over scenes with its error."""
-
-    mean: float
-    standard_error: float | None
-    interval95: tuple[float, float] | None
+_R = TypeVar("_R", bound="Report")
+MOST_ROWS = 60
+"""A table of more rows is shown as the text of its report."""
 
 
-@dataclass(frozen=True, repr=False, kw_only=True)
-class Report:
-    """A result with the settings that it depends on. Printed, it is the table of the command line."""
+class Record(Mapping[str, Any]):
+    """An object of a report's JSON, read-only: its keys are attributes, too. Lists are tuples."""
 
-    text: str = field(compare=False)
-    """The table of the command line."""
-    _values: dict[str, Any] = field(compare=False)
-    _columns: list[str] = field(compare=False)
-    _rows: list[list[Any]] = field(compare=False)
+    def __init__(self, values: dict[str, Any], entry: Any = None) -> None:
+        """`entry` is the type of values that the class does not name."""
+        self.__dict__.update(_values=values, _entry=entry)
 
     def to_dict(self) -> dict[str, Any]:
         """The command line's JSON: numbers, words, lists and dictionaries."""
         return deepcopy(self._values)
+
+    def __getitem__(self, key: str) -> Any:
+        return _frozen(self._values[key], _types(type(self)).get(key, self._entry))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __eq__(self, other: object) -> bool:
+        return bool(self._values == (other._values if isinstance(other, Record) else other))
+
+    def __hash__(self) -> int:
+        return hash(json.dumps(self._values, sort_keys=True))
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{key}={value!r}' for key, value in self.items())})"
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._values]
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"{type(self).__name__}.{name}: reports are read-only; to_dict() is a copy to change")
+
+    def __delattr__(self, name: str) -> None:
+        self.__setattr__(name, None)
+
+    # The types of reports declare the attributes: mypy finds one that does not exist.
+    if TYPE_CHECKING:
+        _values: dict[str, Any]
+        _entry: Any
+    else:
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith("_") or (name not in self._values and name not in _types(type(self))):
+                known = ", ".join(self.__dict__.get("_values", ()))
+                raise AttributeError(f"{type(self).__name__} has no attribute {name!r}; it has: {known}")
+            # The JSON leaves some keys out where they do not apply.
+            return self.__dict__.setdefault(name, self[name] if name in self._values else None)
+
+
+class Report(Record):
+    """A result with the settings that it depends on. Printed, it is the table of the command line."""
+
+    text: str
+    """The table of the command line."""
+    if TYPE_CHECKING:
+        _columns: list[str]
+        _rows: list[list[Any]]
+
+    def __init__(self, views: "_core.Views", **arrays: Any) -> None:
+        super().__init__(json.loads(views["json"]))
+        self.__dict__.update(text=views["text"], _columns=views["columns"], _rows=views["rows"], **arrays)
 
     def to_pandas(self) -> "pd.DataFrame":
         """The command line's CSV as a data frame of pandas; unknown values are NaN or None.
@@ -49,13 +97,35 @@ class Report:
         return self.text.rstrip("\n")
 
     def _repr_html_(self) -> str:
-        heading, _, _ = self.text.partition("\n\n")
-        columns, rows = self._shown()
-        return html_table(heading, columns, rows) if columns else f"<pre>{escaped(self.text)}</pre>"
+        if not 0 < len(self._rows) <= MOST_ROWS:
+            return f"<pre>{escaped(self.text)}</pre>"
+        heading = "<br>".join(escaped(line) for line in self.text.partition("\n\n")[0].splitlines())
+        titles = "".join(f'<th scope="col">{escaped(column)}</th>' for column in self._columns)
+        rows = "".join(f"<tr>{''.join(f'<td>{cell(value)}</td>' for value in row)}</tr>" for row in self._rows)
+        return f"<div><p>{heading}</p><table><thead><tr>{titles}</tr></thead><tbody>{rows}</tbody></table></div>"
 
-    def _shown(self) -> tuple[Sequence[str], Sequence[Sequence[Any]]]:
-        """The columns and rows of the table in a notebook."""
-        return self._columns, self._rows
+
+def cell(value: Any) -> str:
+    """A value as text; floats in 6 digits, None as nothing."""
+    if value is None or isinstance(value, bool):
+        return {None: "", True: "yes", False: "no"}[value]
+    return f"{value:.6g}" if isinstance(value, float) else escaped(str(value))
+
+
+def escaped(text: str) -> str:
+    """The text with markup escaped, and characters that steer its direction written as escapes."""
+    steady = (c if c.isprintable() or c in "\n\u00a0" else c.encode("unicode_escape").decode() for c in text)
+    return html.escape("".join(steady))
+
+
+def report_of(kind: type[_R], views: "_core.Views", *, stacklevel: int = 3, **arrays: Any) -> _R:
+    """A report of the core, whose warnings are given.
+
+    `stacklevel` leads to the caller of the function that calls this one.
+    """
+    for warning in views["warnings"]:
+        warnings.warn(warning, stacklevel=stacklevel)
+    return kind(views, **arrays)
 
 
 def data_frame(columns: list[str], rows: Any) -> "pd.DataFrame":
@@ -73,26 +143,19 @@ def data_frame(columns: list[str], rows: Any) -> "pd.DataFrame":
     return pd.DataFrame(rows, columns=columns)
 
 
-def views(found: "_core.Views", *, stacklevel: int = 3) -> dict[str, Any]:
-    """The arguments of `Report` from a report of the core, whose warnings are given.
-
-    `stacklevel` leads to the caller of the function that calls this one.
-    """
-    for warning in found["warnings"]:
-        warnings.warn(warning, stacklevel=stacklevel)
-    return {
-        "text": found["text"],
-        "_values": json.loads(found["json"]),
-        "_columns": found["columns"],
-        "_rows": found["rows"],
-    }
+_types: Callable[[type], dict[str, Any]] = cache(get_type_hints)
 
 
-def pair(interval: list[float] | None) -> tuple[float, float] | None:
-    """The ends of an interval."""
-    return None if interval is None else (interval[0], interval[1])
-
-
-def estimate(values: dict[str, Any]) -> Estimate:
-    """An estimate of the JSON."""
-    return Estimate(**{**values, "interval95": pair(values["interval95"])})
+def _frozen(value: Any, kind: Any) -> Any:
+    """A value of the JSON in its type: an object is of the class that it names, or a record."""
+    kinds = get_args(kind) if isinstance(kind, UnionType) else (kind,)
+    entry = {get_origin(one): get_args(one) for one in kinds}
+    if isinstance(value, list):
+        one = entry.get(tuple, (None,))[0]
+        return tuple(_frozen(item, one) for item in value)
+    if not isinstance(value, dict):
+        return value
+    if Scene in kinds:
+        return scene_from(value)
+    named = next((one for one in kinds if isinstance(one, type) and issubclass(one, Record)), Record)
+    return named(value, *entry.get(Mapping, (None, None))[1:])

@@ -64,9 +64,9 @@ def scenes_of(found: Sequence[tuple[Any, Any, Any]]) -> list[Scene]:
     return [_scene(*scene) for scene in found]
 
 
-def scenes_from(listed: Sequence[dict[str, Any]]) -> tuple[Scene, ...]:
-    """Scenes of the JSON."""
-    return tuple(_scene(scene["kind"], scene["view"], scene["light"]) for scene in listed)
+def scene_from(values: dict[str, Any]) -> Scene:
+    """A scene of the JSON."""
+    return _scene(values["kind"], values["view"], values["light"])
 
 
 def check_whole(name: str, value: object) -> None:

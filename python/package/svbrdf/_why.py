@@ -1,117 +1,33 @@
-"""The scenes, directions and texels that a loss comes from."""
+"""The maps, scenes, directions, texels and trivial errors that a loss comes from."""
 
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core
+from . import _core, _reports
 from ._arrays import from_bytes
-from ._asked import Asked, Predictions, Scenes, answered, check_unused
+from ._asked import Asked, Predictions, Scenes, answered, check_goals, check_unused, repeated
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
-from ._report import Report, data_frame, pair, views
-from ._scenes import Scene, check_whole, scenes_from
+from ._report import data_frame, report_of
+from ._reports import BlameReport, DiagnoseReport, ScenesReport, WorstReport
+from ._scenes import check_whole
 
 if TYPE_CHECKING:
     import pandas as pd
 
 
-@dataclass(frozen=True)
-class Worst:
-    """The worst scene of a prediction."""
-
-    prediction: str
-    worst: float
-    """The loss in that scene."""
-    mean: float
-    """The loss over all scenes."""
-    interval95: tuple[float, float] | None
-    """The 95% confidence interval of the mean."""
-    target_error: float
-    """The requested accuracy of the mean."""
-    target_reached: bool
-    evaluations: int
-    """The number of scenes that the search rendered."""
-
-
-@dataclass(frozen=True, repr=False, kw_only=True)
-class WorstReport(Report):
-    """The scene with the largest loss of each prediction."""
-
-    ground_truth: str
-    convention: str
-    epsilon: float
-    distance_tail: float
-    """The share of the nearest distances, and of the farthest ones, that the search leaves out."""
-    results: tuple[Worst, ...]
-    """One per prediction."""
-    scenes: tuple[Scene, ...]
-    """The worst scene of each prediction."""
-
-
-@dataclass(frozen=True)
-class ScenesLoss:
-    """The loss of a prediction in single scenes."""
-
-    prediction: str
-    loss: float
-    """Over all scenes."""
-    losses: tuple[float, ...]
-    """The loss of each listed scene."""
-
-
-@dataclass(frozen=True, repr=False, kw_only=True)
-class ScenesReport(Report):
-    """The scenes with the largest losses, worst first."""
-
-    ground_truth: str
-    convention: str
-    epsilon: float
-    seed: int | None
-    """None where the scenes were given."""
-    of: int
-    """The number of scenes that these are the worst of."""
-    results: tuple[ScenesLoss, ...]
-    """One per prediction."""
-    scenes: tuple[Scene, ...]
-
-
-@dataclass(frozen=True)
-class MapSummary:
-    """The map of a prediction in a few numbers."""
-
-    prediction: str
-    mean: float
-    """The loss."""
-    largest: float
-    column: int | None = None
-    """Where a map over texels is largest."""
-    row: int | None = None
-    direction: tuple[float, float, float] | None = None
-    """Where a map over directions is largest."""
-    standard_error: float | None = None
-    """The root mean square of the standard errors of a map over directions."""
-
-
-@dataclass(frozen=True, repr=False, kw_only=True)
-class MapReport(Report):
+class MapReport(_reports.MapReport):
     """The loss over texels, or over the directions of the light or the view."""
 
-    ground_truth: str
-    convention: str
-    epsilon: float
-    shows: str
-    """The meaning of the numbers."""
-    results: tuple[MapSummary, ...]
-    """One per prediction."""
-    maps: tuple[NDArray[Any], ...] = field(compare=False)
+    maps: tuple[NDArray[Any], ...]
     """One per prediction. Over texels: height x width x 3. Over directions: side x side, NaN outside of the disk."""
-    standard_errors: tuple[NDArray[Any], ...] | None = field(compare=False)
+    standard_errors: tuple[NDArray[Any], ...] | None
     """Over directions: side x side for each prediction, due to the choice of texels."""
-    directions: NDArray[Any] | None = field(compare=False)
+    directions: NDArray[Any] | None
     """Over directions: side x side x 3, NaN outside of the disk."""
 
     def to_pandas(self) -> "pd.DataFrame":
@@ -140,6 +56,59 @@ class MapReport(Report):
         return frame
 
 
+def blame(
+    ground_truth: Material | Source,
+    predictions: Predictions,
+    *,
+    target_error: float | None = None,
+    seed: int = 0,
+    scenes: Scenes | None = None,
+    convention: str = "printed",
+    progress: bool | Progress = False,
+) -> BlameReport:
+    """How much of the loss of each prediction comes from each of its maps: Shapley values, which add up to the loss.
+
+    >>> import svbrdf
+    >>> ground_truth, blurred, _ = svbrdf.built_in()
+    >>> report = svbrdf.blame(ground_truth, blurred, target_error=0.05)
+    >>> max(report.attributions[0].maps, key=lambda share: share.shapley.mean).map
+    'normal'
+
+    `target_error` samples at most 49,152 scenes; it is 0.01 where `scenes` are not given. Args and errors are those of
+    `svbrdf.loss`.
+    """
+    check_goals(target_error=target_error, scenes=scenes)
+    if scenes is None and target_error is None:
+        target_error = 0.01
+    asked = Asked(ground_truth, predictions, convention=convention, seed=seed, scenes=scenes, target_error=target_error)
+    return answered(BlameReport, _core.blame, asked, "rendering", progress)
+
+
+def diagnose(
+    ground_truth: Material | Source,
+    predictions: Predictions,
+    *,
+    seed: int = 0,
+    repeats: Material | Source | Sequence[Material | Source] = (),
+    convention: str = "printed",
+    progress: bool | Progress = False,
+) -> DiagnoseReport:
+    """Whether an exposure, a shift, a symmetry or another reading of the files explains a loss.
+
+    >>> import svbrdf
+    >>> ground_truth, _, _ = svbrdf.built_in()
+    >>> maps = {name: getattr(ground_truth, name) for name in ("diffuse", "specular", "roughness")}
+    >>> flipped = svbrdf.Material(normal=ground_truth.normal * [1, -1, 1], **maps)
+    >>> svbrdf.diagnose(ground_truth, flipped).predictions[0].findings[6].marked
+    True
+
+    `repeats` are other captures of the ground truth: the floor is the mean loss between all captures in place of the
+    loss that rounding leaves. The other args and errors are those of `svbrdf.loss`.
+    """
+    asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
+    return answered(DiagnoseReport, _core.diagnose, asked, "diagnosing", progress, repeated(repeats))
+
+
 def worst(
     ground_truth: Material | Source,
     predictions: Predictions,
@@ -159,21 +128,10 @@ def worst(
     12,288 of the scenes that the loss is over are sampled, and the 16 worst refined, the best two on all texels.
     Distances are within the central 99% of their distributions. The loss of the scene that it finds is over all texels.
 
-    Args:
-        ground_truth: A material, or the path of one.
-        predictions: One or several materials of the same size, or paths.
-        seed: Names the scenes that the search starts from.
-        convention: A name of `svbrdf.CONVENTIONS`.
-        progress: True for a bar of tqdm, or a function of (steps done, steps in all).
-
-    Raises:
-        OSError: A file cannot be read.
-        svbrdf.Error: A material cannot be used, or the sizes differ.
+    `seed` names the scenes that the search starts from. Args and errors are those of `svbrdf.loss`.
     """
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
-    arguments, values = answered(_core.worst, asked, "searching", progress)
-    results = tuple(Worst(**{**entry, "interval95": pair(entry["interval95"])}) for entry in values["results"])
-    return WorstReport(**arguments, **{**values, "results": results, "scenes": scenes_from(values["scenes"])})
+    return answered(WorstReport, _core.worst, asked, "searching", progress)
 
 
 def scenes(
@@ -197,31 +155,13 @@ def scenes(
     >>> len(report.scenes), report.of
     (3, 192)
 
-    Args:
-        ground_truth: A material, or the path of one.
-        predictions: One or several materials of the same size, or paths.
-        top: The number of scenes that are listed.
-        near: The number of sampled near-field scenes; two for each distant one where only `distant` is
-            given, else 128.
-        distant: The number of sampled distant scenes; one for two near-field ones where only `near` is
-            given, else 64.
-        seed: Names the sampled scenes; 0 where `scenes` are not given.
-        sampler: "sobol", the default, or "random".
-        scenes: These scenes, or those of a scene file, in place of sampled ones.
-        convention: A name of `svbrdf.CONVENTIONS`.
-        progress: True for a bar of tqdm, or a function of (steps done, steps in all).
-
-    Raises:
-        OSError: A file cannot be read.
-        svbrdf.Error: A material or a scene cannot be used, or the sizes differ.
-        ValueError: Options of sampled scenes are given together with `scenes`.
+    `top` is the number of scenes that are listed. Where neither `near` nor `distant` is given, they are of 128
+    near-field and 64 distant ones, sampled by "sobol". The other args and errors are those of `svbrdf.loss`.
     """
     choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
     asked = Asked(ground_truth, predictions, convention=convention, **choice)
     check_whole("top", top)
-    arguments, values = answered(_core.scenes, asked, "rendering", progress, top)
-    results = tuple(ScenesLoss(**{**entry, "losses": tuple(entry["losses"])}) for entry in values["results"])
-    return ScenesReport(**arguments, **{**values, "results": results, "scenes": scenes_from(values["scenes"])})
+    return answered(ScenesReport, _core.scenes, asked, "rendering", progress, top)
 
 
 def map(
@@ -251,26 +191,9 @@ def map(
     >>> svbrdf.map(ground_truth, blurred, over="lights", side=16).maps[0].shape
     (16, 16)
 
-    Args:
-        ground_truth: A material, or the path of one.
-        predictions: One or several materials of the same size, or paths.
-        over: The axes of the map.
-        fixed: The direction of the view of a map over lights, or of the light of a map over views; (0, 0, 1) there.
-        side: Columns and rows of a map over lights or views, from 1 to 1024; 64 there.
-        near: The number of sampled near-field scenes of a map over texels; two for each distant one where only
-            `distant` is given, else 128.
-        distant: The number of sampled distant scenes of a map over texels; one for two near-field ones where only
-            `near` is given, else 64.
-        seed: Names the sampled scenes of a map over texels; 0 where `scenes` are not given.
-        sampler: "sobol", the default, or "random".
-        scenes: These scenes, or those of a scene file, in place of sampled ones.
-        convention: A name of `svbrdf.CONVENTIONS`.
-        progress: True for a bar of tqdm, or a function of (steps done, steps in all).
-
-    Raises:
-        OSError: A file cannot be read.
-        svbrdf.Error: A material or a scene cannot be used, or the sizes differ.
-        ValueError: `side` is out of its range, or an argument is not used with others.
+    `over` names the axes of the map. A map over lights or views has `side` columns and rows, from 1 to 1024, 64 where
+    not given, and `fixed` is the direction of its view or light, (0, 0, 1) where not given. The scenes of a map over
+    texels are those of `svbrdf.scenes`. The other args and errors are those of `svbrdf.loss`.
     """
     if over == "texels":
         check_unused("over='texels'", fixed=fixed, side=side)
@@ -286,26 +209,18 @@ def map(
     asked = Asked(ground_truth, predictions, convention=convention, **choice)
     with reported("rendering", progress) as report:
         found = _core.map(*asked.core, axes, report)
-    arguments = views(found["views"])
-    values = arguments["_values"]
-    fields = {**values, "results": tuple(_map_summary(entry) for entry in values["results"])}
     directions, errors = found["directions"], found["standard_errors"]
     if directions is None or side is None:
         maps = tuple(from_bytes(data, asked.ground_truth.size, 3, "f32") for data in found["maps"])
-        return MapReport(**arguments, **fields, maps=maps, standard_errors=None, directions=None)
+        return report_of(MapReport, found["views"], maps=maps, standard_errors=None, directions=None)
     size = (side, side)
-    return MapReport(
-        **arguments,
-        **fields,
+    return report_of(
+        MapReport,
+        found["views"],
         maps=tuple(from_bytes(data, size, 1, "f64") for data in found["maps"]),
         standard_errors=tuple(from_bytes(data, size, 1, "f64") for data in errors),
         directions=from_bytes(directions, size, 3, "f64"),
     )
-
-
-def _map_summary(entry: dict[str, Any]) -> MapSummary:
-    direction = entry.get("direction")
-    return MapSummary(**{**entry, "direction": None if direction is None else tuple(direction)})
 
 
 def scene_choice(*, scenes: Scenes | None, **sampling: Any) -> dict[str, Any]:

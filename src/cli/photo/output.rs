@@ -15,7 +15,7 @@ pub fn last_colour(report: &PhotoReport, kind: Difference) -> f64 {
 
 /// What a picture of the differences says of itself.
 pub fn entries(report: &PhotoReport, kind: Difference, last: f64) -> [(&'static str, String); 7] {
-    let PhotoReport { setting, results } = report;
+    let PhotoReport { setting, results, .. } = report;
     let names: Vec<_> = results.iter().map(|result| result.material.as_str()).collect();
     let factors: Vec<_> = results.iter().map(|result| result.compared.factor.to_string()).collect();
     let Scene { kind: near, view, light } = setting.scene;

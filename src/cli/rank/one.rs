@@ -29,18 +29,15 @@ pub fn run(mut args: RankArgs, given: &Given) -> Result<(), CommandError> {
     let request = Request::Accuracy { target: args.target_error, seed: args.seed.seed };
     let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
     let compared = Compared::new(&opened.ground_truth, &job.convention);
-    let mut report = RankReport::new(compared, args.target_error, outcome);
+    let mut report = RankReport::new(compared, args.target_error, &outcome);
     if opened.storages[0].has_steps() || !args.floor.repeats.is_empty() {
         let (floor, captures) = floor_of(&args.floor, &job, &opened, args.seed.seed)?;
-        report = report.with_floor(floor, captures);
+        report = report.with_floor(&floor, captures);
     }
     report.repetition = Some(repetition(&opened));
     exit::put(&args.format.write(&report, RankReport::latex)?)?;
     target::warn_of(report.missed(), job.materials.strict)?;
-    check_limit(
-        args.fail_above,
-        report.outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)),
-    )
+    check_limit(args.fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
 }
 
 /// How to repeat the ranking of materials that were opened.

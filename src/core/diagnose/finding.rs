@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::change::Change;
 use super::ladder::Rung;
@@ -12,7 +13,8 @@ use super::storage::Storage;
 use crate::loss::Estimate;
 
 /// An explanation of a loss that is tried.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
 pub enum Hypothesis {
     /// One factor on the radiance.
     Exposure,
@@ -102,14 +104,8 @@ impl Hypothesis {
     }
 }
 
-impl Serialize for Hypothesis {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.name())
-    }
-}
-
 /// The value of a hypothesis.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Value {
     /// The stops that the prediction would have to be brightened by; a number of texels.
@@ -142,7 +138,7 @@ fn hundredths(number: f64) -> String {
 }
 
 /// The loss under a hypothesis.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Finding {
     pub hypothesis: Hypothesis,
     /// The value with the least loss in the pilot.

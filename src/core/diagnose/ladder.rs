@@ -1,6 +1,7 @@
 //! The ladder: losses between renderings that are averaged over larger and larger blocks.
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::filtered::filtered_roughness;
@@ -13,7 +14,7 @@ use crate::progress::Progress;
 use crate::render::render_f32;
 
 /// The loss between averages over blocks of texels, and the roughness of these blocks.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Rung {
     /// Columns and rows of a block: 2^k.
     pub side: usize,

@@ -1,11 +1,12 @@
 //! Seams: whether a map that is repeated shows its border.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::material::{Map, Material};
 
 /// The border of a map that is repeated.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Seam {
     pub map: Map,
     /// "columns": the last column beside the first one; "rows": the last row above the first one.

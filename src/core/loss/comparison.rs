@@ -80,7 +80,7 @@ pub trait Backend<T>: Debug + Sync {
         progress: &Progress,
     ) -> Result<Vec<Vec<f64>>, Error>
     where
-        T: Sync,
+        T: Send + Sync,
     {
         let predictions = comparison.predictions().len();
         progress.begin(scenes.len() as u64);

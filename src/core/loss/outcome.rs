@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::comparison::{Comparison, Compute};
@@ -40,7 +41,7 @@ pub struct Outcome {
 }
 
 /// What 95% intervals come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum IntervalSource {
     /// The distribution of the losses of many other scenes: for few sampled scenes.

@@ -1,5 +1,8 @@
 //! Materials with some maps of one material and the other maps of another.
 
+use std::sync::Arc;
+
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Material, Planes};
@@ -7,7 +10,7 @@ use crate::error::Error;
 use crate::math::real::Real;
 
 /// One of the four maps of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Map {
     Normal,
@@ -53,6 +56,6 @@ impl<T: Real> Material<T> {
             specular: of(Map::Specular).specular.clone(),
             roughness: of(Map::Roughness).roughness.clone(),
         };
-        Ok(Self { name: self.name.clone(), width: self.width, height: self.height, planes })
+        Ok(Self { name: self.name.clone(), width: self.width, height: self.height, planes: Arc::new(planes) })
     }
 }

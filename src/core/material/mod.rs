@@ -26,6 +26,8 @@ pub use grid::Grid;
 pub use metallic::{DIELECTRIC, base_and_metallic};
 pub use mix::Map;
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -48,13 +50,13 @@ pub struct Planes<T> {
 
 /// An SVBRDF: normal, diffuse, specular and roughness of every texel of a plane.
 ///
-/// Every texel is finite, its normal has length 1, its other values lie in [0, 1], and there is at least one.
+/// Every texel is finite, its normal has length 1, its other values lie in [0, 1], and there is at least one. A clone shares the values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material<T> {
     name: String,
     width: usize,
     height: usize,
-    planes: Planes<T>,
+    planes: Arc<Planes<T>>,
 }
 
 impl<T: Real> Material<T> {
@@ -83,7 +85,7 @@ impl<T: Real> Material<T> {
             }
         }
         normalize_normals(&name, &mut planes.normal, place)?;
-        Ok(Self { name, width, height, planes })
+        Ok(Self { name, width, height, planes: Arc::new(planes) })
     }
 
     /// The same texel everywhere: for tests and examples.
@@ -163,7 +165,7 @@ impl<T: Real> Material<T> {
             return Ok(self);
         }
         let value = |plane| resize::plane(plane, from, size, Filter::Value);
-        let Planes { normal, diffuse, specular, roughness } = self.planes;
+        let Planes { normal, diffuse, specular, roughness } = Arc::unwrap_or_clone(self.planes);
         let planes = Planes {
             normal: normal.map(value),
             diffuse: diffuse.map(value),
@@ -180,12 +182,12 @@ impl<T: Real> Material<T> {
             name: self.name.clone(),
             width: self.width,
             height: self.height,
-            planes: Planes {
+            planes: Arc::new(Planes {
                 normal: self.planes.normal.each_ref().map(plane),
                 diffuse: self.planes.diffuse.each_ref().map(plane),
                 specular: self.planes.specular.each_ref().map(plane),
                 roughness: plane(&self.planes.roughness),
-            },
+            }),
         }
     }
 }

@@ -1,70 +1,73 @@
 //! Report of the share of each map in each loss.
 
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
-use super::table::{Cell, Table, aligned};
+use super::table::{Cell, Column, Table, aligned};
 use crate::error::Error;
 use crate::loss::{Estimate, Request};
-use crate::why::{Attribution, MapShare};
+use crate::why::{self, MapShare};
 
 const TITLES: [&str; 7] =
     ["map", "share", "of the loss", "+- std. error", "95% interval", "only it wrong", "only it right"];
 
-const COLUMNS: [&str; 11] = [
-    "prediction",
-    "map",
-    "shapley",
-    "standard_error",
-    "interval95_low",
-    "interval95_high",
-    "only_wrong",
-    "only_right",
-    "loss",
-    "target_error",
-    "target_reached",
-];
-
 /// The attribution of the loss of each prediction to its maps.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct BlameReport {
-    pub compared: Compared,
+    #[serde(flatten)]
+    compared: Compared,
     /// The requested accuracy of each loss: half of its 95% interval, as a share of it.
-    pub target_error: Option<f64>,
+    target_error: Option<f64>,
     /// One per prediction.
-    pub attributions: Vec<Attribution>,
+    attributions: Vec<Attribution>,
+}
+
+/// The loss of a prediction and the part of each map.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Attribution {
+    prediction: String,
+    /// The number of scenes.
+    scenes: usize,
+    /// `None` where the scenes were listed.
+    seed: Option<u64>,
+    /// Whether the loss is known as well as requested; `None` where no accuracy was.
+    target_reached: Option<bool>,
+    /// The sum of the Shapley values.
+    loss: Estimate,
+    maps: [MapShare; 4],
+    /// The lines about the scenes, and what shares below 0% mean.
+    #[serde(skip)]
+    lines: [String; 2],
 }
 
 impl BlameReport {
     /// The report of the `attributions` that `request` gives.
-    pub fn new(compared: Compared, request: &Request, attributions: Vec<Attribution>) -> Self {
+    pub fn new(compared: Compared, request: &Request, attributions: Vec<why::Attribution>) -> Self {
         let target_error = match *request {
             Request::Accuracy { target, .. } => Some(target),
             _ => None,
         };
+        let attribution = |found: why::Attribution| Attribution {
+            scenes: found.scenes.len(),
+            seed: found.sampling.map(|sampling| sampling.seed),
+            target_reached: target_error.map(|target| found.loss.relative_error95() <= target),
+            loss: found.loss,
+            maps: found.maps,
+            lines: [
+                scenes_line(found.sampling.as_ref(), &found.scenes, compared.size),
+                found.note().map_or(String::new(), |note| format!("\n{note}\n")),
+            ],
+            prediction: found.prediction,
+        };
+        let attributions = attributions.into_iter().map(attribution).collect();
         Self { compared, target_error, attributions }
     }
 
-    /// Whether the loss is known as well as requested; `None` where no accuracy was.
-    fn target_reached(&self, attribution: &Attribution) -> Option<bool> {
-        self.target_error.map(|target| attribution.loss.relative_error95() <= target)
-    }
-
-    fn entry<'a>(&self, attribution: &'a Attribution) -> AttributionEntry<'a> {
-        AttributionEntry {
-            prediction: &attribution.prediction,
-            scenes: attribution.scenes.len(),
-            seed: attribution.sampling.map(|sampling| sampling.seed),
-            target_reached: self.target_reached(attribution),
-            loss: attribution.loss,
-            maps: &attribution.maps,
-        }
-    }
-
     fn text_of(&self, attribution: &Attribution) -> String {
-        let Attribution { prediction, sampling, scenes, loss, maps } = attribution;
+        let Attribution { prediction, loss, maps, lines: [scenes, note], .. } = attribution;
         let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
         rows.extend(maps.iter().map(|share| {
             let [mean, error, interval] = share.shapley.texts();
@@ -75,12 +78,7 @@ impl BlameReport {
         let [mean, error, interval] = loss.texts();
         rows.push(vec!["all".to_owned(), percent(loss.mean, loss.mean), mean, error, interval]);
         let heading = self.compared.heading(&format!("blame of {prediction}"));
-        let note = attribution.note().map_or(String::new(), |note| format!("\n{note}\n"));
-        format!(
-            "{heading}{}\n{}{note}",
-            scenes_line(sampling.as_ref(), scenes, self.compared.size),
-            aligned(&rows)
-        )
+        format!("{heading}{scenes}\n{}{note}", aligned(&rows))
     }
 }
 
@@ -94,47 +92,26 @@ impl Report for BlameReport {
     }
 
     fn table(&self) -> Table {
-        let row = |a: &Attribution, share: &MapShare| {
-            let [error, low, high] = Cell::errors(&share.shapley);
-            let names = [a.prediction.as_str().into(), share.map.name().into()];
-            let numbers = [share.only_wrong.mean, share.only_right.mean, a.loss.mean].map(Cell::from);
-            let target = [self.target_error.into(), self.target_reached(a).into()];
-            let shapley = [share.shapley.mean.into(), error, low, high];
-            names.into_iter().chain(shapley).chain(numbers).chain(target).collect()
-        };
-        let all = self.attributions.iter();
-        Table::new(COLUMNS, all.flat_map(|a| a.maps.iter().map(move |share| row(a, share))))
+        let columns: [Column<'_, (&Self, &Attribution, &MapShare)>; 11] = [
+            ("prediction", |(_, a, _)| a.prediction.as_str().into()),
+            ("map", |(.., share)| share.map.name().into()),
+            ("shapley", |(.., share)| share.shapley.mean.into()),
+            ("standard_error", |(.., share)| share.shapley.standard_error.into()),
+            ("interval95_low", |(.., share)| Cell::low(share.shapley.interval95)),
+            ("interval95_high", |(.., share)| Cell::high(share.shapley.interval95)),
+            ("only_wrong", |(.., share)| share.only_wrong.mean.into()),
+            ("only_right", |(.., share)| share.only_right.mean.into()),
+            ("loss", |(_, a, _)| a.loss.mean.into()),
+            ("target_error", |(report, ..)| report.target_error.into()),
+            ("target_reached", |(_, a, _)| a.target_reached.into()),
+        ];
+        let rows = self.attributions.iter().flat_map(|a| a.maps.iter().map(move |share| (self, a, share)));
+        Table::of(&columns, rows)
     }
 
     fn missed(&self) -> Vec<Error> {
         let Some(target) = self.target_error else { return Vec::new() };
-        let of = |a: &Attribution| missed(target, &a.prediction, &a.loss, a.scenes.len());
+        let of = |a: &Attribution| missed(target, &a.prediction, &a.loss, a.scenes);
         self.attributions.iter().filter_map(of).collect()
-    }
-}
-
-#[derive(Serialize)]
-struct BlameJson<'a> {
-    #[serde(flatten)]
-    compared: &'a Compared,
-    target_error: Option<f64>,
-    attributions: Vec<AttributionEntry<'a>>,
-}
-
-#[derive(Serialize)]
-struct AttributionEntry<'a> {
-    prediction: &'a str,
-    scenes: usize,
-    seed: Option<u64>,
-    target_reached: Option<bool>,
-    loss: Estimate,
-    maps: &'a [MapShare],
-}
-
-impl Serialize for BlameReport {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let attributions = self.attributions.iter().map(|attribution| self.entry(attribution)).collect();
-        BlameJson { compared: &self.compared, target_error: self.target_error, attributions }
-            .serialize(serializer)
     }
 }

@@ -1,88 +1,93 @@
 //! Report of what might explain each loss.
 
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, floor_line};
-use super::table::{Cell, Table, aligned};
-use crate::diagnose::{Diagnosis, Finding, Rung, Seam, Value, sentence};
+use super::table::{Cell, Column, Table, aligned_columns};
+use crate::diagnose::{self, Finding, Rung, Seam, Value, sentence};
 use crate::loss::Estimate;
-
-const TITLES: [&str; 7] = ["", "hypothesis", "value", "loss", "95% interval", "share", "option"];
-const RUNGS: [&str; 4] = ["block", "loss", "roughness, ground truth", "roughness, prediction"];
-
-const COLUMNS: [&str; 13] = [
-    "prediction",
-    "hypothesis",
-    "value",
-    "unit",
-    "loss",
-    "interval95_low",
-    "interval95_high",
-    "share",
-    "share_interval95_low",
-    "share_interval95_high",
-    "p",
-    "marked",
-    "remedy",
-];
 
 /// Largest rank of a seam that is printed.
 const SEAM: f64 = 0.05;
 
-/// The diagnosis of the loss of each prediction.
-#[derive(Clone, Debug)]
+/// The diagnosis of each prediction: docs/diagnose.md describes each line.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct DiagnoseReport {
-    pub compared: Compared,
-    pub seed: u64,
+    #[serde(flatten)]
+    compared: Compared,
+    seed: u64,
     /// The loss that the ground truth cannot resolve.
-    pub floor: Estimate,
+    floor: Estimate,
     /// The number of captures of the ground truth that the floor is the mean loss between; `None`: it is that of rounding.
-    pub captures: Option<usize>,
+    captures: Option<usize>,
     /// The seams of the ground truth.
-    pub seams: Vec<Seam>,
+    seams: Vec<Seam>,
     /// One per prediction.
-    pub diagnoses: Vec<Diagnosis>,
+    predictions: Vec<Diagnosis>,
+}
+
+/// What might explain the loss of a prediction.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Diagnosis {
+    prediction: String,
+    /// The finding in words.
+    sentence: String,
+    loss: Estimate,
+    /// Whether the loss is above the floor.
+    resolvable: bool,
+    /// The part of the loss that disappears under all marked findings together; `None` without marks.
+    explained: Option<f64>,
+    findings: Vec<ReportedFinding>,
+    /// The loss between averages over larger and larger blocks.
+    ladder: Vec<Rung>,
+    /// Those of the prediction.
+    seams: Vec<Seam>,
+}
+
+/// The loss under a hypothesis, such as another exposure or another direction of y.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Finding")]
+struct ReportedFinding {
+    #[serde(flatten)]
+    finding: Finding,
+    /// What `--read` takes to correct the reading: `name:normal-y=down`.
+    remedy: Option<String>,
+    /// The same as an option of the command line.
+    #[serde(skip)]
+    option: Option<String>,
 }
 
 impl DiagnoseReport {
+    /// The report of `diagnoses` beside a `floor`, which is the mean loss between this many captures, or that of rounding.
+    pub fn new(
+        compared: Compared,
+        seed: u64,
+        (floor, captures): (Estimate, Option<usize>),
+        seams: Vec<Seam>,
+        diagnoses: Vec<diagnose::Diagnosis>,
+    ) -> Self {
+        let predictions = diagnoses.into_iter().map(|one| Diagnosis::new(one, &compared, &floor)).collect();
+        Self { compared, seed, floor, captures, seams, predictions }
+    }
+
     fn text_of(&self, diagnosis: &Diagnosis) -> String {
         let [mean, _, interval] = diagnosis.loss.texts();
-        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(diagnosis.findings.iter().map(|finding| row(finding, self.names(diagnosis))));
-        let mut rungs = vec![RUNGS.map(str::to_owned).to_vec()];
-        rungs.extend(diagnosis.ladder.iter().map(|rung: &Rung| {
-            let [truth, prediction] = rung.roughness.map(|roughness| format!("{roughness:.4}"));
-            vec![format!("{0} x {0}", rung.side), format!("{:.6}", rung.loss), truth, prediction]
-        }));
+        let rungs: [Column<'_, &Rung, String>; 4] = [
+            ("block", |rung| format!("{0} x {0}", rung.side)),
+            ("loss", |rung| format!("{:.6}", rung.loss)),
+            ("roughness, ground truth", |rung| format!("{:.4}", rung.roughness[0])),
+            ("roughness, prediction", |rung| format!("{:.4}", rung.roughness[1])),
+        ];
         format!(
             "{}\n\n{}: loss {mean}, 95% {interval}\n\n{}\n{}{}",
-            sentence(diagnosis, Some(&self.floor)),
+            diagnosis.sentence,
             diagnosis.prediction,
-            aligned(&rows),
-            aligned(&rungs),
+            aligned_columns(&columns(), &diagnosis.findings),
+            aligned_columns(&rungs, &diagnosis.ladder),
             self.seams_line(diagnosis)
         )
-    }
-
-    /// The names of the ground truth and of the prediction.
-    fn names<'a>(&'a self, diagnosis: &'a Diagnosis) -> [&'a str; 2] {
-        [&self.compared.ground_truth, &diagnosis.prediction]
-    }
-
-    fn entry<'a>(&self, diagnosis: &'a Diagnosis) -> DiagnosisEntry<'a> {
-        let Diagnosis { prediction, loss, explained, findings, ladder, seams } = diagnosis;
-        let names = self.names(diagnosis);
-        DiagnosisEntry {
-            prediction,
-            sentence: sentence(diagnosis, Some(&self.floor)),
-            loss: *loss,
-            resolvable: loss.mean > self.floor.mean,
-            explained: *explained,
-            findings: findings.iter().map(|finding| FindingEntry::new(finding, names)).collect(),
-            ladder,
-            seams,
-        }
     }
 
     /// The visible seams, where there are any.
@@ -104,6 +109,50 @@ impl DiagnoseReport {
     }
 }
 
+/// The columns of the findings for people.
+fn columns<'a>() -> [Column<'static, &'a ReportedFinding, String>; 7] {
+    [
+        ("", |one| if one.finding.marked { "*" } else { "" }.to_owned()),
+        ("hypothesis", |one| one.finding.hypothesis.name().to_owned()),
+        ("value", |ReportedFinding { finding: Finding { value, unit, .. }, .. }| match unit {
+            Some(unit) => format!("{value} {unit}"),
+            None => value.to_string(),
+        }),
+        ("loss", |one| known(one.finding.loss, |loss| format!("{loss:.6}"))),
+        ("95% interval", |one| known(one.finding.interval95, |[low, high]| format!("{low:.6} to {high:.6}"))),
+        ("share", |one| known(one.finding.share, |share| format!("{:.1}%", 100.0 * share))),
+        ("option", |one| match one.finding.marked {
+            true => one.option.clone().unwrap_or_else(|| "none".to_owned()),
+            false => String::new(),
+        }),
+    ]
+}
+
+fn known<T>(value: Option<T>, text: impl Fn(T) -> String) -> String {
+    value.map_or_else(|| "-".to_owned(), text)
+}
+
+impl Diagnosis {
+    fn new(found: diagnose::Diagnosis, compared: &Compared, floor: &Estimate) -> Self {
+        let names = [compared.ground_truth.as_str(), &found.prediction];
+        let finding = |finding: &Finding| ReportedFinding {
+            remedy: finding.statement(names),
+            option: finding.command_option(names),
+            finding: finding.clone(),
+        };
+        Self {
+            sentence: sentence(&found, Some(floor)),
+            resolvable: found.loss.mean > floor.mean,
+            findings: found.findings.iter().map(finding).collect(),
+            prediction: found.prediction,
+            loss: found.loss,
+            explained: found.explained,
+            ladder: found.ladder,
+            seams: found.seams,
+        }
+    }
+}
+
 /// A number, a list of them in brackets, or a name.
 fn cell(value: &Value) -> Cell {
     match value {
@@ -114,116 +163,36 @@ fn cell(value: &Value) -> Cell {
     }
 }
 
-/// A line of the table of the ground truth and the prediction with these names.
-fn row(finding: &Finding, names: [&str; 2]) -> Vec<String> {
-    let number = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |value| format!("{value:.6}"));
-    let interval =
-        finding.interval95.map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"));
-    let unit = finding.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
-    vec![
-        if finding.marked { "*" } else { "" }.to_owned(),
-        finding.hypothesis.name().to_owned(),
-        format!("{}{unit}", finding.value),
-        number(finding.loss),
-        interval,
-        finding.share.map_or_else(|| "-".to_owned(), |share| format!("{:.1}%", 100.0 * share)),
-        match finding.marked {
-            true => finding.command_option(names).unwrap_or_else(|| "none".to_owned()),
-            false => String::new(),
-        },
-    ]
-}
-
 impl Report for DiagnoseReport {
     fn text(&self) -> String {
-        let first =
-            self.diagnoses.iter().map(|diagnosis| self.text_of(diagnosis)).collect::<Vec<_>>().join("\n");
+        let texts: Vec<String> = self.predictions.iter().map(|diagnosis| self.text_of(diagnosis)).collect();
         format!(
-            "{}128 near-field and 64 distant scenes, seed {}, scrambled Sobol\n{}\n{first}",
+            "{}128 near-field and 64 distant scenes, seed {}, scrambled Sobol\n{}\n{}",
             self.compared.heading("diagnosis"),
             self.seed,
-            floor_line(&self.floor, self.captures)
+            floor_line(&self.floor, self.captures),
+            texts.join("\n")
         )
     }
 
     fn table(&self) -> Table {
-        let row = |diagnosis: &Diagnosis, finding: &Finding| {
-            let ends =
-                |interval: Option<[f64; 2]>| [0, 1].map(|end| Cell::from(interval.map(|ends| ends[end])));
-            let [low, high] = ends(finding.interval95);
-            let [share_low, share_high] = ends(finding.share_interval95);
-            vec![
-                diagnosis.prediction.as_str().into(),
-                finding.hypothesis.name().into(),
-                cell(&finding.value),
-                finding.unit.into(),
-                finding.loss.into(),
-                low,
-                high,
-                finding.share.into(),
-                share_low,
-                share_high,
-                finding.p.into(),
-                finding.marked.into(),
-                finding.statement(self.names(diagnosis)).into(),
-            ]
-        };
-        let all = self.diagnoses.iter();
-        Table::new(
-            COLUMNS,
-            all.flat_map(|diagnosis| diagnosis.findings.iter().map(move |f| row(diagnosis, f))),
-        )
-    }
-}
-
-#[derive(Serialize)]
-struct DiagnoseJson<'a> {
-    #[serde(flatten)]
-    compared: &'a Compared,
-    seed: u64,
-    floor: Estimate,
-    captures: Option<usize>,
-    seams: &'a [Seam],
-    predictions: Vec<DiagnosisEntry<'a>>,
-}
-
-#[derive(Serialize)]
-struct DiagnosisEntry<'a> {
-    prediction: &'a str,
-    sentence: String,
-    loss: Estimate,
-    /// Whether the loss is above the floor.
-    resolvable: bool,
-    explained: Option<f64>,
-    findings: Vec<FindingEntry<'a>>,
-    ladder: &'a [Rung],
-    seams: &'a [Seam],
-}
-
-impl Serialize for DiagnoseReport {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        DiagnoseJson {
-            compared: &self.compared,
-            seed: self.seed,
-            floor: self.floor,
-            captures: self.captures,
-            seams: &self.seams,
-            predictions: self.diagnoses.iter().map(|diagnosis| self.entry(diagnosis)).collect(),
-        }
-        .serialize(serializer)
-    }
-}
-
-/// A finding, and what `--read` takes to correct the reading: `name:normal-y=down`.
-#[derive(Serialize)]
-struct FindingEntry<'a> {
-    #[serde(flatten)]
-    finding: &'a Finding,
-    remedy: Option<String>,
-}
-
-impl<'a> FindingEntry<'a> {
-    fn new(finding: &'a Finding, names: [&str; 2]) -> Self {
-        Self { finding, remedy: finding.statement(names) }
+        let columns: [Column<'_, (&str, &ReportedFinding)>; 13] = [
+            ("prediction", |(prediction, _)| (*prediction).into()),
+            ("hypothesis", |(_, one)| one.finding.hypothesis.name().into()),
+            ("value", |(_, one)| cell(&one.finding.value)),
+            ("unit", |(_, one)| one.finding.unit.into()),
+            ("loss", |(_, one)| one.finding.loss.into()),
+            ("interval95_low", |(_, one)| Cell::low(one.finding.interval95)),
+            ("interval95_high", |(_, one)| Cell::high(one.finding.interval95)),
+            ("share", |(_, one)| one.finding.share.into()),
+            ("share_interval95_low", |(_, one)| Cell::low(one.finding.share_interval95)),
+            ("share_interval95_high", |(_, one)| Cell::high(one.finding.share_interval95)),
+            ("p", |(_, one)| one.finding.p.into()),
+            ("marked", |(_, one)| one.finding.marked.into()),
+            ("remedy", |(_, one)| one.remedy.clone().into()),
+        ];
+        let all = self.predictions.iter();
+        let rows = all.flat_map(|one| one.findings.iter().map(|finding| (one.prediction.as_str(), finding)));
+        Table::of(&columns, rows)
     }
 }

@@ -1,5 +1,6 @@
 //! The settings that reports have in common: lines above a table, and the first keys of the JSON.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::loss::{Estimate, Sampling};
@@ -11,7 +12,7 @@ use crate::model::sampler::Sampler;
 use crate::model::scene::{Kind, Scene};
 
 /// The ground truth of a report, and the convention of its losses.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Compared {
     pub ground_truth: String,
     /// Width and height in texels.

@@ -1,46 +1,137 @@
-//! Losses with the settings that they depend on.
+//! Losses with the settings that they depend on: the JSON.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::table::Cell;
 use crate::error::Error;
-use crate::loss::{Comparison, Compute, Estimate, Loss, Outcome, Question, Request, Texels};
-use crate::model::convention::Convention;
+use crate::loss::{Comparison, Compute, Estimate, IntervalSource, Loss, Outcome, Question, Request, Texels};
 use crate::model::sampler::Sampler;
-use crate::model::scene::Kind;
+use crate::model::scene::{Kind, Scene};
 use crate::progress::Progress;
 
-/// The losses of predictions, and what they depend on.
-#[derive(Clone, Debug)]
+/// Losses with the settings that they depend on. Where the JSON lists scenes, it is a scene file, too, which `--scenes` takes.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LossReport {
-    /// The convention that the losses follow.
-    pub convention: Convention,
     /// The name of the ground truth.
     pub ground_truth: String,
-    /// Width and height in texels.
-    pub size: [usize; 2],
+    /// Where it was read from.
+    pub(super) ground_truth_path: Option<String>,
+    /// The name of the convention.
+    pub convention: &'static str,
+    pub epsilon: f64,
     /// `f32` or `f64`.
     pub precision: &'static str,
     /// What computed the losses: `cpu` or `gpu`.
     pub backend: &'static str,
-    /// The scenes and the losses.
-    pub outcome: Outcome,
+    /// Width and height in texels.
+    pub size: [usize; 2],
+    #[serde(flatten)]
+    pub sampled: SampledScenes,
+    /// The source of all intervals.
+    pub(super) interval95_from: IntervalSource,
     /// The requested accuracy: half of the 95% interval, as a share of the loss.
-    pub target_error: Option<f64>,
-    /// Whether the request names the number of scenes, so that a list of them has a readable length.
-    pub lists_scenes: bool,
-    /// The losses over the few scenes of the papers, where they stand beside a more accurate loss.
-    pub few_scenes: Option<FewScenes>,
-    /// Where the ground truth and then the predictions were read from; empty, or `None` for others.
-    pub paths: Vec<Option<String>>,
-    /// The step of the training run that each prediction is; empty, or `None` for others.
-    pub steps: Vec<Option<u64>>,
+    pub(super) target_error: Option<f64>,
+    /// Whether every loss has the requested accuracy; `None` where none was requested.
+    pub(super) target_reached: Option<bool>,
+    /// The scenes of `few_scenes_loss` of the results; `None` where an option chooses scenes.
+    pub(super) few_scenes: Option<FewScenes>,
+    /// One per prediction, in their order.
+    pub(super) results: Vec<PredictionLoss>,
+    /// One per prediction but the first.
+    pub(super) differences: Vec<Difference>,
+    /// `None` where a goal decides how many there are, which are far too many to read: their numbers, sampler, texels and seed ask for
+    /// the same ones.
+    scenes: Option<Vec<Scene>>,
+    /// The scenes and the losses.
+    #[serde(skip)]
+    pub outcome: Outcome,
 }
 
-/// Losses over the few scenes of the papers: another estimate of the loss, which depends on the seed.
-#[derive(Clone, Debug)]
-pub struct FewScenes {
+/// How many scenes there are, and how they were sampled.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+pub struct SampledScenes {
+    /// The number of near-field scenes.
+    pub near: usize,
+    /// The number of distant scenes.
+    pub distant: usize,
+    /// The seed that names the scenes; `None` where they were listed.
+    pub seed: Option<u64>,
+    /// `None` where the scenes were listed.
+    pub sampler: Option<Sampler>,
+    /// The number of random texels in each scene, or "all".
+    pub(super) texels: TexelCount,
+}
+
+/// The texels in each scene: their number, or "all".
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum TexelCount {
+    Number(usize),
+    Word(AllTexels),
+}
+
+/// The word for all texels.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum AllTexels {
+    All,
+}
+
+/// The scenes of the losses over few scenes: another estimate of the loss, which depends on the seed.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(super) struct FewScenes {
+    #[serde(flatten)]
+    pub sampled: SampledScenes,
     /// What computed them: `cpu` or `gpu`.
-    pub backend: &'static str,
-    /// The scenes and the losses.
-    pub outcome: Outcome,
+    backend: &'static str,
+    interval95_from: IntervalSource,
+    /// One per prediction but the first, in these scenes.
+    differences: Vec<Difference>,
+    scenes: Vec<Scene>,
+}
+
+/// The loss of a prediction - the loss of the first one, over the same scenes.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(super) struct Difference {
+    pub prediction: String,
+    /// The name of the first prediction.
+    pub to: String,
+    difference: f64,
+    standard_error: Option<f64>,
+    interval95: Option<[f64; 2]>,
+}
+
+/// The loss of one prediction: the mean over scenes, texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "Loss")]
+pub(super) struct PredictionLoss {
+    pub prediction: String,
+    /// Where it was read from.
+    pub path: Option<String>,
+    /// The step of the training run that it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<u64>,
+    pub loss: f64,
+    /// Due to the sampling of scenes and texels; `None` where a kind has a single scene.
+    pub standard_error: Option<f64>,
+    /// The 95% confidence interval of the loss over all scenes.
+    pub interval95: Option<[f64; 2]>,
+    /// The loss of each scene, in their order; `None` where an accuracy or a time decided how many there are.
+    losses: Option<Vec<f64>>,
+    #[serde(flatten)]
+    pub few_scenes: Option<FewScenesLoss>,
+}
+
+/// The loss over few scenes beside a more accurate one.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(super) struct FewScenesLoss {
+    /// The loss over the 6 + 3 random scenes of the papers, beside a loss over all scenes.
+    pub few_scenes_loss: f64,
+    few_scenes_standard_error: Option<f64>,
+    pub few_scenes_interval95: Option<[f64; 2]>,
+    /// The loss of each of the few scenes, in their order.
+    few_scenes_losses: Vec<f64>,
 }
 
 impl LossReport {
@@ -50,18 +141,26 @@ impl LossReport {
             Request::Accuracy { target, .. } => Some(target),
             _ => None,
         };
+        // Their number was requested, so that a list of them has a readable length.
+        let lists_scenes = matches!(request, Request::Scenes(_) | Request::Listed(_));
+        let (convention, size) = (comparison.convention(), comparison.ground_truth().size());
         Self {
-            convention: *comparison.convention(),
             ground_truth: comparison.ground_truth().name().to_owned(),
-            size: comparison.ground_truth().size(),
+            ground_truth_path: None,
+            convention: convention.name,
+            epsilon: convention.epsilon,
             precision: T::NAME,
             backend: comparison.backend().name(),
-            outcome,
+            size,
+            sampled: SampledScenes::of(&outcome, size),
+            interval95_from: outcome.interval_source(),
             target_error,
-            lists_scenes: matches!(request, Request::Scenes(_) | Request::Listed(_)),
+            target_reached: target_error.map(|target| outcome.relative_error95() <= target),
             few_scenes: None,
-            paths: Vec::new(),
-            steps: Vec::new(),
+            results: outcome.losses.iter().map(|loss| PredictionLoss::of(loss, lists_scenes)).collect(),
+            differences: (1..outcome.losses.len()).map(|index| Difference::of(&outcome, index)).collect(),
+            scenes: lists_scenes.then(|| outcome.scenes.clone()),
+            outcome,
         }
     }
 
@@ -82,89 +181,89 @@ impl LossReport {
 
     /// The same report with the losses over the few scenes of the papers beside it.
     #[must_use]
-    pub fn beside(self, few: Self) -> Self {
-        let few_scenes = Some(FewScenes { backend: few.backend, outcome: few.outcome });
+    pub fn beside(mut self, few: Self) -> Self {
+        for (result, few) in self.results.iter_mut().zip(few.results) {
+            result.few_scenes = Some(FewScenesLoss {
+                few_scenes_loss: few.loss,
+                few_scenes_standard_error: few.standard_error,
+                few_scenes_interval95: few.interval95,
+                few_scenes_losses: few.losses.unwrap_or_default(),
+            });
+        }
+        let Self { sampled, backend, interval95_from, differences, outcome, .. } = few;
+        let scenes = outcome.scenes;
+        let few_scenes = Some(FewScenes { sampled, backend, interval95_from, differences, scenes });
         Self { few_scenes, ..self }
     }
 
-    /// The same report with other names: the ground truth first, then each prediction.
+    /// The same report of materials that were read from `paths`, the ground truth first, and of the `steps` of a training run: empty, or
+    /// `None` for others.
     #[must_use]
-    pub fn renamed(mut self, names: &[String]) -> Self {
-        let Some((ground_truth, predictions)) = names.split_first() else { return self };
-        self.ground_truth.clone_from(ground_truth);
-        let few = self.few_scenes.as_mut().map(|few| &mut few.outcome);
-        for outcome in [&mut self.outcome].into_iter().chain(few) {
-            for (loss, name) in outcome.losses.iter_mut().zip(predictions) {
-                loss.prediction.clone_from(name);
-            }
+    pub fn read_from(mut self, paths: Vec<Option<String>>, steps: Vec<Option<u64>>) -> Self {
+        let mut paths = paths.into_iter();
+        self.ground_truth_path = paths.next().flatten();
+        for (result, path) in self.results.iter_mut().zip(paths) {
+            result.path = path;
+        }
+        for (result, step) in self.results.iter_mut().zip(steps) {
+            result.step = step;
         }
         self
     }
+}
 
-    /// Whether the requested accuracy is reached by every loss; `None` where none was requested.
-    pub fn target_reached(&self) -> Option<bool> {
-        self.target_error.map(|target| self.outcome.relative_error95() <= target)
-    }
-
-    /// The paired difference of each further loss from the first: `loss - first`, over the same scenes.
-    pub fn differences(&self) -> Vec<(&Loss, Estimate)> {
-        differences(&self.outcome)
-    }
-
-    /// The seed that names the scenes; `None` where they were listed.
-    pub fn seed(&self) -> Option<u64> {
-        self.outcome.sampling.map(|sampling| sampling.seed)
-    }
-
-    /// How the scenes were sampled; `None` where they were listed.
-    pub fn sampler(&self) -> Option<Sampler> {
-        self.outcome.sampling.map(|sampling| sampling.sampler)
-    }
-
-    /// The texels that are compared in each scene.
-    pub fn texels(&self) -> Texels {
-        self.texels_of(&self.outcome)
-    }
-
-    /// The number of scenes of a kind.
-    pub fn count(&self, kind: Kind) -> usize {
-        count(&self.outcome, kind)
-    }
-
-    /// The texels that `outcome` compares in each scene.
-    pub(super) fn texels_of(&self, outcome: &Outcome) -> Texels {
-        let sampled = outcome.sampling.and_then(|sampling| sampling.texels.sampled(self.size));
-        sampled.map_or(Texels::All, Texels::Sampled)
-    }
-
-    /// The loss of the prediction with this index over the few scenes of the papers.
-    pub(super) fn few_scenes_loss(&self, index: usize) -> Option<&Loss> {
-        self.few_scenes.as_ref()?.outcome.losses.get(index)
-    }
-
-    /// Where the ground truth was read from.
-    pub(super) fn ground_truth_path(&self) -> Option<&str> {
-        self.paths.first()?.as_deref()
-    }
-
-    /// Where the prediction with this index was read from.
-    pub(super) fn prediction_path(&self, index: usize) -> Option<&str> {
-        self.paths.get(index + 1)?.as_deref()
-    }
-
-    /// The step of the training run that the prediction with this index is.
-    pub(super) fn step(&self, index: usize) -> Option<u64> {
-        self.steps.get(index).copied().flatten()
+impl SampledScenes {
+    fn of(outcome: &Outcome, size: [usize; 2]) -> Self {
+        let count = |kind| outcome.scenes.iter().filter(|scene| scene.kind == kind).count();
+        let texels = outcome.sampling.and_then(|sampling| sampling.texels.sampled(size));
+        Self {
+            near: count(Kind::Near),
+            distant: count(Kind::Distant),
+            seed: outcome.sampling.map(|sampling| sampling.seed),
+            sampler: outcome.sampling.map(|sampling| sampling.sampler),
+            texels: texels.map_or(TexelCount::Word(AllTexels::All), TexelCount::Number),
+        }
     }
 }
 
-/// The paired difference of each further loss from the first, over the same scenes.
-pub(super) fn differences(outcome: &Outcome) -> Vec<(&Loss, Estimate)> {
-    let others = outcome.losses.iter().enumerate().skip(1);
-    others.map(|(index, loss)| (loss, outcome.difference(index, 0))).collect()
+impl PredictionLoss {
+    fn of(loss: &Loss, lists_scenes: bool) -> Self {
+        let Loss { prediction, estimate, per_scene } = loss;
+        Self {
+            prediction: prediction.clone(),
+            path: None,
+            step: None,
+            loss: estimate.mean,
+            standard_error: estimate.standard_error,
+            interval95: estimate.interval95,
+            losses: lists_scenes.then(|| per_scene.clone()),
+            few_scenes: None,
+        }
+    }
+
+    pub fn estimate(&self) -> Estimate {
+        Estimate { mean: self.loss, standard_error: self.standard_error, interval95: self.interval95 }
+    }
 }
 
-/// The number of scenes of a kind.
-pub(super) fn count(outcome: &Outcome, kind: Kind) -> usize {
-    outcome.scenes.iter().filter(|scene| scene.kind == kind).count()
+impl Difference {
+    /// Of the prediction with this index.
+    fn of(outcome: &Outcome, index: usize) -> Self {
+        let Estimate { mean, standard_error, interval95 } = outcome.difference(index, 0);
+        let [prediction, to] = [index, 0].map(|index| outcome.losses[index].prediction.clone());
+        Self { prediction, to, difference: mean, standard_error, interval95 }
+    }
+
+    pub fn estimate(&self) -> Estimate {
+        Estimate { mean: self.difference, standard_error: self.standard_error, interval95: self.interval95 }
+    }
+}
+
+impl From<TexelCount> for Cell {
+    fn from(texels: TexelCount) -> Self {
+        match texels {
+            TexelCount::Number(count) => count.into(),
+            TexelCount::Word(AllTexels::All) => Texels::All.to_string().into(),
+        }
+    }
 }

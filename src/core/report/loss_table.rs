@@ -1,82 +1,60 @@
-//! The rows of a loss report: one per prediction.
+//! A loss report: its rows, one per prediction, and what it misses.
 
-use super::loss::LossReport;
-use super::table::{Cell, Table};
-use crate::loss::{Loss, Texels};
-use crate::model::scene::Kind;
+use super::Report;
+use super::loss::{LossReport, PredictionLoss};
+use super::missed::missed_by_any;
+use super::table::{Cell, Column, Table};
+use crate::error::Error;
 
-const COLUMNS: [&str; 26] = [
-    "prediction",
-    "loss",
-    "standard_error",
-    "interval95_low",
-    "interval95_high",
-    "convention",
-    "epsilon",
-    "width",
-    "height",
-    "near",
-    "distant",
-    "seed",
-    "sampler",
-    "texels",
-    "precision",
-    "backend",
-    "target_error",
-    "target_reached",
-    "path",
-    "ground_truth",
-    "ground_truth_path",
-    "interval95_from",
-    "few_scenes_loss",
-    "few_scenes_low",
-    "few_scenes_high",
-    "step",
-];
-
-pub(super) fn table(report: &LossReport) -> Table {
-    let common = common(report);
-    let row = |(index, loss): (usize, &Loss)| {
-        let [error, low, high] = Cell::errors(&loss.estimate);
-        let start = [loss.prediction.as_str().into(), loss.estimate.mean.into(), error, low, high];
-        let end = [
-            report.prediction_path(index).into(),
-            report.ground_truth.as_str().into(),
-            report.ground_truth_path().into(),
-            report.outcome.interval_source().to_string().into(),
-        ];
-        let few_scenes = few_scenes(report.few_scenes_loss(index));
-        let step = [report.step(index).into()];
-        start.into_iter().chain(common.clone()).chain(end).chain(few_scenes).chain(step).collect()
-    };
-    Table::new(COLUMNS, report.outcome.losses.iter().enumerate().map(row))
+fn table(report: &LossReport) -> Table {
+    let columns: [Column<'_, (&LossReport, &PredictionLoss)>; 26] = [
+        ("prediction", |(_, result)| result.prediction.as_str().into()),
+        ("loss", |(_, result)| result.loss.into()),
+        ("standard_error", |(_, result)| result.standard_error.into()),
+        ("interval95_low", |(_, result)| Cell::low(result.interval95)),
+        ("interval95_high", |(_, result)| Cell::high(result.interval95)),
+        ("convention", |(report, _)| report.convention.into()),
+        ("epsilon", |(report, _)| report.epsilon.into()),
+        ("width", |(report, _)| report.size[0].into()),
+        ("height", |(report, _)| report.size[1].into()),
+        ("near", |(report, _)| report.sampled.near.into()),
+        ("distant", |(report, _)| report.sampled.distant.into()),
+        ("seed", |(report, _)| report.sampled.seed.into()),
+        ("sampler", |(report, _)| report.sampled.sampler.map(|sampler| sampler.to_string()).into()),
+        ("texels", |(report, _)| report.sampled.texels.into()),
+        ("precision", |(report, _)| report.precision.into()),
+        ("backend", |(report, _)| report.backend.into()),
+        ("target_error", |(report, _)| report.target_error.into()),
+        ("target_reached", |(report, _)| report.target_reached.into()),
+        ("path", |(_, result)| result.path.clone().into()),
+        ("ground_truth", |(report, _)| report.ground_truth.as_str().into()),
+        ("ground_truth_path", |(report, _)| report.ground_truth_path.clone().into()),
+        ("interval95_from", |(report, _)| report.interval95_from.to_string().into()),
+        ("few_scenes_loss", |(_, result)| result.few_scenes.as_ref().map(|few| few.few_scenes_loss).into()),
+        ("few_scenes_low", |(_, result)| Cell::low(few_scenes(result))),
+        ("few_scenes_high", |(_, result)| Cell::high(few_scenes(result))),
+        ("step", |(_, result)| result.step.into()),
+    ];
+    Table::of(&columns, report.results.iter().map(|result| (report, result)))
 }
 
-/// The cells that are the same in every row.
-fn common(report: &LossReport) -> [Cell; 13] {
-    let [width, height] = report.size;
-    [
-        report.convention.name.into(),
-        report.convention.epsilon.into(),
-        width.into(),
-        height.into(),
-        report.count(Kind::Near).into(),
-        report.count(Kind::Distant).into(),
-        report.seed().into(),
-        report.sampler().map(|sampler| sampler.to_string()).into(),
-        match report.texels() {
-            Texels::Sampled(count) => count.into(),
-            Texels::All => "all".into(),
-        },
-        report.precision.into(),
-        report.backend.into(),
-        report.target_error.into(),
-        report.target_reached().into(),
-    ]
+/// The interval of the loss over few scenes.
+fn few_scenes(result: &PredictionLoss) -> Option<[f64; 2]> {
+    result.few_scenes.as_ref()?.few_scenes_interval95
 }
 
-/// The loss over few scenes and its interval, empty where there is none.
-fn few_scenes(loss: Option<&Loss>) -> [Cell; 3] {
-    let interval = loss.and_then(|loss| loss.estimate.interval95);
-    [loss.map(|loss| loss.estimate.mean), interval.map(|i| i[0]), interval.map(|i| i[1])].map(Cell::from)
+impl Report for LossReport {
+    fn text(&self) -> String {
+        self.text()
+    }
+
+    fn table(&self) -> Table {
+        table(self)
+    }
+
+    fn missed(&self) -> Vec<Error> {
+        let losses = self.results.iter().map(|result| (result.prediction.as_str(), result.estimate()));
+        let missed = |target| missed_by_any(target, losses, self.outcome.scenes.len());
+        self.target_error.and_then(missed).into_iter().collect()
+    }
 }

@@ -1,10 +1,11 @@
 //! Losses over texels, or over directions of the light or the view.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, position};
-use super::table::{Cell, Table, aligned};
+use super::table::{Cell, Column, Table, aligned_columns};
 use crate::error::Error;
 use crate::image::{Image, mean_of_channels};
 use crate::loss::Comparison;
@@ -13,15 +14,15 @@ use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::why::{self, Hemisphere};
 
-/// A map of the loss of each prediction.
-#[derive(Clone, Debug, Serialize)]
+/// The loss over texels, or over the directions of the light or the view.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MapReport {
     #[serde(flatten)]
     pub compared: Compared,
     /// The meaning of the numbers.
     pub shows: String,
     /// One per prediction.
-    results: Vec<MapEntry>,
+    results: Vec<MapSummary>,
     /// The loss of each texel and channel, or of each direction in all channels: one image per prediction.
     #[serde(skip)]
     pub images: Vec<Image<f32>>,
@@ -30,29 +31,24 @@ pub struct MapReport {
     pub directions: Option<(Endpoint, Hemisphere)>,
 }
 
-/// The summary of the map of a prediction.
-#[derive(Clone, Debug, Serialize)]
-struct MapEntry {
+/// The map of a prediction in a few numbers.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct MapSummary {
     prediction: String,
+    /// The loss.
     mean: f64,
     largest: f64,
-    #[serde(flatten)]
-    place: MapPlace,
-}
-
-/// Where a map is largest.
-#[derive(Clone, Copy, Debug, Serialize)]
-#[serde(untagged)]
-enum MapPlace {
-    Texel {
-        column: usize,
-        row: usize,
-    },
-    Direction {
-        /// The root mean square of the standard errors of all directions.
-        standard_error: f64,
-        direction: [f64; 3],
-    },
+    /// Where a map over texels is largest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    column: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    row: Option<usize>,
+    /// The root mean square of the standard errors of a map over directions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    standard_error: Option<f64>,
+    /// Where a map over directions is largest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    direction: Option<[f64; 3]>,
 }
 
 impl MapReport {
@@ -69,8 +65,9 @@ impl MapReport {
         let entry = |(name, image): (String, &Image<f32>)| {
             let all = image.pixels.iter().map(mean_of_channels).enumerate();
             let (at, largest) = all.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
-            let place = MapPlace::Texel { column: at % image.width, row: at / image.width };
-            MapEntry { prediction: name, mean: why::mean(image), largest: f64::from(largest), place }
+            let (column, row) = (Some(at % image.width), Some(at / image.width));
+            let (mean, largest) = (why::mean(image), f64::from(largest));
+            MapSummary { prediction: name, mean, largest, column, row, standard_error: None, direction: None }
         };
         Ok(Self {
             compared: Compared::new(comparison.ground_truth(), comparison.convention()),
@@ -96,8 +93,17 @@ impl MapReport {
         let map = why::hemisphere(comparison, moved, fixed, side, progress, |_| ())?;
         let entry = |(index, name): (usize, String)| {
             let (direction, largest) = map.worst(index)?;
-            let place = MapPlace::Direction { standard_error: map.standard_error(index), direction };
-            Some(MapEntry { prediction: name, mean: map.mean(index), largest, place })
+            let (standard_error, direction) = (Some(map.standard_error(index)), Some(direction));
+            let mean = map.mean(index);
+            Some(MapSummary {
+                prediction: name,
+                mean,
+                largest,
+                column: None,
+                row: None,
+                standard_error,
+                direction,
+            })
         };
         let image = |losses: &Vec<f64>| Image {
             width: side,
@@ -113,17 +119,6 @@ impl MapReport {
             directions: Some((moved, map)),
         })
     }
-
-    /// The same report with other names: the ground truth first, then each prediction.
-    #[must_use]
-    pub fn renamed(mut self, names: &[String]) -> Self {
-        let Some((ground_truth, predictions)) = names.split_first() else { return self };
-        self.compared.ground_truth.clone_from(ground_truth);
-        for (entry, name) in self.results.iter_mut().zip(predictions) {
-            entry.prediction.clone_from(name);
-        }
-        self
-    }
 }
 
 fn names(comparison: &Comparison<'_, f32>) -> impl Iterator<Item = String> {
@@ -138,59 +133,71 @@ fn roles(moved: Endpoint) -> [&'static str; 2] {
     }
 }
 
+/// A prediction, a direction, and the loss there with its standard error.
+type DirectionRow<'a> = (&'a str, [f64; 3], [f64; 2]);
+/// A prediction, the column and row of a texel, and its loss in each channel.
+type TexelRow<'a> = (&'a str, [usize; 2], [f32; 3]);
+
 impl Report for MapReport {
     fn text(&self) -> String {
-        let start = ["prediction", "mean", "largest"];
-        let titles = match self.directions {
-            Some((moved, _)) => start.into_iter().chain(["+- std. error", roles(moved)[0]]),
-            None => start.into_iter().chain(["column", "row"]),
+        let start: [Column<'_, &MapSummary, String>; 3] = [
+            ("prediction", |summary| summary.prediction.clone()),
+            ("mean", |summary| format!("{:.6}", summary.mean)),
+            ("largest", |summary| format!("{:.6}", summary.largest)),
+        ];
+        let end: [Column<'_, &MapSummary, String>; 2] = match self.directions {
+            Some((moved, _)) => [
+                ("+- std. error", |summary| format!("{:.6}", summary.standard_error.unwrap_or_default())),
+                (roles(moved)[0], |summary| position(summary.direction.unwrap_or_default())),
+            ],
+            None => [
+                ("column", |summary| summary.column.unwrap_or_default().to_string()),
+                ("row", |summary| summary.row.unwrap_or_default().to_string()),
+            ],
         };
-        let mut rows = vec![titles.map(str::to_owned).collect::<Vec<_>>()];
-        rows.extend(self.results.iter().map(|MapEntry { prediction, mean, largest, place }| {
-            let end = match *place {
-                MapPlace::Texel { column, row } => [column.to_string(), row.to_string()],
-                MapPlace::Direction { standard_error, direction } => {
-                    [format!("{standard_error:.6}"), position(direction)]
-                }
-            };
-            let start = [prediction.clone(), format!("{mean:.6}"), format!("{largest:.6}")];
-            start.into_iter().chain(end).collect()
-        }));
-        format!("{}\n{}", self.compared.heading(&self.shows), aligned(&rows))
+        let table = aligned_columns(&[&start[..], &end].concat(), &self.results);
+        format!("{}\n{}", self.compared.heading(&self.shows), table)
     }
 
     /// A row for each texel or direction of each prediction.
     fn table(&self) -> Table {
         match &self.directions {
             Some((_, map)) => {
-                let columns = ["prediction", "x", "y", "z", "loss", "standard_error"];
-                Table::new(
-                    columns,
-                    self.results.iter().enumerate().flat_map(|(p, entry)| of_map(p, entry, map)),
-                )
+                let columns: [Column<'_, DirectionRow<'_>>; 6] = [
+                    ("prediction", |(prediction, ..)| (*prediction).into()),
+                    ("x", |(_, direction, _)| direction[0].into()),
+                    ("y", |(_, direction, _)| direction[1].into()),
+                    ("z", |(_, direction, _)| direction[2].into()),
+                    ("loss", |(.., [loss, _])| (*loss).into()),
+                    ("standard_error", |(.., [_, error])| (*error).into()),
+                ];
+                let all = self.results.iter().zip(&map.losses).zip(&map.standard_errors);
+                let rows = all.flat_map(|((summary, losses), errors)| {
+                    let cells = map.directions.iter().zip(losses).zip(errors);
+                    let row = |((direction, &loss), &error): ((&Option<[f64; 3]>, _), _)| {
+                        Some((summary.prediction.as_str(), (*direction)?, [loss, error]))
+                    };
+                    cells.filter_map(row)
+                });
+                Table::of(&columns, rows)
             }
             None => {
-                let columns = ["prediction", "column", "row", "red", "green", "blue"];
-                let all = self.results.iter().zip(&self.images);
-                Table::new(columns, all.flat_map(|(entry, image)| of_image(entry, image)))
+                let columns: [Column<'_, TexelRow<'_>>; 6] = [
+                    ("prediction", |(prediction, ..)| (*prediction).into()),
+                    ("column", |(_, [column, _], _)| (*column).into()),
+                    ("row", |(_, [_, row], _)| (*row).into()),
+                    ("red", |(.., [red, _, _])| Cell::Single(*red)),
+                    ("green", |(.., [_, green, _])| Cell::Single(*green)),
+                    ("blue", |(.., [_, _, blue])| Cell::Single(*blue)),
+                ];
+                let rows = self.results.iter().zip(&self.images).flat_map(|(summary, image)| {
+                    let all = image.pixels.iter().enumerate();
+                    all.map(|(at, pixel)| {
+                        (summary.prediction.as_str(), [at % image.width, at / image.width], *pixel)
+                    })
+                });
+                Table::of(&columns, rows)
             }
         }
     }
-}
-
-/// The rows of the directions of the prediction with index `index`.
-fn of_map(index: usize, entry: &MapEntry, map: &Hemisphere) -> impl Iterator<Item = Vec<Cell>> {
-    let cells = map.directions.iter().zip(&map.losses[index]).zip(&map.standard_errors[index]);
-    cells.filter_map(|((direction, &loss), &error)| {
-        let numbers = (*direction)?.into_iter().chain([loss, error]).map(Cell::from);
-        Some([entry.prediction.as_str().into()].into_iter().chain(numbers).collect())
-    })
-}
-
-/// The rows of the texels of a prediction.
-fn of_image(entry: &MapEntry, image: &Image<f32>) -> impl Iterator<Item = Vec<Cell>> {
-    image.pixels.iter().enumerate().map(|(at, pixel)| {
-        let start = [entry.prediction.as_str().into(), (at % image.width).into(), (at / image.width).into()];
-        start.into_iter().chain(pixel.map(Cell::Single)).collect()
-    })
 }

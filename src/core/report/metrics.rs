@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Serialize, Serializer};
 
 use super::Report;
@@ -10,14 +11,14 @@ use super::table::{Cell, Table, aligned};
 use crate::loss::Sampling;
 use crate::metrics::{Metric, RenderedScenes};
 
-/// The metrics of each prediction.
-#[derive(Clone, Debug, Serialize)]
+/// Metrics of maps and renderings, each with its convention in its name: docs/metrics.md defines them.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MetricsReport {
     ground_truth: String,
-    /// The convention of the renderings.
+    /// The convention of the renderings; `None` for those of a protocol.
     #[serde(skip_serializing_if = "Option::is_none")]
     convention: Option<&'static str>,
-    /// The exposure of the renderings in stops.
+    /// The exposure of the renderings in stops; `None` for those of a protocol.
     #[serde(skip_serializing_if = "Option::is_none")]
     exposure_ev: Option<f32>,
     /// The published evaluation.
@@ -26,17 +27,19 @@ pub struct MetricsReport {
     /// The lines above the text's table.
     #[serde(skip)]
     heading: String,
-    results: Vec<MetricsEntry>,
+    /// One per prediction.
+    results: Vec<Metrics>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct MetricsEntry {
+/// The metrics of one prediction.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Metrics {
     prediction: String,
-    /// Without an order of its own; an infinite PSNR, of equal renderings, is null in JSON.
+    /// By name; `None` for the infinite PSNR of equal maps or renderings.
     #[serde(serialize_with = "by_name")]
+    #[schemars(with = "BTreeMap<String, Option<f64>>")]
     metrics: Vec<Metric>,
-    /// The 95% intervals of means over sampled scenes, where they are known.
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    /// The 95% intervals of means over sampled scenes by name, where they are known.
     intervals95: BTreeMap<&'static str, [f64; 2]>,
 }
 
@@ -94,7 +97,7 @@ impl MetricsReport {
 
     /// The titles of a table, with columns for the interval of each prediction where there may be one.
     fn columns(&self, interval: impl Fn(&str) -> Vec<String>) -> Vec<String> {
-        let of = |result: &MetricsEntry| {
+        let of = |result: &Metrics| {
             let ends = if self.has_scenes() { interval(&result.prediction) } else { Vec::new() };
             [result.prediction.clone()].into_iter().chain(ends)
         };
@@ -115,10 +118,10 @@ impl MetricsReport {
     }
 }
 
-fn entries(results: Vec<(String, Vec<Metric>)>) -> Vec<MetricsEntry> {
+fn entries(results: Vec<(String, Vec<Metric>)>) -> Vec<Metrics> {
     let entry = |(prediction, metrics): (String, Vec<Metric>)| {
         let known = metrics.iter().filter_map(|metric| Some((metric.name, metric.interval95?)));
-        MetricsEntry { prediction, intervals95: known.collect(), metrics }
+        Metrics { prediction, intervals95: known.collect(), metrics }
     };
     results.into_iter().map(entry).collect()
 }
@@ -141,8 +144,7 @@ impl Report for MetricsReport {
 
     fn table(&self) -> Table {
         let cells = |metric: &Metric| {
-            let end = |end: usize| Cell::from(metric.interval95.map(|interval| interval[end]));
-            [metric.value.into(), end(0), end(1)]
+            [metric.value.into(), Cell::low(metric.interval95), Cell::high(metric.interval95)]
         };
         let ends = |name: &str| ["low", "high"].map(|end| format!("{name} interval95_{end}")).into();
         Table::new(self.columns(ends), self.cells(|name| Cell::from(name), cells))

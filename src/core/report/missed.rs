@@ -1,7 +1,7 @@
 //! Requested accuracies that are not reached.
 
 use crate::error::Error;
-use crate::loss::{Estimate, Outcome};
+use crate::loss::Estimate;
 
 /// The error of a loss over `scenes` scenes whose 95% interval reaches further from it than `target`, a share of it.
 pub fn missed(target: f64, prediction: &str, loss: &Estimate, scenes: usize) -> Option<Error> {
@@ -10,9 +10,13 @@ pub fn missed(target: f64, prediction: &str, loss: &Estimate, scenes: usize) -> 
     (reached > target).then_some(Error::Inaccurate { prediction, reached, target, scenes })
 }
 
-/// As [`missed`], of the loss of an outcome that is known least.
-pub(super) fn missed_by_any(target: f64, outcome: &Outcome) -> Option<Error> {
-    let error = |estimate: &Estimate| estimate.relative_error95();
-    let least = outcome.losses.iter().max_by(|a, b| error(&a.estimate).total_cmp(&error(&b.estimate)))?;
-    missed(target, &least.prediction, &least.estimate, outcome.scenes.len())
+/// As [`missed`], of that of the losses, each beside its prediction, which is known least.
+pub(super) fn missed_by_any<'a>(
+    target: f64,
+    losses: impl Iterator<Item = (&'a str, Estimate)>,
+    scenes: usize,
+) -> Option<Error> {
+    let error = |(_, loss): &(&str, Estimate)| loss.relative_error95();
+    let (prediction, loss) = losses.max_by(|a, b| error(a).total_cmp(&error(b)))?;
+    missed(target, prediction, &loss, scenes)
 }

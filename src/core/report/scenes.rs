@@ -1,39 +1,70 @@
 //! The scenes of a loss, worst first.
 
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, position, scenes_line};
-use super::table::{Cell, Table, aligned};
+use super::table::{Cell, Column, Table, aligned};
 use crate::loss::Outcome;
 use crate::model::scene::Scene;
-use crate::why::{Distribution, RankedScene, worst_first};
+use crate::why::{Distribution, worst_first};
 
-/// The losses of single scenes, sorted by the mean of the losses of all predictions in them.
-#[derive(Clone, Debug)]
+/// The scenes with the largest losses, sorted by the mean of the losses of all predictions in them, worst first. Its JSON is a
+/// scene file, too.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ScenesReport {
-    pub compared: Compared,
-    pub outcome: Outcome,
-    /// The scenes that are listed.
-    pub ranked: Vec<RankedScene>,
+    #[serde(flatten)]
+    compared: Compared,
+    /// `None` where the scenes were listed.
+    seed: Option<u64>,
+    /// The number of scenes that these are the worst of.
+    of: usize,
+    /// One per prediction.
+    results: Vec<ScenesLoss>,
+    scenes: Vec<Scene>,
+    /// The number of each listed scene among all.
+    #[serde(skip)]
+    indices: Vec<usize>,
+    /// The lines above the table.
+    #[serde(skip)]
+    heading: String,
+}
+
+/// The loss of a prediction in single scenes.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct ScenesLoss {
+    prediction: String,
+    /// Over all scenes.
+    loss: f64,
+    /// The loss of each listed scene.
+    losses: Vec<f64>,
 }
 
 impl ScenesReport {
-    /// The report of all scenes of `outcome`.
-    pub fn new(compared: Compared, outcome: Outcome) -> Self {
-        let ranked = worst_first(&outcome);
-        Self { compared, outcome, ranked }
-    }
-
-    /// The same report with the `count` worst scenes only.
-    #[must_use]
-    pub fn top(mut self, count: usize) -> Self {
-        self.ranked.truncate(count);
-        self
-    }
-
-    fn names(&self) -> impl Iterator<Item = String> {
-        self.outcome.losses.iter().map(|loss| loss.prediction.clone())
+    /// The report of the `count` worst scenes of `outcome`.
+    pub fn new(compared: Compared, outcome: &Outcome, count: usize) -> Self {
+        let mut ranked = worst_first(outcome);
+        ranked.truncate(count);
+        let heading = compared.heading("losses of scenes")
+            + &scenes_line(outcome.sampling.as_ref(), &outcome.scenes, compared.size);
+        let distributions = outcome.losses.iter();
+        let distributions = distributions
+            .filter_map(|loss| Some(distribution(&loss.prediction, &Distribution::of(&loss.per_scene)?)));
+        let results = outcome.losses.iter().enumerate().map(|(index, loss)| ScenesLoss {
+            prediction: loss.prediction.clone(),
+            loss: loss.estimate.mean,
+            losses: ranked.iter().map(|ranked| ranked.losses[index]).collect(),
+        });
+        Self {
+            heading: heading + &distributions.collect::<String>(),
+            compared,
+            seed: outcome.sampling.map(|sampling| sampling.seed),
+            of: outcome.scenes.len(),
+            results: results.collect(),
+            scenes: ranked.iter().map(|ranked| ranked.scene).collect(),
+            indices: ranked.iter().map(|ranked| ranked.index).collect(),
+        }
     }
 }
 
@@ -48,68 +79,33 @@ fn distribution(prediction: &str, d: &Distribution) -> String {
 
 impl Report for ScenesReport {
     fn text(&self) -> String {
-        let distributions = self.outcome.losses.iter();
-        let distributions: String = distributions
-            .filter_map(|loss| Some(distribution(&loss.prediction, &Distribution::of(&loss.per_scene)?)))
-            .collect();
-        let titles = ["scene", "kind", "view", "light"].map(str::to_owned);
-        let mut rows = vec![titles.into_iter().chain(self.names()).collect::<Vec<_>>()];
-        rows.extend(self.ranked.iter().map(|ranked| {
-            let Scene { kind, view, light } = ranked.scene;
-            let start = [ranked.index.to_string(), kind.to_string(), position(view), position(light)];
-            start.into_iter().chain(ranked.losses.iter().map(|loss| format!("{loss:.6}"))).collect()
+        let names = self.results.iter().map(|result| result.prediction.as_str());
+        let titles: Vec<_> = ["scene", "kind", "view", "light"].into_iter().chain(names).collect();
+        let mut rows = vec![titles.into_iter().map(str::to_owned).collect::<Vec<_>>()];
+        rows.extend(self.indices.iter().zip(&self.scenes).enumerate().map(|(k, (index, scene))| {
+            let start =
+                [index.to_string(), scene.kind.to_string(), position(scene.view), position(scene.light)];
+            let losses = self.results.iter().map(|result| format!("{:.6}", result.losses[k]));
+            start.into_iter().chain(losses).collect()
         }));
-        let heading = self.compared.heading("losses of scenes");
-        let scenes = scenes_line(self.outcome.sampling.as_ref(), &self.outcome.scenes, self.compared.size);
-        format!("{heading}{scenes}\n{distributions}\n{}", aligned(&rows))
+        format!("{}\n{}", self.heading, aligned(&rows))
     }
 
     fn table(&self) -> Table {
-        let fixed = ["scene", "kind", "view_x", "view_y", "view_z", "light_x", "light_y", "light_z"];
-        let row = |ranked: &RankedScene| {
-            let Scene { kind, view, light } = ranked.scene;
-            let numbers = view.iter().chain(&light).chain(&ranked.losses).map(|&number| Cell::from(number));
-            [ranked.index.into(), kind.to_string().into()].into_iter().chain(numbers).collect()
-        };
-        Table::new(fixed.map(str::to_owned).into_iter().chain(self.names()), self.ranked.iter().map(row))
-    }
-}
-
-/// A scene file, too.
-#[derive(Serialize)]
-struct ScenesJson<'a> {
-    #[serde(flatten)]
-    compared: &'a Compared,
-    seed: Option<u64>,
-    /// The number of scenes that these are the worst of.
-    of: usize,
-    results: Vec<ScenesEntry<'a>>,
-    scenes: Vec<Scene>,
-}
-
-#[derive(Serialize)]
-struct ScenesEntry<'a> {
-    prediction: &'a str,
-    /// Over all scenes.
-    loss: f64,
-    /// The loss of each listed scene.
-    losses: Vec<f64>,
-}
-
-impl Serialize for ScenesReport {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let results = self.outcome.losses.iter().enumerate().map(|(index, loss)| ScenesEntry {
-            prediction: &loss.prediction,
-            loss: loss.estimate.mean,
-            losses: self.ranked.iter().map(|ranked| ranked.losses[index]).collect(),
-        });
-        let object = ScenesJson {
-            compared: &self.compared,
-            seed: self.outcome.sampling.map(|sampling| sampling.seed),
-            of: self.outcome.scenes.len(),
-            results: results.collect(),
-            scenes: self.ranked.iter().map(|ranked| ranked.scene).collect(),
-        };
-        object.serialize(serializer)
+        let columns: [Column<'_, (&usize, &Scene)>; 8] = [
+            ("scene", |(index, _)| (**index).into()),
+            ("kind", |(_, scene)| scene.kind.to_string().into()),
+            ("view_x", |(_, scene)| scene.view[0].into()),
+            ("view_y", |(_, scene)| scene.view[1].into()),
+            ("view_z", |(_, scene)| scene.view[2].into()),
+            ("light_x", |(_, scene)| scene.light[0].into()),
+            ("light_y", |(_, scene)| scene.light[1].into()),
+            ("light_z", |(_, scene)| scene.light[2].into()),
+        ];
+        let mut table = Table::of(&columns, self.indices.iter().zip(&self.scenes));
+        for result in &self.results {
+            table.push(result.prediction.clone(), result.losses.iter().map(|&loss| Cell::from(loss)));
+        }
+        table
     }
 }

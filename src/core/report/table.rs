@@ -3,7 +3,6 @@
 use std::fmt;
 
 use crate::error::Error;
-use crate::loss::Estimate;
 use crate::text::line;
 
 /// A value of a [`Table`].
@@ -45,40 +44,23 @@ impl Cell {
     }
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
+macro_rules! cells_of {
+    ($($from:ty, $value:ident => $cell:expr;)+) => {
+        $(impl From<$from> for Cell {
+            fn from($value: $from) -> Self {
+                $cell
+            }
+        })+
+    };
 }
 
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        Self::Text(text)
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(number: usize) -> Self {
-        Self::Integer(number as u64)
-    }
-}
-
-impl From<u64> for Cell {
-    fn from(number: u64) -> Self {
-        Self::Integer(number)
-    }
-}
-
-impl From<f64> for Cell {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
-    }
-}
-
-impl From<bool> for Cell {
-    fn from(truth: bool) -> Self {
-        Self::Truth(truth)
-    }
+cells_of! {
+    &str, text => Self::Text(text.to_owned());
+    String, text => Self::Text(text);
+    usize, number => Self::Integer(number as u64);
+    u64, number => Self::Integer(number);
+    f64, number => Self::Number(number);
+    bool, truth => Self::Truth(truth);
 }
 
 impl<T: Into<Self>> From<Option<T>> for Cell {
@@ -88,12 +70,19 @@ impl<T: Into<Self>> From<Option<T>> for Cell {
 }
 
 impl Cell {
-    /// The standard error of an estimate and the ends of its 95% interval.
-    pub fn errors(estimate: &Estimate) -> [Self; 3] {
-        let [low, high] = [0, 1].map(|end| estimate.interval95.map(|interval| interval[end]).into());
-        [estimate.standard_error.into(), low, high]
+    /// The lower end of an interval.
+    pub fn low(interval: Option<[f64; 2]>) -> Self {
+        interval.map(|[low, _]| low).into()
+    }
+
+    /// The upper end of an interval.
+    pub fn high(interval: Option<[f64; 2]>) -> Self {
+        interval.map(|[_, high]| high).into()
     }
 }
+
+/// A column of a table: its name, and its value in a row.
+pub type Column<'a, R, V = Cell> = (&'a str, fn(&R) -> V);
 
 /// Rows of values under the names of their columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,6 +101,20 @@ impl Table {
         Self { columns: columns.into_iter().map(Into::into).collect(), rows: rows.into_iter().collect() }
     }
 
+    /// The table of `rows`, each of which has a value in every one of `columns`.
+    pub fn of<R>(columns: &[Column<'_, R>], rows: impl IntoIterator<Item = R>) -> Self {
+        let cells = |row: R| columns.iter().map(|(_, value)| value(&row)).collect();
+        Self::new(columns.iter().map(|(name, _)| *name), rows.into_iter().map(cells))
+    }
+
+    /// Adds a column with a cell for each row.
+    pub fn push(&mut self, column: String, cells: impl IntoIterator<Item = Cell>) {
+        self.columns.push(column);
+        for (row, cell) in self.rows.iter_mut().zip(cells) {
+            row.push(cell);
+        }
+    }
+
     /// The table as CSV (RFC 4180) with a heading; an unknown value is an empty cell.
     ///
     /// # Errors
@@ -126,6 +129,13 @@ impl Table {
         let bytes = writer.into_inner().map_err(|problem| Error::Internal(problem.to_string()))?;
         String::from_utf8(bytes).map_err(|problem| Error::Internal(problem.to_string()))
     }
+}
+
+/// The [`aligned`] texts of `rows` in `columns`, below the names of the columns.
+pub fn aligned_columns<R>(columns: &[Column<'_, R, String>], rows: impl IntoIterator<Item = R>) -> String {
+    let titles = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
+    let texts = |row: R| columns.iter().map(|(_, text)| text(&row)).collect();
+    aligned(&std::iter::once(titles).chain(rows.into_iter().map(texts)).collect::<Vec<_>>())
 }
 
 /// Lines of aligned columns, the first to the left, the others to the right. Every cell is a [`line`].

@@ -1,128 +1,122 @@
 //! The scene with the largest loss of each prediction.
 
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, position};
 use super::missed::missed;
-use super::table::{Cell, Table, aligned};
+use super::table::{Cell, Column, Table, aligned_columns};
 use crate::error::Error;
-use crate::loss::ALL_SCENES_TARGET;
+use crate::loss::{ALL_SCENES_TARGET, Estimate};
 use crate::model::scene::Scene;
-use crate::why::Worst;
+use crate::why;
 
-const TITLES: [&str; 8] =
-    ["prediction", "worst", "mean", "times the mean", "kind", "view", "light", "evaluations"];
-
-const COLUMNS: [&str; 12] = [
-    "prediction",
-    "worst",
-    "mean",
-    "kind",
-    "view_x",
-    "view_y",
-    "view_z",
-    "light_x",
-    "light_y",
-    "light_z",
-    "evaluations",
-    "target_reached",
-];
-
-/// The worst scene of each prediction.
-#[derive(Clone, Debug)]
+/// The scene with the largest loss of each prediction. Its JSON is a scene file, too.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WorstReport {
-    pub compared: Compared,
+    #[serde(flatten)]
+    compared: Compared,
     /// The share of the nearest distances, and of the farthest ones, that the search leaves out.
-    pub tail: f64,
+    distance_tail: f64,
     /// One per prediction.
-    pub found: Vec<Worst>,
+    results: Vec<Worst>,
+    /// The worst scene of each prediction.
+    scenes: Vec<Scene>,
 }
 
-fn is_reached(worst: &Worst) -> bool {
-    worst.mean.relative_error95() <= ALL_SCENES_TARGET
+/// The worst scene of a prediction.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Worst {
+    prediction: String,
+    /// The loss in that scene.
+    worst: f64,
+    /// The loss over all scenes.
+    mean: f64,
+    /// The 95% confidence interval of the mean.
+    interval95: Option<[f64; 2]>,
+    /// The requested accuracy of the mean.
+    target_error: f64,
+    target_reached: bool,
+    /// The number of scenes that the search rendered.
+    evaluations: usize,
+    /// The number of scenes that the mean is over.
+    #[serde(skip)]
+    mean_scenes: usize,
+}
+
+impl WorstReport {
+    /// The report of what was `found` for each prediction without the share `tail` of either end of the distances.
+    pub fn new(compared: Compared, tail: f64, found: Vec<why::Worst>) -> Self {
+        let scenes = found.iter().map(|worst| worst.scene).collect();
+        let results = found.into_iter().map(Worst::from).collect();
+        Self { compared, distance_tail: tail, results, scenes }
+    }
+
+    fn rows(&self) -> impl Iterator<Item = (&Worst, Scene)> {
+        self.results.iter().zip(self.scenes.iter().copied())
+    }
+}
+
+impl From<why::Worst> for Worst {
+    fn from(found: why::Worst) -> Self {
+        Self {
+            prediction: found.prediction,
+            worst: found.loss,
+            mean: found.mean.mean,
+            interval95: found.mean.interval95,
+            target_error: ALL_SCENES_TARGET,
+            target_reached: found.mean.relative_error95() <= ALL_SCENES_TARGET,
+            evaluations: found.evaluations,
+            mean_scenes: found.mean_scenes,
+        }
+    }
 }
 
 impl Report for WorstReport {
     fn text(&self) -> String {
-        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(self.found.iter().map(|worst| {
-            let Scene { kind, view, light } = worst.scene;
-            let mean = worst.mean.mean;
-            vec![
-                worst.prediction.clone(),
-                format!("{:.6}", worst.loss),
-                format!("{mean:.6}"),
-                if mean > 0.0 { format!("{:.2}", worst.loss / mean) } else { "-".to_owned() },
-                kind.to_string(),
-                position(view),
-                position(light),
-                worst.evaluations.to_string(),
-            ]
-        }));
-        let central = 100.0 - 200.0 * self.tail;
+        let columns: [Column<'_, (&Worst, Scene), String>; 8] = [
+            ("prediction", |(worst, _)| worst.prediction.clone()),
+            ("worst", |(worst, _)| format!("{:.6}", worst.worst)),
+            ("mean", |(worst, _)| format!("{:.6}", worst.mean)),
+            ("times the mean", |(Worst { worst, mean, .. }, _)| match *mean > 0.0 {
+                true => format!("{:.2}", worst / mean),
+                false => "-".to_owned(),
+            }),
+            ("kind", |(_, scene)| scene.kind.to_string()),
+            ("view", |(_, scene)| position(scene.view)),
+            ("light", |(_, scene)| position(scene.light)),
+            ("evaluations", |(worst, _)| worst.evaluations.to_string()),
+        ];
+        let central = 100.0 - 200.0 * self.distance_tail;
         let cut = format!("distances within the central {central}% of their distributions\n");
-        format!("{}{cut}\n{}", self.compared.heading("worst scenes"), aligned(&rows))
+        let table = aligned_columns(&columns, self.rows());
+        format!("{}{cut}\n{table}", self.compared.heading("worst scenes"))
     }
 
     fn table(&self) -> Table {
-        let row = |worst: &Worst| {
-            let Scene { kind, view, light } = worst.scene;
-            let start = [worst.prediction.as_str().into(), worst.loss.into(), worst.mean.mean.into()];
-            let place = view.into_iter().chain(light).map(Cell::from);
-            let end = [worst.evaluations.into(), is_reached(worst).into()];
-            start.into_iter().chain([kind.to_string().into()]).chain(place).chain(end).collect()
-        };
-        Table::new(COLUMNS, self.found.iter().map(row))
+        let columns: [Column<'_, (&Worst, Scene)>; 12] = [
+            ("prediction", |(worst, _)| worst.prediction.as_str().into()),
+            ("worst", |(worst, _)| worst.worst.into()),
+            ("mean", |(worst, _)| worst.mean.into()),
+            ("kind", |(_, scene)| scene.kind.to_string().into()),
+            ("view_x", |(_, scene)| scene.view[0].into()),
+            ("view_y", |(_, scene)| scene.view[1].into()),
+            ("view_z", |(_, scene)| scene.view[2].into()),
+            ("light_x", |(_, scene)| scene.light[0].into()),
+            ("light_y", |(_, scene)| scene.light[1].into()),
+            ("light_z", |(_, scene)| scene.light[2].into()),
+            ("evaluations", |(worst, _)| worst.evaluations.into()),
+            ("target_reached", |(worst, _)| Cell::from(worst.target_reached)),
+        ];
+        Table::of(&columns, self.rows())
     }
 
     fn missed(&self) -> Vec<Error> {
         let of = |worst: &Worst| {
-            let name = format!("the mean of {}", worst.prediction);
-            missed(ALL_SCENES_TARGET, &name, &worst.mean, worst.mean_scenes)
+            let mean = Estimate { mean: worst.mean, standard_error: None, interval95: worst.interval95 };
+            missed(worst.target_error, &format!("the mean of {}", worst.prediction), &mean, worst.mean_scenes)
         };
-        self.found.iter().filter_map(of).collect()
-    }
-}
-
-/// A scene file, too: scene k is the worst of prediction k.
-#[derive(Serialize)]
-struct WorstJson<'a> {
-    #[serde(flatten)]
-    compared: &'a Compared,
-    /// The share of the distances that is left out at either end.
-    distance_tail: f64,
-    results: Vec<WorstEntry<'a>>,
-    scenes: Vec<Scene>,
-}
-
-#[derive(Serialize)]
-struct WorstEntry<'a> {
-    prediction: &'a str,
-    worst: f64,
-    /// The loss over all scenes.
-    mean: f64,
-    interval95: Option<[f64; 2]>,
-    /// Of the mean.
-    target_error: f64,
-    target_reached: bool,
-    evaluations: usize,
-}
-
-impl Serialize for WorstReport {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let results = self.found.iter().map(|worst| WorstEntry {
-            prediction: &worst.prediction,
-            worst: worst.loss,
-            mean: worst.mean.mean,
-            interval95: worst.mean.interval95,
-            target_error: ALL_SCENES_TARGET,
-            target_reached: is_reached(worst),
-            evaluations: worst.evaluations,
-        });
-        let scenes = self.found.iter().map(|worst| worst.scene);
-        let (compared, distance_tail) = (&self.compared, self.tail);
-        WorstJson { compared, distance_tail, results: results.collect(), scenes: scenes.collect() }
-            .serialize(serializer)
+        self.results.iter().filter_map(of).collect()
     }
 }

@@ -8,6 +8,7 @@
 //! All 16 mixtures are rendered in the same scenes on the same texels, so that the values add up to rounding in each scene, and
 //! variance that the mixtures have in common cancels.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::Error;
@@ -42,7 +43,7 @@ pub struct Attribution {
 }
 
 /// What a map adds to a loss. Estimates have the unit of the loss; their errors are due to the sampling of scenes and texels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MapShare {
     pub map: Map,
     /// The Shapley value.

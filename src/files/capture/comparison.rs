@@ -2,13 +2,18 @@
 
 use std::str::FromStr;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::metrics::{PictureMetrics, of_pictures};
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 
+use super::measured::CaptureGroup;
 use super::outliers::Outlier;
 use super::{Capture, CapturedPhotograph, CapturedResult, MaterialResult};
 use crate::memory;
@@ -19,7 +24,8 @@ use crate::read::{Note, Transfer};
 const BYTES: usize = 12 + 24;
 
 /// What one factor brings to the exposure of the renderings.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum CaptureExposure {
     /// All photographs of a capture.
     #[default]
@@ -40,29 +46,56 @@ pub struct CaptureSetting {
     held_out: Vec<bool>,
 }
 
-/// How a photograph was read.
-#[derive(Clone, Debug)]
+/// How a photograph of a capture was read.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[schemars(rename = "CapturePhotograph")]
 pub struct ReadCaptured {
+    /// The name of its file in the capture.
+    #[serde(rename = "photograph")]
     pub name: String,
-    /// (width, height) in pixels.
+    /// Width and height in pixels.
     pub size: [usize; 2],
     pub transfer: Transfer,
-    /// The source of the transfer curve.
-    pub transfer_from: &'static str,
+    /// Top left, top right, bottom right and bottom left of the material, in pixels.
     pub corners: Corners,
+    /// Whether the exposure of the capture is not fitted to it.
+    pub held_out: bool,
+    /// The source of the transfer curve.
+    #[serde(skip)]
+    pub transfer_from: &'static str,
     /// Whether the whole picture is taken as the material.
+    #[serde(skip)]
     pub is_whole: bool,
+    #[serde(skip)]
     pub notes: Vec<Note>,
 }
 
-/// Materials against the photographs of a capture.
-#[derive(Clone, Debug)]
+/// Materials against the photographs of a capture. Its JSON is a scene file, too.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CaptureReport {
-    pub setting: CaptureSetting,
+    /// The path of the capture.
+    capture: String,
+    /// The file that lists the photographs.
+    file: String,
     /// In the order of the capture.
     pub photographs: Vec<ReadCaptured>,
+    /// Whether the falloff of the light is divided out of the photographs.
+    falloff: bool,
+    /// What one factor is fitted to.
+    exposure: CaptureExposure,
+    /// The factor that the power of the light gives.
+    pub declared_factor: Option<f64>,
+    /// The name of the convention.
+    convention: &'static str,
+    epsilon: f64,
     /// The smallest mean log difference first: over the held-out photographs, or over all.
     pub results: Vec<MaterialResult>,
+    /// Of the photographs.
+    scenes: Vec<Scene>,
+    /// What reading the photographs noticed.
+    notes: Vec<String>,
+    #[serde(skip)]
+    pub setting: CaptureSetting,
 }
 
 impl CaptureExposure {
@@ -125,11 +158,6 @@ impl CaptureSetting {
         self.capture.names(|index| self.held_out[index])
     }
 
-    /// Whether the photograph at this index is held out.
-    pub fn is_held_out(&self, index: usize) -> bool {
-        self.held_out[index]
-    }
-
     /// The factor that the power of the light gives, where the capture has it.
     ///
     /// The photograph is `P f NoL / d^2` for a power P, a reflectance f and a light at the distance d and the height h, and the
@@ -138,6 +166,24 @@ impl CaptureSetting {
     pub fn declared_factor(&self) -> Option<f64> {
         let height = self.capture.photographs.first()?.scene.light[2];
         self.capture.power.map(|power| self.convention.intensity * height.powi(2) / power.mean)
+    }
+
+    /// The stops by which a factor exceeds the one that the power of the light gives.
+    pub(super) fn declared_ev(&self, factor: Option<f64>) -> Option<f64> {
+        Some((factor? / self.declared_factor()?).log2())
+    }
+
+    /// What reading the photographs noticed.
+    fn notes(&self, photographs: &[ReadCaptured]) -> Vec<String> {
+        let by = self.capture.file.display();
+        let outside = self.capture.outside();
+        let outside = outside
+            .map(|file| format!("{} lies outside of the folder of {by}, which names it", file.display()));
+        let of = |read: &ReadCaptured| {
+            let name = read.name.clone();
+            read.notes.clone().into_iter().map(move |note| format!("{name}: {note}"))
+        };
+        outside.chain(photographs.iter().flat_map(of)).collect()
     }
 
     /// A photograph on the texels of a material, without falloff where that is divided out. What remains of the falloff is common to
@@ -171,6 +217,7 @@ impl CaptureSetting {
                 transfer: photograph.transfer,
                 transfer_from: one.transfer_from(&photograph, self.capture.is_materialgan),
                 corners,
+                held_out: self.held_out[photographs.len()],
                 is_whole: one.corners.is_none(),
                 notes: photograph.notes,
             });
@@ -221,11 +268,19 @@ impl CaptureSetting {
             results.push(self.result(index, rectified, material, factors, progress)?);
             progress.step()?;
         }
-        let exposures: Vec<_> = results.iter().map(CapturedResult::own_ev).collect();
+        let exposures: Vec<_> = results.iter().map(|one| one.own_exposure_ev).collect();
         let differences: Vec<_> = results.iter().map(|one| one.log).collect();
         let outliers = Outlier::among(&exposures, &differences);
         results.iter_mut().zip(outliers).for_each(|(one, outlier)| one.outlier = outlier);
-        Ok(MaterialResult { material: name.to_owned(), size: material.size(), factor, photographs: results })
+        Ok(MaterialResult {
+            material: name.to_owned(),
+            size: material.size(),
+            factor,
+            exposure_ev: factor.map(f64::log2),
+            declared_ev: self.declared_ev(factor),
+            means: CaptureGroup::all(&results),
+            photographs: results,
+        })
     }
 
     /// `material` against the photograph at `index`, at the first of the factors; the second fits it alone.
@@ -237,17 +292,19 @@ impl CaptureSetting {
         [factor, own_factor]: [Option<f64>; 2],
         progress: &Progress,
     ) -> Result<CapturedResult, Error> {
-        let scene = self.capture.photographs[index].scene;
-        let rendering = rectified.rendering(material, &scene, &self.convention, &progress.part())?;
+        let CapturedPhotograph { name, scene, .. } = &self.capture.photographs[index];
+        let rendering = rectified.rendering(material, scene, &self.convention, &progress.part())?;
         let compared = factor.map(|factor| rectified.at(factor, rendering, self.convention.epsilon));
         let statistics = compared.as_ref().and_then(|compared| compared.statistics(Difference::Log));
         let metrics = compared.map(|compared| of_pictures(&compared.photograph, &compared.rendering));
         let PictureMetrics { rmse, ssim } = metrics.unwrap_or(PictureMetrics { rmse: None, ssim: None });
         Ok(CapturedResult {
-            scene,
+            photograph: name.clone(),
+            scene: *scene,
             is_held_out: self.held_out[index],
             factor,
-            own_factor,
+            exposure_ev: factor.map(f64::log2),
+            own_exposure_ev: own_factor.map(f64::log2),
             log: statistics.map(|statistics| statistics.mean),
             rmse,
             ssim,
@@ -286,6 +343,19 @@ impl CaptureReport {
         });
         let mut results = measured.collect::<Result<Vec<_>, _>>()?;
         results.sort_by(|a, b| a.log().total_cmp(&b.log()));
-        Ok(Self { setting, photographs, results })
+        Ok(Self {
+            capture: setting.name.clone(),
+            file: setting.capture.file.display().to_string(),
+            notes: setting.notes(&photographs),
+            photographs,
+            falloff: setting.capture.falloff,
+            exposure: setting.exposure,
+            declared_factor: setting.declared_factor(),
+            convention: setting.convention.name,
+            epsilon: setting.convention.epsilon,
+            results,
+            scenes: setting.capture.photographs.iter().map(|one| one.scene).collect(),
+            setting,
+        })
     }
 }

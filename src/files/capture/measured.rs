@@ -1,70 +1,83 @@
 //! Measures of a material against the photographs of a capture, and their means.
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::Scene;
 
 use super::outliers::Outlier;
 
-/// A material against one photograph.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A material against one photograph; measures are `None` where all of it is clipped.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "CaptureMeasure")]
 pub struct CapturedResult {
-    pub scene: Scene,
-    /// Whether the exposure of the capture is not fitted to it.
-    pub is_held_out: bool,
+    /// The name of the photograph.
+    pub photograph: String,
     /// What the photograph was multiplied by; `None` where no factor fits.
     pub factor: Option<f64>,
-    /// The factor that fits this photograph alone; `None` where none does.
-    pub own_factor: Option<f64>,
-    /// The mean log difference over the texels that are not clipped, and the root mean square difference and SSIM of sRGB
-    /// values; `None` where all is clipped.
+    /// The factor in stops.
+    pub exposure_ev: Option<f64>,
+    /// The factor that fits this photograph alone, in stops; `None` where none does.
+    pub own_exposure_ev: Option<f64>,
+    /// The mean log difference over the texels that are not clipped.
     pub log: Option<f64>,
+    /// The root mean square difference of sRGB values.
     pub rmse: Option<f64>,
+    /// The SSIM of sRGB values.
     pub ssim: Option<f64>,
     pub texels: usize,
-    /// Number of texels that are left out.
+    /// The number of texels that are left out.
     pub clipped: usize,
     pub outlier: Outlier,
+    #[serde(skip)]
+    pub scene: Scene,
+    /// Whether the exposure of the capture is not fitted to it.
+    #[serde(skip)]
+    pub is_held_out: bool,
 }
 
 /// A material against all photographs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "CaptureResult")]
 pub struct MaterialResult {
+    /// The name of the material.
     pub material: String,
-    /// (width, height) in texels.
+    /// Width and height in texels.
     pub size: [usize; 2],
     /// The factor on all photographs; `None` where each has its own.
     pub factor: Option<f64>,
+    /// The factor in stops.
+    pub exposure_ev: Option<f64>,
+    /// The stops by which it exceeds the factor that the power of the light gives.
+    pub declared_ev: Option<f64>,
+    /// Over all photographs, or where some are held out, over the others and over these.
+    pub means: Vec<CaptureGroup>,
     /// In the order of the capture.
     pub photographs: Vec<CapturedResult>,
 }
 
-/// The means over a group of photographs.
-#[derive(Clone, Debug, PartialEq)]
+/// The means over a group of photographs, each with its interval over photographs; `None` where no photograph has the measure.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "CaptureMeans")]
 pub struct CaptureGroup {
     /// `all`, `fitted` or `held out`.
+    #[serde(rename = "photographs")]
     pub name: &'static str,
     /// The number of photographs.
     pub count: usize,
-    /// Each with its interval over photographs; `None` where no photograph has the measure.
     pub log: Option<Estimate>,
     pub rmse: Option<Estimate>,
     pub ssim: Option<Estimate>,
 }
 
-impl CapturedResult {
-    /// The factor that fits this photograph alone, in stops.
-    pub fn own_ev(&self) -> Option<f64> {
-        self.own_factor.map(f64::log2)
-    }
-}
-
-impl MaterialResult {
+impl CaptureGroup {
     /// All photographs, or where some are held out, the others and these.
-    pub fn groups(&self) -> Vec<CaptureGroup> {
+    pub(super) fn all(photographs: &[CapturedResult]) -> Vec<Self> {
         let group = |name, wanted: &dyn Fn(&CapturedResult) -> bool| {
-            let of: Vec<&CapturedResult> = self.photographs.iter().filter(|one| wanted(one)).collect();
-            CaptureGroup {
+            let of: Vec<&CapturedResult> = photographs.iter().filter(|one| wanted(one)).collect();
+            Self {
                 name,
                 count: of.len(),
                 log: estimate(&of, |one| one.log),
@@ -72,16 +85,18 @@ impl MaterialResult {
                 ssim: signed_estimate(&of, |one| one.ssim),
             }
         };
-        if self.photographs.iter().any(|one| one.is_held_out) {
+        if photographs.iter().any(|one| one.is_held_out) {
             vec![group("fitted", &|one| !one.is_held_out), group("held out", &|one| one.is_held_out)]
         } else {
             vec![group("all", &|_| true)]
         }
     }
+}
 
+impl MaterialResult {
     /// What results are ordered by: the mean log difference over the held-out photographs, or over all.
     pub fn log(&self) -> f64 {
-        let log = self.groups().pop().and_then(|group| group.log);
+        let log = self.means.last().and_then(|group| group.log);
         log.map_or(f64::INFINITY, |log| log.mean)
     }
 }

@@ -10,7 +10,6 @@ mod measured;
 mod outliers;
 mod read;
 mod report;
-mod report_json;
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,6 @@
 //! Outliers among the photographs of a capture.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::statistics::{median, outlier_limit};
@@ -13,7 +14,8 @@ const LEAST_LOG: f64 = 0.02;
 const LEAST_SHARE: f64 = 0.5;
 
 /// In what a photograph differs from the others of its capture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[schemars(rename = "CaptureOutlier")]
 pub struct Outlier {
     /// The exposure that fits it alone: brighter or darker than the others.
     pub exposure: bool,

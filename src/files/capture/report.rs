@@ -1,39 +1,11 @@
 //! Materials against the photographs of a capture as text and CSV.
 
 use svbrdf_core::loss::Estimate;
-use svbrdf_core::report::{Cell, Report, Table, aligned};
+use svbrdf_core::report::{Cell, Column, Report, Table, aligned_columns};
 use svbrdf_core::statistics::median;
 
 use super::comparison::{CaptureExposure, CaptureReport, CaptureSetting, ReadCaptured};
 use super::measured::{CaptureGroup, CapturedResult, MaterialResult};
-
-const COLUMNS: [&str; 25] = [
-    "material",
-    "photographs",
-    "photograph",
-    "factor",
-    "exposure_ev",
-    "own_exposure_ev",
-    "log",
-    "log_interval95_low",
-    "log_interval95_high",
-    "rmse",
-    "rmse_interval95_low",
-    "rmse_interval95_high",
-    "ssim",
-    "ssim_interval95_low",
-    "ssim_interval95_high",
-    "texels",
-    "clipped",
-    "outlier",
-    "transfer",
-    "exposure",
-    "declared_ev",
-    "falloff",
-    "capture",
-    "convention",
-    "epsilon",
-];
 
 const UNKNOWN: &str = "-";
 
@@ -41,27 +13,28 @@ fn text(value: Option<f64>, format: impl Fn(f64) -> String) -> String {
     value.map_or_else(|| UNKNOWN.to_owned(), format)
 }
 
-fn ev(factor: Option<f64>) -> String {
-    text(factor, |factor| format!("{:+.2}", factor.log2()))
+fn ev(stops: Option<f64>) -> String {
+    text(stops, |stops| format!("{stops:+.2}"))
 }
 
 fn measure(value: Option<f64>) -> String {
     text(value, |value| format!("{value:.4}"))
 }
 
-/// A mean and its interval.
-fn estimate(estimate: Option<Estimate>) -> [String; 2] {
-    let interval = estimate.and_then(|estimate| estimate.interval95);
-    let interval = interval.map(|[low, high]| format!("{low:.4} to {high:.4}"));
-    [measure(estimate.map(|estimate| estimate.mean)), interval.unwrap_or_else(|| UNKNOWN.to_owned())]
+fn mean(estimate: Option<Estimate>) -> Option<f64> {
+    estimate.map(|estimate| estimate.mean)
+}
+
+fn interval(estimate: Option<Estimate>) -> Option<[f64; 2]> {
+    estimate.and_then(|estimate| estimate.interval95)
+}
+
+fn interval_text(estimate: Option<Estimate>) -> String {
+    let ends = interval(estimate).map(|[low, high]| format!("{low:.4} to {high:.4}"));
+    ends.unwrap_or_else(|| UNKNOWN.to_owned())
 }
 
 impl CaptureSetting {
-    /// The stops by which a factor exceeds the one that the power of the light gives.
-    pub(super) fn declared_ev(&self, factor: Option<f64>) -> Option<f64> {
-        Some((factor? / self.declared_factor()?).log2())
-    }
-
     /// The lines above the tables.
     fn heading(&self, photographs: &[ReadCaptured]) -> String {
         let mut transfers: Vec<String> =
@@ -104,7 +77,7 @@ impl CaptureReport {
         let result = self.results.iter().find(is_outlier)?;
         let one = &result.photographs[index];
         let exposure = one.outlier.exposure.then(|| {
-            let [own, middle] = beside_median(result, index, CapturedResult::own_ev);
+            let [own, middle] = beside_median(result, index, |one| one.own_exposure_ev);
             format!("the exposure that fits it alone is {:+.2} EV from the median", own - middle)
         });
         let difference = one.outlier.difference.then(|| {
@@ -120,108 +93,102 @@ impl CaptureReport {
         Some(format!("{} is an outlier{whose}: {}\n", self.photographs[index].name, findings.join("; ")))
     }
 
-    fn means(&self) -> Vec<Vec<String>> {
-        let is_declared = self.setting.declared_factor().is_some();
-        let mut rows = vec![
-            ["material", "photographs", "factor", "EV", "from light_pow", "log mean", "95% interval", "RMSE"]
-                .into_iter()
-                .chain(["95% interval", "SSIM", "95% interval"])
-                .map(str::to_owned)
-                .collect::<Vec<_>>(),
+    fn means(&self) -> String {
+        let mut columns: Vec<Column<'_, (&MaterialResult, &CaptureGroup), String>> = vec![
+            ("material", |(result, _)| result.material.clone()),
+            ("photographs", |(_, group)| format!("{} {}", group.count, group.name).replace(" all", "")),
+            ("factor", |(result, _)| measure(result.factor)),
+            ("EV", |(result, _)| ev(result.exposure_ev)),
+            ("from light_pow", |(result, _)| text(result.declared_ev, |ev| format!("{ev:+.2} EV"))),
+            ("log mean", |(_, group)| measure(mean(group.log))),
+            ("95% interval", |(_, group)| interval_text(group.log)),
+            ("RMSE", |(_, group)| measure(mean(group.rmse))),
+            ("95% interval", |(_, group)| interval_text(group.rmse)),
+            ("SSIM", |(_, group)| measure(mean(group.ssim))),
+            ("95% interval", |(_, group)| interval_text(group.ssim)),
         ];
-        for result in &self.results {
-            rows.extend(result.groups().into_iter().map(|CaptureGroup { name, count, log, rmse, ssim }| {
-                let declared = text(self.setting.declared_ev(result.factor), |ev| format!("{ev:+.2} EV"));
-                let start = [
-                    result.material.clone(),
-                    format!("{count} {name}").replace(" all", ""),
-                    measure(result.factor),
-                    ev(result.factor),
-                    declared,
-                ];
-                start.into_iter().chain([log, rmse, ssim].into_iter().flat_map(estimate)).collect()
-            }));
-        }
-        if !is_declared {
-            rows.iter_mut().for_each(|row| drop(row.remove(4)));
-        }
-        rows
+        columns.retain(|(name, _)| *name != "from light_pow" || self.declared_factor.is_some());
+        let rows = self.results.iter().flat_map(|one| one.means.iter().map(move |group| (one, group)));
+        aligned_columns(&columns, rows)
     }
 
-    fn each(&self) -> Vec<Vec<String>> {
-        let titles = ["photograph", "material", "EV alone", "log mean", "RMSE", "SSIM", "clipped", ""];
-        let mut rows = vec![titles.map(str::to_owned).to_vec()];
-        for (index, read) in self.photographs.iter().enumerate() {
-            rows.extend(self.results.iter().map(|result| {
-                let one = &result.photographs[index];
-                let mark = match (one.outlier.is_any(), one.is_held_out) {
-                    (true, true) => "outlier, held out",
-                    (true, false) => "outlier",
-                    (false, true) => "held out",
-                    (false, false) => "",
-                };
-                vec![
-                    read.name.clone(),
-                    result.material.clone(),
-                    ev(one.own_factor),
-                    measure(one.log),
-                    measure(one.rmse),
-                    measure(one.ssim),
-                    format!("{:.2}%", 100.0 * one.clipped as f64 / one.texels as f64),
-                    mark.to_owned(),
-                ]
-            }));
-        }
-        rows
-    }
-
-    /// The row of a group of photographs.
-    fn group_row(&self, result: &MaterialResult, group: &CaptureGroup) -> Vec<Cell> {
-        let start: [Cell; 6] = [
-            result.material.as_str().into(),
-            group.name.into(),
-            Cell::Empty,
-            result.factor.into(),
-            result.factor.map(f64::log2).into(),
-            Cell::Empty,
+    fn each(&self) -> String {
+        let columns: [Column<'_, (&MaterialResult, &CapturedResult), String>; 8] = [
+            ("photograph", |(_, one)| one.photograph.clone()),
+            ("material", |(result, _)| result.material.clone()),
+            ("EV alone", |(_, one)| ev(one.own_exposure_ev)),
+            ("log mean", |(_, one)| measure(one.log)),
+            ("RMSE", |(_, one)| measure(one.rmse)),
+            ("SSIM", |(_, one)| measure(one.ssim)),
+            ("clipped", |(_, one)| format!("{:.2}%", 100.0 * one.clipped as f64 / one.texels as f64)),
+            ("", |(_, one)| {
+                let marks = [(one.outlier.is_any(), "outlier"), (one.is_held_out, "held out")];
+                marks.into_iter().filter(|(is, _)| *is).map(|(_, mark)| mark).collect::<Vec<_>>().join(", ")
+            }),
         ];
-        let estimates = [group.log, group.rmse, group.ssim].into_iter().flat_map(|estimate| {
-            let end = |end: usize| estimate.and_then(|e| e.interval95).map(|interval| interval[end]);
-            [estimate.map(|e| e.mean), end(0), end(1)].map(Cell::from)
-        });
-        let counted = [Cell::Empty, Cell::Empty, Cell::Empty, Cell::Empty];
-        start.into_iter().chain(estimates).chain(counted).chain(self.setting_cells(result.factor)).collect()
+        let of = |index: usize| self.results.iter().map(move |result| (result, &result.photographs[index]));
+        aligned_columns(&columns, (0..self.photographs.len()).flat_map(of))
+    }
+}
+
+/// A row of the CSV: the means of a material over a group of photographs, or the material against one of them.
+struct Row<'a> {
+    report: &'a CaptureReport,
+    result: &'a MaterialResult,
+    of: RowOf<'a>,
+}
+
+#[derive(Clone, Copy)]
+enum RowOf<'a> {
+    Group(&'a CaptureGroup),
+    One(&'a ReadCaptured, &'a CapturedResult),
+}
+
+impl<'a> Row<'a> {
+    /// What a column has for one photograph alone.
+    fn one<T>(&self, value: impl Fn(&'a ReadCaptured, &'a CapturedResult) -> T) -> Option<T> {
+        match self.of {
+            RowOf::Group(_) => None,
+            RowOf::One(read, one) => Some(value(read, one)),
+        }
     }
 
-    /// The row of one photograph.
-    fn photograph_row(&self, result: &MaterialResult, index: usize) -> Vec<Cell> {
-        let (read, one) = (&self.photographs[index], &result.photographs[index]);
-        let start: [Cell; 6] = [
-            result.material.as_str().into(),
-            if one.is_held_out { "held out" } else { "fitted" }.into(),
-            read.name.as_str().into(),
-            one.factor.into(),
-            one.factor.map(f64::log2).into(),
-            one.own_ev().into(),
-        ];
-        let measures = [one.log, one.rmse, one.ssim]
-            .into_iter()
-            .flat_map(|value| [value.into(), Cell::Empty, Cell::Empty]);
-        let counted: [Cell; 4] =
-            [one.texels.into(), one.clipped.into(), one.outlier.is_any().into(), read.transfer.name().into()];
-        start.into_iter().chain(measures).chain(counted).chain(self.setting_cells(one.factor)).collect()
+    fn photographs(&self) -> &'static str {
+        match self.of {
+            RowOf::Group(group) => group.name,
+            RowOf::One(_, one) if one.is_held_out => "held out",
+            RowOf::One(..) => "fitted",
+        }
     }
 
-    fn setting_cells(&self, factor: Option<f64>) -> [Cell; 6] {
-        let CaptureSetting { name, capture, exposure, convention, .. } = &self.setting;
-        [
-            exposure.name().into(),
-            self.setting.declared_ev(factor).into(),
-            capture.falloff.into(),
-            name.as_str().into(),
-            convention.name.into(),
-            convention.epsilon.into(),
-        ]
+    fn factor(&self) -> Option<f64> {
+        self.one(|_, one| one.factor).unwrap_or(self.result.factor)
+    }
+
+    /// A measure: its mean over a group, or that of one photograph, which has no interval.
+    fn measure(
+        &self,
+        of_group: impl Fn(&CaptureGroup) -> Option<Estimate>,
+        of_one: impl Fn(&CapturedResult) -> Option<f64>,
+    ) -> Option<Estimate> {
+        match self.of {
+            RowOf::Group(group) => of_group(group),
+            RowOf::One(_, one) => {
+                of_one(one).map(|mean| Estimate { mean, standard_error: None, interval95: None })
+            }
+        }
+    }
+
+    fn log(&self) -> Option<Estimate> {
+        self.measure(|group| group.log, |one| one.log)
+    }
+
+    fn rmse(&self) -> Option<Estimate> {
+        self.measure(|group| group.rmse, |one| one.rmse)
+    }
+
+    fn ssim(&self) -> Option<Estimate> {
+        self.measure(|group| group.ssim, |one| one.ssim)
     }
 }
 
@@ -242,17 +209,45 @@ impl Report for CaptureReport {
             "{}{}\n{}\n{}",
             self.setting.heading(&self.photographs),
             self.outliers(),
-            aligned(&self.means()),
-            aligned(&self.each())
+            self.means(),
+            self.each()
         )
     }
 
     fn table(&self) -> Table {
+        let columns: [Column<'_, Row<'_>>; 25] = [
+            ("material", |row| row.result.material.as_str().into()),
+            ("photographs", |row| row.photographs().into()),
+            ("photograph", |row| row.one(|read, _| read.name.as_str()).into()),
+            ("factor", |row| row.factor().into()),
+            ("exposure_ev", |row| row.factor().map(f64::log2).into()),
+            ("own_exposure_ev", |row| row.one(|_, one| one.own_exposure_ev).into()),
+            ("log", |row| mean(row.log()).into()),
+            ("log_interval95_low", |row| Cell::low(interval(row.log()))),
+            ("log_interval95_high", |row| Cell::high(interval(row.log()))),
+            ("rmse", |row| mean(row.rmse()).into()),
+            ("rmse_interval95_low", |row| Cell::low(interval(row.rmse()))),
+            ("rmse_interval95_high", |row| Cell::high(interval(row.rmse()))),
+            ("ssim", |row| mean(row.ssim()).into()),
+            ("ssim_interval95_low", |row| Cell::low(interval(row.ssim()))),
+            ("ssim_interval95_high", |row| Cell::high(interval(row.ssim()))),
+            ("texels", |row| row.one(|_, one| one.texels).into()),
+            ("clipped", |row| row.one(|_, one| one.clipped).into()),
+            ("outlier", |row| row.one(|_, one| one.outlier.is_any()).into()),
+            ("transfer", |row| row.one(|read, _| read.transfer.name()).into()),
+            ("exposure", |row| row.report.setting.exposure.name().into()),
+            ("declared_ev", |row| row.report.setting.declared_ev(row.factor()).into()),
+            ("falloff", |row| row.report.setting.capture.falloff.into()),
+            ("capture", |row| row.report.setting.name.as_str().into()),
+            ("convention", |row| row.report.setting.convention.name.into()),
+            ("epsilon", |row| row.report.setting.convention.epsilon.into()),
+        ];
         let rows = self.results.iter().flat_map(|result| {
-            let groups = result.groups().into_iter().map(|group| self.group_row(result, &group));
-            let each = (0..self.photographs.len()).map(|index| self.photograph_row(result, index));
-            groups.chain(each).collect::<Vec<_>>()
+            let each = self.photographs.iter().zip(&result.photographs);
+            let each = each.map(|(read, one)| RowOf::One(read, one));
+            let of = result.means.iter().map(RowOf::Group).chain(each);
+            of.map(move |of| Row { report: self, result, of })
         });
-        Table::new(COLUMNS, rows)
+        Table::of(&columns, rows)
     }
 }

@@ -2,13 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::record::MaterialResult;
 use super::remark::Remark;
 
 /// How the materials of a method, or the ground truths, were read.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct ReadingSummary {
     /// The number of materials that were read.
     pub materials: usize,
@@ -17,9 +18,9 @@ pub struct ReadingSummary {
 }
 
 /// The number of materials with one doubt.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct DoubtCount {
-    /// As in [`Remark::doubt`](super::Remark::doubt).
+    /// What is in doubt, such as "without normal map".
     pub doubt: String,
     pub materials: usize,
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::pick::{counted, counted_loss};
@@ -9,7 +10,7 @@ use super::ranking::{DatasetReport, MethodSummary};
 use super::record::PredictionResult;
 
 /// The marks of a method over the materials that were diagnosed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MarkSummary {
     /// The number of materials with a diagnosis.
     pub materials: usize,

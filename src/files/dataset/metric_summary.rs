@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::statistics::median;
@@ -11,13 +12,14 @@ use super::pick::counted;
 use super::ranking::{DatasetReport, MethodSummary};
 
 /// A metric of a method over the materials that its mean loss is over.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MetricSummary {
     /// The mean; of a PSNR, that of the mean square error, which is infinite only where the maps of all materials are equal.
+    #[schemars(with = "Option<f64>")]
     pub mean: f64,
+    #[schemars(with = "Option<f64>")]
     pub median: f64,
-    /// The 95% interval of the mean over all materials like these; `None` for fewer than [`FEWEST`](super::FEWEST), and where the mean
-    /// is infinite.
+    /// The 95% interval of the mean over all materials like these; `None` for fewer than 5, and where the mean is infinite.
     pub interval95_materials: Option<[f64; 2]>,
 }
 

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use svbrdf_core::diagnose::Finding;
@@ -150,7 +151,7 @@ impl DatasetReading {
 }
 
 /// The results of one material.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MaterialResult {
     pub index: usize,
     pub material: String,
@@ -172,25 +173,39 @@ impl MaterialResult {
 }
 
 /// The result of one prediction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PredictionResult {
     pub method: String,
     pub sample: usize,
     pub path: String,
     /// The loss, or why there is none.
+    #[schemars(with = "LossOrError")]
     pub result: Result<KnownLoss, String>,
     /// What was noticed and assumed in reading it.
     pub reading: Vec<Remark>,
     /// The metrics of its maps by name, where they were asked for; the PSNR of equal maps is infinite, in JSON null.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "with_infinities")]
+    #[schemars(with = "Option<BTreeMap<String, Option<f64>>>")]
     pub metrics: BTreeMap<String, f64>,
     /// The marks of its diagnosis, the largest share first, where they were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub marks: Option<Vec<Mark>>,
 }
 
+/// The schema of the result of a prediction: it has one of both.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "PascalCase")]
+#[expect(dead_code, reason = "a schema alone")]
+struct LossOrError {
+    #[schemars(skip_serializing_if = "Option::is_none")]
+    ok: Option<KnownLoss>,
+    /// Why there is no loss.
+    #[schemars(skip_serializing_if = "Option::is_none")]
+    err: Option<String>,
+}
+
 /// A marked finding of a diagnosis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Mark {
     /// Its name, such as "exposure".
     pub hypothesis: String,
@@ -222,7 +237,7 @@ fn with_infinities<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMa
 }
 
 /// A loss that is known.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct KnownLoss {
     pub loss: f64,
     /// Due to the sampling of scenes and texels.

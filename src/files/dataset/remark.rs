@@ -1,11 +1,12 @@
 //! A remark on how a material of a data set was read.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::read::{Assumption, Note, Read, What};
 
 /// One thing that was noticed or assumed in reading a material.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct Remark {
     /// What the number of materials with remarks like it is of, such as "without normal map" or "unsure specular"; `None` for a remark
     /// on nothing that is in doubt.

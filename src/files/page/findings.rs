@@ -53,7 +53,7 @@ pub(super) fn summary(findings: &Findings) -> String {
         Some(best) => format!("{}, the least of {}", one(&all[best]), all.len()),
         None => all.iter().map(one).collect::<Vec<_>>().join(", "),
     };
-    format!("<p>Rendering loss, convention {}: {texts}.</p>", findings.loss.convention.name)
+    format!("<p>Rendering loss, convention {}: {texts}.</p>", findings.loss.convention)
 }
 
 /// The prediction with the least loss.
@@ -79,8 +79,8 @@ fn losses(findings: &Findings) -> String {
     let verdicts = verdicts(&loss.outcome);
     format!(
         r#"<section aria-labelledby="losses"><h2 id="losses">Rendering loss</h2><div class="wide"><table><thead><tr><th scope="col">Prediction</th><th scope="col">Loss</th><th scope="col">95% interval</th><td></td></tr></thead><tbody>{rows}</tbody></table></div>{verdicts}<p class="weak">Mean over scenes, texels and RGB of |ln(R<sub>gt</sub> + {}) &minus; ln(R<sub>pred</sub> + {})| against {}, {} &times; {} texels. {}</p></section>"#,
-        loss.convention.epsilon,
-        loss.convention.epsilon,
+        loss.epsilon,
+        loss.epsilon,
         escaped(&loss.ground_truth),
         loss.size[0],
         loss.size[1],
@@ -223,7 +223,7 @@ fn readings(report: &Report<'_>) -> String {
 fn repetition(report: &Report<'_>) -> String {
     let Some(Repetition { command, session }) = &report.repetition else { return String::new() };
     let convention = report.convention;
-    let seed = report.findings.as_ref().and_then(|findings| findings.loss.seed());
+    let seed = report.findings.as_ref().and_then(|findings| findings.loss.sampled.seed);
     let seed = seed.map_or(String::new(), |seed| format!(", seed {seed}"));
     let session = session.as_ref().map_or(String::new(), |[name, text]| {
         let (name, text) = (escaped(name), escaped(text));

@@ -1,5 +1,6 @@
 //! The plane of a material in a photograph: four corners, and the projective map between them.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::error::Error;
@@ -11,7 +12,7 @@ const LEAST: f64 = 1e-3;
 ///
 /// In pixels (x, y), y down: (0, 0) is the outer corner of the top left pixel, whose middle is (0.5, 0.5). They are the
 /// outer corners of the outermost texels, not the middles of these.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Corners(pub [[f64; 2]; 4]);
 
 impl Corners {

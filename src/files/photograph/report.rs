@@ -1,6 +1,7 @@
 //! Materials against a photograph as text, JSON and CSV.
 
-use serde::{Serialize, Serializer};
+use schemars::JsonSchema;
+use serde::Serialize;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
@@ -9,28 +10,12 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::report::{Cell, Report, Table, aligned, position};
+use svbrdf_core::report::{Column, Report, Table, aligned_columns, position};
 
 use super::comparison::PhotographComparison;
 use super::corners::Corners;
 use super::rectified::Rectified;
-use crate::read::Photograph;
-
-const TITLES: [&str; 13] = [
-    "material",
-    "factor",
-    "EV",
-    "log mean",
-    "median",
-    "95%",
-    "abs. mean",
-    "median",
-    "95%",
-    "rel. mean",
-    "median",
-    "95%",
-    "clipped",
-];
+use crate::read::{Photograph, Transfer};
 
 /// The photograph that materials are compared with, and how.
 #[derive(Clone, Debug)]
@@ -45,22 +30,58 @@ pub struct PhotoSetting {
     pub convention: Convention,
 }
 
+/// Materials against a photograph. Its JSON is a scene file, too.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PhotoReport {
+    /// The path of the photograph.
+    photograph: String,
+    /// Width and height in pixels.
+    size: [usize; 2],
+    transfer: Transfer,
+    /// Top left, top right, bottom right and bottom left of the material, in pixels.
+    corners: Corners,
+    /// Whether the falloff of the light is divided out of the photograph.
+    falloff: bool,
+    /// The name of the convention.
+    convention: &'static str,
+    epsilon: f64,
+    /// The smallest mean log difference first.
+    pub results: Vec<PhotoResult>,
+    /// The one scene of the photograph.
+    scenes: Vec<Scene>,
+    /// What reading the photograph noticed.
+    notes: Vec<String>,
+    #[serde(skip)]
+    pub setting: PhotoSetting,
+}
+
 /// A material against the photograph.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PhotoResult {
     /// The name of the material.
     pub material: String,
+    /// Width and height in texels.
+    size: [usize; 2],
+    /// The number of texels that are left out.
+    clipped: usize,
+    /// What the photograph was multiplied by: the median of rendering / photograph.
+    factor: f64,
+    /// The factor in stops.
+    exposure_ev: f64,
+    log: PhotoStatistics,
+    absolute: PhotoStatistics,
+    relative: PhotoStatistics,
+    #[serde(skip)]
     pub compared: PhotographComparison,
-    /// Number of texels that are left out.
-    pub clipped: usize,
 }
 
-/// Materials against a photograph.
-#[derive(Clone, Debug)]
-pub struct PhotoReport {
-    pub setting: PhotoSetting,
-    /// The smallest mean log difference first.
-    pub results: Vec<PhotoResult>,
+/// A difference over the texels that are not clipped.
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+struct PhotoStatistics {
+    mean: f64,
+    median: f64,
+    /// The 95th percentile.
+    p95: f64,
 }
 
 impl PhotoReport {
@@ -91,13 +112,23 @@ impl PhotoReport {
             let photograph = &rectified[index].1;
             let compared = photograph.compare(material, &setting.scene, &setting.convention, progress)?;
             let clipped = photograph.clipped();
-            results.push(PhotoResult { material: name.to_owned(), compared, clipped });
+            results.push(PhotoResult::new(name.to_owned(), compared, clipped));
         }
-        let mean = |result: &PhotoResult| {
-            result.compared.statistics(Difference::Log).map_or(f64::INFINITY, |statistics| statistics.mean)
-        };
-        results.sort_by(|a, b| mean(a).total_cmp(&mean(b)));
-        Ok(Self { setting, results })
+        // NaN, of a photograph that is clipped everywhere, comes last.
+        results.sort_by(|a, b| a.log.mean.total_cmp(&b.log.mean));
+        Ok(Self {
+            photograph: setting.name.clone(),
+            size: setting.photograph.size(),
+            transfer: setting.photograph.transfer,
+            corners: setting.corners,
+            falloff: setting.falloff,
+            convention: setting.convention.name,
+            epsilon: setting.convention.epsilon,
+            results,
+            scenes: vec![setting.scene],
+            notes: setting.photograph.notes.iter().map(ToString::to_string).collect(),
+            setting,
+        })
     }
 }
 
@@ -119,143 +150,81 @@ impl PhotoSetting {
 }
 
 impl PhotoResult {
-    fn texels(&self) -> usize {
-        self.compared.rendering.pixels.len()
-    }
-
-    /// Mean, median and 95th percentile of a difference.
-    fn summary(&self, kind: Difference) -> [f64; 3] {
-        let statistics = self.compared.statistics(kind);
-        statistics.map_or([f64::NAN; 3], |Statistics { mean, median, p95, .. }| [mean, median, p95])
-    }
-}
-
-impl Report for PhotoReport {
-    fn text(&self) -> String {
-        let PhotoSetting { convention, scene: Scene { kind, view, light }, falloff, .. } = &self.setting;
-        let falloff = if *falloff { "\nfalloff of the light divided out" } else { "" };
-        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(self.results.iter().map(|result| {
-            let start = [
-                result.material.clone(),
-                format!("{:.4}", result.compared.factor),
-                format!("{:+.2}", result.compared.exposure_ev()),
-            ];
-            let numbers = Self::DIFFERENCES.into_iter().flat_map(|kind| result.summary(kind));
-            let clipped = format!("{:.2}%", 100.0 * result.clipped as f64 / result.texels() as f64);
-            start.into_iter().chain(numbers.map(|x| format!("{x:.4}"))).chain([clipped]).collect()
-        }));
-        format!(
-            "differences from {}\nconvention {}, epsilon {}\n{kind} scene: view {}, light {}{falloff}\n\n{}",
-            self.setting.source(),
-            convention.name,
-            convention.epsilon,
-            position(*view),
-            position(*light),
-            aligned(&rows)
-        )
-    }
-
-    fn table(&self) -> Table {
-        let PhotoSetting { name, photograph, convention, .. } = &self.setting;
-        let statistics = Self::DIFFERENCES
-            .into_iter()
-            .flat_map(|kind| ["mean", "median", "p95"].map(|what| format!("{}_{what}", kind.key())));
-        let start = ["material", "factor", "exposure_ev"].map(str::to_owned).into_iter();
-        let end = ["texels", "clipped", "photograph", "transfer", "convention", "epsilon"].map(str::to_owned);
-        let row = |result: &PhotoResult| {
-            let start: [Cell; 3] = [
-                result.material.as_str().into(),
-                result.compared.factor.into(),
-                result.compared.exposure_ev().into(),
-            ];
-            let numbers = Self::DIFFERENCES.into_iter().flat_map(|kind| result.summary(kind));
-            let end = [
-                result.texels().into(),
-                result.clipped.into(),
-                name.as_str().into(),
-                photograph.transfer.name().into(),
-                convention.name.into(),
-                convention.epsilon.into(),
-            ];
-            start.into_iter().chain(numbers.map(Cell::from)).chain(end).collect()
-        };
-        Table::new(start.chain(statistics).chain(end), self.results.iter().map(row))
-    }
-}
-
-/// A scene file, too.
-#[derive(Serialize)]
-struct PhotoJson<'a> {
-    photograph: &'a str,
-    size: [usize; 2],
-    transfer: &'a str,
-    /// Top left, top right, bottom right and bottom left, in pixels.
-    corners: [[f64; 2]; 4],
-    /// Whether the falloff of the light is divided out of the photograph.
-    falloff: bool,
-    convention: &'a str,
-    epsilon: f64,
-    results: Vec<PhotoEntry<'a>>,
-    scenes: [Scene; 1],
-}
-
-#[derive(Serialize)]
-struct PhotoEntry<'a> {
-    material: &'a str,
-    size: [usize; 2],
-    /// Number of texels that are left out.
-    clipped: usize,
-    /// What the photograph was multiplied by.
-    factor: f64,
-    exposure_ev: f64,
-    log: PhotoStatistics,
-    absolute: PhotoStatistics,
-    relative: PhotoStatistics,
-}
-
-#[derive(Serialize)]
-struct PhotoStatistics {
-    mean: f64,
-    median: f64,
-    p95: f64,
-}
-
-impl PhotoResult {
-    fn entry(&self) -> PhotoEntry<'_> {
-        let statistics = |kind| {
-            let [mean, median, p95] = self.summary(kind);
-            PhotoStatistics { mean, median, p95 }
+    fn new(material: String, compared: PhotographComparison, clipped: usize) -> Self {
+        let statistics = |kind| match compared.statistics(kind) {
+            Some(Statistics { mean, median, p95, .. }) => PhotoStatistics { mean, median, p95 },
+            None => PhotoStatistics { mean: f64::NAN, median: f64::NAN, p95: f64::NAN },
         };
         let [log, absolute, relative] = PhotoReport::DIFFERENCES.map(statistics);
-        let Self { material, compared, clipped } = self;
-        PhotoEntry {
+        Self {
             material,
             size: [compared.rendering.width, compared.rendering.height],
-            clipped: *clipped,
+            clipped,
             factor: compared.factor,
             exposure_ev: compared.exposure_ev(),
             log,
             absolute,
             relative,
+            compared,
         }
+    }
+
+    fn texels(&self) -> usize {
+        self.size[0] * self.size[1]
     }
 }
 
-impl Serialize for PhotoReport {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let PhotoSetting { name, photograph, corners, falloff, scene, convention } = &self.setting;
-        let object = PhotoJson {
-            photograph: name,
-            size: photograph.size(),
-            transfer: photograph.transfer.name(),
-            corners: corners.0,
-            falloff: *falloff,
-            convention: convention.name,
-            epsilon: convention.epsilon,
-            results: self.results.iter().map(PhotoResult::entry).collect(),
-            scenes: [*scene],
-        };
-        object.serialize(serializer)
+impl Report for PhotoReport {
+    fn text(&self) -> String {
+        let columns: [Column<'_, &PhotoResult, String>; 13] = [
+            ("material", |result| result.material.clone()),
+            ("factor", |result| format!("{:.4}", result.factor)),
+            ("EV", |result| format!("{:+.2}", result.exposure_ev)),
+            ("log mean", |result| format!("{:.4}", result.log.mean)),
+            ("median", |result| format!("{:.4}", result.log.median)),
+            ("95%", |result| format!("{:.4}", result.log.p95)),
+            ("abs. mean", |result| format!("{:.4}", result.absolute.mean)),
+            ("median", |result| format!("{:.4}", result.absolute.median)),
+            ("95%", |result| format!("{:.4}", result.absolute.p95)),
+            ("rel. mean", |result| format!("{:.4}", result.relative.mean)),
+            ("median", |result| format!("{:.4}", result.relative.median)),
+            ("95%", |result| format!("{:.4}", result.relative.p95)),
+            ("clipped", |one| format!("{:.2}%", 100.0 * one.clipped as f64 / one.texels() as f64)),
+        ];
+        let Scene { kind, view, light } = &self.setting.scene;
+        let falloff = if self.falloff { "\nfalloff of the light divided out" } else { "" };
+        format!(
+            "differences from {}\nconvention {}, epsilon {}\n{kind} scene: view {}, light {}{falloff}\n\n{}",
+            self.setting.source(),
+            self.convention,
+            self.epsilon,
+            position(*view),
+            position(*light),
+            aligned_columns(&columns, &self.results)
+        )
+    }
+
+    fn table(&self) -> Table {
+        let columns: [Column<'_, (&Self, &PhotoResult)>; 18] = [
+            ("material", |(_, result)| result.material.as_str().into()),
+            ("factor", |(_, result)| result.factor.into()),
+            ("exposure_ev", |(_, result)| result.exposure_ev.into()),
+            ("log_mean", |(_, result)| result.log.mean.into()),
+            ("log_median", |(_, result)| result.log.median.into()),
+            ("log_p95", |(_, result)| result.log.p95.into()),
+            ("absolute_mean", |(_, result)| result.absolute.mean.into()),
+            ("absolute_median", |(_, result)| result.absolute.median.into()),
+            ("absolute_p95", |(_, result)| result.absolute.p95.into()),
+            ("relative_mean", |(_, result)| result.relative.mean.into()),
+            ("relative_median", |(_, result)| result.relative.median.into()),
+            ("relative_p95", |(_, result)| result.relative.p95.into()),
+            ("texels", |(_, result)| result.texels().into()),
+            ("clipped", |(_, result)| result.clipped.into()),
+            ("photograph", |(report, _)| report.photograph.as_str().into()),
+            ("transfer", |(report, _)| report.transfer.name().into()),
+            ("convention", |(report, _)| report.convention.into()),
+            ("epsilon", |(report, _)| report.epsilon.into()),
+        ];
+        Table::of(&columns, self.results.iter().map(|result| (self, result)))
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::error::Error;
@@ -18,7 +19,7 @@ use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject};
 
 /// How the samples of a photograph encode radiance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Transfer {
     /// Samples are proportional to radiance.

@@ -124,7 +124,7 @@ pub fn scenes(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
         let destination = scene_file::destination(&path)?;
         let outcome = pair.comparison()?.run(&request, progress)?;
         let compared = Compared::new(pair.ground_truth(), &pair.convention);
-        let text = ScenesReport::new(compared, outcome).json()?;
+        let text = ScenesReport::new(compared, &outcome, usize::MAX).json()?;
         destination.replace(progress, |file| file.write_all(text.as_bytes()))?;
         Ok(path)
     })

@@ -4,7 +4,6 @@ pub mod phase;
 pub mod scene;
 pub mod study;
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
@@ -15,8 +14,7 @@ use svbrdf_core::report::LossReport;
 use crate::viewer::jobs::work::job::Job;
 use crate::viewer::jobs::work::waker::Waker;
 use crate::viewer::model::material::list::MaterialList;
-use crate::viewer::model::material::loaded::ids;
-use crate::viewer::model::material::read::ReadMaterial;
+use crate::viewer::model::material::loaded::{LoadedMaterial, ids};
 use crate::viewer::model::settings::loss_query::LossQuery;
 
 pub use phase::Losses;
@@ -181,17 +179,17 @@ impl LossJob {
 
 fn start(waker: &Waker, materials: &MaterialList, query: &LossQuery) -> RunningLoss {
     let key = key(materials, query);
-    let names: Vec<String> = materials.all.iter().map(|s| s.name().to_owned()).collect();
-    let materials: Vec<Arc<ReadMaterial>> = materials.all.iter().map(|s| s.read.clone()).collect();
+    let named = |s: &LoadedMaterial| s.read.material.clone().renamed(s.name());
+    let materials: Vec<Material<f32>> = materials.all.iter().map(named).collect();
     let LossQuery { request, convention } = query.clone();
     let of = key.clone();
     let job = Job::stream(waker, Progress::default(), move |worker| {
-        let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
+        let materials: Vec<&Material<f32>> = materials.iter().collect();
         let start = Instant::now();
         let comparison = Comparison::new(materials[0], &materials[1..], convention)?;
         let update = |outcome: &Outcome| {
             let elapsed = start.elapsed();
-            let report = LossReport::new(&comparison, &request, outcome.clone()).renamed(&names);
+            let report = LossReport::new(&comparison, &request, outcome.clone());
             let losses = Losses { key: of.clone(), differences: differences(&report), report, elapsed };
             // Where the window has dropped this job, its progress ends the work.
             let _ = worker.replace(losses);

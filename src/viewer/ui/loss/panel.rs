@@ -8,7 +8,7 @@ use eframe::egui::{self, RichText, Slider, SliderClamping};
 use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::model::scene::Kind;
+use svbrdf_core::report::SampledScenes;
 
 use crate::viewer::jobs::loss::{LossJob, Losses};
 use crate::viewer::model::command::{Command, LossCommand, WindowCommand};
@@ -139,7 +139,7 @@ impl LossPanel<'_> {
 
     /// The accuracy reached, what it took, and whether that meets the request.
     fn outcome(&self, losses: &Losses, visuals: &egui::Visuals) -> RichText {
-        let (near, distant) = (losses.report.count(Kind::Near), losses.report.count(Kind::Distant));
+        let SampledScenes { near, distant, .. } = losses.report.sampled;
         let (error, elapsed) = (losses.relative_error(), losses.elapsed);
         let took =
             format!("{} from {near} + {distant} scenes in {}", numbers::accuracy(error), seconds(elapsed));

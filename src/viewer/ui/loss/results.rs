@@ -4,7 +4,7 @@ use eframe::egui::{self, Color32, RichText, Sense, Stroke, pos2, vec2};
 
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::model::scene::Kind;
+use svbrdf_core::report::SampledScenes;
 
 use crate::viewer::jobs::loss::Losses;
 use crate::viewer::model::command::{Command, DisplayCommand, LossCommand};
@@ -208,7 +208,7 @@ impl Results<'_> {
     /// Every digit, the standard error and the scenes.
     fn in_full(&self, estimate: &Estimate) -> String {
         let [mean, error, interval] = estimate.texts();
-        let [near, distant] = [Kind::Near, Kind::Distant].map(|kind| self.latest.report.count(kind));
+        let SampledScenes { near, distant, .. } = self.latest.report.sampled;
         format!(
             "{mean} ± {error} (standard error)\n95% interval {interval}\n{near} near-field and {distant} distant scenes"
         )
@@ -293,15 +293,15 @@ impl Verdict {
 
 fn summary(latest: &Losses) -> String {
     let report = &latest.report;
-    let sampler = match report.sampler() {
+    let sampler = match report.sampled.sampler {
         Some(Sampler::Sobol) => "scrambled Sobol",
         Some(Sampler::Random) => "random",
         None => "listed",
     };
     format!(
         "convention {}, epsilon {}, {sampler} scenes{}, {} on the {}",
-        report.convention.name,
-        report.convention.epsilon,
+        report.convention,
+        report.epsilon,
         // The one that was asked for: a first estimate has scenes of another one.
         latest.key.query.request.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
         report.precision,
