@@ -254,7 +254,7 @@ fn every_control_of_the_bar_and_of_the_panel_has_a_tooltip() {
             for _ in 0..500 {
                 window.step();
                 std::thread::sleep(std::time::Duration::from_millis(20));
-                if window.query_by_label("roughness of wrong roughness: 60.6% of the loss").is_some() {
+                if window.query_by_label("roughness of wrong roughness: 60.1% of the loss").is_some() {
                     break;
                 }
             }
