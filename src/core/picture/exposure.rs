@@ -52,7 +52,7 @@ mod tests {
         };
         let material = Material::new("stripes", side, side, planes).unwrap();
         let convention = Convention::default();
-        let scene = Sampler::Random.scenes(0, 0, 1, &convention)[0].clone();
+        let scene = Sampler::Random.scenes(0, 0, 1, &convention)[0];
         let stripes = automatic(&material, &scene, &convention);
         let texel = |diffuse| Texel {
             normal: glam::Vec3::Z,
