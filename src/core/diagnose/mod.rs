@@ -59,7 +59,7 @@ pub use ladder::{Rung, ladder};
 pub use reading::Reading;
 pub use remedy::Remedy;
 pub use seams::{Seam, seams};
-pub use search::diagnose;
+pub use search::{SCENES, diagnose};
 pub use sentence::{sentence, sentence_of};
 pub use shift::{MOST_SHIFT, shifted};
 pub use storage::{Storage, Transfer};

@@ -166,8 +166,9 @@ fn cell(value: &Value) -> Cell {
 impl Report for DiagnoseReport {
     fn text(&self) -> String {
         let texts: Vec<String> = self.predictions.iter().map(|diagnosis| self.text_of(diagnosis)).collect();
+        let [near, distant] = diagnose::SCENES;
         format!(
-            "{}128 near-field and 64 distant scenes, seed {}, scrambled Sobol\n{}\n{}",
+            "{}{near} near-field and {distant} distant scenes, seed {}, scrambled Sobol\n{}\n{}",
             self.compared.heading("diagnosis"),
             self.seed,
             floor_line(&self.floor, self.captures),

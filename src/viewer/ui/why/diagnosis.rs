@@ -3,7 +3,7 @@
 use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, FontId, RichText, pos2, vec2};
 
-use svbrdf_core::diagnose::{Diagnosis, Finding, sentence};
+use svbrdf_core::diagnose::{Diagnosis, Finding, SCENES, sentence};
 use svbrdf_core::loss::LossSettings;
 
 use crate::viewer::jobs::why::{ComparedPair, Diagnosed, WhyJobs};
@@ -147,7 +147,8 @@ impl DiagnosisSection<'_> {
         };
         let floor = self.jobs.diagnosis.floor(pair, self.settings.seed).map(|floor| digits(floor.mean));
         let floor = floor.map(|floor| format!("Floor {floor}, ")).unwrap_or_default();
-        let text = format!("{floor}128 + 64 scenes, {}", seconds(*elapsed));
+        let [near, distant] = SCENES;
+        let text = format!("{floor}{near} + {distant} scenes, {}", seconds(*elapsed));
         ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
             ui.set_min_height(height);
             ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
