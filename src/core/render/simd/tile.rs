@@ -254,3 +254,22 @@ impl Positions {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rest_of_a_tile_has_the_position_of_its_first_texel_whatever_was_in_it() {
+        let axes = GridAxes::from(Grid { width: 20, height: 20 });
+        let listed: Vec<usize> = (7..10).collect();
+        for span in [TexelSpan::Range(7..10), TexelSpan::Listed(&listed)] {
+            let mut positions = Positions::ZERO;
+            positions.fill(&axes, &TexelSpan::Range(200..200 + TEXELS));
+            positions.fill(&axes, &span);
+            for plane in [positions.x.values(), positions.y.values()] {
+                assert!(plane[3..].iter().all(|value| *value == plane[0]), "{span:?}");
+            }
+        }
+    }
+}
