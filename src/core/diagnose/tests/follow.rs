@@ -1,11 +1,9 @@
 //! Following the advice of diagnoses until it ends, for one error, and for two or three at once.
 
-use std::path::Path;
-
 use super::super::{Change, Hypothesis, Reading, Storage, Symmetry, Transfer, diagnose, floor, sentence_of};
-use super::materials::{generated, with};
+use super::materials::{generated, golden, with};
 use crate::loss::{Comparison, Request, Sampling};
-use crate::material::{Material, Planes};
+use crate::material::Material;
 use crate::model::convention::PRINTED;
 use crate::model::sampler::Sampler;
 use crate::progress::Progress;
@@ -250,27 +248,8 @@ fn name(reading: Reading) -> &'static str {
 
 /// Three generated materials, and two of the reference maps beside the checkout where they are there.
 fn materials() -> Vec<Material<f32>> {
-    let maps = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/golden/maps");
-    let golden = ["gt.png", "parquet64.png"].into_iter().filter_map(|name| packed(&maps.join(name)));
+    let golden = ["gt", "parquet64"].into_iter().filter_map(|name| golden(name, SIDE));
     (0..3).map(|seed| generated(seed, SIDE)).chain(golden).collect()
-}
-
-/// The material of four tiles (normal, diffuse, roughness, specular), thinned to `SIDE` rows; `None` without the file.
-fn packed(path: &Path) -> Option<Material<f32>> {
-    let picture = image::open(path).ok()?.to_rgb32f();
-    let (side, step) = (picture.height() as usize, picture.height() as usize / SIDE);
-    let plane = |tile: usize, channel: usize| -> Vec<f32> {
-        let at = |i: usize| [(i % SIDE * step + tile * side) as u32, (i / SIDE * step) as u32];
-        (0..SIDE * SIDE).map(|i| picture.get_pixel(at(i)[0], at(i)[1])[channel]).collect()
-    };
-    let signed = |plane: Vec<f32>| plane.into_iter().map(|value| 2.0 * value - 1.0).collect();
-    let planes = Planes {
-        normal: [0, 1, 2].map(|channel| signed(plane(0, channel))),
-        diffuse: [0, 1, 2].map(|channel| plane(1, channel).into_iter().map(|d| d.powf(2.2)).collect()),
-        roughness: plane(2, 0),
-        specular: [0, 1, 2].map(|channel| plane(3, channel).into_iter().map(|s| s.powf(2.2)).collect()),
-    };
-    Some(Material::new(path.file_stem()?.to_string_lossy(), SIDE, SIDE, planes).unwrap())
 }
 
 /// Prints a line per pair; the number that end at 0 or below the floor, of how many, and of false causes.

@@ -1,10 +1,16 @@
 //! False marks and the coverage of intervals: long, so ignored unless asked for.
 
+use rayon::prelude::*;
+
+use super::super::evaluation::share_interval;
 use super::super::pair::Pair;
+use super::super::search::EVALUATION;
 use super::super::trials::{Trials, mean};
-use super::super::{Change, Diagnosis, Finding, Hypothesis, Storage, Value, diagnose, shifted};
-use super::materials::{generated, unexplained, with};
-use crate::loss::{Comparison, Request, Sampling};
+use super::super::{
+    Change, Diagnosis, Finding, Hypothesis, Reading, Storage, Transfer, Value, diagnose, shifted,
+};
+use super::materials::{generated, golden, unexplained, with};
+use crate::loss::{Comparison, Estimate, Request, Sampling};
 use crate::material::Material;
 use crate::model::convention::PRINTED;
 use crate::model::sampler::Sampler;
@@ -178,4 +184,55 @@ fn intervals_of_fitted_values_cover_95_percent() {
         "coverage of loss and share, with fitted stops and with a fitted shift: {coverage:?} of {count}"
     );
     assert!(coverage.iter().flatten().all(|coverage| (coverage - 0.95).abs() <= 0.015), "{coverage:?}");
+}
+
+/// The intervals of an evaluation on some of the texels, of ten unlike pairs (five without the reference maps): of the loss, of the share
+/// of diffuse in another encoding, and of the share of inverted roughness.
+#[test]
+#[ignore = "takes a quarter of an hour; docs/verification.md has its command and its result"]
+fn intervals_of_an_evaluation_cover_95_percent() {
+    const SEEDS: u64 = 1000;
+    let generated = (0..5).map(|seed| [generated(seed, 64), generated(seed + 1, 64)]);
+    let packed =
+        [["gt", "l1"], ["gt", "rend"], ["gt", "wood_a"], ["brick256", "parquet256"], ["foam64", "parquet64"]];
+    let packed = packed.into_iter().filter_map(|names| {
+        let side = if names[0] == "foam64" { 64 } else { 256 };
+        Some([golden(names[0], side)?, golden(names[1], side)?])
+    });
+    let changes =
+        [Reading::Diffuse(Transfer::Linear), Reading::Gloss].map(|reading| vec![Change::Reading(reading)]);
+    let storage = Storage { colours: Transfer::Gamma22, specular: Transfer::Gamma22, ..Storage::default() };
+    let mut all = [0; 3];
+    let mut count = 0;
+    for [truth, prediction] in generated.chain(packed) {
+        let pair = || Pair { ground_truth: &truth, prediction: &prediction, storages: [&storage; 2] };
+        let losses = |size: [usize; 3], seed: u64| {
+            let progress = Progress::default();
+            let trials = Trials::new(pair(), &PRINTED, size, seed, &progress).unwrap();
+            (trials.losses(&changes).unwrap(), trials.scenes)
+        };
+        let (many, _) = losses([1 << 15, 1 << 14, EVALUATION[2]], 77 << 32);
+        let loss = mean(&many[0].before);
+        let share = |change: usize| 1.0 - mean(&many[change].after) / mean(&many[change].before);
+        let expected = [loss, share(0), share(1)];
+        let inside = |seed: u64| {
+            let (paired, scenes) = losses(EVALUATION, seed);
+            let loss = Estimate::of_sampled(Sampler::Sobol, &scenes, &paired[0].before).interval95;
+            let intervals = [loss, share_interval(&paired[0], &scenes), share_interval(&paired[1], &scenes)];
+            [0, 1, 2].map(|i| {
+                intervals[i].is_some_and(|[low, high]| low <= expected[i] && expected[i] <= high) as u32
+            })
+        };
+        let sum = |a: [u32; 3], b: [u32; 3]| [0, 1, 2].map(|i| a[i] + b[i]);
+        let covered = (0..SEEDS).into_par_iter().map(inside).reduce(|| [0; 3], sum);
+        println!("{} against {}: {covered:?} of {SEEDS}, of {expected:.4?}", truth.name(), prediction.name());
+        (all, count) = (sum(all, covered), count + SEEDS);
+        // Three standard errors of a coverage of 95%.
+        assert!(covered.iter().all(|&covered| (929..=971).contains(&covered)), "{covered:?}");
+    }
+    println!("{all:?} of {count}");
+    assert!(
+        all.iter().all(|&all| (f64::from(all) / count as f64 - 0.95).abs() <= 0.01),
+        "{all:?} of {count}"
+    );
 }
