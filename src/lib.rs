@@ -25,15 +25,14 @@
 //! | [`svbrdf_core`] | `src/core` | numbers only: BRDF, scenes, rendering, loss, what a loss comes from, metrics, reports |
 //! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, data sets, reports, the built-in materials |
 //! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter; the shaders are in `src/gpu/shaders/` |
-//! | `svbrdf` | `src` | [`backend`] (processor or adapter, whichever is faster), the window in `src/viewer` (feature `viewer`), and the command line in `src/cli`, which is part of the binary |
+//! | `svbrdf_viewer` (feature `viewer`) | `src/viewer` | the window |
+//! | `svbrdf` | `src` | [`backend`] (processor or adapter, whichever is faster), and the command line in `src/cli`, which is part of the binary |
 //!
 //! In `src/viewer`, `model` is what the window displays, changed by commands alone; `jobs` computes in the background; `ui` reads
 //! the hand and draws. The compiler guards the order of the crates, `tests/layering.rs` that of the modules within.
 //! `docs/architecture.md` follows a loss, a drag and a folder through them.
 
 pub mod backend;
-#[doc(hidden)]
-pub mod signals;
 
 pub use svbrdf_core::error::Error;
 pub use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request, Sampling, Texels};
@@ -48,11 +47,5 @@ pub use svbrdf_files::read::{Read, ReadOptions, read};
 pub use svbrdf_files::samples::load as built_in;
 pub use svbrdf_files::write::{FileKind, WriteOptions, write};
 
-#[cfg(all(feature = "viewer", not(feature = "testing")))]
-mod viewer;
-/// The window's internals, for the tests of this repository.
-#[cfg(feature = "testing")]
-pub mod viewer;
-
 #[cfg(feature = "viewer")]
-pub use viewer::{ViewerOptions, run as open_viewer};
+pub use svbrdf_viewer::{ViewerOptions, run as open_viewer};

@@ -1,7 +1,6 @@
 //! The real program in a real window on a display without a screen (Xvfb), with a simulated mouse and keyboard.
 
 mod arguments;
-mod device_loss;
 mod dialogs;
 mod sessions;
 mod starts;
@@ -13,10 +12,15 @@ use std::time::{Duration, Instant};
 use image::RgbImage;
 use svbrdf_needs::{has, needs};
 
-use crate::support::desktop::{Desktop, Running};
+use crate::support::desktop::{Desktop, Running, changed, colours};
 use crate::support::gpu::STALE_BUILD;
 
 impl Desktop {
+    /// `svbrdf` on the display.
+    fn svbrdf(&self) -> Command {
+        self.program(env!("CARGO_BIN_EXE_svbrdf"))
+    }
+
     /// Starts `svbrdf` on these arguments in the folder, and waits for the materials to be drawn.
     fn open(&self, arguments: &[&str]) -> Running {
         let mut command = self.svbrdf();
@@ -45,60 +49,6 @@ impl Desktop {
             self.wait_until_still();
         }
     }
-
-    fn xdotool(&self, arguments: &str) {
-        let status = self.command("xdotool").args(arguments.split(' ')).stdout(Stdio::null()).status();
-        assert!(status.unwrap().success(), "xdotool {arguments}");
-        std::thread::sleep(Duration::from_millis(150));
-    }
-
-    fn screenshot(&self) -> RgbImage {
-        let path = self.folder.path().join("screen.png");
-        let status = self.command("import").args(["-window", "root"]).arg(&path).status().unwrap();
-        assert!(status.success());
-        image::open(&path).unwrap().to_rgb8()
-    }
-
-    /// A screenshot that equals the one before it, or a failure after a minute.
-    fn wait_until_still(&self) -> RgbImage {
-        let last = std::cell::RefCell::new(self.screenshot());
-        self.wait("the window to come to rest", |picture| {
-            changed(picture, &last.replace(picture.clone())) == 0
-        })
-    }
-
-    /// Takes screenshots until `holds`, or fails after a minute.
-    fn wait(&self, what: &str, holds: impl Fn(&RgbImage) -> bool) -> RgbImage {
-        let start = Instant::now();
-        loop {
-            let picture = self.screenshot();
-            if holds(&picture) {
-                return picture;
-            }
-            if start.elapsed() > Duration::from_secs(60) {
-                keep(&picture);
-                panic!("waited in vain for {what}");
-            }
-            std::thread::sleep(Duration::from_millis(300));
-        }
-    }
-}
-
-/// Leaves a screenshot where it can be looked at after a failure.
-fn keep(picture: &RgbImage) {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("end_to_end_failed.png");
-    let _ = picture.save(&path);
-    eprintln!("the screen is in {}", path.display());
-}
-
-/// How many pixels differ visibly.
-fn changed(a: &RgbImage, b: &RgbImage) -> usize {
-    let far = |(p, q): &(&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|c| p.0[c].abs_diff(q.0[c]) > 12);
-    a.pixels().zip(b.pixels()).filter(far).count()
-}
-
-fn colours(picture: &RgbImage) -> usize {
-    picture.pixels().collect::<std::collections::HashSet<_>>().len()
 }
 
 /// Whether a program is on the PATH.

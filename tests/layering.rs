@@ -27,10 +27,10 @@ const LAYERS: [&[&str]; 18] = [
     &["core/lib"],
     &["files"],
     &["gpu"],
-    &["backend", "signals"],
     &["viewer/model"],
     &["viewer/jobs"],
     &["viewer"],
+    &["backend"],
     &["cli", "lib", "main"],
 ];
 
@@ -88,7 +88,7 @@ static ARROWS: LazyLock<Vec<Arrow>> = LazyLock::new(|| {
 /// The arrows between folders. A file at the root of a crate stands for itself.
 fn of_folders(arrows: &[Arrow]) -> Vec<Arrow> {
     let folder = |file: &String| match file.rsplit_once('/') {
-        None | Some(("core" | "files" | "gpu", _)) => file.clone(),
+        None | Some(("core" | "files" | "gpu" | "viewer", _)) => file.clone(),
         Some((folder, _)) => folder.to_owned(),
     };
     let between = arrows.iter().filter(|arrow| !arrow.passed_on).map(|arrow| Arrow {

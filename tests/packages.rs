@@ -12,8 +12,13 @@ fn read(file: &str) -> String {
 }
 
 /// The manifests of the crates that are published.
-const MANIFESTS: [&str; 4] =
-    ["Cargo.toml", "src/core/Cargo.toml", "src/files/Cargo.toml", "src/gpu/Cargo.toml"];
+const MANIFESTS: [&str; 5] = [
+    "Cargo.toml",
+    "src/core/Cargo.toml",
+    "src/files/Cargo.toml",
+    "src/gpu/Cargo.toml",
+    "src/viewer/Cargo.toml",
+];
 
 /// The names in the tables of a manifest whose headers end with `kind`, such as `dependencies`.
 fn names(manifest: &str, kind: &str) -> BTreeSet<String> {
@@ -118,7 +123,7 @@ fn every_direct_dependency_has_its_reason() {
 fn all_crates_and_packages_have_one_version() {
     let version = env!("CARGO_PKG_VERSION");
     let root = read("Cargo.toml");
-    for own in ["svbrdf-core", "svbrdf-files", "svbrdf-gpu"] {
+    for own in ["svbrdf-core", "svbrdf-files", "svbrdf-gpu", "svbrdf-viewer"] {
         let line = root.lines().find(|line| line.starts_with(&format!("{own} = {{"))).unwrap();
         assert!(line.contains(&format!("version = \"{version}\"")), "{line}");
     }

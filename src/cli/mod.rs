@@ -116,7 +116,7 @@ enum Subcommands {
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
-    svbrdf::signals::outlive_size_limits();
+    svbrdf_files::signals::outlive_size_limits();
     // Nothing else writes messages of libraries to stderr.
     #[cfg(feature = "gpu")]
     if std::env::var_os("RUST_LOG").is_some() {

@@ -38,6 +38,7 @@ pub mod scene_file;
 pub mod schema;
 pub mod session;
 pub mod session_window;
+pub mod signals;
 pub mod source;
 pub mod stamp;
 mod step_names;

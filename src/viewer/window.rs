@@ -31,11 +31,19 @@ const PAUSE_AFTER_LOSS: Duration = Duration::from_millis(300);
 /// graphics adapter that can draw into it, [`Error::Gpu`] where its devices are lost again and again, [`Error::Cancelled`] where a
 /// signal closed it, [`Error::Internal`] after a panic.
 pub fn run(options: ViewerOptions) -> Result<(), Error> {
+    run_watched(options, |_| ())
+}
+
+/// [`run`], with a look at the adapter of each window that opens: the first, and one after each device that is lost.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_watched(options: ViewerOptions, opened: impl Fn(&Gpu)) -> Result<(), Error> {
     // Panics become errors, which are printed at the end.
     panics::print(false);
     let stop = Stop::default();
     priority::yield_to_window();
-    let result = Gpu::check_environment().and_then(|()| windows(options, &stop));
+    let result = Gpu::check_environment().and_then(|()| windows(options, &stop, &opened));
     panics::print(true);
     result?;
     if stop.is_stopped() { Err(Error::Cancelled) } else { Ok(()) }
@@ -51,13 +59,14 @@ fn settings_folder() -> Option<PathBuf> {
 }
 
 /// Opens the window, and opens it again where its device was lost.
-fn windows(options: ViewerOptions, stop: &Stop) -> Result<(), Error> {
+fn windows(options: ViewerOptions, stop: &Stop, opened: &dyn Fn(&Gpu)) -> Result<(), Error> {
     let damaged = settings_folder().map(|folder| stored_file::prepare(&folder)).transpose()?.flatten();
     let (app, crash) = (Surviving::default(), CrashGuard::default());
     let (mut losses, mut adapters) = (DeviceLosses::default(), Adapters::All);
     loop {
         // winit 0.30 panics where libxkbcommon or another library that it loads is missing.
-        let result = panics::caught(|| Ok(open(&app, adapters, &options, damaged.as_ref(), stop, &crash)));
+        let result =
+            panics::caught(|| Ok(open(&app, adapters, &options, damaged.as_ref(), stop, &crash, opened)));
         let loss = app.0.borrow().as_ref().and_then(|app| app.loss().map(str::to_owned));
         let Some(loss) = loss.filter(|_| !stop.is_stopped()) else {
             let move_settings = || settings_folder().and_then(|folder| stored_file::move_aside(&folder));
@@ -78,6 +87,7 @@ fn open(
     damaged: Option<&PathBuf>,
     stop: &Stop,
     crash: &CrashGuard,
+    opened: &dyn Fn(&Gpu),
 ) -> Result<(), eframe::Error> {
     let create = |cc: &eframe::CreationContext<'_>| -> Box<dyn eframe::App> {
         let mut place = app.0.borrow_mut();
@@ -91,6 +101,7 @@ fn open(
                 *place = Some(new);
             }
         }
+        place.iter().filter_map(|app| app.parts.gpu.as_ref()).for_each(|view| opened(&view.gpu));
         Box::new(app.clone())
     };
     eframe::run_native(NAME, native_options(adapters), Box::new(|cc| Ok(create(cc))))

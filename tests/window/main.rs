@@ -19,6 +19,7 @@ mod flip;
 mod gestures;
 mod key_presses;
 mod loss_panel;
+mod lost_window;
 mod mapping;
 mod outside;
 mod panels;
@@ -39,6 +40,8 @@ mod training;
 mod view;
 mod why;
 
+#[path = "../support/desktop.rs"]
+mod desktop;
 #[path = "../support/gpu.rs"]
 #[allow(dead_code, reason = "the tests of the core use the rest")]
 mod gpu;
@@ -51,8 +54,9 @@ mod surroundings;
 use eframe::egui::{self, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use svbrdf::viewer::ViewerOptions;
-use svbrdf::viewer::app::App;
+use svbrdf_needs::needs;
+use svbrdf_viewer::ViewerOptions;
+use svbrdf_viewer::app::App;
 
 type Window<'a> = Harness<'a, App>;
 

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf::viewer::model::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
@@ -13,6 +12,7 @@ use svbrdf_files::photograph::flash;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::{self, generate};
 use svbrdf_files::session::SessionPhotograph;
+use svbrdf_viewer::model::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
 
 use super::photograph::apply;
 use super::*;

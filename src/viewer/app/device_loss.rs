@@ -9,7 +9,7 @@ use eframe::egui;
 use svbrdf_core::error::Error;
 
 use super::App;
-use crate::viewer::model::message::Message;
+use crate::model::message::Message;
 
 /// Losses longer ago than this do not count: the device has worked since then.
 const RECENT: Duration = Duration::from_secs(10);
@@ -95,23 +95,6 @@ impl App {
             let adapter = gpu.gpu.report.name.clone();
             self.parts.model.report([Message::DeviceReplaced { reason, adapter }]);
         }
-    }
-}
-
-/// When the tests of the real window lose its device: `drag` in every drag, `always` in every frame.
-#[cfg(feature = "testing")]
-const LOSE: &str = "SVBRDF_TEST_LOSE_DEVICE";
-
-#[cfg(feature = "testing")]
-impl App {
-    /// Loses the device where a test wants that.
-    pub(super) fn lose_for_test(&self, ctx: &egui::Context) {
-        let is_due = match std::env::var(LOSE).as_deref() {
-            Ok("drag") => ctx.input(|i| i.pointer.is_decidedly_dragging()),
-            Ok("always") => true,
-            _ => false,
-        };
-        self.parts.gpu.iter().filter(|_| is_due).for_each(|gpu| gpu.gpu.lose());
     }
 }
 

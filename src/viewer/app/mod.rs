@@ -6,7 +6,6 @@ pub mod device_loss;
 pub mod display;
 pub mod effects;
 pub mod events;
-#[cfg(feature = "testing")]
 pub mod observe;
 pub mod parts;
 pub mod saving;
@@ -122,8 +121,6 @@ impl App {
         }
         exposure::follow(&mut self.parts.model);
         self.follow(&ctx);
-        #[cfg(feature = "testing")]
-        self.lose_for_test(&ctx);
         let displayed = Displayed::of(&self.parts.model, &self.parts.jobs);
         let commands = self.parts.ui.draw(ui, displayed, self.parts.gpu.as_mut());
         self.apply_all(&ctx, commands);

@@ -1,4 +1,4 @@
-//! Observations of the window, for its tests.
+//! What a window shows, for those who drive it.
 
 use svbrdf_core::diagnose::Diagnosis;
 use svbrdf_core::loss::{Estimate, Loss};
@@ -9,9 +9,9 @@ use svbrdf_core::why::{Attribution, Hemisphere, RankedScene, Worst};
 use svbrdf_files::photograph::PhotographComparison;
 
 use super::App;
-use crate::viewer::jobs::training::RunView;
-use crate::viewer::jobs::why::ComparedPair;
-use crate::viewer::model::message::Message;
+use crate::jobs::training::RunView;
+use crate::jobs::why::ComparedPair;
+use crate::model::message::Message;
 
 /// How the values of one channel of a material are distributed.
 type ValueDistribution<'a> = (&'a Histogram, Option<Statistics>);

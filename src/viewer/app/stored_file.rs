@@ -13,8 +13,8 @@ use svbrdf_files::atomic;
 use svbrdf_files::open::NamedFile;
 
 use super::storage::{RECENT, SESSION, SETTINGS};
-use crate::viewer::model::ranges::UI_SCALE;
-use crate::viewer::model::settings::Settings;
+use crate::model::ranges::UI_SCALE;
+use crate::model::settings::Settings;
 
 /// The name that eframe gives the file.
 const FILE: &str = "app.ron";

@@ -9,9 +9,9 @@ use super::displayed::Displayed;
 use super::panes::RangeKey;
 use super::why::WhyQuery;
 use super::work::context::JobContext;
-use crate::viewer::model::Model;
-use crate::viewer::model::settings::Tab;
-use crate::viewer::model::settings::loss_query::LossQuery;
+use crate::model::Model;
+use crate::model::settings::Tab;
+use crate::model::settings::loss_query::LossQuery;
 
 /// What the window displays, as far as jobs depend on it.
 #[derive(Clone, Copy, Debug, Default)]

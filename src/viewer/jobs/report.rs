@@ -16,7 +16,7 @@ use svbrdf_files::session::Session;
 
 use super::displayed::Displayed;
 use super::work::job::Job;
-use crate::viewer::model::material::read::ReadMaterial;
+use crate::model::material::read::ReadMaterial;
 
 /// Everything that the report of a window depends on.
 struct ReportInputs {

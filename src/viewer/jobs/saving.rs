@@ -19,9 +19,9 @@ use super::displayed::Displayed;
 use super::why::ComparedPair;
 use super::work::job::Job;
 use super::work::waker::Waker;
-use crate::viewer::model::inspection::Region;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::ReadMaterial;
+use crate::model::inspection::Region;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::ReadMaterial;
 
 /// The content of a picture of the panes.
 pub fn content(displayed: Displayed<'_>) -> PictureContent {

@@ -20,7 +20,7 @@ use super::material::source::{Origin, Source, sources};
 use super::message::Message;
 use super::ranges::bring_into_range;
 use super::view::state::ViewState;
-use crate::viewer::model::settings::options::ViewerOptions;
+use crate::model::settings::options::ViewerOptions;
 
 /// Number of comparisons that are remembered.
 const RECENT: usize = 12;

@@ -11,7 +11,7 @@ use svbrdf_files::capture::{Capture, CapturedPhotograph};
 use svbrdf_files::photograph::Rectified;
 
 use super::picture::exposure;
-use crate::viewer::jobs::work::picture::Picture;
+use crate::jobs::work::picture::Picture;
 
 /// Side of a thumbnail, in pixels.
 const SIDE: usize = 96;

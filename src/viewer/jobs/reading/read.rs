@@ -11,8 +11,8 @@ use svbrdf_files::samples;
 use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep, runs_in};
 
-use crate::viewer::model::material::read::{ReadMaterial, Rules};
-use crate::viewer::model::material::source::{Origin, Source};
+use crate::model::material::read::{ReadMaterial, Rules};
+use crate::model::material::source::{Origin, Source};
 
 /// A file that was written less than this ago may be incomplete.
 const INCOMPLETE: Duration = Duration::from_secs(5);

@@ -11,10 +11,10 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::memory::{self, Reserved};
 use svbrdf_gpu::{Gpu, MaterialTextures};
 
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::waker::Waker;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::{MaterialId, ReadMaterial};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::{MaterialId, ReadMaterial};
 
 /// Texels that a slow adapter sends or shades within a frame.
 pub const BAND: usize = 1 << 19;
@@ -72,8 +72,7 @@ impl Uploaded {
         self.complete_by(|stride| send(gpu, material, stride));
     }
 
-    /// As [`Uploaded::complete`], on an adapter that has no room for all texels.
-    #[cfg(feature = "testing")]
+    /// As [`Uploaded::complete`] on an adapter that has no room for all texels.
     pub fn too_large(gpu: &Gpu, material: &Material<f32>) -> Self {
         let uploaded = Self::new(gpu, None);
         uploaded.complete_by(|stride| match stride {

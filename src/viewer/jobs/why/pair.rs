@@ -8,10 +8,10 @@ use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
+use crate::model::material::read::ReadMaterial;
+use crate::model::view::state::ViewState;
 
 /// Identity of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,8 +12,8 @@ use svbrdf_core::render;
 use svbrdf_core::statistics::quantile;
 use svbrdf_core::why::RankedScene;
 
-use crate::viewer::jobs::why::pair::ComparedPair;
-use crate::viewer::jobs::work::picture::Picture;
+use crate::jobs::why::pair::ComparedPair;
+use crate::jobs::work::picture::Picture;
 
 /// Side of a thumbnail, in pixels.
 pub const SIDE: usize = 48;
@@ -34,7 +34,6 @@ pub struct Thumbnails {
     /// The log difference that has the last colour, the same in all.
     pub range: f64,
     /// Of each scene, row by row: the means of the log differences under a pixel.
-    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "the tests of the window read it"))]
     pub pixels: Vec<Vec<f32>>,
 }
 

@@ -29,7 +29,6 @@ impl MessageList {
         self.posted.push(Posted { message, until });
     }
 
-    #[cfg_attr(not(feature = "testing"), expect(dead_code, reason = "the tests of the window read it"))]
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Message> {
         self.posted.iter().map(|posted| &posted.message)
     }
@@ -71,8 +70,8 @@ impl MessageList {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::material::problem::MaterialProblem;
-    use crate::viewer::model::material::source::Source;
+    use crate::model::material::problem::MaterialProblem;
+    use crate::model::material::source::Source;
     use std::path::PathBuf;
     use svbrdf_core::error::Error;
     use svbrdf_files::source::MaterialSource;

@@ -167,7 +167,7 @@ fn size(grid: Grid) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::Projection;
+    use crate::model::view::state::Projection;
     use svbrdf_files::session_window::Display;
 
     const GRID: Grid = Grid { width: 64, height: 48 };

@@ -55,7 +55,7 @@ impl DraftPolicy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::model::view::state::ViewState;
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_core::picture::quantity::Quantity;
 
