@@ -24,7 +24,8 @@
 //! |---|---|---|
 //! | [`svbrdf_core`] | `src/core` | numbers only: BRDF, scenes, rendering, loss, what a loss comes from, metrics, reports |
 //! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, data sets, reports, the built-in materials |
-//! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter; the shaders are in `src/gpu/shaders/` |
+//! | [`svbrdf_shaders`] | `shaders` | the WGSL of adapters, and the GLSL of pages |
+//! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter |
 //! | `svbrdf_viewer` (feature `viewer`) | `src/viewer` | the window |
 //! | `svbrdf` | `src` | [`backend`] (processor or adapter, whichever is faster), and the command line in `src/cli`, which is part of the binary |
 //!

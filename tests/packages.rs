@@ -12,8 +12,9 @@ fn read(file: &str) -> String {
 }
 
 /// The manifests of the crates that are published.
-const MANIFESTS: [&str; 5] = [
+const MANIFESTS: [&str; 6] = [
     "Cargo.toml",
+    "shaders/Cargo.toml",
     "src/core/Cargo.toml",
     "src/files/Cargo.toml",
     "src/gpu/Cargo.toml",
@@ -123,7 +124,7 @@ fn every_direct_dependency_has_its_reason() {
 fn all_crates_and_packages_have_one_version() {
     let version = env!("CARGO_PKG_VERSION");
     let root = read("Cargo.toml");
-    for own in ["svbrdf-core", "svbrdf-files", "svbrdf-gpu", "svbrdf-viewer"] {
+    for own in ["svbrdf-core", "svbrdf-files", "svbrdf-gpu", "svbrdf-shaders", "svbrdf-viewer"] {
         let line = root.lines().find(|line| line.starts_with(&format!("{own} = {{"))).unwrap();
         assert!(line.contains(&format!("version = \"{version}\"")), "{line}");
     }

@@ -1,17 +1,17 @@
 //! The shaders without a GPU: naga parses and validates them, and tells where their members lie.
 #![cfg(feature = "gpu")]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::mem::offset_of;
 use std::path::Path;
 
 use wgpu::naga;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use svbrdf_gpu::shaders::ALL;
 use svbrdf_gpu::uniforms::{
     Band, CameraUniforms, DisplayUniforms, LogSum, ModelUniforms, ProbePoint, SceneUniforms, ShadingUniforms,
 };
+use svbrdf_shaders::ALL;
 
 /// A struct as Rust lays it out: its name in WGSL, its size, its members with their offsets.
 #[derive(Debug)]
@@ -100,15 +100,61 @@ fn every_shader_has_its_entry_points() {
 
 #[test]
 fn every_file_of_the_shader_folder_is_in_a_shader() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/gpu/shaders");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
     let files: BTreeSet<String> = std::fs::read_dir(folder)
         .expect("the folder is readable")
         .map(|entry| entry.expect("readable").file_name().into_string().expect("a plain name"))
+        .filter(|name| name.ends_with(".wgsl"))
         .collect();
     let pieces: BTreeSet<String> =
         ALL.iter().flat_map(|s| s.pieces).map(|(file, _)| (*file).to_owned()).collect();
     assert!(!files.is_empty());
     assert_eq!(files, pieces);
+}
+
+/// The functions of a piece without a function of that name in the Rust files that its header calls its twins, or without such files. The
+/// first name in backticks in the line above is the Rust name.
+fn without_twins(piece: &str, read: impl Fn(&str) -> Option<String>) -> Vec<String> {
+    let header: String = piece.lines().take_while(|line| line.starts_with("//")).collect();
+    let Some((_, named)) = header.split_once("the twin of ") else { return Vec::new() };
+    let words = named.split([' ', ',', ':']).map(|word| word.trim_end_matches('.'));
+    let files = words.filter(|word| word.ends_with(".rs"));
+    let twins: String = files.map(|file| read(file).unwrap_or_else(|| format!("no file {file}"))).collect();
+    let mut missing = Vec::new();
+    for (above, line) in std::iter::once("").chain(piece.lines()).zip(piece.lines()) {
+        let Some((name, _)) = line.strip_prefix("fn ").and_then(|rest| rest.split_once('(')) else {
+            continue;
+        };
+        let named = above.strip_prefix("//").and_then(|comment| comment.split('`').nth(1));
+        let name = named.unwrap_or(name);
+        if !["(", "<"].iter().any(|after| twins.contains(&format!("fn {name}{after}"))) {
+            missing.push(name.to_owned());
+        }
+    }
+    missing
+}
+
+#[test]
+fn every_function_of_a_twin_has_its_rust_function() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |file: &str| std::fs::read_to_string(root.join(file)).ok();
+    let pieces: BTreeMap<_, _> = ALL.iter().flat_map(|shader| shader.pieces).copied().collect();
+    let twins = pieces.iter().filter(|(_, text)| text.contains("the twin of ")).count();
+    assert!(twins >= 8, "{twins}");
+    for (file, text) in pieces {
+        assert_eq!(without_twins(text, read), Vec::<String>::new(), "{file}");
+    }
+}
+
+#[test]
+fn a_function_without_a_twin_and_a_file_that_moved_are_found() {
+    let piece =
+        "// A: the twin of src/a.rs,\n// and src/b.rs.\n\nfn one(x: f32) {}\n// `two`.\nfn zwei() {}\n";
+    let found = |a: &str| without_twins(piece, |file| (file == "src/a.rs").then(|| a.to_owned()));
+    assert_eq!(found("fn one<T>() {} fn two() {}"), Vec::<String>::new());
+    assert_eq!(found("fn one() {} fn zwei() {}"), ["two"]);
+    assert_eq!(found("fn two() {}"), ["one"]);
+    assert_eq!(without_twins(piece, |_| None), ["one", "two"]);
 }
 
 #[test]

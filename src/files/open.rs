@@ -3,7 +3,7 @@
 //! A path is opened together with [who named it](NamedBy). What a user names is a regular file, or a pipe, which is read with
 //! a limit. What a file names is a regular file, by a path relative to that file: absolute paths, other drives and network
 //! shares are refused without a look at them, unless [`allow_outside`]. Devices, sockets and, in files, pipes are refused
-//! before they are opened; links are judged at their end. `clippy.toml` refuses every other way to open a file.
+//! before they are opened; links are judged at their end. `.cargo/clippy.toml` refuses every other way to open a file.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, BufReader, Read as _, Seek as _};

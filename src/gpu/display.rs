@@ -7,12 +7,13 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_shaders as shaders;
 
 use super::fault::scoped;
 use super::params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding};
 use super::pipeline::{Constants, Fullscreen, bind, buffer_type, texture_type, uniform_buffer};
 use super::uniforms::DisplayUniforms;
-use super::{Gpu, Shaded, shaders};
+use super::{Gpu, Shaded};
 
 /// The pipelines of pass 2.
 #[derive(Debug)]

@@ -7,7 +7,7 @@
 //!
 //! [`GpuLosses`] is Algorithm 1 in compute shaders, for large jobs on a fast adapter.
 //!
-//! `shaders/` holds one idea a file; `shaders` says which files make a shader. Bad input and bad hardware never
+//! Its shaders are those of [`svbrdf_shaders`]. Bad input and bad hardware never
 //! panic: they are an [`Error::Gpu`](svbrdf_core::error::Error::Gpu) or wait in [`Gpu::take_fault`].
 
 mod adapter;
@@ -21,7 +21,6 @@ mod pipeline;
 mod probe;
 mod read_back;
 mod render;
-pub mod shaders;
 mod shading;
 mod still;
 mod textures;

@@ -11,7 +11,7 @@ use wgpu::{
     ShaderModuleDescriptor, ShaderSource, ShaderStages, StoreOp, TextureFormat, TextureView,
 };
 
-use super::shaders::Shader;
+use svbrdf_shaders::Shader;
 
 pub(super) fn module(device: &Device, shader: &Shader) -> ShaderModule {
     device.create_shader_module(ShaderModuleDescriptor {
@@ -197,7 +197,9 @@ impl Fullscreen {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Gpu, shaders};
+    use svbrdf_shaders as shaders;
+
+    use crate::Gpu;
 
     #[test]
     fn the_latest_pipelines_are_kept_and_no_more() {

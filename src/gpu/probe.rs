@@ -5,12 +5,13 @@ use wgpu::{BufferBindingType, BufferUsages, ShaderStages};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::model::brdf::{Model, Texel};
+use svbrdf_shaders as shaders;
 
+use super::Gpu;
 use super::fault::scoped;
 use super::pipeline::{bind, buffer_type, compute, layout, module, uniform_buffer};
 use super::read_back::{read, read_buffer};
 use super::uniforms::{ModelUniforms, ProbePoint};
-use super::{Gpu, shaders};
 
 /// Points that one dispatch computes: within every adapter's limits.
 const CHUNK: usize = 1 << 18;

@@ -8,13 +8,14 @@ use wgpu::{
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_shaders as shaders;
 
 use super::fault::scoped;
 use super::params::ShadeParams;
 use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, buffer_type, texture_type, uniform_buffer};
 use super::textures::{descriptor, extent, write};
 use super::uniforms::ShadingUniforms;
-use super::{Gpu, MaterialTextures, shaders};
+use super::{Gpu, MaterialTextures};
 
 /// The largest 16-bit float.
 const LARGEST_F16: f32 = 65504.0;

@@ -6,10 +6,11 @@ use wgpu::{
 };
 
 use svbrdf_core::error::Error;
+use svbrdf_shaders as shaders;
 
 use super::fault::scoped;
 use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, texture_type};
-use super::{Gpu, Pane, shaders};
+use super::{Gpu, Pane};
 
 /// The pipeline that copies kept pixels to the window.
 #[derive(Debug)]

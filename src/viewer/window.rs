@@ -14,7 +14,7 @@ use svbrdf_core::error::Error;
 use svbrdf_gpu::Gpu;
 
 use super::app::device_loss::{Adapters, DeviceLosses, given_up};
-use super::app::{App, CrashGuard, Stop, display, outcome, stored_file};
+use super::app::{App, CrashGuard, Stop, Watch, display, outcome, stored_file};
 use super::jobs::work::{panics, priority};
 use super::model::message::Message;
 use super::model::settings::options::ViewerOptions;
@@ -31,27 +31,33 @@ const PAUSE_AFTER_LOSS: Duration = Duration::from_millis(300);
 /// graphics adapter that can draw into it, [`Error::Gpu`] where its devices are lost again and again, [`Error::Cancelled`] where a
 /// signal closed it, [`Error::Internal`] after a panic.
 pub fn run(options: ViewerOptions) -> Result<(), Error> {
-    run_watched(options, |_| ())
+    run_watched(options, |_, _| ())
 }
 
-/// [`run`], with a look at the adapter of each window that opens: the first, and one after each device that is lost.
+/// [`run`], and calls `watch` in the middle of every frame, after its input and before it is drawn.
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_watched(options: ViewerOptions, opened: impl Fn(&Gpu)) -> Result<(), Error> {
+pub fn run_watched(
+    options: ViewerOptions,
+    watch: impl Fn(&egui::Context, &Gpu) + 'static,
+) -> Result<(), Error> {
     // Panics become errors, which are printed at the end.
     panics::print(false);
     let stop = Stop::default();
     priority::yield_to_window();
-    let result = Gpu::check_environment().and_then(|()| windows(options, &stop, &opened));
+    let result = Gpu::check_environment().and_then(|()| windows(options, &stop, Rc::new(watch)));
     panics::print(true);
     result?;
     if stop.is_stopped() { Err(Error::Cancelled) } else { Ok(()) }
 }
 
 /// The application, which outlives the window of a lost device.
-#[derive(Clone, Default)]
-struct Surviving(Rc<RefCell<Option<App>>>);
+#[derive(Clone)]
+struct Surviving {
+    app: Rc<RefCell<Option<App>>>,
+    watch: Rc<Watch>,
+}
 
 /// The folder of the settings.
 fn settings_folder() -> Option<PathBuf> {
@@ -59,15 +65,14 @@ fn settings_folder() -> Option<PathBuf> {
 }
 
 /// Opens the window, and opens it again where its device was lost.
-fn windows(options: ViewerOptions, stop: &Stop, opened: &dyn Fn(&Gpu)) -> Result<(), Error> {
+fn windows(options: ViewerOptions, stop: &Stop, watch: Rc<Watch>) -> Result<(), Error> {
     let damaged = settings_folder().map(|folder| stored_file::prepare(&folder)).transpose()?.flatten();
-    let (app, crash) = (Surviving::default(), CrashGuard::default());
+    let (app, crash) = (Surviving { app: Rc::default(), watch }, CrashGuard::default());
     let (mut losses, mut adapters) = (DeviceLosses::default(), Adapters::All);
     loop {
         // winit 0.30 panics where libxkbcommon or another library that it loads is missing.
-        let result =
-            panics::caught(|| Ok(open(&app, adapters, &options, damaged.as_ref(), stop, &crash, opened)));
-        let loss = app.0.borrow().as_ref().and_then(|app| app.loss().map(str::to_owned));
+        let result = panics::caught(|| Ok(open(&app, adapters, &options, damaged.as_ref(), stop, &crash)));
+        let loss = app.app.borrow().as_ref().and_then(|app| app.loss().map(str::to_owned));
         let Some(loss) = loss.filter(|_| !stop.is_stopped()) else {
             let move_settings = || settings_folder().and_then(|folder| stored_file::move_aside(&folder));
             return outcome(&crash, result, move_settings);
@@ -87,10 +92,9 @@ fn open(
     damaged: Option<&PathBuf>,
     stop: &Stop,
     crash: &CrashGuard,
-    opened: &dyn Fn(&Gpu),
 ) -> Result<(), eframe::Error> {
     let create = |cc: &eframe::CreationContext<'_>| -> Box<dyn eframe::App> {
-        let mut place = app.0.borrow_mut();
+        let mut place = app.app.borrow_mut();
         match &mut *place {
             Some(app) => app.resume(cc),
             None => {
@@ -101,7 +105,6 @@ fn open(
                 *place = Some(new);
             }
         }
-        place.iter().filter_map(|app| app.parts.gpu.as_ref()).for_each(|view| opened(&view.gpu));
         Box::new(app.clone())
     };
     eframe::run_native(NAME, native_options(adapters), Box::new(|cc| Ok(create(cc))))
@@ -109,13 +112,13 @@ fn open(
 
 impl Surviving {
     fn with(&self, work: impl FnOnce(&mut App)) {
-        self.0.borrow_mut().iter_mut().next().map(work);
+        self.app.borrow_mut().iter_mut().next().map(work);
     }
 }
 
 impl eframe::App for Surviving {
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
-        self.with(|app| app.ui(ui, frame));
+        self.with(|app| app.draw(ui, frame, &*self.watch));
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

@@ -1,4 +1,4 @@
-//! The shaders of the page: GLSL that naga makes of the WGSL of the window, committed in src/files/page/shaders.json.
+//! The shaders of the page: GLSL that naga makes of the WGSL of the window, committed in shaders/page.json.
 
 use std::collections::BTreeMap;
 
@@ -8,9 +8,9 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 use naga::{AddressSpace, Module, ShaderStage, TypeInner};
 use serde_json::{Value, json};
 
-use svbrdf_gpu::shaders::{PAGE, Shader};
+use svbrdf_shaders::{PAGE, Shader};
 
-const COMMITTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/src/files/page/shaders.json");
+const COMMITTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/page.json");
 
 /// The vertex and the fragment shader of a pass, the names of its bindings in GLSL, and the places of its uniforms in WGSL's layout,
 /// which for these structs is std140.
@@ -101,7 +101,7 @@ fn the_shaders_of_the_page_are_those_of_the_window() {
 }
 
 #[test]
-#[ignore = "writes src/files/page/shaders.json: cargo xtask bless shaders"]
+#[ignore = "writes shaders/page.json: cargo xtask bless shaders"]
 fn write_shaders() {
     std::fs::write(COMMITTED, format!("{:#}\n", programs())).unwrap();
 }

@@ -31,7 +31,7 @@ const GENERATED: [Generated; 12] = [
     Generated { name: "icons", files: "packaging/icons/*.png", script: "cargo run --example make_icon" },
     Generated {
         name: "shaders",
-        files: "src/files/page/shaders.json",
+        files: "shaders/page.json",
         script: "cargo test --test main write_shaders -- --ignored",
     },
     Generated {

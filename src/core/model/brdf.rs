@@ -1,6 +1,6 @@
 //! Algorithm 3 at one point: one short function per term, generic over the precision.
 //!
-//! `src/gpu/shaders/brdf.wgsl` is the twin of this file: the same names, argument order and order of operations.
+//! `shaders/brdf.wgsl` is the twin of this file: the same names, argument order and order of operations.
 //! All of it is Cook-Torrance with a GGX lobe as Deschaintre et al. (2018-2020) print it; `G` carries the usual
 //! `1 / (NoL NoV)` of the microfacet denominator already cancelled.
 

@@ -1,7 +1,7 @@
 //! From a point of a pane to the point of the material that is seen there, and back.
 //!
 //! Flat, orthographic and perspective views are one thing: a ray whose origin and direction are linear in the pane's
-//! coordinates. `src/gpu/shaders/camera.wgsl` is the twin of [`Camera::plane_from_ndc`].
+//! coordinates. `shaders/camera.wgsl` is the twin of [`Camera::plane_from_ndc`].
 
 use glam::{DVec3, Mat3, Vec3};
 

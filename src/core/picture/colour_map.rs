@@ -1,4 +1,4 @@
-//! The colour map of differences: for legends, and the twin of `src/gpu/shaders/colour_map.wgsl`.
+//! The colour map of differences: for legends, and the twin of `shaders/colour_map.wgsl`.
 
 /// Coefficients of rising powers: the polynomial fit of matplotlib's `inferno` that Matt Zucker placed under CC0.
 const COEFFICIENTS: [[f32; 3]; 7] = [

@@ -1,6 +1,6 @@
 //! Differences of a prediction from the ground truth, as quantities with a unit and a range.
 //!
-//! `src/gpu/shaders/difference.wgsl` is the twin of [`Difference::of_texel`]; differences of neighbourhoods are computed here only.
+//! `shaders/difference.wgsl` is the twin of [`Difference::of_texel`]; differences of neighbourhoods are computed here only.
 
 use std::str::FromStr;
 

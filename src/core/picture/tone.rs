@@ -1,6 +1,6 @@
 //! From linear radiance to what a screen shows: exposure, the sRGB curve, 8 bits.
 //!
-//! `src/gpu/shaders/srgb.wgsl` and `src/gpu/shaders/encode.wgsl` are the twins of this file.
+//! `shaders/srgb.wgsl` and `shaders/encode.wgsl` are the twins of this file.
 
 use crate::math::srgb;
 

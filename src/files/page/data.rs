@@ -12,13 +12,12 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::{diverging, heat};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_shaders::PAGE_GLSL;
 
 use super::content::{Report, View};
 use super::encode::EncodedMaterial;
 use crate::session_window::Framing;
 
-/// GLSL made from the WGSL of the window: tests/page/shaders.rs makes it anew.
-const SHADERS: &str = include_str!("shaders.json");
 /// Colours of a legend.
 const COLOURS: usize = 64;
 
@@ -89,7 +88,7 @@ pub(super) fn json(
 ) -> Result<String, Error> {
     let Report { convention, .. } = report;
     let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
-    let shaders: Value = serde_json::from_str(SHADERS).map_err(failed)?;
+    let shaders: Value = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
     let data = Data {
         materials,
         convention: convention.name,

@@ -12,13 +12,14 @@ use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_shaders as shaders;
 
 use super::plan::{LANES, PLANES, Plan, blocks};
+use crate::Gpu;
 use crate::fault::scoped;
 use crate::pipeline::{bind, buffer_type, compute, layout, module};
 use crate::read_back::{read_after, read_buffer};
 use crate::uniforms::{Band, LogSum, ModelUniforms, SceneUniforms};
-use crate::{Gpu, shaders};
 
 /// The pipelines and what they bind.
 #[derive(Debug)]

@@ -18,6 +18,8 @@ use std::time::{Duration, Instant};
 
 use eframe::egui;
 
+use svbrdf_gpu::Gpu;
+
 use context::CurrentContext;
 pub use crash::{CrashGuard, outcome};
 use parts::Parts;
@@ -37,6 +39,9 @@ use super::model::settings::options::ViewerOptions;
 use super::ui::WindowUi;
 use super::ui::shading::gpu_view::GpuView;
 use super::ui::widgets::theme;
+
+/// What is called in the middle of every frame.
+pub type Watch = dyn Fn(&egui::Context, &Gpu);
 
 /// The viewer.
 #[derive(Debug)]
@@ -106,7 +111,7 @@ impl App {
 
     /// One frame: input, commands, model, picture. What a gesture changes is in the frame that read it; what is clicked in a panel is
     /// in the next one.
-    fn frame(&mut self, ui: &mut egui::Ui) {
+    fn frame(&mut self, ui: &mut egui::Ui, watch: &Watch) {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.parts.model.settings.dark);
@@ -121,6 +126,7 @@ impl App {
         }
         exposure::follow(&mut self.parts.model);
         self.follow(&ctx);
+        self.parts.gpu.iter().for_each(|view| watch(&ctx, &view.gpu));
         let displayed = Displayed::of(&self.parts.model, &self.parts.jobs);
         let commands = self.parts.ui.draw(ui, displayed, self.parts.gpu.as_mut());
         self.apply_all(&ctx, commands);
@@ -155,13 +161,14 @@ impl App {
     }
 }
 
-impl eframe::App for App {
-    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+impl App {
+    /// The frame of a window, which closes where the device is lost or the frame panics.
+    pub fn draw(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame, watch: &Watch) {
         let crash = self.crash.clone();
         if ui.input(|input| input.events.iter().any(is_by_hand)) {
             crash.begin_use();
         }
-        let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui));
+        let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui, watch));
         if self.loss().is_some() {
             self.leave(ui.ctx());
         } else if is_drawn {
@@ -170,6 +177,12 @@ impl eframe::App for App {
             // The state is stored as the window closes.
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
         }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        self.draw(ui, frame, &|_, _| ());
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {

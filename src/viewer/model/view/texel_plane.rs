@@ -8,7 +8,7 @@ use crate::model::inspection::Region;
 /// The cells of the plane, each of which shows one texel.
 ///
 /// A repeated material is shown 2 x 2 times in its own place, shifted by half of itself; cell `i` along an axis of `n` texels shows
-/// texel `i mod n`. `repeated` in `src/gpu/shaders/display.wgsl` is its twin.
+/// texel `i mod n`. `repeated` in `shaders/display.wgsl` is its twin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexelPlane {
     grid: Grid,

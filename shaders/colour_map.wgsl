@@ -1,4 +1,4 @@
-// A perceptually ordered colour map, black to yellow, encoded for the screen: the twin of src/colour_map.rs.
+// A perceptually ordered colour map, black to yellow, encoded for the screen: the twin of src/core/picture/colour_map.rs.
 // The polynomial fit of matplotlib's `inferno` that Matt Zucker placed under CC0.
 
 fn heat(amount: f32) -> vec3f {

@@ -1,6 +1,6 @@
-// Where the texels lie in the plane z = 0: the twin of Grid in src/material/mod.rs.
+// Where the texels lie in the plane z = 0: the twin of src/core/material/grid.rs.
 
-// Half the distance of the outermost columns, in texels, is mapped to 1.
+// `half_spacings`: half the distance of the outermost columns is mapped to 1.
 fn grid_scale(size: vec2u) -> f32 {
     return f32(max(size.x, 2u) - 1u);
 }
@@ -12,12 +12,12 @@ fn position(column: u32, row: u32, size: vec2u) -> vec3f {
     return vec3f(x, y, 0.0);
 }
 
-// The inverse: (column, row) counted from the corner of the map, so that texel (i, j) covers [i, i+1) x [j, j+1).
+// `place`, the inverse: (column, row) counted from the corner of the map, so that texel (i, j) covers [i, i+1) x [j, j+1).
 fn texel_from_plane(point: vec2f, size: vec2u) -> vec2f {
     return 0.5 * (vec2f(point.x, -point.y) * grid_scale(size) + vec2f(size));
 }
 
-// How many texels a distance in the plane spans, along columns and along rows.
+// `place` of differences: how many texels a distance in the plane spans, along columns and along rows.
 fn texels_from_plane_extent(extent: vec2f, size: vec2u) -> vec2f {
     return 0.5 * extent * grid_scale(size);
 }

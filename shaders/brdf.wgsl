@@ -1,5 +1,5 @@
-// Algorithm 3 at one point: the twin of src/brdf.rs. The same names, argument order and order of operations;
-// what is per channel there is a vec3f here.
+// Algorithm 3 at one point: the twin of src/core/model/brdf.rs and of the vectors of src/core/math/real.rs. The same names, argument
+// order and order of operations; what is per channel there is a vec3f here.
 
 const FRAC_1_PI = 0.31830988618379067f;
 const LARGEST = 0x1.fffffep+127f;
@@ -25,7 +25,7 @@ fn length_squared(a: vec3f) -> f32 {
     return a.x * a.x + a.y * a.y + a.z * a.z;
 }
 
-// Not the built-in normalize(): drivers may take its inverseSqrt from a table.
+// `normalize`, not the built-in one: drivers may take its inverseSqrt from a table.
 fn unit(a: vec3f) -> vec3f {
     return a * (1.0 / sqrt(length_squared(a)));
 }

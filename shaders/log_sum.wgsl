@@ -1,4 +1,4 @@
-// The sum of |ln a - ln b| over many positive numbers without a logarithm: the twin of src/loss/fused/compare.rs.
+// The sum of |ln a - ln b| over many positive numbers without a logarithm: the twin of src/core/loss/fused/compare.rs.
 //
 // It is ln(product of max(a, b)) - ln(product of min(a, b)). Mantissas are multiplied, exponents added as integers.
 // A product rounds by half a unit in the last place a factor, and the same numbers give the same product: where a is b
@@ -17,18 +17,19 @@ struct LogSum {
 
 const NO_SUM = LogSum(1.0, 1.0, 0);
 
+// What `normalize` takes from x.
 fn exponents(x: vec3f) -> i32 {
     let each = bitcast<vec3u>(x) >> vec3u(23u);
     return i32(each.x + each.y + each.z);
 }
 
-// The product of the mantissas of x, below 8.
+// What `multiply` multiplies: the product of the mantissas of x, below 8.
 fn mantissas(x: vec3f) -> f32 {
     let each = bitcast<vec3f>((bitcast<vec3u>(x) & vec3u(MANTISSA)) | vec3u(ONE));
     return each.x * each.y * each.z;
 }
 
-// The sum whose mantissas may lie beyond [1, 2), brought back there.
+// `normalize`: the sum whose mantissas may lie beyond [1, 2), brought back there.
 fn normalized(larger: f32, smaller: f32, exponent: i32) -> LogSum {
     let bits = bitcast<vec2u>(vec2f(larger, smaller));
     let moved = bits >> vec2u(23u);
@@ -36,7 +37,7 @@ fn normalized(larger: f32, smaller: f32, exponent: i32) -> LogSum {
     return LogSum(rest.x, rest.y, exponent + i32(moved.x) - i32(moved.y));
 }
 
-// The sum with one more texel.
+// `add`: the sum with one more texel.
 fn with_texel(sum: LogSum, a: vec3f, b: vec3f) -> LogSum {
     let larger = max(a, b);
     let smaller = min(a, b);
@@ -44,6 +45,7 @@ fn with_texel(sum: LogSum, a: vec3f, b: vec3f) -> LogSum {
     return normalized(sum.larger * mantissas(larger), sum.smaller * mantissas(smaller), exponent);
 }
 
+// `total` of two lanes.
 fn joined(a: LogSum, b: LogSum) -> LogSum {
     return normalized(a.larger * b.larger, a.smaller * b.smaller, a.exponent + b.exponent);
 }

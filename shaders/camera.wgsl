@@ -1,4 +1,4 @@
-// From a point of a pane to the point of the plane that is seen there: the twin of src/camera.rs.
+// From a point of a pane to the point of the plane that is seen there: the twin of src/core/picture/camera.rs.
 
 struct Camera {
     origin: vec3f,

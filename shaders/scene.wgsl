@@ -1,4 +1,4 @@
-// Where light and view are: the twin of Rays::from_texel in src/scene.rs.
+// Where light and view are: the twin of src/core/model/scene.rs.
 
 struct Rays {
     view: vec3f,

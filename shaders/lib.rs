@@ -1,4 +1,7 @@
-//! Shaders: pieces of `shaders/`, joined in order.
+//! The shaders: WGSL modules, each made of pieces that are joined in order. No code but this table.
+//!
+//! A piece that is the twin of Rust code says of which file; its functions have the names of the functions there, or name them in the
+//! line above (`tests/shaders.rs`).
 
 /// A WGSL module made of pieces.
 #[derive(Clone, Copy, Debug)]
@@ -16,10 +19,10 @@ impl Shader {
     }
 }
 
-/// A file of `shaders/` with its name.
+/// A file of this folder with its name.
 macro_rules! piece {
     ($file:literal) => {
-        ($file, include_str!(concat!("shaders/", $file)))
+        ($file, include_str!($file))
     };
 }
 
@@ -120,7 +123,12 @@ pub const PAGE_DIFFERENCE: Shader = Shader {
     ],
 };
 
-/// The shaders of the report.
+/// The shaders of the report in GLSL for WebGL 2: JSON of each program with its bindings and the places of its uniforms.
+///
+/// Made by `cargo xtask bless shaders` and committed: to make it while building would cost every build 23 s of processor time, for naga.
+pub const PAGE_GLSL: &str = include_str!("page.json");
+
+/// The shaders that [`PAGE_GLSL`] is made of.
 pub const PAGE: [Shader; 3] = [PAGE_SHADE, PAGE_DISPLAY, PAGE_DIFFERENCE];
 
 /// Every shader of this crate.

@@ -1,4 +1,5 @@
-// Differences of a prediction p from the ground truth g at a texel: the twin of src/picture/difference.rs.
+// Differences of a prediction p from the ground truth g at a texel: the twin of src/core/picture/difference.rs,
+// src/core/image.rs and, for colours, src/core/picture/colour_map.rs.
 
 const DIFFERENCE_NONE = 0u;
 const DIFFERENCE_LOG = 1u;
@@ -10,6 +11,7 @@ const DIFFERENCE_ANGLE = 6u;
 // The picture holds the difference of each channel already; unsigned.
 const DIFFERENCE_COMPUTED = 7u;
 
+// `mean_of_channels`.
 fn mean(rgb: vec3f) -> f32 {
     return (rgb.r + rgb.g + rgb.b) / 3.0;
 }
@@ -21,6 +23,7 @@ fn angle(g: vec3f, p: vec3f) -> f32 {
     return degrees(atan2(length(cross(n_g, n_p)), dot(n_g, n_p)));
 }
 
+// `of_texel`.
 fn difference(kind: u32, g: vec3f, p: vec3f, epsilon: f32) -> f32 {
     let logarithm = log(p + epsilon) - log(g + epsilon);
     switch kind {
@@ -33,6 +36,7 @@ fn difference(kind: u32, g: vec3f, p: vec3f, epsilon: f32) -> f32 {
     }
 }
 
+// `difference_to_display`, without the bytes.
 fn difference_colour(kind: u32, amount: f32) -> vec3f {
     let is_signed = kind == DIFFERENCE_SIGNED_LOG || kind == DIFFERENCE_SIGNED;
     return select(heat(amount), diverging(amount), is_signed);
