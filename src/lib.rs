@@ -22,9 +22,11 @@
 //!
 //! | crate | folder | content |
 //! |---|---|---|
-//! | [`svbrdf_core`] | `src/core` | numbers only: BRDF, scenes, rendering, loss, what a loss comes from, metrics, reports |
-//! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, data sets, reports, the built-in materials |
-//! | [`svbrdf_shaders`] | `shaders` | the WGSL of adapters, and the GLSL of pages |
+//! | [`svbrdf_core`] | `src/core` | numbers only: BRDF, scenes, materials, rendering, pictures, loss |
+//! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, the built-in materials |
+//! | [`svbrdf_evaluate`] | `src/evaluate` | analyses, each a computation and a report: what a loss comes from, diagnoses, metrics, rankings, data sets, photographs |
+//! | `svbrdf_shaders` | `shaders` | the WGSL of adapters, and the GLSL of pages |
+//! | [`svbrdf_page`] | `src/page` | reports and rankings as HTML pages |
 //! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter |
 //! | `svbrdf_viewer` (feature `viewer`) | `src/viewer` | the window |
 //! | `svbrdf` | `src` | [`backend`] (processor or adapter, whichever is faster), and the command line in `src/cli`, which is part of the binary |
@@ -43,7 +45,7 @@ pub use svbrdf_core::model::sampler::Sampler;
 pub use svbrdf_core::model::scene::{Kind, Scene};
 pub use svbrdf_core::progress::Progress;
 pub use svbrdf_core::render::render_f32 as render;
-pub use svbrdf_core::why::attribute;
+pub use svbrdf_evaluate::why::attribute;
 pub use svbrdf_files::read::{Read, ReadOptions, read};
 pub use svbrdf_files::samples::load as built_in;
 pub use svbrdf_files::write::{FileKind, WriteOptions, write};

@@ -9,11 +9,11 @@ use std::fs;
 use std::path::Path;
 use std::sync::LazyLock;
 
-use graph::{Arrow, Tree, circles};
+use graph::{Arrow, CRATES, Tree, circles};
 
 /// From the bottom to the top. A module belongs to the longest name that it begins with; files of one layer may use one
 /// another.
-const LAYERS: [&[&str]; 18] = [
+const LAYERS: [&[&str]; 20] = [
     &["core/error", "core/progress", "core/text"],
     &["core/math"],
     &["core/statistics"],
@@ -23,9 +23,11 @@ const LAYERS: [&[&str]; 18] = [
     &["core/render"],
     &["core/picture"],
     &["core/loss"],
-    &["core/diagnose", "core/metrics", "core/rank", "core/report", "core/study", "core/why"],
     &["core/lib"],
     &["files"],
+    &["evaluate/diagnose", "evaluate/metrics", "evaluate/rank", "evaluate/study", "evaluate/why"],
+    &["evaluate"],
+    &["page"],
     &["gpu"],
     &["viewer/model"],
     &["viewer/jobs"],
@@ -88,7 +90,8 @@ static ARROWS: LazyLock<Vec<Arrow>> = LazyLock::new(|| {
 /// The arrows between folders. A file at the root of a crate stands for itself.
 fn of_folders(arrows: &[Arrow]) -> Vec<Arrow> {
     let folder = |file: &String| match file.rsplit_once('/') {
-        None | Some(("core" | "files" | "gpu" | "viewer", _)) => file.clone(),
+        None => file.clone(),
+        Some((folder, _)) if CRATES.contains(&folder) => file.clone(),
         Some((folder, _)) => folder.to_owned(),
     };
     let between = arrows.iter().filter(|arrow| !arrow.passed_on).map(|arrow| Arrow {

@@ -12,12 +12,14 @@ fn read(file: &str) -> String {
 }
 
 /// The manifests of the crates that are published.
-const MANIFESTS: [&str; 6] = [
+const MANIFESTS: [&str; 8] = [
     "Cargo.toml",
     "shaders/Cargo.toml",
     "src/core/Cargo.toml",
+    "src/evaluate/Cargo.toml",
     "src/files/Cargo.toml",
     "src/gpu/Cargo.toml",
+    "src/page/Cargo.toml",
     "src/viewer/Cargo.toml",
 ];
 
@@ -124,7 +126,8 @@ fn every_direct_dependency_has_its_reason() {
 fn all_crates_and_packages_have_one_version() {
     let version = env!("CARGO_PKG_VERSION");
     let root = read("Cargo.toml");
-    for own in ["svbrdf-core", "svbrdf-files", "svbrdf-gpu", "svbrdf-shaders", "svbrdf-viewer"] {
+    for own in MANIFESTS.iter().filter_map(|file| file.strip_suffix("/Cargo.toml")) {
+        let own = format!("svbrdf-{}", own.trim_start_matches("src/"));
         let line = root.lines().find(|line| line.starts_with(&format!("{own} = {{"))).unwrap();
         assert!(line.contains(&format!("version = \"{version}\"")), "{line}");
     }

@@ -115,7 +115,8 @@ fn every_file_of_the_shader_folder_is_in_a_shader() {
 /// The functions of a piece without a function of that name in the Rust files that its header calls its twins, or without such files. The
 /// first name in backticks in the line above is the Rust name.
 fn without_twins(piece: &str, read: impl Fn(&str) -> Option<String>) -> Vec<String> {
-    let header: String = piece.lines().take_while(|line| line.starts_with("//")).collect();
+    let header: Vec<&str> = piece.lines().take_while(|line| line.starts_with("//")).collect();
+    let header = header.join(" ");
     let Some((_, named)) = header.split_once("the twin of ") else { return Vec::new() };
     let words = named.split([' ', ',', ':']).map(|word| word.trim_end_matches('.'));
     let files = words.filter(|word| word.ends_with(".rs"));

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use pyo3::prelude::*;
-use svbrdf_core::diagnose::Storage;
+use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::material::Material;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use numpy::Element;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use svbrdf_core::diagnose::Storage;
+use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::material::{Material, Planes};

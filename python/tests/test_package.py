@@ -38,8 +38,8 @@ def test_the_wheel_is_built_from_the_versions_of_the_program() -> None:
 def test_the_wheel_has_no_graphics_and_no_command_line() -> None:
     packages = tomllib.loads((REPOSITORY / "python" / "Cargo.lock").read_text())["package"]
     names = {package["name"] for package in packages}
-    assert {"svbrdf-core", "svbrdf-files"} <= names
-    assert not names & {"svbrdf", "svbrdf-gpu", "wgpu", "egui", "eframe", "clap"}
+    assert {"svbrdf-core", "svbrdf-evaluate", "svbrdf-files", "svbrdf-page"} <= names
+    assert not names & {"svbrdf", "svbrdf-gpu", "svbrdf-viewer", "wgpu", "egui", "eframe", "clap"}
 
 
 def test_libraries_are_optimized_as_those_of_the_program() -> None:

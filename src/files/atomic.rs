@@ -12,7 +12,7 @@ use crate::{inputs, own};
 /// The program and its version, as the files that it writes name it.
 pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
 /// How the names of temporary files begin.
-pub(crate) const TEMPORARY: &str = ".svbrdf-";
+pub const TEMPORARY: &str = ".svbrdf-";
 /// A chain of links that is longer has no end.
 const MOST_LINKS: usize = 40;
 
@@ -20,7 +20,7 @@ const MOST_LINKS: usize = 40;
 #[derive(Clone, Debug)]
 pub struct Destination<F> {
     path: PathBuf,
-    pub(crate) format: F,
+    pub format: F,
 }
 
 impl<F> Destination<F> {
@@ -146,7 +146,7 @@ pub fn replace_own(
 ///
 /// # Errors
 /// As [`replace`].
-pub(crate) fn update(
+pub fn update(
     path: &Path,
     progress: &Progress,
     write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,

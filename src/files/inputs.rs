@@ -21,7 +21,7 @@ pub fn protect_all() {
 }
 
 /// Protects the file `path`, which was read, where [`protect_all`] asks for it.
-pub(crate) fn protect(path: &Path) {
+pub fn protect(path: &Path) {
     if let Some(protected) = protected().as_mut()
         && let Some(id) = FileId::of(path)
     {

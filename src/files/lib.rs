@@ -18,24 +18,21 @@
 //! ```
 
 pub mod atomic;
-pub mod capture;
-pub mod dataset;
+pub mod changes;
 pub mod export;
 pub mod inputs;
 mod lfs;
+pub mod materialgan;
 pub mod memory;
 mod new_folder;
 mod npy;
 pub mod open;
-mod own;
-pub mod page;
+pub mod own;
 mod panics;
-mod paths;
-pub mod photograph;
+pub mod paths;
 pub mod read;
 pub mod samples;
 pub mod scene_file;
-pub mod schema;
 pub mod session;
 pub mod session_window;
 pub mod signals;

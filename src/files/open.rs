@@ -89,7 +89,7 @@ impl NamedFile {
     }
 
     /// The file that names it, where it lies outside of the folder of that file.
-    pub(crate) fn outside(&self) -> Option<&Path> {
+    pub fn outside(&self) -> Option<&Path> {
         match &self.by {
             NamedBy::File(by) if !by.is_dir() => {
                 let folder = by.parent().unwrap_or(Path::new(""));
@@ -178,7 +178,7 @@ impl NamedFile {
 }
 
 /// A digest as text.
-pub(crate) fn hexadecimal(hash: Sha256) -> String {
+pub fn hexadecimal(hash: Sha256) -> String {
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -13,7 +13,7 @@ use svbrdf_core::error::Error;
 ///
 /// # Errors
 /// [`Error::Unwritable`].
-pub(crate) fn check(path: &Path) -> Result<(), Error> {
+pub fn check(path: &Path) -> Result<(), Error> {
     match fs::symlink_metadata(path) {
         Ok(found) if !found.is_file() => Err(refused(path, "regular file")),
         _ => Ok(()),
@@ -24,7 +24,7 @@ pub(crate) fn check(path: &Path) -> Result<(), Error> {
 ///
 /// # Errors
 /// [`Error::Unwritable`], also for a link to a folder.
-pub(crate) fn folder(path: &Path) -> Result<(), Error> {
+pub fn folder(path: &Path) -> Result<(), Error> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_dir() => Ok(()),
         Ok(_) => Err(refused(path, "folder")),

@@ -24,7 +24,7 @@ fn is_device(name: &Path) -> bool {
 }
 
 /// What every file system and address takes of a name.
-pub(crate) fn plain(name: &str) -> String {
+pub fn plain(name: &str) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || c == '-' { c } else { '_' };
     name.chars().take(48).map(plain).collect()
 }

@@ -7,8 +7,8 @@ use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::{Scene, SceneFile};
 
 use crate::atomic::Destination;
-use crate::capture::Calibration;
 use crate::inputs;
+use crate::materialgan::Calibration;
 use crate::open::NamedFile;
 use crate::read::Sidecar;
 use crate::session::Session;

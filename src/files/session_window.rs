@@ -6,7 +6,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use svbrdf_core::diagnose::Change;
+use crate::changes::Change;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map as MaterialMap;

@@ -6,7 +6,10 @@ use super::source::{Import, Module, Source};
 
 type Path = Vec<String>;
 
-/// The modules of the crates `core`, `files`, `gpu` and `viewer` below their names, of the program's library at the root and, below `main`,
+/// The crates in the folders of `src` of their names.
+pub const CRATES: [&str; 6] = ["core", "files", "evaluate", "page", "gpu", "viewer"];
+
+/// The modules of the crates of [`CRATES`] below their names, of the program's library at the root and, below `main`,
 /// of its command line; paths of files are relative to `src`.
 #[derive(Debug)]
 pub struct Tree {
@@ -86,16 +89,15 @@ impl Tree {
 
     /// The path from the root where it begins with a keyword, this package or a child of the module.
     fn anchored(&self, module: &[String], written: &[String]) -> Option<Path> {
-        let own = |first: &String| ["main", "core", "files", "gpu", "viewer"].contains(&first.as_str());
+        let own = |first: &String| first == "main" || CRATES.contains(&first.as_str());
         let root = usize::from(module.first().is_some_and(own));
-        let crates = ["core", "files", "gpu", "viewer"].map(|name| [name.to_owned()]);
+        let of_crate = |name: &str| CRATES.into_iter().find(|own| name.strip_prefix("svbrdf_") == Some(own));
+        if let Some(name) = of_crate(&written[0]) {
+            return Some([&[name.to_owned()][..], &written[1..]].concat());
+        }
         let (from, rest) = match written[0].as_str() {
             "crate" => (&module[..root], &written[1..]),
             "svbrdf" if root == 1 => (&module[..0], &written[1..]),
-            "svbrdf_core" => (&crates[0][..], &written[1..]),
-            "svbrdf_files" => (&crates[1][..], &written[1..]),
-            "svbrdf_gpu" => (&crates[2][..], &written[1..]),
-            "svbrdf_viewer" => (&crates[3][..], &written[1..]),
             "self" => (module, &written[1..]),
             "super" => {
                 let up = written.iter().take_while(|name| *name == "super").count();

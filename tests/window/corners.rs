@@ -1,6 +1,6 @@
 //! The corners of the material in a photograph, dragged by their handles.
 
-use svbrdf_files::photograph::Corners;
+use svbrdf_evaluate::photograph::Corners;
 use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand};
 use svbrdf_viewer::model::view::state::Layout;
 

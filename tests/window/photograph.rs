@@ -8,7 +8,7 @@ use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_files::photograph::{Corners, PhotographComparison, Rectified, flash};
+use svbrdf_evaluate::photograph::{Corners, PhotographComparison, Rectified, flash};
 use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
 use svbrdf_files::samples;
 use svbrdf_files::session::{Session, SessionPhotograph};

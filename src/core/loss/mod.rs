@@ -30,6 +30,6 @@ pub use question::{Question, SceneChoice};
 pub use request::{Precision, Request, Sampling, Texels};
 pub use run::ALL_SCENES_TARGET;
 pub use settings::{Ask, FileScenes, LossSettings};
-pub(crate) use shared_texels::SharedTexels;
+pub use shared_texels::{SceneLoss, SharedTexels};
 pub use statistics::Estimate;
-pub(crate) use texels::scene_losses as losses_on_texels;
+pub use texels::scene_losses as losses_on_texels;

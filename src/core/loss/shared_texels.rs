@@ -10,7 +10,7 @@ use crate::progress::Progress;
 
 /// Independent random subsets of the texels of a comparison, the same in every scene.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct SharedTexels {
+pub struct SharedTexels {
     /// Texels as row * width + column. A single subset holds all that matter.
     subsets: Vec<Vec<usize>>,
     /// The part of all texels that the subsets are taken from: on the others the loss is 0.
@@ -19,7 +19,7 @@ pub(crate) struct SharedTexels {
 
 /// The loss of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct SceneLoss {
+pub struct SceneLoss {
     pub loss: f64,
     /// Its standard error, which is due to the choice of texels.
     pub standard_error: f64,
@@ -27,11 +27,7 @@ pub(crate) struct SceneLoss {
 
 impl SharedTexels {
     /// `number` subsets of `count` texels; one of all texels where there are no more.
-    pub(crate) fn new<T: Compute>(
-        comparison: &Comparison<'_, T>,
-        [number, count]: [usize; 2],
-        seed: u64,
-    ) -> Self {
+    pub fn new<T: Compute>(comparison: &Comparison<'_, T>, [number, count]: [usize; 2], seed: u64) -> Self {
         let [width, height] = comparison.ground_truth().size();
         let random = |index, size| Sampler::Random.texels(seed, Kind::Near, index, count, size);
         let few = |texels: &Vec<usize>| texels.len() <= number * count;
@@ -55,7 +51,7 @@ impl SharedTexels {
     ///
     /// # Errors
     /// Those of the backend.
-    pub(crate) fn losses<T: Compute>(
+    pub fn losses<T: Compute>(
         &self,
         comparison: &Comparison<'_, T>,
         scenes: &[Scene],

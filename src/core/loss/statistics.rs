@@ -64,7 +64,7 @@ impl Estimate {
     }
 
     /// [`Estimate::of_sampled`] of values that may be negative: the interval may reach below 0.
-    pub(crate) fn of_signed(sampler: Sampler, scenes: &[Scene], values: &[f64]) -> Self {
+    pub fn of_signed(sampler: Sampler, scenes: &[Scene], values: &[f64]) -> Self {
         let stratum = |kind| {
             let units = sampler.units(scenes, values, kind);
             let count = units.iter().map(Vec::len).sum::<usize>();

@@ -17,7 +17,7 @@ use crate::progress::Progress;
 ///
 /// # Errors
 /// Those of the backend.
-pub(crate) fn scene_losses<T: Compute>(
+pub fn scene_losses<T: Compute>(
     comparison: &Comparison<'_, T>,
     sampling: &Sampling,
     before: [usize; 2],

@@ -48,6 +48,14 @@ pub struct Planes<T> {
     pub roughness: Vec<T>,
 }
 
+impl<T> Planes<T> {
+    /// The ten planes: normal, specular, diffuse, roughness, in the order in which a loss loads them.
+    pub fn all(&self) -> impl Iterator<Item = &[T]> {
+        let vectors = self.normal.iter().chain(&self.specular).chain(&self.diffuse);
+        vectors.chain([&self.roughness]).map(Vec::as_slice)
+    }
+}
+
 /// An SVBRDF: normal, diffuse, specular and roughness of every texel of a plane.
 ///
 /// Every texel is finite, its normal has length 1, its other values lie in [0, 1], and there is at least one. A clone shares the values.

@@ -65,7 +65,7 @@ impl Sampler {
     /// points of Roberts' sequence R2 (2018, The unreasonable effectiveness of quasirandom sequences), shifted at random
     /// (Cranley and Patterson 1976). The scenes of one unit share a shift and take turns, so that together they see
     /// the map evenly.
-    pub(crate) fn texels(
+    pub fn texels(
         self,
         seed: u64,
         kind: Kind,

@@ -5,8 +5,6 @@ mod npy;
 mod png;
 mod provenance;
 pub mod strip;
-pub mod study_csv;
-pub mod study_plot;
 mod text;
 
 use std::path::Path;

@@ -42,8 +42,7 @@ pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
     Roughness, TileGrid, Workflow,
 };
-pub(crate) use photograph::read_named_photograph;
-pub use photograph::{Photograph, PhotographOptions, Transfer, read_photograph};
+pub use photograph::{Photograph, PhotographOptions, Transfer, read_named_photograph, read_photograph};
 pub use record::{
     Assumption, Certainty, Evidence, Gray, Note, Reason, SpecifiedBy, StorageConvention, Subject, Unused,
     What,

@@ -119,10 +119,7 @@ pub fn read_photograph(path: &Path, options: &PhotographOptions) -> Result<Photo
 }
 
 /// Reads the photograph `file`, as [`read_photograph`].
-pub(crate) fn read_named_photograph(
-    file: &NamedFile,
-    options: &PhotographOptions,
-) -> Result<Photograph, Error> {
+pub fn read_named_photograph(file: &NamedFile, options: &PhotographOptions) -> Result<Photograph, Error> {
     let (raster, mut notes) = decode::photograph(file)?;
     inputs::protect(file.path());
     let declared_linear = Note::LinearGamma(Subject::Photograph);
@@ -152,7 +149,7 @@ impl PhotographOptions {
     ///
     /// # Errors
     /// The problem: numbers that are not above 0.
-    pub(crate) fn check(&self) -> Result<(), String> {
+    pub fn check(&self) -> Result<(), String> {
         let is_usable = |number: &f64| number.is_finite() && *number > 0.0;
         if let Some(clip) = self.clip.filter(|clip| !is_usable(clip)) {
             return Err(format!("expected a clip above 0, found {clip}"));

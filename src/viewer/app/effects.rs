@@ -6,9 +6,9 @@ use eframe::egui;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_files::capture::Capture;
+use svbrdf_evaluate::capture::Capture;
+use svbrdf_evaluate::photograph::flash;
 use svbrdf_files::open::allow_outside;
-use svbrdf_files::photograph::flash;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::{Session, SessionPhotograph};
 use svbrdf_files::stamp::Stamp;

@@ -1,12 +1,12 @@
 //! What a window shows, for those who drive it.
 
-use svbrdf_core::diagnose::Diagnosis;
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::statistics::{Distributions, Histogram, Statistics};
-use svbrdf_core::study::Study;
-use svbrdf_core::why::{Attribution, Hemisphere, RankedScene, Worst};
-use svbrdf_files::photograph::PhotographComparison;
+use svbrdf_evaluate::diagnose::Diagnosis;
+use svbrdf_evaluate::photograph::PhotographComparison;
+use svbrdf_evaluate::study::Study;
+use svbrdf_evaluate::why::{Attribution, Hemisphere, RankedScene, Worst};
 
 use super::App;
 use crate::jobs::training::RunView;

@@ -2,7 +2,7 @@
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
-use svbrdf_core::why::Worst;
+use svbrdf_evaluate::why::Worst;
 
 use super::Jobs;
 use super::displayed::Displayed;

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_core::diagnose::Finding;
+use svbrdf_evaluate::diagnose::Finding;
 use svbrdf_files::read::Certainty;
 
 use super::loss::panel::LossPanel;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
+use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
 use svbrdf_files::read::{NormalY, Order, ReadOptions};
 use svbrdf_files::samples::generate;
 use svbrdf_viewer::model::command::WhyCommand;

@@ -2,7 +2,7 @@
 
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_core::why::{Hemisphere, hemisphere};
+use svbrdf_evaluate::why::{Hemisphere, hemisphere};
 
 use super::*;
 

@@ -5,7 +5,7 @@ use svbrdf_core::loss::{Request, Sampling, Texels};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::statistics::Statistics;
-use svbrdf_core::why;
+use svbrdf_evaluate::why;
 use svbrdf_viewer::model::command::{Command, DisplayCommand, WindowCommand};
 use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 

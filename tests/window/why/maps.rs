@@ -3,7 +3,7 @@
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Map;
 use svbrdf_core::model::convention::{self, Convention};
-use svbrdf_core::why::{Attribution, attribute};
+use svbrdf_evaluate::why::{Attribution, attribute};
 
 use super::*;
 

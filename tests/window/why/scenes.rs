@@ -2,7 +2,7 @@
 
 use svbrdf_core::loss::{Request, Sampling, Texels};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::why::{RankedScene, TAIL, worst, worst_first};
+use svbrdf_evaluate::why::{RankedScene, TAIL, worst, worst_first};
 
 use super::*;
 

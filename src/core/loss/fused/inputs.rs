@@ -6,7 +6,7 @@ use crate::material::Material;
 use crate::model::convention::Convention;
 use crate::render::simd::shade::ShadingParams;
 use crate::render::simd::size::TEXELS_PER_BLOCK;
-use crate::render::simd::tile::{self, GridAxes, TexelSpan};
+use crate::render::simd::tile::{GridAxes, TexelSpan};
 
 /// Materials, texels and convention of a loss.
 pub(super) struct LossInputs<'a> {
@@ -35,7 +35,7 @@ impl<'a> LossInputs<'a> {
         let grid = ground_truth.grid();
         let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
         let planes = [&ground_truth].into_iter().chain(predictions);
-        let planes = planes.flat_map(|m| tile::planes(m.planes())).filter(|_| listed.is_none());
+        let planes = planes.flat_map(|m| m.planes().all()).filter(|_| listed.is_none());
         Self {
             ground_truth,
             predictions,

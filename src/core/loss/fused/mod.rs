@@ -45,7 +45,7 @@ impl Fused {
     ///
     /// # Errors
     /// [`Error::Cancelled`].
-    pub(crate) fn texel_means(
+    pub fn texel_means(
         &self,
         comparison: &Comparison<'_, f32>,
         scenes: &[Scene],

@@ -57,7 +57,7 @@ impl<'a> ImageInputs<'a> {
         let grid = material.grid();
         Self {
             material: material.planes(),
-            planes: tile::planes(material.planes()).collect(),
+            planes: material.planes().all().collect(),
             params: ShadingParams::without_epsilon(convention),
             axes: GridAxes::from(grid),
             scene: KernelScene::new(scene, convention, grid.position::<DVec3>(0, 0).length()),

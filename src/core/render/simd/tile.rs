@@ -168,12 +168,6 @@ impl MaterialTerms {
     }
 }
 
-/// The planes of a material, in the order in which a tile is filled.
-pub(crate) fn planes(planes: &Planes<f32>) -> impl Iterator<Item = &[f32]> {
-    let vectors = planes.normal.iter().chain(&planes.specular).chain(&planes.diffuse);
-    vectors.chain([&planes.roughness]).map(Vec::as_slice)
-}
-
 /// Prefetches `N` texels of some planes from `start` on, where there are as many. `N` is a multiple of a cache line's.
 #[inline(always)]
 pub(crate) fn prefetch<S: Lanes, const N: usize>(simd: S, planes: &[&[f32]], start: usize) {

@@ -1,6 +1,6 @@
 //! How a material that was read is stored, for its diagnosis.
 
-use svbrdf_core::diagnose::{Storage, Transfer};
+use crate::changes::{Storage, Transfer};
 
 use super::read::Read;
 use crate::read::options::{Albedo, NormalY, Role, Roughness};

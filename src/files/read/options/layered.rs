@@ -1,6 +1,6 @@
 //! Layers of options: those of the caller over those of a sidecar file, presets below each.
 
-use svbrdf_core::diagnose::Remedy;
+use crate::changes::Remedy;
 use svbrdf_core::error::Error;
 
 use super::preset::Preset;

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::report::LossReport;
+use svbrdf_evaluate::report::LossReport;
 
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;

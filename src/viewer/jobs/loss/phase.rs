@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use svbrdf_core::loss::{Estimate, Request};
-use svbrdf_core::report::LossReport;
+use svbrdf_evaluate::report::LossReport;
 
 use crate::jobs::work::job::Job;
 use crate::model::material::read::MaterialId;

@@ -3,7 +3,7 @@
 use svbrdf_core::error::Error;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::study::{self, Pair, Study};
+use svbrdf_evaluate::study::{self, Pair, Study};
 
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;

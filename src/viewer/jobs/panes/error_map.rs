@@ -7,7 +7,7 @@ use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::error_maps;
+use svbrdf_evaluate::why::error_maps;
 use svbrdf_gpu::Gpu;
 
 use super::computed_maps::ComputedMaps;

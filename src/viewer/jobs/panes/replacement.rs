@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::diagnose::Change;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Map, Material};
+use svbrdf_evaluate::diagnose::Change;
 
 use crate::jobs::reading::upload::{Uploaded, Uploads};
 use crate::jobs::work::context::JobContext;

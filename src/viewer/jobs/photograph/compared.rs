@@ -10,7 +10,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::photograph::{PhotographComparison, Rectified};
+use svbrdf_evaluate::photograph::{PhotographComparison, Rectified};
 use svbrdf_gpu::{Gpu, Shaded};
 
 use crate::jobs::photograph::keys::RectifiedKey;

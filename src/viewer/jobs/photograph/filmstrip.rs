@@ -7,8 +7,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::capture::{Capture, CapturedPhotograph};
-use svbrdf_files::photograph::Rectified;
+use svbrdf_evaluate::capture::{Capture, CapturedPhotograph};
+use svbrdf_evaluate::photograph::Rectified;
 
 use super::picture::exposure;
 use crate::jobs::work::picture::Picture;

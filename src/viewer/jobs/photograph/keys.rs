@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use svbrdf_files::photograph::Corners;
+use svbrdf_evaluate::photograph::Corners;
 use svbrdf_files::read::PhotographOptions;
 use svbrdf_files::stamp::Stamp;
 

@@ -11,7 +11,7 @@ use std::sync::Arc;
 pub use compared::Photographs;
 use svbrdf_core::error::Error;
 use svbrdf_core::picture::statistics::Distributions;
-use svbrdf_files::photograph::{Corners, Rectified};
+use svbrdf_evaluate::photograph::{Corners, Rectified};
 use svbrdf_files::read::{Photograph, read_photograph};
 use svbrdf_files::session::SessionPhotograph;
 

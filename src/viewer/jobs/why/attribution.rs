@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Attribution, attribute};
+use svbrdf_evaluate::why::{Attribution, attribute};
 
 use crate::jobs::why::one_by_one::OneByOne;
 use crate::jobs::why::pair::ComparedPair;

@@ -2,10 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use svbrdf_core::diagnose::{Diagnosis, diagnose, floor};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::diagnose::{Diagnosis, diagnose, floor};
 
 use crate::jobs::why::one_by_one::OneByOne;
 use crate::jobs::why::pair::{ComparedPair, GroundTruthKey};

@@ -9,7 +9,7 @@ use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Hemisphere, hemisphere};
+use svbrdf_evaluate::why::{Hemisphere, hemisphere};
 
 use crate::jobs::why::pair::{self, ComparedPair, PairKey};
 use crate::jobs::work::job::Job;

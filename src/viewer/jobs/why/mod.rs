@@ -12,7 +12,7 @@ pub mod thumbnails;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::why::Worst;
+use svbrdf_evaluate::why::Worst;
 
 use crate::jobs::why::attribution::attributed;
 use crate::jobs::work::context::JobContext;

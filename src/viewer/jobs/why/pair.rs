@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_evaluate::diagnose::Storage;
 
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;

@@ -6,7 +6,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::picture::statistics::Histogram;
-use svbrdf_core::why::{Distribution, RankedScene, worst_first};
+use svbrdf_evaluate::why::{Distribution, RankedScene, worst_first};
 
 use crate::jobs::why::pair::{ComparedPair, PairKey};
 use crate::jobs::why::thumbnails::{self, Thumbnails};

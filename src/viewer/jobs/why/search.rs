@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::why::{TAIL, Worst, worst};
+use svbrdf_evaluate::why::{TAIL, Worst, worst};
 
 use crate::jobs::why::pair::{ComparedPair, PairKey};
 use crate::jobs::work::job::Job;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use svbrdf_core::material::{Grid, Material};
-use svbrdf_core::report::distinct_names;
+use svbrdf_evaluate::report::distinct_names;
 
 use super::problem::SizeMismatch;
 use super::read::{MaterialId, ReadMaterial};

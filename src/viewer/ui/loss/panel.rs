@@ -8,7 +8,7 @@ use eframe::egui::{self, RichText, Slider, SliderClamping};
 use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::report::SampledScenes;
+use svbrdf_evaluate::report::SampledScenes;
 
 use crate::jobs::loss::{LossJob, Losses};
 use crate::model::command::{Command, LossCommand, WindowCommand};

@@ -4,8 +4,8 @@ use eframe::egui::{self, Color32, Pos2, Rect, RichText, Sense, Vec2, vec2};
 use egui_plot::{Corner, GridInput, GridMark, Legend, Line, MarkerShape, PlotPoint, PlotPoints, Points};
 
 use svbrdf_core::loss::Sampling;
-use svbrdf_core::study::{Choice, Family, Point, Study};
 use svbrdf_core::text::{percent, time};
+use svbrdf_evaluate::study::{Choice, Family, Point, Study};
 use svbrdf_files::write::Depth;
 
 use crate::jobs::displayed::Displayed;

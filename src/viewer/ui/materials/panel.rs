@@ -3,7 +3,7 @@
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, FontId, RichText};
 
-use svbrdf_core::diagnose::{Finding, sentence_of};
+use svbrdf_evaluate::diagnose::{Finding, sentence_of};
 use svbrdf_files::read::{Note, ReadOptions, Sidecar};
 
 use super::assumptions::{self, AssumedLine};

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_files::photograph::Corners;
+use svbrdf_evaluate::photograph::Corners;
 use svbrdf_files::read::Transfer;
 
 use crate::jobs::photograph::DisplayedPhotograph;

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Color32, Rect, RichText, Sense, Stroke, vec2};
 
-use svbrdf_core::report::position;
+use svbrdf_evaluate::report::position;
 use svbrdf_files::session::SessionPhotograph;
 
 use crate::jobs::photograph::filmstrip::Filmstrip;

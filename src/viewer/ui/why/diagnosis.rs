@@ -3,8 +3,8 @@
 use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, FontId, RichText, pos2, vec2};
 
-use svbrdf_core::diagnose::{Diagnosis, Finding, SCENES, sentence};
 use svbrdf_core::loss::LossSettings;
+use svbrdf_evaluate::diagnose::{Diagnosis, Finding, SCENES, sentence};
 
 use crate::jobs::why::{ComparedPair, Diagnosed, WhyJobs};
 use crate::model::command::{Command, DisplayCommand};

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, Align2, FontId, RichText, pos2};
 
-use svbrdf_core::diagnose::{Change, Finding, Hypothesis};
+use svbrdf_evaluate::diagnose::{Change, Finding, Hypothesis};
 
 use crate::jobs::why::{ComparedPair, Diagnosed};
 use crate::model::command::{Command, DisplayCommand, WhyCommand};

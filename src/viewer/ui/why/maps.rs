@@ -5,7 +5,7 @@ use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, ve
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_core::why::MapShare;
+use svbrdf_evaluate::why::MapShare;
 
 use crate::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair, WhyJobs};
 use crate::model::command::{Command, DisplayCommand};

@@ -6,7 +6,7 @@ use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke,
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::statistics::Histogram;
-use svbrdf_core::why::{RankedScene, Worst};
+use svbrdf_evaluate::why::{RankedScene, Worst};
 
 use crate::jobs::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbnails};
 use crate::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};

@@ -2,7 +2,7 @@
 
 use eframe::egui;
 
-use svbrdf_core::diagnose::Remedy;
+use svbrdf_evaluate::diagnose::Remedy;
 
 use crate::model::command::{Command, DisplayCommand, MaterialsCommand};
 use crate::model::material::loaded::LoadedMaterial;

@@ -1,0 +1,24 @@
+//! Analyses of predictions: each a computation and a report, which is text, JSON, CSV and LaTeX at once.
+//!
+//! | module | content |
+//! |---|---|
+//! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
+//! | [`diagnose`] | whether exposure, alignment or reading explain a loss; what the ground truth resolves |
+//! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
+//! | [`rank`] | many predictions of one ground truth, best first |
+//! | [`study`] | speed against accuracy, measured for one pair on one machine |
+//! | [`report`] | results with their settings as values, and their tables |
+//! | [`photograph`], [`capture`] | renderings against photographs of the real material |
+//! | [`dataset`] | methods over the materials of a data set, with a folder of results |
+//! | [`schema`] | the JSON Schema of each report |
+
+pub mod capture;
+pub mod dataset;
+pub mod diagnose;
+pub mod metrics;
+pub mod photograph;
+pub mod rank;
+pub mod report;
+pub mod schema;
+pub mod study;
+pub mod why;
