@@ -10,7 +10,7 @@ use svbrdf_core::loss::Precision;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::inputs::check_output_of;
+use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::read::{self as reading, Certainty, Read, ReadOptions};
 use svbrdf_files::samples;
 use svbrdf_files::write::{self as writing, WriteOptions};

@@ -8,9 +8,9 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::report::Report as _;
-use svbrdf_files::atomic::write_text;
+use svbrdf_files::disk::atomic::write_text;
 use svbrdf_page::{Findings, Repetition, Report, View, check_destination, exposure};
-use svbrdf_files::session_window::Display;
+use svbrdf_files::session::window::Display;
 
 use crate::asked::Asked;
 use crate::errors::exception;

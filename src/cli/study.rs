@@ -7,7 +7,7 @@ use svbrdf_core::loss::check_same_size;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::study::{self, Pair, Study};
 use svbrdf_evaluate::study::{csv as study_csv, plot};
-use svbrdf_files::inputs::check_output;
+use svbrdf_files::disk::inputs::check_output;
 
 use super::args::{ComparisonArgs, Given};
 use super::job::materials::Opened;

@@ -17,27 +17,14 @@
 //! # Ok::<(), svbrdf_core::error::Error>(())
 //! ```
 
-pub mod atomic;
 pub mod changes;
+pub mod disk;
 pub mod export;
-pub mod inputs;
-mod lfs;
-pub mod materialgan;
-pub mod memory;
-mod new_folder;
 mod npy;
-pub mod open;
-pub mod own;
-mod panics;
-pub mod paths;
 pub mod read;
 pub mod samples;
 pub mod scene_file;
 pub mod session;
-pub mod session_window;
-pub mod signals;
 pub mod source;
-pub mod stamp;
-mod step_names;
 pub mod steps;
 pub mod write;

@@ -11,7 +11,7 @@ use svbrdf_evaluate::why::{
     Attribution, Hemisphere, RankedScene, attribute, hemisphere, worst_on_all_texels,
 };
 
-use svbrdf_files::session_window::Display;
+use svbrdf_files::session::window::Display;
 
 /// Worst scenes of the page.
 const SCENES: usize = 6;

@@ -16,7 +16,7 @@ use svbrdf_shaders::PAGE_GLSL;
 
 use super::content::{Report, View};
 use super::encode::EncodedMaterial;
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 
 /// Colours of a legend.
 const COLOURS: usize = 64;

@@ -16,7 +16,7 @@ use super::exposure::exposure;
 use super::markup::{MOST_NAMES, escaped, number, percent, place};
 use super::pictures::Rows;
 use super::{pictures, plots};
-use svbrdf_files::atomic::SOFTWARE;
+use svbrdf_files::disk::atomic::SOFTWARE;
 
 /// Thumbnails of the materials in a scene.
 const THUMBNAILS: Rows = Rows { width: 128, columns: 5 };

@@ -29,7 +29,7 @@ use markup::{Document, MOST_NAMES, escaped, filled};
 use pictures::Rows;
 pub use ranking::{MaterialView, ranking};
 pub use ranking_views::{Figures, material_views};
-use svbrdf_files::atomic::check_place;
+use svbrdf_files::disk::atomic::check_place;
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");

@@ -4,7 +4,7 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use sha2::{Digest as _, Sha256};
 
-use svbrdf_files::atomic::SOFTWARE;
+use svbrdf_files::disk::atomic::SOFTWARE;
 
 /// The head of every page, with its content security policy.
 const FRAME: &str = include_str!("frame.html");

@@ -9,7 +9,7 @@ use super::plots;
 use svbrdf_evaluate::dataset::{
     DatasetReport, MaterialResult, MethodSummary, counted_loss, mark_report, summarize_metrics,
 };
-use svbrdf_files::atomic::SOFTWARE;
+use svbrdf_files::disk::atomic::SOFTWARE;
 
 const PAGE: &str = include_str!("ranking.html");
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("ranking.css"));

@@ -19,11 +19,11 @@ use super::exposure::exposure;
 use super::pictures;
 use super::ranking::MaterialView;
 use svbrdf_evaluate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
-use svbrdf_files::atomic::replace_own;
-use svbrdf_files::own;
-use svbrdf_files::paths::plain;
+use svbrdf_files::disk::atomic::replace_own;
+use svbrdf_files::disk::own;
+use svbrdf_files::disk::paths::plain;
 use svbrdf_files::read::{self, ReadOptions};
-use svbrdf_files::session_window::Display;
+use svbrdf_files::session::window::Display;
 
 /// Light and view of thumbnails and figures.
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };

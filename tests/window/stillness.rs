@@ -2,7 +2,7 @@
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 
 use super::*;
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use svbrdf_files::read::{Albedo, ReadOptions};
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 use svbrdf_files::source::MaterialSource;
 use svbrdf_viewer::model::view::state::Projection;
 

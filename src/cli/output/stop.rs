@@ -3,7 +3,7 @@
 use std::process;
 
 use svbrdf_core::progress::Progress;
-use svbrdf_files::signals;
+use svbrdf_files::disk::signals;
 
 use super::exit::INTERRUPTED;
 

@@ -17,7 +17,7 @@ use super::measured::CaptureGroup;
 use super::outliers::Outlier;
 use super::{Capture, CapturedPhotograph, CapturedResult, MaterialResult};
 use crate::photograph::{Corners, Ratios, Rectified};
-use svbrdf_files::memory;
+use svbrdf_files::disk::memory;
 use svbrdf_files::read::{Note, Transfer};
 
 /// Bytes of a texel on the photographs, and of its ratios.

@@ -9,7 +9,7 @@ use svbrdf_core::text::line;
 
 use super::CapturedPhotograph;
 use crate::photograph::Corners;
-use svbrdf_files::open::NamedFile;
+use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::read::{PhotographOptions, Transfer};
 
 /// The content of the file.

@@ -20,9 +20,9 @@ use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
 
 use crate::photograph::Corners;
-use svbrdf_files::materialgan::{LightPower, TEXTS};
-use svbrdf_files::open::NamedFile;
+use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::read::{Photograph, PhotographOptions, Transfer, read_named_photograph};
+use svbrdf_files::scene_file::materialgan::{LightPower, TEXTS};
 use svbrdf_files::session::SessionPhotograph;
 
 /// The photographs of a material, with their lights and views.

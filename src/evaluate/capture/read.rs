@@ -10,11 +10,11 @@ use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::{Kind, Scene};
 
 use super::listed::Listed;
-use svbrdf_files::materialgan::{Calibration, POSITIONS, TEXTS};
+use svbrdf_files::scene_file::materialgan::{Calibration, POSITIONS, TEXTS};
 
 use super::{Capture, CapturedPhotograph, is_json};
-use svbrdf_files::inputs;
-use svbrdf_files::open::NamedFile;
+use svbrdf_files::disk::inputs;
+use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::read::{PhotographOptions, Transfer};
 
 /// The name of the project's own description.

@@ -20,7 +20,7 @@ use super::record::{
 };
 use super::remark::Remark;
 use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
-use svbrdf_files::atomic::SOFTWARE;
+use svbrdf_files::disk::atomic::SOFTWARE;
 use svbrdf_files::read::{self, Dependencies, Neighbours, ReadOptions};
 
 /// The results of a run over a data set.

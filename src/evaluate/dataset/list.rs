@@ -8,8 +8,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::text::line;
 
 use super::record::{Candidate, Case, Method, Source};
-use svbrdf_files::open::NamedFile;
-use svbrdf_files::{inputs, memory};
+use svbrdf_files::disk::open::NamedFile;
+use svbrdf_files::disk::{inputs, memory};
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];

@@ -12,7 +12,7 @@ use super::ranking::{DatasetReport, MethodSummary};
 use super::record::{DatasetSettings, Mark, MaterialResult, PredictionResult};
 use super::remark::Remark;
 use super::repetition;
-use svbrdf_files::atomic::SOFTWARE;
+use svbrdf_files::disk::atomic::SOFTWARE;
 
 const TITLES: [&str; 9] = [
     "method",

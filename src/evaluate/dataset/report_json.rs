@@ -11,7 +11,7 @@ use super::mark_summary::{MarkSummary, summarize_marks};
 use super::metric_summary::{MetricSummary, summarize_metrics};
 use super::ranking::DatasetReport;
 use super::record::{DatasetReading, DatasetSettings, MaterialResult};
-use svbrdf_files::atomic::SOFTWARE;
+use svbrdf_files::disk::atomic::SOFTWARE;
 
 /// The losses of methods over a data set.
 #[derive(Serialize, JsonSchema)]

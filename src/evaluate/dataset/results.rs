@@ -19,11 +19,11 @@ use svbrdf_core::progress::Progress;
 
 use super::record::PredictionResult;
 use super::remark::Remark;
-use svbrdf_files::atomic::{TEMPORARY, update};
-use svbrdf_files::open::{NamedFile, hexadecimal};
-use svbrdf_files::paths::plain;
+use svbrdf_files::disk::atomic::{TEMPORARY, update};
+use svbrdf_files::disk::open::{NamedFile, hexadecimal};
+use svbrdf_files::disk::paths::plain;
+use svbrdf_files::disk::{inputs, own};
 use svbrdf_files::read::Neighbours;
-use svbrdf_files::{inputs, own};
 
 /// Temporary files of this age are those of processes that were killed. Others are written within a moment.
 const LEFT: Duration = Duration::from_hours(24);

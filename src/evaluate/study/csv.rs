@@ -7,7 +7,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::progress::Progress;
 
-use svbrdf_files::atomic::Destination;
+use svbrdf_files::disk::atomic::Destination;
 
 const CSV_HEADING: [&str; 15] = [
     "scenes",

@@ -16,7 +16,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::{percent, time};
 
-use svbrdf_files::atomic::Destination;
+use svbrdf_files::disk::atomic::Destination;
 
 /// Width and height of the picture in pixels.
 const SIZE: (u32, u32) = (1200, 780);

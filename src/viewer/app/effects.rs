@@ -8,10 +8,10 @@ use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_evaluate::capture::Capture;
 use svbrdf_evaluate::photograph::flash;
-use svbrdf_files::open::allow_outside;
+use svbrdf_files::disk::open::allow_outside;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::{Session, SessionPhotograph};
-use svbrdf_files::stamp::Stamp;
 
 use super::parts::Parts;
 use super::{saving, training};

@@ -6,9 +6,9 @@ use eframe::egui;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
+use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::Provenance;
-use svbrdf_files::inputs::check_output_of;
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 
 use super::parts::Parts;
 use crate::jobs::displayed::Displayed;

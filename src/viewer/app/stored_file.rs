@@ -9,8 +9,8 @@ use serde::Deserialize;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::atomic;
-use svbrdf_files::open::NamedFile;
+use svbrdf_files::disk::atomic;
+use svbrdf_files::disk::open::NamedFile;
 
 use super::storage::{RECENT, SESSION, SETTINGS};
 use crate::model::ranges::UI_SCALE;

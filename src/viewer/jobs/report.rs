@@ -10,7 +10,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::quoted;
-use svbrdf_files::atomic::write_text;
+use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::session::Session;
 use svbrdf_page::{Findings, MOST_BYTES, Repetition, Report, View, check_destination};
 

@@ -10,7 +10,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::report::{Compared, Report as _, ScenesReport};
-use svbrdf_files::atomic::{self, Destination};
+use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::export::strip::{Column, Crop, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::scene_file;

@@ -6,9 +6,9 @@ use std::time::{Duration, SystemTime};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read;
 use svbrdf_files::samples;
-use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep, runs_in};
 
 use crate::model::material::read::{ReadMaterial, Rules};

@@ -8,7 +8,7 @@ use eframe::wgpu;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::memory::{self, Reserved};
+use svbrdf_files::disk::memory::{self, Reserved};
 use svbrdf_gpu::{Gpu, MaterialTextures};
 
 use crate::jobs::work::job::Job;

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::time::{Duration, SystemTime};
 
-use svbrdf_files::stamp::Stamp;
+use svbrdf_files::disk::stamp::Stamp;
 
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;

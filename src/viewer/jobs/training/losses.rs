@@ -7,7 +7,7 @@ use std::sync::Arc;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::progress::Progress;
-use svbrdf_files::stamp::Stamp;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep};
 
 use crate::jobs::reading::read::{Reader, read_with_retries};

@@ -66,7 +66,7 @@ impl TrainingJobs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use svbrdf_files::stamp::Stamp;
+    use svbrdf_files::disk::stamp::Stamp;
     use svbrdf_files::steps::{Counter, TrainingStep};
 
     #[test]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::time::{Duration, SystemTime};
 
-use svbrdf_files::stamp::Stamp;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::steps::{TrainingRun, TrainingStep, runs_in};
 
 use crate::jobs::reading::watch::{INTERVAL, QUIET};

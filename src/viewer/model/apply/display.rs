@@ -1,7 +1,7 @@
 //! Commands about what the panes show, and how.
 
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 
 use super::undo;
 use crate::model::Model;

@@ -1,6 +1,6 @@
 //! Undo and redo.
 
-use svbrdf_files::stamp::Stamp;
+use svbrdf_files::disk::stamp::Stamp;
 
 use crate::model::Model;
 use crate::model::command::effect::Effect;

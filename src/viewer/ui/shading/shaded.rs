@@ -1,7 +1,7 @@
 //! Shaded texels of one material, and how much of them is shaded in a frame.
 
 use svbrdf_core::error::Error;
-use svbrdf_files::memory::Reserved;
+use svbrdf_files::disk::memory::Reserved;
 use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 
 use crate::jobs::reading::upload::{BAND, reserve_for};

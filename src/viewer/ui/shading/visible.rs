@@ -45,7 +45,7 @@ fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
 mod tests {
     use super::*;
     use crate::model::view::state::Projection;
-    use svbrdf_files::session_window::{Display, Framing};
+    use svbrdf_files::session::window::{Display, Framing};
 
     const GRID: Grid = Grid { width: 256, height: 128 };
     const PANE: [f32; 2] = [600.0, 400.0];

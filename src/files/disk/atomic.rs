@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 
-use crate::{inputs, own};
+use crate::disk::{inputs, own};
 
 /// The program and its version, as the files that it writes name it.
 pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));

@@ -3,13 +3,15 @@
 //! `wood_step000100.png`, `wood_step000200/` and the files `wood_iter300_normal.png`, `wood_iter300_diffuse.png` and so on are
 //! steps of the run `wood`. Where the name has nothing else, as in `epoch_12.exr`, the run has the name of the folder.
 
+mod names;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::read::EXTENSIONS;
-use super::stamp::Stamp;
-use super::step_names::Counted;
-pub use super::step_names::Counter;
+use crate::disk::stamp::Stamp;
+use crate::read::EXTENSIONS;
+use names::Counted;
+pub use names::Counter;
 use svbrdf_core::error::Error;
 
 /// What identifies a training run.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use super::read::Label;
+use crate::read::Label;
 
 /// What a training run counts. Where a name has several numbers, the first of these counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -1,17 +1,19 @@
 //! Files of scenes: the project's own, and the captures of MaterialGAN.
 
+pub mod materialgan;
+
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::{Scene, SceneFile};
 
-use crate::atomic::Destination;
-use crate::inputs;
-use crate::materialgan::Calibration;
-use crate::open::NamedFile;
+use crate::disk::atomic::Destination;
+use crate::disk::inputs;
+use crate::disk::open::NamedFile;
 use crate::read::Sidecar;
 use crate::session::Session;
+use materialgan::Calibration;
 
 /// Reads a scene file: JSON, `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`, or the
 /// `render.json` (later `parameters.json`) of a MaterialGAN capture.

@@ -1,5 +1,7 @@
 //! The session file: a comparison that another person can open, with everything that it takes.
 
+pub mod window;
+
 use std::iter;
 use std::path::{Path, PathBuf};
 
@@ -9,11 +11,11 @@ use serde_json::Value;
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
 
-use super::read::{PhotographOptions, ReadOptions};
-use super::session_window::SessionWindow;
-use crate::inputs;
-use crate::open::NamedFile;
-use crate::paths::{absolute, is_outside, relative};
+use crate::disk::inputs;
+use crate::disk::open::NamedFile;
+use crate::disk::paths::{absolute, is_outside, relative};
+use crate::read::{PhotographOptions, ReadOptions};
+use window::SessionWindow;
 
 /// What the names of session files end with.
 const ENDING: &str = ".svbrdf-session.json";

@@ -16,7 +16,7 @@ mod unix {
     };
     use signal_hook::iterator::Signals;
 
-    use crate::open::NamedFile;
+    use crate::disk::open::NamedFile;
 
     /// The signals that end a program that does not handle them, other than those of its own faults.
     const ENDING: [i32; 10] =

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use svbrdf_core::progress::Progress;
 
-use crate::atomic::{Watched, check, folder_of};
+use crate::disk::atomic::{Watched, check, folder_of};
 
 /// Fills a temporary folder beside `path` by `fill`, and renames it. Only an empty folder gives way to it.
 ///

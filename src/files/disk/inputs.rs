@@ -1,7 +1,7 @@
 //! Inputs: the files that a result is made from, which no output may replace.
 //!
 //! A command protects every file that it reads, by [`protect_all`]: whatever reads maps, documents, lists, results, scenes, sessions,
-//! photographs or captures names their files here, and [`crate::atomic`], which writes every output, refuses to replace them. Files
+//! photographs or captures names their files here, and [`crate::disk::atomic`], which writes every output, refuses to replace them. Files
 //! that are only looked at, such as other materials of a folder, are not named. The window and Python, which read and write for hours,
 //! name the inputs of an output themselves.
 

@@ -14,8 +14,8 @@ use sha2::{Digest as _, Sha256};
 
 use svbrdf_core::error::Error;
 
-use crate::memory;
-use crate::paths;
+use crate::disk::memory;
+use crate::disk::paths;
 
 /// Whether files may name others by absolute paths.
 static OUTSIDE: AtomicBool = AtomicBool::new(false);
