@@ -123,29 +123,30 @@ impl MapsByRole {
         files.dedup();
         let normal = self.take(Role::Normal);
         let is_packed = !self.has(Role::Metallic);
-        let roughness = self.roughness();
-        let metallic = self.metallic();
-        let (specular, level) = (self.take(Role::Specular), self.take(Role::SpecularLevel));
-        let (base, diffuse) = (self.take(Role::Base), self.take(Role::Diffuse));
-        let use_metallic = match options.workflow {
-            Some(workflow) => workflow == Workflow::Metallic && metallic.is_some(),
-            // A packed picture holds metallic on purpose; a lone metallic map may have come along with specular.
-            None => metallic.is_some() && (base.is_some() || specular.is_none() || is_packed),
-        };
-        let is_ambiguous = metallic.is_some() && specular.is_some() && base.is_none();
-        let (first, second) = if use_metallic { (base, diffuse) } else { (diffuse, base) };
-        let (colour, mut unused) = if first.is_some() { (first, vec![second]) } else { (second, Vec::new()) };
-        let no_specular = use_metallic || options.workflow == Some(Workflow::Metallic);
-        let (specular, other) = if no_specular { (None, specular) } else { (specular, None) };
-        let (level, coloured) = if specular.is_some() { (None, level) } else { (level, None) };
-        let (metallic, plain) = if use_metallic { (metallic, None) } else { (None, metallic) };
-        unused.extend([other, coloured, plain]);
+        let (roughness, metallic) = (self.roughness(), self.metallic());
+        let [has_base, has_specular] = [Role::Base, Role::Specular].map(|role| self.has(role));
+        let use_metallic = metallic.is_some()
+            && match options.workflow {
+                Some(workflow) => workflow == Workflow::Metallic,
+                // A packed picture holds metallic on purpose; a lone metallic map may have come along with specular.
+                None => has_base || !has_specular || is_packed,
+            };
+        let is_ambiguous = metallic.is_some() && has_specular && !has_base;
+        let chosen = if use_metallic { Workflow::Metallic } else { Workflow::Specular };
+        let colours = if use_metallic { [Role::Base, Role::Diffuse] } else { [Role::Diffuse, Role::Base] };
+        let colour = colours.into_iter().find_map(|role| self.take(role));
+        let uses_specular = !use_metallic && options.workflow != Some(Workflow::Metallic);
+        let specular = if uses_specular { self.take(Role::Specular) } else { None };
+        let level = if specular.is_none() { self.take(Role::SpecularLevel) } else { None };
+        let (metallic, lone) = if use_metallic { (metallic, None) } else { (None, metallic) };
+        let left = [Role::Base, Role::Diffuse, Role::Specular, Role::SpecularLevel];
+        let unused = left.into_iter().filter_map(|role| self.take(role)).chain(lone);
+        let notes = unused.map(|source| source.unused(chosen)).collect();
         if normal.is_none() && colour.is_none() && roughness.is_none() {
             return Err(missing(Role::Normal));
         }
-        let colour = colour.ok_or_else(|| missing(if use_metallic { Role::Base } else { Role::Diffuse }))?;
+        let colour = colour.ok_or_else(|| missing(colours[0]))?;
         let roughness = roughness.ok_or_else(|| missing(Role::Roughness))?;
-        let chosen = if use_metallic { Workflow::Metallic } else { Workflow::Specular };
         assumptions.push(workflow(chosen, specular.is_some(), is_ambiguous, options));
         Ok(StoredMaterial {
             name,
@@ -160,7 +161,7 @@ impl MapsByRole {
             is_mapped: false,
             inferred: Inferences::default(),
             assumptions,
-            notes: unused.into_iter().flatten().map(|source| source.unused(chosen)).collect(),
+            notes,
             files,
         })
     }

@@ -1,11 +1,9 @@
-//! The record of a reading: assumptions and notes, as values, and the sentences for them.
+//! The record of a reading: assumptions and notes, as values with their words.
 
 mod assumption;
 mod evidence;
 mod note;
-mod note_text;
 mod reason;
-mod reason_text;
 mod storage_convention;
 
 pub use assumption::{Assumption, Certainty, What};

@@ -2,125 +2,173 @@
 
 use std::path::PathBuf;
 
+use derive_more::Display;
+
 use crate::read::options::{Albedo, Role, Workflow};
 
 /// The source of an option or a map that was specified.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Display)]
 pub enum SpecifiedBy {
     /// The caller of this reading.
+    #[display("as specified")]
     Caller,
     /// The sidecar file of this name.
+    #[display("as saved in {_0}")]
     Sidecar(String),
 }
 
-/// The reason why a file, a layer or a statement is not used.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The reason why a file, a layer or a statement is not used, as the end of a sentence.
+#[derive(Clone, Debug, PartialEq, Eq, Display)]
 pub enum Unused {
     /// Its name is not the name of a map of a material.
+    #[display("")]
     NotAMap,
-    /// Its name does not name a map.
+    #[display(": its name does not name a map")]
     Unlabelled,
-    /// It is named after a map, but not as the other maps of the material are.
+    #[display(": it is not named as the other maps are")]
     OtherStem,
     /// Another file holds the same map in a better form.
+    #[display(": {to} is preferred")]
     Inferior { to: String },
     /// It is constant, and another picture of its map is not.
+    #[display(": it is constant, and {other} is not")]
     Constant { other: String },
     /// The workflow does not use this map.
+    #[display(": the workflow is {_0}")]
     Workflow(Workflow),
-    /// It holds heights, not normals.
+    #[display(": it holds heights, not normals")]
     Heights,
     /// Its pixels are neither normals nor heights.
+    #[display(": its pixels do not look like normals")]
     NotNormals,
     /// A factor of 0 would leave nothing of the map.
+    #[display(": nothing would be left of the {} map", map.name())]
     FactorZero { map: Role },
     /// Blender writes this factor, and uses the picture alone.
+    #[display(": Blender, which wrote it, uses the picture alone")]
     Blender,
 }
 
 /// The value of a gray map whose channels differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
 pub enum Gray {
+    #[display("red is used")]
     Red,
+    #[display("their mean is used")]
     Mean,
 }
 
 /// The subject of a decoding, for messages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
 pub enum Subject {
     /// A picture of a whole material.
+    #[display("material")]
     Material,
     /// A picture whose name names no map.
+    #[display("picture")]
     Picture,
     /// A photograph that renderings are compared with.
+    #[display("photograph")]
     Photograph,
+    #[display("{} map", _0.name())]
     Map(Role),
 }
 
-/// One thing that reading a material noticed.
-#[derive(Clone, Debug, PartialEq)]
+/// One thing that reading a material noticed, as a sentence.
+#[derive(Clone, Debug, PartialEq, Display)]
 #[non_exhaustive]
 pub enum Note {
     /// A file is a map, by its name or by the file that lists it.
+    #[display("The {} map is {file}.", map.name())]
     MapFile { map: Role, file: String },
     /// A file is a map because someone specified it.
+    #[display("The {} map is {}, {by}.", map.name(), file.display())]
     MapSpecified { map: Role, file: PathBuf, by: SpecifiedBy },
-    /// Options come from this sidecar file.
+    #[display("{} specifies how the material is read, unless an option does.", file.display())]
     SidecarUsed { file: PathBuf },
-    /// A file that another one names lies outside of the folder of that file.
+    #[display("{} lies outside of the folder of {}, which names it.", file.display(), by.display())]
     OutsideFolder { file: PathBuf, by: PathBuf },
-    /// Row 0 is the lowest row.
+    #[display("Row 0 is the lowest row, {by}: the material is mirrored.")]
     RowsFlipped { by: SpecifiedBy },
     /// A file, a layer or a statement is not used.
+    #[display("{what} is not used{why}.")]
     Unused { what: String, why: Unused },
     /// The maps are in a folder within the one that was opened.
+    #[display("The maps are in the folder {folder} within.")]
     InFolder { folder: String },
-    /// The first tiles of a packed image are photos.
+    #[display("The first {count} of {tiles} tiles are taken as photos and ignored.")]
     Photos { count: usize, tiles: usize },
-    /// The packed image holds a material in each row; `index` counts from 0.
+    #[display("The image holds {count} materials, one in each row; this is number {index} from 0.")]
     Rows { count: usize, index: usize },
     /// The file holds several materials of these names; `index` counts from 0.
+    #[display("{}", materials(names, *index))]
     Materials { names: Vec<String>, index: usize },
-    /// The file has features that change the look, which are not modelled and ignored.
+    #[display("These change the look and are not modelled: {}.", features.join(", "))]
     NotModelled { features: Vec<String> },
     /// A document beside the files of a set lists some of them, too.
+    #[display("{file} lists these pictures: open it to read them as it specifies.")]
     ListedBy { file: String },
-    /// Colours of these colour spaces that Rec. 709 does not have are clipped.
+    #[display(
+        "Rec. 709 does not have some of the colours in {}; they are clipped to [0, 1].",
+        spaces.join(", ")
+    )]
     Gamut { spaces: Vec<String> },
-    /// The alpha channel of a map is not used.
+    #[display("The {} map is partly transparent; its alpha is ignored.", map.name())]
     AlphaIgnored { map: Role },
-    /// The channels of a gray map differ by up to `spread`, in [0, 1].
+    /// The channels of a gray map differ by up to `channel_spread`, in [0, 1].
+    #[display(
+        "The red, green and blue of the {} map differ by up to {channel_spread:.4}; {used}.",
+        map.name()
+    )]
     ChannelsDiffer { map: Role, channel_spread: f64, used: Gray },
-    /// The two widths of an anisotropic roughness differ by up to `spread`.
+    #[display(
+        "The two widths of the roughness map differ by up to {channel_spread:.4}; an isotropic lobe replaces them."
+    )]
     Anisotropic { channel_spread: f64 },
     /// The encoding that was specified for specular contradicts its median.
+    #[display(
+        "Specular is read as {chosen}, {by}, but its median is {median:.3}, which suggests {suggests}: check it."
+    )]
     SpecularMedian { chosen: Albedo, by: SpecifiedBy, median: f64, suggests: Albedo },
-    /// Specular of OpenSVBRDF: a factor on 0.04.
+    #[display("{file} is read as a factor on 0.04, as OpenSVBRDF writes it.")]
     SpecularFactor { file: String },
-    /// A layer without a name is taken as a preview.
+    #[display("The unnamed layer is taken as a preview and ignored.")]
     Preview,
-    /// The channels of an array could be its first axis or its last: they are taken as the last. An array of a file by
-    /// itself has no name.
+    /// The channels of an array could be its first axis or its last. An array of a file by itself has no name.
+    #[display(
+        "{} of the shape ({}) is read as rows, columns and channels; channels could also come first.",
+        if array.is_empty() { "The array".to_owned() } else { format!("Array {array}") },
+        shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+    )]
     ChannelsLast { array: String, shape: Vec<u64> },
-    /// A gAMA chunk declares the values linear.
+    #[display("The {_0} has a gAMA chunk that declares it linear, which is ignored.")]
     LinearGamma(Subject),
-    /// EXIF orientation is ignored.
+    #[display("The {_0} has an EXIF orientation, which is ignored: rows are read as stored.")]
     Orientation(Subject),
-    /// An ICC profile other than sRGB is ignored.
+    #[display("The {_0} has an ICC profile other than sRGB, which is ignored.")]
     Profile(Subject),
-    /// The EXR has primaries other than those of Rec. 709.
+    #[display("The EXR has primaries other than those of Rec. 709; its RGB is used as it is.")]
     Primaries,
-    /// The data window of a layer lies beside its display window. The layer may have no name.
+    /// The layer may have no name.
+    #[display(
+        "{} has a data window beside its display window; the data is used as it is.",
+        layer_name(layer)
+    )]
     DataWindow { layer: String },
-    /// A layer has data for a part of its display window only.
+    #[display(
+        "{} has data for {} x {} of the {} x {} texels of its display window; the rest is 0.",
+        layer_name(layer), data[0], data[1], display[0], display[1]
+    )]
     PartialData { layer: String, data: [usize; 2], display: [usize; 2] },
     /// The file that an .mtl names is absent, and another one of its name is used.
+    #[display("{file} is absent; {} is used.", by.display())]
     Substituted { file: String, by: PathBuf },
-    /// Options of a picture in an .mtl that are not used.
+    #[display("Options of the {} map that are not used: {}.", map.name(), options.join(", "))]
     OptionsUnused { map: Role, options: Vec<String> },
-    /// Statements of an .mtl that are not used.
+    #[display("Statements of the .mtl that are not used: {}.", _0.join(", "))]
     StatementsUnused(Vec<String>),
     /// The material was resized to the size of the ground truth.
+    #[display("Resized from {} x {} to the {} x {} of the ground truth.", from[0], from[1], to[0], to[1])]
     Resized { from: [usize; 2], to: [usize; 2] },
 }
 
@@ -163,4 +211,22 @@ impl serde::Serialize for Note {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
+}
+
+/// The first of the names, and which one was read.
+fn materials(names: &[String], index: usize) -> String {
+    const MOST_LISTED: usize = 12;
+    let listed: Vec<_> =
+        names.iter().enumerate().take(MOST_LISTED).map(|(i, n)| format!("{i} {n}")).collect();
+    let more = names.len().saturating_sub(MOST_LISTED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    format!(
+        "The file holds {} materials: {}{more}. This is number {index} from 0.",
+        names.len(),
+        listed.join(", ")
+    )
+}
+
+fn layer_name(layer: &str) -> String {
+    if layer.is_empty() { "The picture".to_owned() } else { format!("Layer {layer}") }
 }

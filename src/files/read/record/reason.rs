@@ -1,6 +1,8 @@
-//! Reasons of assumptions, as values. `Display` makes the words.
+//! Reasons of assumptions, as values and as words.
 
 use std::path::PathBuf;
+
+use derive_more::Display;
 
 use super::evidence::Evidence;
 use super::note::SpecifiedBy;
@@ -8,139 +10,200 @@ use super::storage_convention::StorageConvention;
 use crate::read::options::{Albedo, NormalY, Role};
 
 /// The reason of an assumption.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Display)]
 #[non_exhaustive]
 pub enum Reason {
     Specified(SpecifiedBy),
-    /// Metallic was specified, but there is no metallic map.
+    #[display("{_0}, but there is no metallic map")]
     NoMetallicMap(SpecifiedBy),
     StorageConvention(StorageConvention),
     /// A convention that a measurement contradicts.
+    #[display("{_0}, but {_1}: check it")]
     ContradictedBy(Box<Reason>, Box<Reason>),
-    /// The file name states it.
+    #[display("{file} is named so")]
     FileName {
         file: String,
     },
-    /// The file name states the direction of y.
+    #[display("{file} is named {}", if *y == NormalY::Up { "OpenGL" } else { "DirectX" })]
     NormalName {
         file: String,
         y: NormalY,
     },
-    /// The file name states how channels are packed; packings of this name differ.
+    #[display("{} is named so; packings of this name differ", file.display())]
     PackingName {
         file: PathBuf,
     },
-    /// The file declares this colour space.
+    #[display("the file declares {space}{known}")]
     ColourSpace {
         space: String,
         known: SpaceKnown,
     },
     /// Colours of 8 or 16 bits are display-encoded unless the evidence, weighed as log odds of linear, outweighs that.
+    #[display("{}", evidence.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
     Weighed {
         log_odds: f64,
         evidence: Vec<Evidence>,
     },
-    /// There are a metallic and a specular map, and no name tells which workflow is meant.
+    #[display("there are both a specular and a metallic map")]
     BothWorkflows,
-    /// The channels of a picture that is named after one gray map differ like the channels of a packed picture.
+    /// As the channels of a packed picture do.
+    #[display(
+        "the channels of {} differ although it is named after the {} map",
+        file.display(), map.name()
+    )]
     PackedChannels {
         map: Role,
         file: PathBuf,
     },
-    /// A picture looks like normals, but is named after another map.
+    #[display("{} looks like normals although it is named after the {} map", file.display(), map.name())]
     LooksLikeNormals {
         map: Role,
         file: PathBuf,
     },
-    /// Only its name, which is the name of the set, suggests that a picture is the colour.
+    #[display("{file} has the name of the set, and no other file is its colour")]
     NameOfSet {
         file: String,
     },
-    /// The picture has no alpha, which should hold smoothness.
+    #[display("{} has no alpha, which holds smoothness", file.display())]
     OpaqueSmoothness {
         file: PathBuf,
     },
     // Measurements of pixels.
+    #[display("the median of specular is {median:.3}, {}", match suggests {
+        Some(Albedo::Linear) => "near a linear 0.04",
+        Some(_) => "near an encoded 0.04",
+        None => "which is inconclusive; colours are sRGB by convention",
+    })]
     SpecularMedian {
         median: f64,
         suggests: Option<Albedo>,
     },
-    /// Nearly all pixels look like normals, though the name does not name a map.
+    #[display("nearly all of its pixels look like normals, and no other file is named as the normal map")]
     NormalPixels,
-    /// One tile looks like normals; shares of its pixels and of the next best tile's.
+    /// Shares of the pixels of this tile and of the next best.
+    #[display(
+        "tile {number} looks like normals ({:.0}% of its pixels), the next best {:.0}%",
+        100.0 * share, 100.0 * next
+    )]
     NormalTile {
         number: usize,
         share: f64,
         next: f64,
     },
-    /// No tile tells the order, which is that of the preset.
+    #[display("no tile tells; it is the order of the preset")]
     PresetOrder,
+    #[display("no tile looks like normals, and svbrdf-evaluation uses such names")]
     SvbrdfEvaluationName,
+    #[display("no single tile looks like normals; this is the usual order")]
     UsualOrder,
+    #[display("a picture of diffuse alone does not say it")]
     DiffuseAlone,
+    #[display("the least component is {_0:.2}")]
     LeastComponent(f64),
+    #[display("the map has two channels")]
     TwoChannels,
+    #[display("red is 1 everywhere, alpha varies")]
     RedConstant,
-    /// Share of the texels that have unit length if read so.
+    #[display(
+        "{:.0}% of the texels have length 1 {}",
+        100.0 * share, if *signed { "as stored" } else { "if read so" }
+    )]
     UnitLength {
         signed: bool,
         share: f64,
     },
+    #[display("blue is {_0:.0} everywhere")]
     BlueConstant(f64),
     /// The curl correlation, where the map has slopes.
+    #[display("{}", _0.map_or("the map has no slopes to tell from".to_owned(), curl))]
     Curl(Option<f64>),
+    #[display("{}, as of maps with y down", curl(*_0))]
     CurlDown(f64),
+    #[display("most maps point up; {}", curl(*_0))]
     MostMapsUp(f64),
-    /// A document beside the normal map lists it, and its format defines y.
+    /// A document beside the normal map.
+    #[display("{document} lists the map, and its format defines it")]
     ListedNormals {
         document: String,
     },
-    /// Correlations of the slopes of heights with x and with y of the normals.
+    #[display(
+        "the slopes of {} correlate by {:+.2} with x of the normals and by {:+.2} with y",
+        file.display(), correlations[0], correlations[1]
+    )]
     Heights {
         file: PathBuf,
         correlations: [f64; 2],
     },
     // The maps that are there.
+    #[display("there is a metallic map: d = b (1 - m), s = f {}", match matfusion {
+        false => "(1 - m) + b m",
+        true => "+ b m as in MatFusion",
+    })]
     MetallicMap {
         matfusion: bool,
     },
+    #[display("there is a specular map")]
     SpecularMap,
+    #[display("there is neither a specular nor a metallic map")]
     NeitherMap,
+    #[display("there is no normal map; the surface is taken as flat")]
     NoNormalMap,
+    #[display("there is no specular map; most dielectrics have it")]
     NoSpecularMap,
+    #[display("{} is named so, and the principled model takes 0.04 at 0.5", file.display())]
     SpecularLevel {
         file: PathBuf,
     },
+    #[display("the largest map has it; resampled bilinearly: {}", sizes(_0))]
     SmallerMaps(Vec<(Role, [usize; 2])>),
     // Values that were changed.
+    #[display("{count} samples of the {} map are NaN or infinite", map.name())]
     NotFinite {
         map: Role,
         count: usize,
     },
+    #[display("{count} samples of the {} map lie outside, between {low} and {high}", map.name())]
     OutsideUnit {
         map: Role,
         count: usize,
         low: f64,
         high: f64,
     },
+    #[display("{count} texels have a vector without length, or one that is not finite")]
     NoDirection {
         count: usize,
     },
+    #[display("{count} samples of diffuse and specular would reflect more light than arrives")]
     MoreThanAllLight {
         count: usize,
     },
     /// Roughness from the exponent of Blinn and Phong.
+    #[display(
+        "there is neither map_Pr nor Pr; the highlight of Ns {_0} is as wide: r = (2 / (Ns + 2))^(1/4)"
+    )]
     Exponent(f32),
     /// A factor of an .mtl beside a picture.
+    #[display("{key} is a factor by the definition of MTL; some programs use the picture alone")]
     MtlFactor {
         key: String,
     },
 }
 
+fn curl(correlation: f64) -> String {
+    format!("the curl correlation is {correlation:+.2}")
+}
+
+fn sizes(maps: &[(Role, [usize; 2])]) -> String {
+    let one = |(map, [w, h]): &(Role, [usize; 2])| format!("{} from {w} x {h}", map.name());
+    maps.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
 /// How well a colour space is known here.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
 pub enum SpaceKnown {
+    #[display("")]
     Exactly,
+    #[display(", which is not known here")]
     Unknown,
 }
 

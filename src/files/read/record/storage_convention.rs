@@ -1,79 +1,66 @@
 //! Conventions that files of materials follow.
 
-use std::fmt;
+use derive_more::Display;
 
 /// A convention that files follow, by their format, names or layout.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
 pub enum StorageConvention {
-    /// This program wrote the file.
+    #[display("svbrdf wrote the file")]
     Native,
-    /// This program wrote the file, with its encoding in a text chunk.
+    #[display("svbrdf wrote the file, with its encoding")]
     NativeText,
+    #[display("floats are linear")]
     Floats,
+    #[display("colours in separate files are sRGB by convention")]
     SeparateColours,
+    #[display("colours of an .mtl are sRGB by convention")]
     MtlColours,
+    #[display("Deschaintre et al. store this order in this way")]
     DeschaintreOrder,
+    #[display("MaterialGAN and its successors store this order in this way")]
     MaterialGanOrder,
+    #[display("MatFusion stores this order in this way")]
     MatFusionOrder,
+    #[display("svbrdf-evaluation appears to store this order in this way")]
     SvbrdfEvaluationOrder,
+    #[display("all known sources of packed maps do this")]
     PackedNormals,
+    #[display("DiffMat writes these names and depths, with y down by default")]
     DiffMatNames,
+    #[display("MaterialGAN and its successors use these names and this encoding")]
     MaterialGanNames,
+    #[display("the results of Deschaintre et al. 2020 are numbered in this way")]
     NumberedResults,
+    #[display("the names contain gammad")]
     GammadNames,
+    #[display("the networks of Deschaintre et al. write these names, linear")]
     DeschaintreNames,
+    #[display("the data sets of SurfaceNet look like this, and are linear")]
     SurfaceNetFolder,
+    #[display("the specification of glTF 2.0 defines it")]
     Gltf,
     /// The exporter of Microsoft Flight Simulator.
+    #[display("the file declares DirectX by ASOBO_normal_map_convention")]
     AsoboNormals,
+    #[display("MaterialX defines normals in this way")]
     MaterialXNormals,
+    #[display("computed as the specification of the surface defines it")]
     MaterialXSurface,
-    /// The file lists its textures.
+    #[display("the file lists its textures")]
     ListedTextures,
-    /// Minecraft does not define where y of its normals points.
+    #[display("Minecraft does not define it, and most maps point up")]
     TextureSetNormals,
-    /// The file lists its textures, and none of normals.
+    #[display("the file lists its textures, and none of normals; the surface is flat")]
     NoListedNormals,
+    #[display("the names of the layers name the maps")]
     LayerNames,
+    #[display("the map is named roughness")]
     RoughnessName,
+    #[display("nvdiffrec writes it beside map_Kd")]
     NvdiffrecPacking,
     /// Specular and glossiness in one picture.
+    #[display("glTF defines it for specular and glossiness")]
     SpecularGlossiness,
-    /// The built-in materials.
+    #[display("the built-in materials are stored in this way")]
     BuiltIn,
-}
-
-impl fmt::Display for StorageConvention {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Native => "svbrdf wrote the file",
-            Self::NativeText => "svbrdf wrote the file, with its encoding",
-            Self::Floats => "floats are linear",
-            Self::SeparateColours => "colours in separate files are sRGB by convention",
-            Self::MtlColours => "colours of an .mtl are sRGB by convention",
-            Self::DeschaintreOrder => "Deschaintre et al. store this order in this way",
-            Self::MaterialGanOrder => "MaterialGAN and its successors store this order in this way",
-            Self::MatFusionOrder => "MatFusion stores this order in this way",
-            Self::SvbrdfEvaluationOrder => "svbrdf-evaluation appears to store this order in this way",
-            Self::PackedNormals => "all known sources of packed maps do this",
-            Self::DiffMatNames => "DiffMat writes these names and depths, with y down by default",
-            Self::MaterialGanNames => "MaterialGAN and its successors use these names and this encoding",
-            Self::NumberedResults => "the results of Deschaintre et al. 2020 are numbered in this way",
-            Self::GammadNames => "the names contain gammad",
-            Self::DeschaintreNames => "the networks of Deschaintre et al. write these names, linear",
-            Self::SurfaceNetFolder => "the data sets of SurfaceNet look like this, and are linear",
-            Self::AsoboNormals => "the file declares DirectX by ASOBO_normal_map_convention",
-            Self::Gltf => "the specification of glTF 2.0 defines it",
-            Self::MaterialXSurface => "computed as the specification of the surface defines it",
-            Self::MaterialXNormals => "MaterialX defines normals in this way",
-            Self::ListedTextures => "the file lists its textures",
-            Self::TextureSetNormals => "Minecraft does not define it, and most maps point up",
-            Self::NoListedNormals => "the file lists its textures, and none of normals; the surface is flat",
-            Self::LayerNames => "the names of the layers name the maps",
-            Self::RoughnessName => "the map is named roughness",
-            Self::NvdiffrecPacking => "nvdiffrec writes it beside map_Kd",
-            Self::SpecularGlossiness => "glTF defines it for specular and glossiness",
-            Self::BuiltIn => "the built-in materials are stored in this way",
-        })
-    }
 }
