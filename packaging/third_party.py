@@ -5,7 +5,7 @@
 
 Reads the licence files in Cargo's copy of each crate (`cargo fetch` brings them), of all platforms. Of licences that are
 joined by OR, it takes the first of `PREFERRED`. Identical texts are printed once, with the copyright notices of their crates.
-`tests/third_party.rs` compares the listed crates with Cargo.lock.
+`tests/packages.rs` compares the listed crates with Cargo.lock.
 """
 
 import collections
@@ -16,7 +16,7 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-WORKSPACES = {ROOT: {"svbrdf"}, ROOT / "python": {"svbrdf-python"}}
+PROGRAMS = {"svbrdf", "svbrdf-python"}
 
 # The licences that `.cargo/deny.toml` allows, the preferred ones first; each with words that only its text has.
 PREFERRED = {
@@ -78,24 +78,22 @@ def words(text: str) -> str:
 
 def crates() -> dict[tuple[str, str], dict]:
     """The crates that the program or the wheel is built from, with what Cargo knows of each."""
-    found = {}
-    for root, names in WORKSPACES.items():
-        command = ["cargo", "metadata", "--locked", "--format-version", "1", "--manifest-path", str(root / "Cargo.toml")]
-        metadata = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
-        packages = {package["id"]: package for package in metadata["packages"]}
-        nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
-        waiting = [identifier for identifier, package in packages.items() if package["name"] in names]
-        done = set()
-        while waiting:
-            identifier = waiting.pop()
-            if identifier in done:
-                continue
-            done.add(identifier)
-            for dependency in nodes[identifier]["deps"]:
-                if any(kind["kind"] != "dev" for kind in dependency["dep_kinds"]):
-                    waiting.append(dependency["pkg"])
-        of_others = (packages[identifier] for identifier in done if packages[identifier]["source"])
-        found |= {(package["name"], package["version"]): package for package in of_others}
+    command = ["cargo", "metadata", "--locked", "--format-version", "1", "--manifest-path", str(ROOT / "Cargo.toml")]
+    metadata = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+    packages = {package["id"]: package for package in metadata["packages"]}
+    nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
+    waiting = [identifier for identifier, package in packages.items() if package["name"] in PROGRAMS]
+    done = set()
+    while waiting:
+        identifier = waiting.pop()
+        if identifier in done:
+            continue
+        done.add(identifier)
+        for dependency in nodes[identifier]["deps"]:
+            if any(kind["kind"] != "dev" for kind in dependency["dep_kinds"]):
+                waiting.append(dependency["pkg"])
+    of_others = (packages[identifier] for identifier in done if packages[identifier]["source"])
+    found = {(package["name"], package["version"]): package for package in of_others}
     return dict(sorted(found.items()))
 
 

@@ -94,9 +94,9 @@ fn listed(third_party: &str) -> BTreeSet<String> {
 
 #[test]
 fn the_licences_of_all_crates_are_listed() {
-    let direct = MANIFESTS.iter().flat_map(|file| names(&read(file), "dependencies")).collect();
-    let mut needed = built_from(&read("Cargo.lock"), direct);
-    needed.extend(built_from(&read("python/Cargo.lock"), names(&read("python/Cargo.toml"), "dependencies")));
+    let manifests = MANIFESTS.iter().chain(&["python/Cargo.toml"]);
+    let direct = manifests.flat_map(|file| names(&read(file), "dependencies")).collect();
+    let needed = built_from(&read("Cargo.lock"), direct);
     let listed = listed(&read("packaging/THIRD-PARTY"));
     let missing: Vec<_> = needed.difference(&listed).collect();
     let too_many: Vec<_> = listed.difference(&needed).collect();
@@ -131,7 +131,6 @@ fn all_crates_and_packages_have_one_version() {
         let line = root.lines().find(|line| line.starts_with(&format!("{own} = {{"))).unwrap();
         assert!(line.contains(&format!("version = \"{version}\"")), "{line}");
     }
-    assert!(read("python/Cargo.toml").contains(&format!("version = \"{version}\"")));
     let newest = |text: &str, before: &str| {
         let after = text.split_once(before).unwrap_or_else(|| panic!("no {before:?}")).1;
         after.split([' ', '"', '\n']).next().unwrap_or_default().to_owned()

@@ -9,8 +9,8 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
-use svbrdf_page::{Findings, Repetition, Report, View, check_destination, exposure};
 use svbrdf_files::session::window::Display;
+use svbrdf_page::{Findings, Repetition, Report, View, check_destination, exposure};
 
 use crate::asked::Asked;
 use crate::errors::exception;

@@ -23,35 +23,12 @@ def test_the_version_is_that_of_the_crate() -> None:
     assert svbrdf.__version__ == version("svbrdf") == crate
 
 
-def test_the_wheel_is_built_from_the_versions_of_the_program() -> None:
-    """After a change of the root's lock file: cp Cargo.lock python/; cargo fetch --manifest-path python/Cargo.toml."""
-
-    def locked(folder: Path) -> set[tuple[str, str, str]]:
-        packages = tomllib.loads((folder / "Cargo.lock").read_text())["package"]
-        return {(p["name"], p["version"], p.get("checksum", "")) for p in packages}
-
-    only_wheel = {name for name, _, _ in locked(REPOSITORY / "python") - locked(REPOSITORY)}
-    own = {"svbrdf-python", "target-lexicon", "matrixmultiply", "ndarray", "num-integer", "numpy", "rawpointer"}
-    assert {name for name in only_wheel if not name.startswith("pyo3")} == own
-
-
 def test_the_wheel_has_no_graphics_and_no_command_line() -> None:
-    packages = tomllib.loads((REPOSITORY / "python" / "Cargo.lock").read_text())["package"]
-    names = {package["name"] for package in packages}
+    command = ["cargo", "tree", "--package=svbrdf-python", "--edges=normal", "--prefix=none", "--format={p}", "--locked"]
+    tree = subprocess.run(command, cwd=REPOSITORY, check=True, capture_output=True, text=True).stdout
+    names = {line.split(" ")[0] for line in tree.splitlines()}
     assert {"svbrdf-core", "svbrdf-evaluate", "svbrdf-files", "svbrdf-page"} <= names
     assert not names & {"svbrdf", "svbrdf-gpu", "svbrdf-viewer", "wgpu", "egui", "eframe", "clap"}
-
-
-def test_libraries_are_optimized_as_those_of_the_program() -> None:
-    def levels(folder: Path, name: str) -> dict[str, Any]:
-        profile: dict[str, Any] = tomllib.loads((folder / "Cargo.toml").read_text())["profile"][name]
-        packages = {name: levels for name, levels in profile["package"].items() if name in (*of_wheel, "*")}
-        return {"all others": profile["opt-level"], **packages}
-
-    locked = tomllib.loads((REPOSITORY / "python" / "Cargo.lock").read_text())["package"]
-    of_wheel = {package["name"] for package in locked} - {"svbrdf-python"}
-    for name in ("dev", "release"):
-        assert levels(REPOSITORY / "python", name) == levels(REPOSITORY, name)
 
 
 def test_the_example_evaluates_a_folder(tmp_path: Path) -> None:
