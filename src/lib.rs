@@ -43,7 +43,7 @@ pub use svbrdf_core::model::sampler::Sampler;
 pub use svbrdf_core::model::scene::{Kind, Scene};
 pub use svbrdf_core::progress::Progress;
 pub use svbrdf_core::render::render_f32 as render;
-pub use svbrdf_core::why::attribute;
+pub use svbrdf_evaluate::why::attribute;
 pub use svbrdf_files::read::{Read, ReadOptions, read};
 pub use svbrdf_files::samples::load as built_in;
 pub use svbrdf_files::write::{FileKind, WriteOptions, write};

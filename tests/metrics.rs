@@ -1,13 +1,13 @@
 //! Metrics against closed forms.
 
 use svbrdf_core::material::{Material, Planes};
-use svbrdf_core::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
 use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::flip::mean_flip;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
+use svbrdf_evaluate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
 use svbrdf_files::samples;
 
 /// Two texels of one normal, with diffuse, specular and roughness of each.
@@ -221,7 +221,7 @@ fn ssim_is_that_of_scikit_image() {
 /// ```
 mod matfusion {
     use super::*;
-    use svbrdf_core::metrics::{matfusion_renderings, of_matfusion};
+    use svbrdf_evaluate::metrics::{matfusion_renderings, of_matfusion};
 
     const SIZE: [usize; 2] = [8, 8];
     /// Diffuse, specular, roughness, normals.

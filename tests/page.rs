@@ -16,10 +16,10 @@ use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_files::page::{Report, View};
 use svbrdf_files::read::Read;
-use svbrdf_files::session_window::Display;
+use svbrdf_files::session::window::Display;
 use svbrdf_files::source::MaterialSource;
+use svbrdf_page::{Report, View};
 
 #[cfg(target_os = "linux")]
 #[test]

@@ -10,12 +10,12 @@ use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Map;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::rank;
-use svbrdf_files::dataset::{
+use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, MethodSummary, Pick,
     PredictionResult, Ranking, Source, best_by_metric, interval_of_mean, interval_of_positive_mean,
     summarize_marks, summarize_metrics,
 };
+use svbrdf_evaluate::rank;
 use svbrdf_files::samples;
 
 #[test]

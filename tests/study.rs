@@ -7,7 +7,7 @@ use svbrdf_core::loss::{Comparison, Plain, Request, Sampling};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::study::{self, Choice, Family, Pair, Point, Study};
+use svbrdf_evaluate::study::{self, Choice, Family, Pair, Point, Study};
 use svbrdf_files::read;
 use svbrdf_files::read::Preset;
 use svbrdf_files::samples;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf_files::capture::{Capture, CaptureReport, CaptureSetting};
+use svbrdf_evaluate::capture::{Capture, CaptureReport, CaptureSetting};
 use svbrdf_files::read::PhotographOptions;
 
 use crate::errors::exception;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_files::dataset::{
+use svbrdf_evaluate::dataset::{
     self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Method, Pick, Source,
 };
 

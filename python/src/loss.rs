@@ -5,8 +5,8 @@ use std::str::FromStr;
 use pyo3::prelude::*;
 use svbrdf_core::loss::{Comparison, Compute, Precision, Request};
 use svbrdf_core::material::Material;
-use svbrdf_core::rank::most_scenes;
-use svbrdf_core::report::{Compared, LossReport, RankReport};
+use svbrdf_evaluate::rank::most_scenes;
+use svbrdf_evaluate::report::{Compared, LossReport, RankReport};
 
 use crate::asked::Asked;
 use crate::errors::exception;

@@ -6,12 +6,13 @@ use std::str::FromStr;
 use numpy::Element;
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use svbrdf_core::diagnose::Storage;
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
-use svbrdf_core::{render as renderer, report};
+use svbrdf_core::render as renderer;
+use svbrdf_evaluate::diagnose::Storage;
+use svbrdf_evaluate::report;
 use svbrdf_files::read::ReadOptions;
 
 use crate::arrays::{self, Bytes};

@@ -5,9 +5,9 @@ use std::path::Path;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use svbrdf_core::loss::{Request, check_same_size};
-use svbrdf_core::metrics::{RenderedScenes, of_maps, of_matfusion, of_renderings};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::report::{Compared, MetricsReport};
+use svbrdf_evaluate::metrics::{RenderedScenes, of_maps, of_matfusion, of_renderings};
+use svbrdf_evaluate::report::{Compared, MetricsReport};
 use svbrdf_files::read;
 
 use crate::asked::Asked;

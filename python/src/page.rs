@@ -7,10 +7,10 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::report::Report as _;
-use svbrdf_files::atomic::write_text;
-use svbrdf_files::page::{Findings, Repetition, Report, View, check_destination, exposure};
-use svbrdf_files::session_window::Display;
+use svbrdf_evaluate::report::Report as _;
+use svbrdf_files::disk::atomic::write_text;
+use svbrdf_files::session::window::Display;
+use svbrdf_page::{Findings, Repetition, Report, View, check_destination, exposure};
 
 use crate::asked::Asked;
 use crate::errors::exception;

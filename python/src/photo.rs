@@ -7,7 +7,7 @@ use pyo3::types::PyByteArray;
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
-use svbrdf_files::photograph::{self, Corners, PhotoReport, PhotoSetting};
+use svbrdf_evaluate::photograph::{self, Corners, PhotoReport, PhotoSetting};
 use svbrdf_files::read::{PhotographOptions, read_photograph};
 
 use crate::arrays;

@@ -1,7 +1,7 @@
 //! Pickles: how the files of a material store it, as text.
 
 use pyo3::prelude::*;
-use svbrdf_core::diagnose::{Storage, Transfer};
+use svbrdf_evaluate::diagnose::{Storage, Transfer};
 
 use crate::errors::Error;
 

@@ -1,7 +1,7 @@
 //! Reports of the crate as Python takes them.
 
 use pyo3::prelude::*;
-use svbrdf_core::report::{Cell, Report};
+use svbrdf_evaluate::report::{Cell, Report};
 
 use crate::errors::exception;
 

@@ -2,15 +2,15 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use svbrdf_core::diagnose as diagnosis;
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::report::{BlameReport, Compared, DiagnoseReport, MapReport, ScenesReport, WorstReport};
-use svbrdf_core::why;
+use svbrdf_evaluate::diagnose as diagnosis;
+use svbrdf_evaluate::report::{BlameReport, Compared, DiagnoseReport, MapReport, ScenesReport, WorstReport};
+use svbrdf_evaluate::why;
 
 use crate::arrays;
 use crate::asked::Asked;

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
-use svbrdf_core::report::{BlameReport, Compared, Report as _};
-use svbrdf_core::why::attribute;
+use svbrdf_evaluate::report::{BlameReport, Compared, Report as _};
+use svbrdf_evaluate::why::attribute;
 use svbrdf_files::scene_file;
 
 use super::args::lights::LightsArgs;

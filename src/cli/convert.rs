@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_core::material::Material;
-use svbrdf_files::inputs::check_output;
+use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::read::{Binding, Preset};
 use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 

@@ -1,8 +1,8 @@
 //! `svbrdf diagnose`: whether something trivial explains a loss.
 
-use svbrdf_core::diagnose::{Storage, diagnose, seams};
 use svbrdf_core::material::Material;
-use svbrdf_core::report::{Compared, DiagnoseReport};
+use svbrdf_evaluate::diagnose::{Storage, diagnose, seams};
+use svbrdf_evaluate::report::{Compared, DiagnoseReport};
 
 use super::args::floor::FloorArgs;
 use super::args::{ComparisonArgs, Given, SeedArgs};

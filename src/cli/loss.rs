@@ -7,7 +7,7 @@ use svbrdf::backend::{self, Adapter};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Compute, Precision, Question, Request, Sampling, SceneChoice, Texels};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::report::{LossReport, Report as _};
+use svbrdf_evaluate::report::{LossReport, Report as _};
 use svbrdf_files::scene_file;
 
 use super::args::lights::LightsArgs;

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::report::{MapReport, Report as _};
+use svbrdf_evaluate::report::{MapReport, Report as _};
+use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, write_text};
-use svbrdf_files::inputs::check_output;
 
 use super::args::scenes::SceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};

@@ -2,9 +2,9 @@
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
-use svbrdf_core::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::report::{Compared, MetricsReport};
+use svbrdf_evaluate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
+use svbrdf_evaluate::report::{Compared, MetricsReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::values::stops;

@@ -116,7 +116,7 @@ enum Subcommands {
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
-    svbrdf::signals::outlive_size_limits();
+    svbrdf_files::disk::signals::outlive_size_limits();
     // Nothing else writes messages of libraries to stderr.
     #[cfg(feature = "gpu")]
     if std::env::var_os("RUST_LOG").is_some() {
@@ -156,7 +156,7 @@ impl Cli {
         self.trust.apply();
         let command = self.command.unwrap_or(Subcommands::View(self.view));
         if !matches!(command, Subcommands::View(_)) {
-            svbrdf_files::inputs::protect_all();
+            svbrdf_files::disk::inputs::protect_all();
         }
         match command {
             Subcommands::View(args) => view::run(args, given),

@@ -11,8 +11,8 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat, Provenance};
-use svbrdf_files::inputs::check_output;
 
 use super::args::scenes::OneSceneArgs;
 use super::args::values::{Range, stops};

@@ -6,11 +6,11 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::report::Report as _;
-use svbrdf_files::atomic::write_text;
-use svbrdf_files::inputs::check_output;
-use svbrdf_files::page::{Findings, Page, Repetition, Report, View, check_destination, exposure};
-use svbrdf_files::session_window::Layout;
+use svbrdf_evaluate::report::Report as _;
+use svbrdf_files::disk::atomic::write_text;
+use svbrdf_files::disk::inputs::check_output;
+use svbrdf_files::session::window::Layout;
+use svbrdf_page::{Findings, Page, Repetition, Report, View, check_destination, exposure};
 
 use super::args::scenes::OneSceneArgs;
 use super::args::{ComparisonArgs, Given, modes, values};

@@ -1,7 +1,7 @@
 //! `svbrdf scenes`: the scenes with the largest losses.
 
 use svbrdf_core::loss::Comparison;
-use svbrdf_core::report::{Compared, ScenesReport};
+use svbrdf_evaluate::report::{Compared, ScenesReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::values::whole;

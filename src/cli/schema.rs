@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use clap::builder::PossibleValuesParser;
 
-use svbrdf_files::schema::REPORTS;
+use svbrdf_evaluate::schema::REPORTS;
 
 use super::output::exit::put;
 use super::output::{CommandError, json};

@@ -6,9 +6,9 @@ use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::PngDestination;
 use svbrdf_files::export::strip::{Column, Crop, Strip};
-use svbrdf_files::inputs::check_output;
 use svbrdf_files::scene_file;
 
 use super::args::lights::LightsArgs;

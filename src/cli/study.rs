@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use svbrdf::backend::Adapter;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_core::study::{self, Pair, Study};
+use svbrdf_evaluate::study::{self, Pair, Study};
+use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{study_csv, study_plot as plot};
-use svbrdf_files::inputs::check_output;
 
 use super::args::{ComparisonArgs, Given};
 use super::job::materials::Opened;

@@ -7,7 +7,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
 #[cfg(feature = "viewer")]
 use svbrdf_core::model::scene::Scene;
-use svbrdf_files::capture::Capture;
+use svbrdf_evaluate::capture::Capture;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 #[cfg(feature = "viewer")]

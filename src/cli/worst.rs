@@ -1,8 +1,8 @@
 //! `svbrdf worst`: the scene with the largest loss.
 
 use svbrdf_core::material::Material;
-use svbrdf_core::report::{Compared, Report as _, WorstReport};
-use svbrdf_core::why::worst;
+use svbrdf_evaluate::report::{Compared, Report as _, WorstReport};
+use svbrdf_evaluate::why::worst;
 
 use super::args::{ComparisonArgs, Given, SeedArgs, values};
 use super::job::ComparisonJob;

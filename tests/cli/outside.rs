@@ -234,7 +234,7 @@ fn readers_take_time_in_proportion_to_their_text() {
     assert!(error.contains("at most 1000 attributes"), "{error}");
     assert!(started.elapsed() < Duration::from_secs(2), "{:?}", started.elapsed());
     let started = Instant::now();
-    let cases = svbrdf_files::dataset::cases_of_table(&at.join("pairs.csv")).unwrap();
+    let cases = svbrdf_evaluate::dataset::cases_of_table(&at.join("pairs.csv")).unwrap();
     assert_eq!(
         (cases.len(), cases[0].candidates.len(), cases[0].candidates[79_999].sample),
         (1, 80_000, 79_999)

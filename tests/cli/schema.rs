@@ -1,7 +1,7 @@
 //! `svbrdf schema`. The JSON of every report is checked against it in Python, by `python/tests/test_schemas.py`.
 
 use serde_json::Value;
-use svbrdf_files::schema::REPORTS;
+use svbrdf_evaluate::schema::REPORTS;
 
 use super::{fail, folder, succeed};
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use svbrdf_core::progress::Progress;
-use svbrdf_files::memory;
+use svbrdf_files::disk::memory;
 use svbrdf_files::read::{NonFinite, Order, ReadOptions, read, read_bytes};
 
 /// Most memory of one input: more is an error, which is no finding.

@@ -5,9 +5,9 @@ use serde_json::json;
 
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::camera::Camera;
-use svbrdf_files::page::{MOST_BYTES, Report};
-use svbrdf_files::session_window::{Display, Framing, Layout, Projection};
+use svbrdf_files::session::window::{Display, Framing, Layout, Projection};
 use svbrdf_needs::needs;
+use svbrdf_page::{MOST_BYTES, Report};
 
 use super::browser::Page;
 use super::{html, noise, report};

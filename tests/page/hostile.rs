@@ -8,9 +8,9 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
-use svbrdf_files::page::{Findings, Repetition, Report, View};
-use svbrdf_files::session_window::Display;
+use svbrdf_files::session::window::Display;
 use svbrdf_needs::needs;
+use svbrdf_page::{Findings, Repetition, Report, View};
 
 use super::browser::Page;
 use super::noise;

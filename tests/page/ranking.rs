@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
-use svbrdf_files::dataset::{
+use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, Pick,
     PredictionResult, Remark, Source,
 };
-use svbrdf_files::page::ranking;
 use svbrdf_needs::needs;
+use svbrdf_page::ranking;
 
 use super::browser::Page;
 

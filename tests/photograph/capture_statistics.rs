@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use tempfile::{TempDir, tempdir};
 
 use svbrdf_core::material::Material;
-use svbrdf_files::capture::{CaptureExposure, CaptureReport, MaterialResult};
+use svbrdf_evaluate::capture::{CaptureExposure, CaptureReport, MaterialResult};
 
 use super::captures::{SIDE, compared, physical, setting, view, write};
 use super::small;

@@ -13,8 +13,8 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::{Model, Texel, reflectance};
 use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::progress::Progress;
-use svbrdf_core::report::Report as _;
-use svbrdf_files::capture::{Capture, CaptureExposure, CaptureReport, CaptureSetting, Outlier};
+use svbrdf_evaluate::capture::{Capture, CaptureExposure, CaptureReport, CaptureSetting, Outlier};
+use svbrdf_evaluate::report::Report as _;
 
 use super::small;
 use crate::support::pictures::{gamma, npy};

@@ -11,7 +11,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_files::photograph::{Corners, PhotographComparison, flash};
+use svbrdf_evaluate::photograph::{Corners, PhotographComparison, flash};
 
 use super::{SCENE, compared, glossy, photograph, rectified, small};
 use crate::support::tolerance::{PHOTOGRAPH_FACTOR, PHOTOGRAPH_LOG};

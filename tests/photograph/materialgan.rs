@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use svbrdf_core::report::Report as _;
-use svbrdf_files::capture::{Capture, CaptureExposure, CaptureReport};
+use svbrdf_evaluate::capture::{Capture, CaptureExposure, CaptureReport};
+use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::read::{PhotographOptions, Transfer};
 
 use super::captures::{LIGHTS, compared, materialgan, of_folder, setting, view};

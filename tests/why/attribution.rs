@@ -4,7 +4,7 @@ use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::{Map, Material};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Attribution, attribute};
+use svbrdf_evaluate::why::{Attribution, attribute};
 
 use super::{built_in, printed};
 use crate::support::tolerance::{SHAPLEY_SUM, SHAPLEY_SUM_F32};

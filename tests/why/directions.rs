@@ -7,7 +7,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Hemisphere, TAIL, hemisphere, worst};
+use svbrdf_evaluate::why::{Hemisphere, TAIL, hemisphere, worst};
 
 use super::{built_in, printed, uniform};
 

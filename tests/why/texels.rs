@@ -6,7 +6,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_core::why::{error_maps, mean, worst_first};
+use svbrdf_evaluate::why::{error_maps, mean, worst_first};
 
 use super::{built_in, printed};
 use crate::support::tolerance::{ERROR_MAP_MEAN, ERROR_MAP_TEXEL};

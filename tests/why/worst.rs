@@ -7,7 +7,7 @@ use svbrdf_core::loss::Request;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{TAIL, worst};
+use svbrdf_evaluate::why::{TAIL, worst};
 
 use crate::coverage::measured::{Pair, golden};
 

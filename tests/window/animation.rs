@@ -2,8 +2,8 @@
 
 use super::*;
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_turntable_turns_the_view_until_space_pauses_it() {
     let mut window = built_in();
     let before = window.state().parts.model.view.scene;

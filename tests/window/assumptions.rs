@@ -4,11 +4,11 @@ use std::path::PathBuf;
 
 use eframe::egui::accesskit::Role;
 
-use svbrdf::viewer::model::command::SceneCommand;
 use svbrdf_core::material::Material;
 use svbrdf_files::read::{Albedo, ReadOptions};
 use svbrdf_files::samples::generate;
 use svbrdf_files::source::MaterialSource;
+use svbrdf_viewer::model::command::SceneCommand;
 
 use super::*;
 
@@ -66,8 +66,8 @@ fn loss(window: &mut Window<'_>) -> f64 {
     window.state().losses().unwrap()[0].estimate.mean
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     let (_folder, paths) = two_strips();
     let mut window = on_two_strips(paths);
@@ -102,8 +102,8 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     assert!(pixels(&mut window, panes[1]) == before[1]);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
     let (_folder, paths) = two_strips();
     let mut window = on_two_strips(paths);
@@ -130,8 +130,8 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
     assert_eq!(loss(&mut window), 0.0);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_on_another_workflow_changes_the_material() {
     let folder = tempfile::tempdir().unwrap();
     let put = |name: &str, value: u8| {
@@ -163,8 +163,8 @@ fn a_click_on_another_workflow_changes_the_material() {
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("wide.png");
@@ -204,8 +204,8 @@ fn choose_order(window: &mut Window<'_>, name: &str, choice: &str) {
     wait(window, choice, |app| !app.is_reading());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
     let (folder, paths) = two_strips();
     let kept = folder.path().join("guess.svbrdf.json");
@@ -238,8 +238,8 @@ fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
     assert!(material(window.state(), 1) == before);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_the_maps_hold_is_listed_on_a_click() {
     let (_folder, paths) = two_strips();
     let mut window = on_two_strips(paths);
@@ -251,8 +251,8 @@ fn what_the_maps_hold_is_listed_on_a_click() {
     assert_eq!(window.query_all_by_label_contains("curl correlation").count(), 1);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn built_in_materials_are_not_reported_as_specified() {
     let mut window = built_in();
     tab(&mut window, "Files");
@@ -260,8 +260,8 @@ fn built_in_materials_are_not_reported_as_specified() {
     assert!(window.query_all_by_label_contains("the built-in materials are stored in this way").count() >= 3);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_pasted_material_is_read_as_those_that_are_open() {
     let (_folder, [truth, guess]) = two_strips();
     let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };

@@ -1,7 +1,7 @@
 //! The bar at the top, in windows of all sizes.
 
-use svbrdf::viewer::model::command::{Command, DisplayCommand, PhotographCommand, WindowCommand};
-use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf_viewer::model::command::{Command, DisplayCommand, PhotographCommand, WindowCommand};
+use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 use super::*;
 
@@ -50,8 +50,8 @@ fn in_bar(window: &Window<'_>) -> Vec<(&'static str, egui::Rect)> {
     CONTROLS.iter().filter_map(top).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_bar_is_one_line_in_every_window_and_what_it_has_no_room_for_is_in_the_menu() {
     let mut window = built_in();
     for width in [640.0, 700.0, 860.0, 900.0, 1100.0, 1330.0, 1360.0, 1920.0] {
@@ -87,8 +87,8 @@ fn the_bar_is_one_line_in_every_window_and_what_it_has_no_room_for_is_in_the_men
     assert_eq!(window.state().parts.model.view.exposure_ev, before);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn panes_stay_in_their_places_when_a_texel_is_pinned() {
     let mut window = built_in();
     window.set_size(vec2(1360.0, 860.0));
@@ -123,8 +123,8 @@ fn panes_stay_in_their_places_when_a_texel_is_pinned() {
     assert!(titled(after[2].x, after[2].y - 24.0 - offset), "the third pane is below the first");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     let mut window = built_in();
     // The range of the difference beside the panes is there, and the losses in their titles.
@@ -211,8 +211,8 @@ fn without_tooltip(
     chosen.filter(|(_, at)| !tooltip(window, *at)).map(|(label, _)| label.clone()).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_control_of_the_dialogs_has_a_tooltip() {
     type Show = fn(bool) -> Command;
     let dialogs: [(&str, Show); 3] = [
@@ -239,8 +239,8 @@ fn every_control_of_the_dialogs_has_a_tooltip() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_control_of_the_bar_and_of_the_panel_has_a_tooltip() {
     let mut window = built_in();
     window.set_size(vec2(1360.0, 1000.0));
@@ -269,8 +269,8 @@ fn every_control_of_the_bar_and_of_the_panel_has_a_tooltip() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_exposure_is_automatic_once_follows_and_stays_where_a_hand_puts_it() {
     let mut window = built_in();
     let exposure = |window: &Window<'_>| window.state().parts.model.view.exposure_ev;

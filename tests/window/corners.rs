@@ -1,8 +1,8 @@
 //! The corners of the material in a photograph, dragged by their handles.
 
-use svbrdf::viewer::model::command::{DisplayCommand, PhotographCommand};
-use svbrdf::viewer::model::view::state::Layout;
-use svbrdf_files::photograph::Corners;
+use svbrdf_evaluate::photograph::Corners;
+use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand};
+use svbrdf_viewer::model::view::state::Layout;
 
 use super::photograph::{CORNERS, SIZE, agrees, apply, expected_within, opened};
 use super::*;
@@ -41,8 +41,8 @@ fn is_near(found: [[f64; 2]; 4], expected: [[f64; 2]; 4]) -> bool {
     found.as_flattened().iter().zip(expected.as_flattened()).all(|(a, b)| (a - b).abs() < 0.05)
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_dragged_handle_moves_its_corner_and_undo_brings_it_back() {
     let (mut window, folder) = opened();
     edit(&mut window);
@@ -113,8 +113,8 @@ fn a_dragged_handle_moves_its_corner_and_undo_brings_it_back() {
     wait(&mut window, "the photograph", |app| app.against_photograph().is_some());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_whole_photograph_is_shown_in_every_layout_until_the_corners_are_done() {
     let (mut window, _folder) = opened();
     edit(&mut window);

@@ -16,8 +16,8 @@ impl egui::DroppedFile for Planted {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_panic_in_a_frame_closes_the_window_and_draws_no_frame_again() {
     let mut window = built_in();
     assert!(!window.state().has_crashed());
@@ -32,8 +32,8 @@ fn a_panic_in_a_frame_closes_the_window_and_draws_no_frame_again() {
     assert_eq!(window.state().parts.model.view.exposure_ev, exposure, "no frame is drawn after it");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_settings_of_a_frame_that_panicked_are_not_stored() {
     let stored = |window: &mut Window<'_>| {
         let mut memory = super::damaged::Memory::default();

@@ -6,9 +6,9 @@ use std::sync::Arc;
 use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
 use serde_json::{Value, json};
-use svbrdf::viewer::app::storage::Stored;
-use svbrdf::viewer::model::Model;
 use svbrdf_files::session::Session;
+use svbrdf_viewer::app::storage::Stored;
+use svbrdf_viewer::model::Model;
 
 use super::soak::below;
 use super::*;
@@ -64,8 +64,8 @@ fn damaged(session: &Value, random: &mut ChaCha8Rng) -> Value {
     damaged
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn sessions_of_random_values_open_or_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();
@@ -149,8 +149,8 @@ fn loaded(stored: &Memory) -> Model {
     model
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn no_window_crashes_on_settings_of_random_numbers() {
     let mut usual = Memory::default();
     Stored::load(None, &mut Model::default()).store(&Model::default(), &mut usual);

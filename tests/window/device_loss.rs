@@ -1,6 +1,6 @@
 //! Loss of the graphics device: everything goes on in a new window on another device.
 
-use svbrdf::viewer::model::command::DisplayCommand;
+use svbrdf_viewer::model::command::DisplayCommand;
 
 use super::*;
 
@@ -50,8 +50,8 @@ fn state(window: &Window<'_>) -> String {
     format!("{:?} {pins:?} {:?} {:?}", model.view, window.state().names(), model.settings)
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_device_that_is_lost_in_a_drag_again_and_again_loses_nothing_else() {
     lose_in_drags(8);
 }
@@ -104,8 +104,8 @@ fn lose_in_drags(losses: usize) {
     assert_ne!(window.state().parts.model.view.scene.light, moved, "undo goes back beyond the losses");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn differences_error_maps_and_mixtures_are_displayed_again_after_a_loss() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);

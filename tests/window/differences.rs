@@ -1,6 +1,5 @@
 //! The difference as a quantity: in every layout, with its numbers, its range and its colours.
 
-use svbrdf::viewer::model::view::state::Layout;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::Scene;
@@ -10,6 +9,7 @@ use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 use svbrdf_files::samples;
+use svbrdf_viewer::model::view::state::Layout;
 
 use super::*;
 
@@ -57,8 +57,8 @@ fn statistics(window: &mut Window<'_>) -> Vec<Statistics> {
     window.state().difference_statistics().unwrap().iter().map(|one| one.unwrap()).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_statistics_of_a_rendering_are_those_of_the_core_in_f64_and_their_mean_is_the_loss() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -76,8 +76,8 @@ fn the_statistics_of_a_rendering_are_those_of_the_core_in_f64_and_their_mean_is_
     assert!(window.query_all_by_label(&mean).next().is_some(), "{mean} is in the strip");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_difference_of_normals_is_their_angle_in_degrees() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -95,8 +95,8 @@ fn the_difference_of_normals_is_their_angle_in_degrees() {
     window.get_by_label("degrees");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_map_s_difference_is_not_called_logarithmic() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -109,8 +109,8 @@ fn a_map_s_difference_is_not_called_logarithmic() {
     assert_eq!(window.query_all_by_label_contains("ln").count(), 0);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn exposure_changes_values_and_no_difference() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -123,8 +123,8 @@ fn exposure_changes_values_and_no_difference() {
     assert!(before[1] == after[1], "the difference is the same");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_ground_truth_is_never_compared_with_itself() {
     let mut window = built_in();
     let colours = |window: &mut Window<'_>, title: &str| {
@@ -153,8 +153,8 @@ fn the_ground_truth_is_never_compared_with_itself() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_range_is_dragged_and_automatic_again() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -181,8 +181,8 @@ fn the_range_is_dragged_and_automatic_again() {
     assert!(pixels(&mut window, before) == automatic);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_range_of_a_signed_difference_is_dragged_at_either_end() {
     let mut window = built_in();
     window
@@ -207,8 +207,8 @@ fn the_range_of_a_signed_difference_is_dragged_at_either_end() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is() {
     let mut window = built_in();
     for _ in 0..4 {
@@ -234,15 +234,15 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
     );
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_pane_in_false_colours_has_a_scale_and_no_other() {
-    use svbrdf::viewer::ui::pane::scale::Scale;
+    use svbrdf_viewer::ui::pane::scale::Scale;
     let mut window = built_in();
     let scales = |window: &Window<'_>| {
         let parts = &window.state().parts;
-        let displayed = svbrdf::viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
-        let scenery = svbrdf::viewer::ui::content::scenery(&window.ctx, displayed, &parts.model.view);
+        let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
+        let scenery = svbrdf_viewer::ui::content::scenery(&window.ctx, displayed, &parts.model.view);
         let contents = scenery.contents();
         contents.into_iter().map(|content| Scale::of(&scenery, content)).collect::<Vec<_>>()
     };

@@ -1,9 +1,9 @@
 //! Number fields: one that nobody edited writes nothing.
 
 use egui::accesskit::Role;
-use svbrdf::viewer::model::settings::Tab;
-use svbrdf::viewer::model::view::state::AutoExposure;
 use svbrdf_core::loss::{Ask, Texels};
+use svbrdf_viewer::model::settings::Tab;
+use svbrdf_viewer::model::view::state::AutoExposure;
 
 use super::*;
 
@@ -43,8 +43,8 @@ fn tab_through(window: &mut Window<'_>) -> usize {
     fields.len()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn tab_through_all_fields_changes_no_number() {
     let mut window = precise();
     window.set_size(vec2(1400.0, 1600.0));
@@ -62,8 +62,8 @@ fn tab_through_all_fields_changes_no_number() {
     assert_eq!(window.state().parts.model.view.display.auto_exposure, AutoExposure::Once);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_is_typed_into_a_field_is_written_in_full_however_it_is_left() {
     for leave in [egui::Key::Tab, egui::Key::Enter] {
         let mut window = precise();

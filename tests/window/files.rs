@@ -2,8 +2,8 @@
 
 use super::*;
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_window_starts_on_the_built_in_pair() {
     let mut window = built_in();
     assert_eq!(window.state().names(), ["worn tiles", "blurred normals", "wrong roughness"]);
@@ -13,8 +13,8 @@ fn the_window_starts_on_the_built_in_pair() {
     assert!(colours.len() > 1000, "a rendering has many colours, this has {}", colours.len());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn dropped_files_replace_the_built_in_pair() {
     let mut window = built_in();
     let assets = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples");
@@ -31,8 +31,8 @@ fn dropped_files_replace_the_built_in_pair() {
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_file_that_is_not_there_is_an_error_in_the_window_and_keeps_what_was_open() {
     let mut window = built_in();
     window.get_by_label("Open").click();
@@ -53,8 +53,8 @@ fn a_file_that_is_not_there_is_an_error_in_the_window_and_keeps_what_was_open() 
     assert!(window.state().messages().is_empty(), "it is said once: {:?}", window.state().messages());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_saved_view_is_written_and_said_so() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -75,8 +75,8 @@ fn the_saved_view_is_written_and_said_so() {
     assert_eq!((picture.width(), picture.height()), (3 * 256 + 2 * 4, 256));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_was_said_already_is_not_said_twice() {
     let mut window = built_in();
     for _ in 0..2 {
@@ -89,8 +89,8 @@ fn what_was_said_already_is_not_said_twice() {
     assert_eq!(messages.len(), 1, "{messages:?}");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_file_is_replaced_only_by_a_person_who_knows() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -126,8 +126,8 @@ fn two_sizes(folder: &std::path::Path) -> [std::path::PathBuf; 2] {
     })
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
     let folder = tempfile::tempdir().unwrap();
     let [large, small] = two_sizes(folder.path());
@@ -156,8 +156,8 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn guesses_are_refused_where_the_window_was_told_to() {
     let folder = tempfile::tempdir().unwrap();
     let [large, _] = two_sizes(folder.path());
@@ -177,8 +177,8 @@ fn guesses_are_refused_where_the_window_was_told_to() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn predictions_of_one_name_are_told_apart_by_their_folders() {
     let folder = tempfile::tempdir().unwrap();
     let [large, _] = two_sizes(folder.path());

@@ -6,8 +6,8 @@ use svbrdf_files::samples::generate;
 
 use super::*;
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn each_map_has_one_line_a_badge_where_it_is_unsure_and_folded_drop_downs() {
     let folder = tempfile::tempdir().unwrap();
     let side = generate::SIDE as u32;
@@ -38,8 +38,8 @@ fn each_map_has_one_line_a_badge_where_it_is_unsure_and_folded_drop_downs() {
     assert_eq!(window.query_all_by_role(Role::ComboBox).count(), 1, "that of the convention");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_file_of_several_materials_has_a_chooser() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("two.mtl");

@@ -2,12 +2,12 @@
 
 use serde_json::json;
 
-use svbrdf::viewer::model::command::{DisplayCommand, PhotographCommand, PhotographLight};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 use svbrdf_files::session::SessionPhotograph;
+use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand, PhotographLight};
 
 use super::photograph::{apply, materials, wait_for_it};
 use super::*;
@@ -64,8 +64,8 @@ fn places(window: &Window<'_>) -> Vec<egui::Rect> {
     labels.iter().map(|label| window.get_by_label(label).rect()).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_on_the_filmstrip_compares_with_another_photograph_and_moves_nothing() {
     let folder = capture();
     let mut window = opened(&folder);
@@ -99,8 +99,8 @@ fn a_click_on_the_filmstrip_compares_with_another_photograph_and_moves_nothing()
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_session_keeps_the_capture_and_a_broken_one_is_refused() {
     let folder = capture();
     let mut window = opened(&folder);
@@ -121,8 +121,8 @@ fn a_session_keeps_the_capture_and_a_broken_one_is_refused() {
     assert!(messages.iter().any(|message| message.contains("unknown field `sene`")), "{messages:?}");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_photograph_that_cannot_be_read_leaves_the_capture_open_and_its_reason_on_the_card() {
     let folder = capture();
     let broken = folder.path().join("2.npy");
@@ -172,8 +172,8 @@ fn a_photograph_that_cannot_be_read_leaves_the_capture_open_and_its_reason_on_th
     assert!(window.query_by_label("Close photograph").is_none());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_colour_of_the_light_is_divided_out_as_by_the_command() {
     let folder = tempfile::tempdir().unwrap();
     let truth = &materials()[0];

@@ -1,7 +1,5 @@
 //! FLIP as a difference in the panes: computed by the core at the exposure of the panes.
 
-use svbrdf::viewer::model::command::{Command, DisplayCommand, WindowCommand};
-use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::Difference;
@@ -9,6 +7,8 @@ use svbrdf_core::picture::flip::flip;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
+use svbrdf_viewer::model::command::{Command, DisplayCommand, WindowCommand};
+use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 use super::*;
 
@@ -48,8 +48,8 @@ fn shown<'a>() -> Window<'a> {
     window
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
     let mut window = shown();
     let first = settle(&mut window);
@@ -65,8 +65,8 @@ fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
     assert!((mean(&first[0]) - mean(&first[1])).abs() > 1e-3, "a planted fault: the other prediction");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn texels_have_the_colours_and_the_readout_of_flip() {
     let mut window = shown();
     press(&mut window, egui::Key::Num0);
@@ -103,8 +103,8 @@ fn texels_have_the_colours_and_the_readout_of_flip() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_saved_flip_has_its_numbers() {
     let mut window = shown();
     apply(&mut window, DisplayCommand::SetExposure(1.0));

@@ -2,8 +2,8 @@
 
 use super::*;
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn dragging_the_light_changes_the_rendering_where_it_goes() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -17,8 +17,8 @@ fn dragging_the_light_changes_the_rendering_where_it_goes() {
     assert!(brightness(&after, from) < brightness(&before, from), "it is darker where the light was");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -33,8 +33,8 @@ fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
     assert_panned(&window, rect, [0.1, -0.1]);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
     let mut window = built_in();
     let at = pane(&window, GROUND_TRUTH).center();
@@ -68,8 +68,8 @@ fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
     );
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn movements_before_the_press_are_no_part_of_a_drag() {
     let mut window = built_in();
     press(&mut window, egui::Key::P);
@@ -96,8 +96,8 @@ fn movements_before_the_press_are_no_part_of_a_drag() {
     assert!((0.05..0.12).contains(&turned), "10 points turn the view by 0.08, not by {turned}");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_a_drag_changes_is_in_the_frame_that_read_it() {
     let mut window = built_in();
     let [rect, other] = [GROUND_TRUTH, "1  blurred normals"].map(|title| pane(&window, title));

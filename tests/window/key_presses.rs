@@ -1,13 +1,13 @@
 //! Keys and their commands.
 
-use svbrdf::viewer::model::view::state::{AutoExposure, Layout, Projection};
-use svbrdf::viewer::ui::input::keys;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_viewer::model::view::state::{AutoExposure, Layout, Projection};
+use svbrdf_viewer::ui::input::keys;
 
 use super::*;
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_letter_does_what_the_help_says() {
     let mut window = built_in();
     let expect = |window: &mut Window<'_>, key, what: &str, holds: &dyn Fn(&App) -> bool| {
@@ -55,8 +55,8 @@ fn every_letter_does_what_the_help_says() {
     expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.parts.model.view.display.prediction == 0);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn holding_g_shows_the_ground_truth_everywhere_and_x_swaps_the_sides() {
     let mut window = built_in();
     let prediction = "Pane 1  blurred normals";
@@ -83,8 +83,8 @@ fn the_page_of_the_window_lists_every_key() {
     assert!(missing.is_empty(), "docs/window.md does not list {missing:?}");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn undo_and_redo_go_through_the_changes() {
     let mut window = built_in();
     window.run_steps(30);
@@ -105,8 +105,8 @@ fn undo_and_redo_go_through_the_changes() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn letters_typed_into_a_field_are_no_commands() {
     let mut window = built_in();
     window.get_by_label("Open").click();
@@ -118,11 +118,11 @@ fn letters_typed_into_a_field_are_no_commands() {
     assert_eq!(window.state().parts.model.view, before);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn escape_closes_an_open_drop_down_and_nothing_else() {
     let mut window = built_in();
-    let (ctx, command) = (window.ctx.clone(), svbrdf::viewer::model::command::LossCommand::ShowStudy(true));
+    let (ctx, command) = (window.ctx.clone(), svbrdf_viewer::model::command::LossCommand::ShowStudy(true));
     window.state_mut().apply(&ctx, command.into());
     window.run_steps(3);
     window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Convention").click();

@@ -29,8 +29,8 @@ fn enter(window: &mut Window<'_>, name: &str, text: &str) {
     press(window, egui::Key::Enter);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_loss_button_yields_the_number_that_the_core_gives() {
     let mut window = by_scenes();
     window.get_by_label("Auto").click();
@@ -56,8 +56,8 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     window.get_by_label(&format!("[{low:.3}, {high:.3}]"));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn many_scenes_end_with_the_bits_of_one_go() {
     let mut window = by_scenes();
     enter(&mut window, "Near-field scenes", "60");
@@ -68,8 +68,8 @@ fn many_scenes_end_with_the_bits_of_one_go() {
     window.get_by_label_contains("from 60 + 31 scenes in");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn auto_computes_again_when_the_convention_changes() {
     let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
@@ -83,8 +83,8 @@ fn auto_computes_again_when_the_convention_changes() {
     assert!(window.state().losses().unwrap()[0].estimate.mean > before);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
     let mut window = by_scenes();
     wait(&mut window, "the loss", |app| app.losses().is_some());

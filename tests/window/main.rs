@@ -51,8 +51,8 @@ mod surroundings;
 use eframe::egui::{self, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
-use svbrdf::viewer::ViewerOptions;
-use svbrdf::viewer::app::App;
+use svbrdf_viewer::ViewerOptions;
+use svbrdf_viewer::app::App;
 
 type Window<'a> = Harness<'a, App>;
 

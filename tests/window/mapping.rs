@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 
 use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
-use svbrdf::viewer::model::inspection::{Inspection, Region};
-use svbrdf::viewer::model::view::state::{Layout, Projection};
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_viewer::model::inspection::{Inspection, Region};
+use svbrdf_viewer::model::view::state::{Layout, Projection};
 
 use super::soak::below;
 use super::texels::{SIZE, numbered, texel_of, wheel};
@@ -102,8 +102,8 @@ fn differs(a: &image::RgbaImage, b: &image::RgbaImage, [x, y]: [u32; 2], reach: 
     around(x, a.width()).any(|x| around(y, a.height()).any(|y| a.get_pixel(x, y) != b.get_pixel(x, y)))
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn readout_pin_and_rectangle_are_of_the_texels_that_the_screen_shows() {
     let folder = tempfile::tempdir().unwrap();
     let numbered = numbered(folder.path());

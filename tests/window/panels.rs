@@ -2,8 +2,8 @@
 
 use super::*;
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_double_click_on_a_number_puts_back_its_default() {
     let mut window = built_in();
     press(&mut window, egui::Key::E);
@@ -18,8 +18,8 @@ fn a_double_click_on_a_number_puts_back_its_default() {
     assert_eq!(window.state().parts.model.view.exposure_ev, 0.0);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
     let mut window = built_in();
     window.set_size(vec2(1200.0, 2000.0));
@@ -36,8 +36,8 @@ fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
     assert_eq!((window.state().names().len(), window.state().parts.model.view.display.prediction), (1, 0));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
     let mut window = by_scenes();
     for name in ["Near-field scenes", "Distant scenes"] {
@@ -66,8 +66,8 @@ fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
     assert_eq!(window.query_all_by_label_contains("at least one scene").count(), 0);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
     let mut window = built_in();
     window.set_size(vec2(900.0, 600.0));
@@ -99,8 +99,8 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
     assert_eq!(recent.len(), 12, "what could not be opened is not remembered");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_side_panel_stands_beside_the_panes_in_the_smallest_window() {
     let mut window = built_in();
     // While it is computed, there is another button.
@@ -127,8 +127,8 @@ fn the_side_panel_stands_beside_the_panes_in_the_smallest_window() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn return_opens_what_is_typed_and_shift_return_begins_a_line() {
     let mut window = built_in();
     window.get_by_label("Open").click();
@@ -148,8 +148,8 @@ fn return_opens_what_is_typed_and_shift_return_begins_a_line() {
     assert_eq!(text(&window).as_deref(), Some("no\nsuch file"), "the text stays");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_drag_on_the_hemisphere_moves_the_nearer_endpoint_and_keeps_its_distance() {
     let mut window = built_in();
     let before = window.state().parts.model.view.scene;

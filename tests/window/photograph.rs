@@ -2,20 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::viewer::model::command::{
-    Command, DisplayCommand, PhotographCommand, PhotographLight, WindowCommand,
-};
-use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_files::photograph::{Corners, PhotographComparison, Rectified, flash};
+use svbrdf_evaluate::photograph::{Corners, PhotographComparison, Rectified, flash};
 use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
 use svbrdf_files::samples;
 use svbrdf_files::session::{Session, SessionPhotograph};
+use svbrdf_viewer::model::command::{
+    Command, DisplayCommand, PhotographCommand, PhotographLight, WindowCommand,
+};
+use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 use super::*;
 
@@ -109,8 +109,8 @@ fn statistics(window: &Window<'_>) -> Vec<svbrdf_core::picture::statistics::Stat
     window.state().difference_statistics().unwrap().iter().map(|one| one.unwrap()).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn renderings_are_compared_with_the_photograph_as_the_core_does() {
     let (mut window, folder) = opened();
     let path = folder.path().join("photo.npy");
@@ -152,8 +152,8 @@ fn renderings_are_compared_with_the_photograph_as_the_core_does() {
     window.get_by_label("Pane GROUND TRUTH  worn tiles");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn panes_and_readout_have_the_numbers_of_the_photograph() {
     let (mut window, folder) = opened();
     let core = expected(&folder.path().join("photo.npy"), false);
@@ -192,8 +192,8 @@ fn panes_and_readout_have_the_numbers_of_the_photograph() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn saved_differences_are_those_from_the_photograph_and_a_session_keeps_it() {
     let (mut window, folder) = opened();
     let core = expected(&folder.path().join("photo.npy"), false);
@@ -243,8 +243,8 @@ fn saved_differences_are_those_from_the_photograph_and_a_session_keeps_it() {
     assert_eq!(statistics(&again).len(), 3);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     let folder = tempfile::tempdir().unwrap();
     let path = photograph(folder.path());
@@ -296,8 +296,8 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     assert!(agrees(&window, &before));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_photograph_that_was_replaced_is_read_again_when_it_is_opened_again() {
     let (mut window, folder) = opened();
     let path = folder.path().join("photo.npy");

@@ -1,6 +1,5 @@
 //! The numbers of every quantity below the panes: statistics and histograms, against values written out in f64.
 
-use svbrdf::viewer::model::view::state::ViewState;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::difference::Difference;
@@ -9,6 +8,7 @@ use svbrdf_core::picture::statistics::{Histogram, Statistics};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 use svbrdf_files::samples;
+use svbrdf_viewer::model::view::state::ViewState;
 
 use super::*;
 
@@ -102,8 +102,8 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -142,8 +142,8 @@ fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_channel_of_every_value_has_its_statistics_and_histogram() {
     let mut window = built_in();
     press(&mut window, egui::Key::J);

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use svbrdf::viewer::model::command::{Command, DisplayCommand, MaterialsCommand};
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::generate;
+use svbrdf_viewer::model::command::{Command, DisplayCommand, MaterialsCommand};
 
 use super::*;
 
@@ -38,8 +38,8 @@ fn repaint_delay(window: &Window<'_>) -> Duration {
     window.output().viewport_output[&egui::ViewportId::ROOT].repaint_delay
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_second_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let paths: Vec<_> = (0..4).map(|i| strip(&folder.path().join(format!("m{i}.png")), 4)).collect();
@@ -74,8 +74,8 @@ fn window_of_files() -> (tempfile::TempDir, [PathBuf; 2], Window<'static>) {
     (folder, paths, window)
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_material_whose_file_is_gone_or_broken_is_marked_until_it_is_whole_again() {
     let (_folder, paths, mut window) = window_of_files();
     apply(&mut window, MaterialsCommand::SetWatch(true));
@@ -92,8 +92,8 @@ fn a_material_whose_file_is_gone_or_broken_is_marked_until_it_is_whole_again() {
     assert!(window.state().messages().is_empty(), "it is settled: {:?}", window.state().messages());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
     let (_folder, _, mut window) = window_of_files();
     // Longer than it takes for a state to become one to return to.
@@ -115,8 +115,8 @@ fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
     wait(&mut window, "the closed prediction", |app| app.names().len() == 3);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn messages_take_no_room_from_the_panes() {
     let mut window = built_in();
     let before = pane(&window, GROUND_TRUTH);
@@ -134,8 +134,8 @@ fn messages_take_no_room_from_the_panes() {
     assert!(window.state().messages().is_empty());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_prediction_replaced_by_one_of_another_size_makes_its_loss_stale() {
     let (_folder, paths, mut window) = window_of_files();
     wait(&mut window, "the loss", |app| app.losses().is_some());

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use svbrdf::viewer::jobs::reading::upload::Uploaded;
+use svbrdf_viewer::jobs::reading::upload::Uploaded;
 
 use super::*;
 
@@ -26,8 +26,8 @@ fn losses(window: &mut Window<'_>) -> Vec<f64> {
     window.state().losses().unwrap().iter().map(|loss| loss.estimate.mean).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_material_for_which_there_is_no_room_is_displayed_reduced_with_a_badge_and_its_losses_are_whole() {
     let mut window = by_scenes();
     let (rect, expected) = (pane(&window, GROUND_TRUTH), losses(&mut window));

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use svbrdf::viewer::model::command::{Command, DisplayCommand, LossCommand, SceneCommand, WindowCommand};
-use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
-use svbrdf::viewer::model::view::state::Layout;
 use svbrdf_core::loss::Ask;
 use svbrdf_files::session::Session;
+use svbrdf_viewer::model::command::{Command, DisplayCommand, LossCommand, SceneCommand, WindowCommand};
+use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf_viewer::model::view::state::Layout;
 
 use super::*;
 
@@ -27,8 +27,8 @@ fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
     &text[from..from + text[from..].find(end).unwrap()]
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     let mut window = by_scenes();
     let folder = tempfile::tempdir().unwrap();
@@ -69,8 +69,8 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     assert_eq!(Session::read(&session).unwrap(), window.state().parts.model.session());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -93,8 +93,8 @@ fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_report_is_html() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();

@@ -2,18 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::viewer::model::command::{
-    Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
-};
-use svbrdf::viewer::model::inspection::Region;
-use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
-use svbrdf::viewer::model::view::state::{Layout, Projection};
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
+use svbrdf_viewer::model::command::{
+    Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
+};
+use svbrdf_viewer::model::inspection::Region;
+use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf_viewer::model::view::state::{Layout, Projection};
 
 use super::*;
 
@@ -33,8 +33,8 @@ fn save(window: &mut Window<'_>, what: SaveKind, path: &Path, size: [u32; 2]) {
     apply(window, WindowCommand::DismissMessages);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn saved_renderings_are_what_is_selected() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -59,8 +59,8 @@ fn saved_renderings_are_what_is_selected() {
     assert!(image.pixels.iter().any(|rgb| rgb[0] > 1.0), "the normals differ");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_saved_strip_has_the_rectangle_as_a_crop() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -77,8 +77,8 @@ fn a_saved_strip_has_the_rectangle_as_a_crop() {
     assert!(bytes.windows(text.len()).any(|window| window == text));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -139,8 +139,8 @@ fn strips(folder: &Path) -> [PathBuf; 2] {
     })
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let folder = tempfile::tempdir().unwrap();
     let [gt, p] = strips(folder.path());
@@ -192,8 +192,8 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     same(&later);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
     let mut window = built_in();
     window.get_by_label("Save").click();
@@ -216,8 +216,8 @@ fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
     assert!(window.state().messages().is_empty());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_view_is_saved_with_or_without_the_sun_and_the_eye() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -234,8 +234,8 @@ fn a_view_is_saved_with_or_without_the_sun_and_the_eye() {
     assert!(suns[0] > 100 && suns[1] == 0, "{suns:?}");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
     let mut window = built_in();
     let at = pane(&window, GROUND_TRUTH).center();
@@ -252,8 +252,8 @@ fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
     assert_eq!(height("Copy as CSV", "Copied the pinned texels as CSV"), short);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
     let folder = tempfile::tempdir().unwrap();
     let [gt, p] = strips(folder.path());

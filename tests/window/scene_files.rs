@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::viewer::model::command::{DisplayCommand, LossCommand, MaterialsCommand, WindowCommand};
-use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf_core::loss::{Comparison, Outcome, Request};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::Scene;
@@ -11,6 +9,8 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples;
 use svbrdf_files::scene_file;
+use svbrdf_viewer::model::command::{DisplayCommand, LossCommand, MaterialsCommand, WindowCommand};
+use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 use super::reading::apply;
 use super::*;
@@ -55,8 +55,8 @@ fn capture(folder: &tempfile::TempDir) -> PathBuf {
     path
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     let folder = tempfile::tempdir().unwrap();
     let path = capture(&folder);
@@ -95,8 +95,8 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     assert!(window.state().parts.model.settings.loss.file.is_none());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = by_scenes();
@@ -140,8 +140,8 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     assert_eq!(other.state().losses().unwrap(), expected(&saved).losses);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     let folder = tempfile::tempdir().unwrap();
     let path = capture(&folder);
@@ -173,8 +173,8 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     window.get_by_label("3 scenes of render.json");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn scenes_with_a_name_are_those_of_the_loss_until_they_are_removed() {
     use svbrdf_core::model::named_scenes::flash_9;
     let mut window = by_scenes();

@@ -4,15 +4,15 @@ use std::path::Path;
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf::viewer::model::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_files::photograph::flash;
+use svbrdf_evaluate::photograph::flash;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::{self, generate};
 use svbrdf_files::session::SessionPhotograph;
+use svbrdf_viewer::model::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
 
 use super::photograph::apply;
 use super::*;

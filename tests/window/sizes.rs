@@ -2,11 +2,11 @@
 
 use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
-use svbrdf::viewer::model::command::WindowCommand;
-use svbrdf::viewer::model::inspection::Region;
-use svbrdf::viewer::model::settings::Tab;
-use svbrdf::viewer::model::view::state::{Layout, Projection};
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_viewer::model::command::WindowCommand;
+use svbrdf_viewer::model::inspection::Region;
+use svbrdf_viewer::model::settings::Tab;
+use svbrdf_viewer::model::view::state::{Layout, Projection};
 
 use super::photograph::apply;
 use super::soak::below;
@@ -60,8 +60,8 @@ fn inspect(window: &mut Window<'_>) {
     window.run_steps(4);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn panes_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     check(&mut window, "a start");
@@ -82,8 +82,8 @@ fn panes_are_drawn_at_every_size_and_scale() {
     check(&mut window, "histograms");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn tabs_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     wait(&mut window, "the loss", |app| app.losses().is_some());
@@ -102,8 +102,8 @@ fn tabs_are_drawn_at_every_size_and_scale() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     for opened in ["Open", "Save"] {
@@ -128,8 +128,8 @@ fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
     check(&mut window, "messages");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_photograph_is_drawn_at_every_size_and_scale() {
     let (mut window, _folder) = super::photograph::opened();
     check(&mut window, "a photograph");
@@ -138,8 +138,8 @@ fn a_photograph_is_drawn_at_every_size_and_scale() {
     check(&mut window, "its corners");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_brings_it_back() {
     let mut window = built_in();
     for (key, expected) in [(egui::Key::Plus, 4.0), (egui::Key::Minus, 0.5)] {

@@ -281,8 +281,8 @@ fn play(seed: u64, count: usize, mut look: impl FnMut(&mut Window<'_>, usize)) {
     assert!(files.names.iter().all(|path| inside(path)));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn five_hundred_events_of_a_monkey_crash_nothing() {
     play(1, EVENTS, |_, _| ());
 }

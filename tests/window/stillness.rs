@@ -2,7 +2,7 @@
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 
 use super::*;
 
@@ -31,8 +31,8 @@ fn magnify(window: &mut Window<'_>) {
     window.run_steps(3);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_magnified_texel_stays_at_the_centre_of_its_pane_whatever_opens_and_closes() {
     let mut window = built_in();
     magnify(&mut window);
@@ -54,8 +54,8 @@ fn the_magnified_texel_stays_at_the_centre_of_its_pane_whatever_opens_and_closes
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_is_its_own_inverse_ends_at_the_same_texel_under_the_pointer() {
     let mut window = built_in();
     magnify(&mut window);
@@ -74,8 +74,8 @@ fn what_is_its_own_inverse_ends_at_the_same_texel_under_the_pointer() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_key_of_a_pin_pressed_twice_leaves_no_pin() {
     let mut window = built_in();
     magnify(&mut window);
@@ -89,8 +89,8 @@ fn the_key_of_a_pin_pressed_twice_leaves_no_pin() {
     assert_eq!(window.state().parts.model.inspection.pins.len(), 0);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
     let mut window = built_in();
     press(&mut window, egui::Key::P);
@@ -118,8 +118,8 @@ fn bar(window: &Window<'_>) -> Vec<(String, egui::Rect)> {
     super::bar::CONTROLS.iter().map(|name| ((*name).to_owned(), rect(name))).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_controls_of_the_bar_stay_where_they_are_in_every_mode() {
     let mut window = built_in();
     window.set_size(vec2(1500.0, 860.0));
@@ -139,8 +139,8 @@ fn the_controls_of_the_bar_stay_where_they_are_in_every_mode() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_side_panel_has_one_width_and_a_click_beside_a_dialog_moves_nothing() {
     let mut window = built_in();
     let scene = window.state().parts.model.view.scene;
@@ -158,11 +158,11 @@ fn the_side_panel_has_one_width_and_a_click_beside_a_dialog_moves_nothing() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_automatic_range_is_that_of_the_predictions_also_of_a_mixture() {
-    use svbrdf::viewer::model::command::DisplayCommand;
     use svbrdf_core::material::Map as MaterialMap;
+    use svbrdf_viewer::model::command::DisplayCommand;
     let mut window = built_in();
     press(&mut window, egui::Key::D);
     wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
@@ -229,8 +229,8 @@ fn write_pair(folder: &std::path::Path, kind: usize, side: u32) -> Vec<std::path
         .collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_layout_is_the_same_over_100_frames_of_30_kinds_of_pairs() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();
@@ -255,7 +255,7 @@ fn the_layout_is_the_same_over_100_frames_of_30_kinds_of_pairs() {
         for kind in 0..6 {
             let paths = write_pair(folder.path(), kind, side);
             let ctx = window.ctx.clone();
-            let open = svbrdf::viewer::model::command::MaterialsCommand::Open {
+            let open = svbrdf_viewer::model::command::MaterialsCommand::Open {
                 paths,
                 replace: true,
                 read: svbrdf_files::read::ReadOptions::AUTO,
@@ -278,8 +278,8 @@ fn the_layout_is_the_same_over_100_frames_of_30_kinds_of_pairs() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn titles_of_many_predictions_keep_what_tells_them_apart() {
     let folder = tempfile::tempdir().unwrap();
     let names = ["alpha", "bravo", "charlie", "delta", "echo", "foxtrot", "golf", "hotel", "india"];
@@ -298,8 +298,8 @@ fn titles_of_many_predictions_keep_what_tells_them_apart() {
     assert_eq!(window.state().names().len(), 10, "{:?}", window.state().messages());
     let scenery = |window: &Window<'_>| {
         let parts = &window.state().parts;
-        let displayed = svbrdf::viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
-        let scenery = svbrdf::viewer::ui::content::scenery(&window.ctx, displayed, &parts.model.view);
+        let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
+        let scenery = svbrdf_viewer::ui::content::scenery(&window.ctx, displayed, &parts.model.view);
         scenery.contents().into_iter().map(|content| scenery.name_of(content, 9)).collect::<Vec<_>>()
     };
     let found = scenery(&window);

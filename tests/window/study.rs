@@ -22,8 +22,8 @@ fn tiny<'a>(folder: &std::path::Path) -> Window<'a> {
     window(options)
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_on_a_point_of_the_study_sets_the_loss_to_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tiny(folder.path());

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use svbrdf::viewer::model::view::state::Projection;
 use svbrdf_files::read::{Albedo, ReadOptions};
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 use svbrdf_files::source::MaterialSource;
+use svbrdf_viewer::model::view::state::Projection;
 
 use super::*;
 
@@ -74,8 +74,8 @@ fn check_readout(window: &mut Window<'_>, scale: f32, what: &str) -> usize {
     on_material
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_projection() {
     let folder = tempfile::tempdir().unwrap();
     for scale in [1.0, 1.25, 1.5, 2.0] {
@@ -99,8 +99,8 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
@@ -115,8 +115,8 @@ fn the_readout_of_a_repeated_material_names_the_texel_that_the_screen_shows() {
     assert_eq!([column, row], [24, 10], "the middle of the picture is the middle of a repeated one");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn roughness_in_false_colours_has_the_colour_of_its_value() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
@@ -142,8 +142,8 @@ fn the_colours_of_texels_are_told_apart() {
     assert_eq!(texel_of([0x4b; 3]), None);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(numbered(folder.path()));
@@ -166,8 +166,8 @@ fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_columns_of_the_status_line_do_not_move_with_the_pointer() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -190,8 +190,8 @@ fn the_columns_of_the_status_line_do_not_move_with_the_pointer() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_texel_is_pinned_by_key_and_by_click_and_its_numbers_are_in_the_drawer() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -219,8 +219,8 @@ fn a_texel_is_pinned_by_key_and_by_click_and_its_numbers_are_in_the_drawer() {
     assert!(window.query_by_label("Pinned texels").is_none());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_within_one_frame_pins_and_moves_the_light_as_a_longer_one() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -247,8 +247,8 @@ fn a_click_within_one_frame_pins_and_moves_the_light_as_a_longer_one() {
     assert_ne!(window.state().parts.model.view.scene.light, before.light);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_table_of_a_pin_fits_into_the_window() {
     let mut window = built_in();
     for (width, tables) in [(1700.0, 1), (1360.0, 2), (900.0, 2)] {
@@ -270,8 +270,8 @@ fn the_table_of_a_pin_fits_into_the_window() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_rectangle_is_drawn_by_q_anywhere_and_by_shift_on_maps_and_escape_removes_it() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::viewer::model::command::{MaterialsCommand, TrainingCommand};
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{ReadOptions, read};
 use svbrdf_files::samples::generate;
+use svbrdf_viewer::model::command::{MaterialsCommand, TrainingCommand};
 
 use super::reading::apply;
 use super::*;
@@ -54,8 +54,8 @@ fn steps(app: &App) -> Vec<u64> {
     app.training_runs().into_iter().flat_map(|(_, steps, _)| steps).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_folder_of_steps_is_one_prediction_whose_steps_have_their_losses() {
     let (folder, mut window) = window_of_run();
     wait(&mut window, "the steps", |app| app.training_runs() == [(1, vec![100, 200, 300], 300)]);
@@ -91,8 +91,8 @@ fn a_folder_of_steps_is_one_prediction_whose_steps_have_their_losses() {
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn new_steps_appear_when_they_are_complete_and_are_shown_unless_the_person_went_back() {
     let (folder, mut window) = window_of_run();
     apply(&mut window, MaterialsCommand::SetWatch(true));
@@ -126,8 +126,8 @@ fn new_steps_appear_when_they_are_complete_and_are_shown_unless_the_person_went_
 }
 
 /// Where only an old step has stood still yet, the window does not go back to it.
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_young_step_that_is_shown_stays() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("run")).unwrap();

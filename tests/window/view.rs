@@ -1,6 +1,6 @@
 //! Light and view: what the mouse grabs, what stays in sight, what small windows show.
 
-use svbrdf::viewer::model::view::state::Layout;
+use svbrdf_viewer::model::view::state::Layout;
 
 use super::*;
 
@@ -8,8 +8,8 @@ fn length(p: [f64; 3]) -> f64 {
     p.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_wipe_line_wins_over_the_handle_of_the_view() {
     let mut window = built_in();
     press(&mut window, egui::Key::C);
@@ -31,8 +31,8 @@ fn the_wipe_line_wins_over_the_handle_of_the_view() {
     );
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_hidden_handle_of_the_view_is_not_grabbed() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -47,8 +47,8 @@ fn a_hidden_handle_of_the_view_is_not_grabbed() {
     assert_ne!(after.light, before.light);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_left_drag_pans_a_map_and_leaves_the_light() {
     let mut window = built_in();
     press(&mut window, egui::Key::M);
@@ -59,8 +59,8 @@ fn a_left_drag_pans_a_map_and_leaves_the_light() {
     assert_panned(&window, rect, [0.1, -0.1]);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_distant_light_at_the_rim_becomes_a_near_one_at_the_distance_it_had() {
     let mut window = built_in();
     let distance = length(window.state().parts.model.view.scene.light);
@@ -75,8 +75,8 @@ fn a_distant_light_at_the_rim_becomes_a_near_one_at_the_distance_it_had() {
     assert!(light[2] > 0.09 * distance, "{light:?} lies in the plane");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_material_cannot_be_dragged_out_of_sight() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -90,8 +90,8 @@ fn the_material_cannot_be_dragged_out_of_sight() {
     assert!(share > 0.15, "{share} of the pane shows the material");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
     let mut window = built_in();
     window.set_size(vec2(700.0, 500.0));
@@ -113,8 +113,8 @@ fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
 }
 
 /// The pane that changes is drawn into the window, and from the next frame on its kept pixels are copied.
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_pane_that_changes_has_the_pixels_that_are_kept_of_it() {
     for scale in [1.0, 1.25] {
         let mut window = scaled_window(ViewerOptions::default(), scale);

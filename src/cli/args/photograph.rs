@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::model::scene::Scene;
-use svbrdf_files::photograph::{Corners, flash};
+use svbrdf_evaluate::photograph::{Corners, flash};
 use svbrdf_files::read::{PhotographOptions, Transfer};
 use svbrdf_files::scene_file;
 #[cfg(feature = "viewer")]

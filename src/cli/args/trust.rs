@@ -1,6 +1,6 @@
 //! How far files are trusted: what they may name, and how much memory they may take.
 
-use svbrdf_files::{memory, open};
+use svbrdf_files::disk::{memory, open};
 
 /// Fewest bytes of a limit: a smaller one would refuse every file.
 const LEAST: u64 = 16 << 20;

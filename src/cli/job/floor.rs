@@ -1,7 +1,7 @@
 //! The floor of a ground truth: that of rounding, or that of repeated captures.
 
-use svbrdf_core::diagnose::{floor, floor_of_captures};
 use svbrdf_core::loss::Estimate;
+use svbrdf_evaluate::diagnose::{floor, floor_of_captures};
 
 use super::ComparisonJob;
 use super::materials::Opened;

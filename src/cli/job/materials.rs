@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use svbrdf_core::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
-use svbrdf_core::report::distinct_names;
 use svbrdf_core::text::quoted;
-use svbrdf_files::dataset::{self, Case, Method};
-use svbrdf_files::memory::Reserved;
-use svbrdf_files::open::is_pipe_at;
+use svbrdf_evaluate::dataset::{self, Case, Method};
+use svbrdf_evaluate::diagnose::Storage;
+use svbrdf_evaluate::report::distinct_names;
+use svbrdf_files::disk::memory::Reserved;
+use svbrdf_files::disk::open::is_pipe_at;
 use svbrdf_files::read::{self, Assumption, Binding, Read};
 use svbrdf_files::samples;
 use svbrdf_files::session::Session;

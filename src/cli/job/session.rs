@@ -9,7 +9,7 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session::Session;
-use svbrdf_files::session_window::Display;
+use svbrdf_files::session::window::Display;
 
 use crate::cli::args::MaterialArgs;
 use crate::cli::output::{CommandError, exit};

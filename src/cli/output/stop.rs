@@ -2,8 +2,8 @@
 
 use std::process;
 
-use svbrdf::signals;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::disk::signals;
 
 use super::exit::INTERRUPTED;
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_core::picture::difference::Difference;
-use svbrdf_files::capture::CaptureExposure;
+use svbrdf_evaluate::capture::CaptureExposure;
 
 use crate::cli::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
 use crate::cli::args::{ComparisonArgs, NamedPath};

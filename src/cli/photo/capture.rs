@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use svbrdf_core::material::Material;
-use svbrdf_files::capture::{Capture, CaptureReport, CaptureSetting};
+use svbrdf_evaluate::capture::{Capture, CaptureReport, CaptureSetting};
 
 use super::args::PhotoArgs;
 use super::stretching::stretched;

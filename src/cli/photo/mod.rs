@@ -8,9 +8,9 @@ mod stretching;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_evaluate::photograph::{PhotoReport, PhotoSetting};
+use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat};
-use svbrdf_files::inputs::check_output;
-use svbrdf_files::photograph::{PhotoReport, PhotoSetting};
 use svbrdf_files::read::read_photograph;
 
 use super::args::{Given, modes};

@@ -3,9 +3,9 @@
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::statistics::Distributions;
-use svbrdf_core::report::position;
+use svbrdf_evaluate::photograph::PhotoReport;
+use svbrdf_evaluate::report::position;
 use svbrdf_files::export::Provenance;
-use svbrdf_files::photograph::PhotoReport;
 
 /// The difference that has the last colour: the 99th percentile of the material where it is largest.
 pub fn last_colour(report: &PhotoReport, kind: Difference) -> f64 {

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::report::Report;
 use svbrdf_core::text::printable;
-use svbrdf_files::dataset::{Pick, Shard};
-use svbrdf_files::page::Figures;
+use svbrdf_evaluate::dataset::{Pick, Shard};
+use svbrdf_evaluate::report::Report;
+use svbrdf_page::Figures;
 
 use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{ComparisonArgs, SeedArgs, values};

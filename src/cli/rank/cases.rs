@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use svbrdf_core::report::distinct_names;
-use svbrdf_files::dataset::{DatasetReading, Method, Source};
+use svbrdf_evaluate::dataset::{DatasetReading, Method, Source};
+use svbrdf_evaluate::report::distinct_names;
 
 use super::args::RankArgs;
 use crate::cli::args::reading::Side;

@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use svbrdf_core::progress::Progress;
-use svbrdf_files::atomic::write_text;
-use svbrdf_files::dataset::{Case, DatasetReport};
-use svbrdf_files::inputs::check_output_of;
-use svbrdf_files::page::{check_destination, material_views, ranking};
+use svbrdf_evaluate::dataset::{Case, DatasetReport};
+use svbrdf_files::disk::atomic::write_text;
+use svbrdf_files::disk::inputs::check_output_of;
+use svbrdf_page::{check_destination, material_views, ranking};
 
 use super::args::{RankArgs, RankFormat};
 use crate::cli::args::{Given, modes};

@@ -2,10 +2,10 @@
 
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::report::Report as _;
-use svbrdf_files::dataset::{
+use svbrdf_evaluate::dataset::{
     self, Case, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Shard, Source,
 };
+use svbrdf_evaluate::report::Report as _;
 
 use super::args::{RankArgs, RankFormat, check_limit};
 use super::cases::{reading, source};

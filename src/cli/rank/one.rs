@@ -2,9 +2,9 @@
 
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
-use svbrdf_core::rank::most_scenes;
-use svbrdf_core::report::{Compared, MaterialReading, RankReport, Repetition, Report as _};
-use svbrdf_files::atomic::SOFTWARE;
+use svbrdf_evaluate::rank::most_scenes;
+use svbrdf_evaluate::report::{Compared, MaterialReading, RankReport, Repetition, Report as _};
+use svbrdf_files::disk::atomic::SOFTWARE;
 
 use super::args::{RankArgs, RankFormat, check_limit};
 use crate::cli::args::{Given, modes, wildcards};

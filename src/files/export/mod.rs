@@ -11,7 +11,7 @@ mod text;
 
 use std::path::Path;
 
-pub use crate::atomic::{Destination, check_place, write_text};
+pub use crate::disk::atomic::{Destination, check_place, write_text};
 pub use npy::write_npy;
 pub use provenance::{Entries, Provenance};
 

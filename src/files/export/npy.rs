@@ -7,7 +7,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::progress::Progress;
 
-use crate::atomic::{check_place, replace_own};
+use crate::disk::atomic::{check_place, replace_own};
 use crate::npy::Header;
 
 /// Writes pictures of one size into a file of NumPy, which is named by the program: number x height x width x 3, 32-bit floats. It

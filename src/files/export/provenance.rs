@@ -4,7 +4,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::content::PictureContent;
 
-use crate::atomic;
+use crate::disk::atomic;
 
 /// The metadata of a picture: (keyword, text).
 pub type Entries = [(&'static str, String)];

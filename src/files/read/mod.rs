@@ -56,8 +56,8 @@ use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
-use crate::open::{NamedFile, hexadecimal};
-use crate::{inputs, memory};
+use crate::disk::open::{NamedFile, hexadecimal};
+use crate::disk::{inputs, memory};
 
 use decode::pictures;
 use decode::reader::Reader;

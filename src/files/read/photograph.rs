@@ -12,8 +12,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 
 use super::decode;
-use crate::inputs;
-use crate::open::NamedFile;
+use crate::disk::inputs;
+use crate::disk::open::NamedFile;
 use crate::read::options::{Albedo, transfer};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject};

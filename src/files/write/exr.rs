@@ -16,7 +16,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 
-use crate::atomic::SOFTWARE;
+use crate::disk::atomic::SOFTWARE;
 use crate::read::decode::exr::NATIVE;
 
 /// The meaning of the values of such an EXR.

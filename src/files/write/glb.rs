@@ -14,7 +14,7 @@ use svbrdf_core::progress::Progress;
 use super::maps::{MapEncoding, WrittenMap};
 use super::png::{self, Picture, picture};
 use super::surface::{Surface, SurfaceForm, USUAL_IOR};
-use crate::atomic::SOFTWARE;
+use crate::disk::atomic::SOFTWARE;
 
 /// The target of a buffer view with attributes of vertices.
 const ARRAY_BUFFER: u32 = 34_962;

@@ -19,7 +19,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 
 use super::read::Preset;
-use crate::atomic;
+use crate::disk::atomic;
 
 /// Options for the files to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

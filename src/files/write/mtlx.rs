@@ -15,7 +15,7 @@ use super::maps::{MapEncoding, WrittenMap};
 use super::picture_exr;
 use super::png::{self, Picture, picture};
 use super::surface::{Surface, SurfaceForm};
-use crate::{atomic, new_folder};
+use crate::disk::{atomic, new_folder};
 
 /// The end of the name of the folder of pictures.
 const FOLDER: &str = "_textures";

@@ -10,7 +10,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 
 use super::png::Picture;
-use crate::atomic::{self, SOFTWARE};
+use crate::disk::atomic::{self, SOFTWARE};
 
 /// Writes one layer of the channels R, G and B.
 pub(super) fn write(

@@ -10,8 +10,8 @@ use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 
 use super::maps::{Curves, MapEncoding, WrittenMap};
-use crate::atomic::{self, SOFTWARE};
-use crate::new_folder;
+use crate::disk::atomic::{self, SOFTWARE};
+use crate::disk::new_folder;
 use crate::read::{Order, Preset};
 
 /// About how many bytes of a picture are computed before they are compressed.

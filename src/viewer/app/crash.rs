@@ -9,7 +9,7 @@ use eframe::egui_wgpu::WgpuError;
 use svbrdf_core::error::Error;
 
 use super::display;
-use crate::viewer::jobs::work::panics;
+use crate::jobs::work::panics;
 
 /// How far the window has come, and the panic that ended it.
 #[derive(Clone, Debug, Default)]

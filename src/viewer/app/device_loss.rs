@@ -9,7 +9,7 @@ use eframe::egui;
 use svbrdf_core::error::Error;
 
 use super::App;
-use crate::viewer::model::message::Message;
+use crate::model::message::Message;
 
 /// Losses longer ago than this do not count: the device has worked since then.
 const RECENT: Duration = Duration::from_secs(10);

@@ -6,26 +6,26 @@ use eframe::egui;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_files::capture::Capture;
-use svbrdf_files::open::allow_outside;
-use svbrdf_files::photograph::flash;
+use svbrdf_evaluate::capture::Capture;
+use svbrdf_evaluate::photograph::flash;
+use svbrdf_files::disk::open::allow_outside;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::{Session, SessionPhotograph};
-use svbrdf_files::stamp::Stamp;
 
 use super::parts::Parts;
 use super::{saving, training};
-use crate::viewer::jobs::browse;
-use crate::viewer::jobs::why::ComparedPair;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::model::command::PhotographLight;
-use crate::viewer::model::command::effect::{DialogEffect, Effect, LossEffect};
-use crate::viewer::model::inspection;
-use crate::viewer::model::material::request::ReadRequest;
-use crate::viewer::model::message::Message;
-use crate::viewer::ui::dialogs::open::OpenDialog;
-use crate::viewer::ui::dialogs::photograph::PhotographDialog;
-use crate::viewer::ui::dialogs::save::SaveDialog;
+use crate::jobs::browse;
+use crate::jobs::why::ComparedPair;
+use crate::jobs::work::job::Job;
+use crate::model::command::PhotographLight;
+use crate::model::command::effect::{DialogEffect, Effect, LossEffect};
+use crate::model::inspection;
+use crate::model::material::request::ReadRequest;
+use crate::model::message::Message;
+use crate::ui::dialogs::open::OpenDialog;
+use crate::ui::dialogs::photograph::PhotographDialog;
+use crate::ui::dialogs::save::SaveDialog;
 
 /// Carries out what a command has done outside of the model: the only place that does.
 pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {

@@ -6,9 +6,9 @@ use svbrdf_core::error::Error;
 
 use super::parts::Parts;
 use super::training;
-use crate::viewer::jobs::reading::watch::Change;
-use crate::viewer::model::material::problem::MaterialProblem;
-use crate::viewer::model::message::Message;
+use crate::jobs::reading::watch::Change;
+use crate::model::material::problem::MaterialProblem;
+use crate::model::message::Message;
 
 /// Takes over the results that have arrived since the last frame.
 pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {

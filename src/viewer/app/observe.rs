@@ -1,17 +1,17 @@
 //! Observations of the window, for its tests.
 
-use svbrdf_core::diagnose::Diagnosis;
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::statistics::{Distributions, Histogram, Statistics};
-use svbrdf_core::study::Study;
-use svbrdf_core::why::{Attribution, Hemisphere, RankedScene, Worst};
-use svbrdf_files::photograph::PhotographComparison;
+use svbrdf_evaluate::diagnose::Diagnosis;
+use svbrdf_evaluate::photograph::PhotographComparison;
+use svbrdf_evaluate::study::Study;
+use svbrdf_evaluate::why::{Attribution, Hemisphere, RankedScene, Worst};
 
 use super::App;
-use crate::viewer::jobs::training::RunView;
-use crate::viewer::jobs::why::ComparedPair;
-use crate::viewer::model::message::Message;
+use crate::jobs::training::RunView;
+use crate::jobs::why::ComparedPair;
+use crate::model::message::Message;
 
 /// How the values of one channel of a material are distributed.
 type ValueDistribution<'a> = (&'a Histogram, Option<Statistics>);

@@ -1,11 +1,11 @@
 //! Parts of the application: the model, the jobs, the user interface and the adapter.
 
 use super::stop::Stop;
-use crate::viewer::jobs::Jobs;
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::model::Model;
-use crate::viewer::ui::WindowUi;
-use crate::viewer::ui::shading::gpu_view::GpuView;
+use crate::jobs::Jobs;
+use crate::jobs::displayed::Displayed;
+use crate::model::Model;
+use crate::ui::WindowUi;
+use crate::ui::shading::gpu_view::GpuView;
 
 /// What effects and results change.
 #[derive(Debug)]

@@ -6,16 +6,16 @@ use eframe::egui;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
+use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::Provenance;
-use svbrdf_files::inputs::check_output_of;
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 
 use super::parts::Parts;
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::{report, saving};
-use crate::viewer::model::message::Message;
-use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use crate::jobs::displayed::Displayed;
+use crate::jobs::work::job::Job;
+use crate::jobs::{report, saving};
+use crate::model::message::Message;
+use crate::model::settings::save_kind::{SaveKind, SaveRequest};
 
 /// Starts to save.
 pub(super) fn save_file(

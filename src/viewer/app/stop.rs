@@ -9,7 +9,7 @@ use eframe::egui;
 use svbrdf_core::progress::Progress;
 
 use super::context::CurrentContext;
-use crate::signals;
+use svbrdf_files::disk::signals;
 
 /// How long the window may take to close after a signal.
 const TIME_TO_CLOSE: Duration = Duration::from_secs(5);

@@ -5,10 +5,10 @@ use serde::Deserialize;
 
 use svbrdf_files::session::Session;
 
-use crate::viewer::model::Model;
-use crate::viewer::model::message::Message;
-use crate::viewer::model::ranges::bring_into_range;
-use crate::viewer::model::settings::Settings;
+use crate::model::Model;
+use crate::model::message::Message;
+use crate::model::ranges::bring_into_range;
+use crate::model::settings::Settings;
 
 /// The key of the settings in the storage.
 pub const SETTINGS: &str = "settings";

@@ -9,12 +9,12 @@ use serde::Deserialize;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::atomic;
-use svbrdf_files::open::NamedFile;
+use svbrdf_files::disk::atomic;
+use svbrdf_files::disk::open::NamedFile;
 
 use super::storage::{RECENT, SESSION, SETTINGS};
-use crate::viewer::model::ranges::UI_SCALE;
-use crate::viewer::model::settings::Settings;
+use crate::model::ranges::UI_SCALE;
+use crate::model::settings::Settings;
 
 /// The name that eframe gives the file.
 const FILE: &str = "app.ron";

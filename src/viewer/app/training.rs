@@ -8,11 +8,11 @@ use std::path::PathBuf;
 use svbrdf_files::steps::{RunId, TrainingStep};
 
 use super::parts::Parts;
-use crate::viewer::jobs::training::{RunLossesKey, RunNews, WantedRun};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::request::{ReadRequest, Target};
-use crate::viewer::model::material::source::{Origin, Source};
-use crate::viewer::model::settings::Tab;
+use crate::jobs::training::{RunLossesKey, RunNews, WantedRun};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::request::{ReadRequest, Target};
+use crate::model::material::source::{Origin, Source};
+use crate::model::settings::Tab;
 
 /// Follows the folders of the training runs in the window.
 pub(super) fn follow(parts: &mut Parts) {

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use svbrdf_files::read::EXTENSIONS;
 
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::waker::Waker;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
 
 /// Nobody cancels a dialog sooner than this.
 const AT_ONCE: Duration = Duration::from_millis(300);

@@ -12,9 +12,9 @@ use super::panes::RangeKey;
 use super::panes::computed_maps::ComputedMaps;
 use super::panes::error_map::ErrorMapSummary;
 use super::photograph::{DisplayedPhotograph, Photographs};
-use crate::viewer::model::Model;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::model::Model;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::view::state::ViewState;
 
 /// What the panes display of the model, with the results of the jobs.
 #[derive(Clone, Copy, Debug)]

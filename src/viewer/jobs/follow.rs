@@ -2,16 +2,16 @@
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
-use svbrdf_core::why::Worst;
+use svbrdf_evaluate::why::Worst;
 
 use super::Jobs;
 use super::displayed::Displayed;
 use super::panes::RangeKey;
 use super::why::WhyQuery;
 use super::work::context::JobContext;
-use crate::viewer::model::Model;
-use crate::viewer::model::settings::Tab;
-use crate::viewer::model::settings::loss_query::LossQuery;
+use crate::model::Model;
+use crate::model::settings::Tab;
+use crate::model::settings::loss_query::LossQuery;
 
 /// What the window displays, as far as jobs depend on it.
 #[derive(Clone, Copy, Debug, Default)]

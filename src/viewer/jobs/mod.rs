@@ -23,8 +23,8 @@ use svbrdf_core::loss::FileScenes;
 use svbrdf_files::scene_file;
 use svbrdf_gpu::Gpu;
 
-use crate::viewer::model::Model;
-use crate::viewer::model::material::request::{ReadRequest, Target};
+use crate::model::Model;
+use crate::model::material::request::{ReadRequest, Target};
 
 use browse::Browsed;
 use loss::LossJob;

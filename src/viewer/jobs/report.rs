@@ -10,13 +10,13 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::quoted;
-use svbrdf_files::atomic::write_text;
-use svbrdf_files::page::{Findings, MOST_BYTES, Repetition, Report, View, check_destination};
+use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::session::Session;
+use svbrdf_page::{Findings, MOST_BYTES, Repetition, Report, View, check_destination};
 
 use super::displayed::Displayed;
 use super::work::job::Job;
-use crate::viewer::model::material::read::ReadMaterial;
+use crate::model::material::read::ReadMaterial;
 
 /// Everything that the report of a window depends on.
 struct ReportInputs {

@@ -9,8 +9,8 @@ use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::report::{Compared, Report as _, ScenesReport};
-use svbrdf_files::atomic::{self, Destination};
+use svbrdf_evaluate::report::{Compared, Report as _, ScenesReport};
+use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::export::strip::{Column, Crop, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::scene_file;
@@ -19,9 +19,9 @@ use super::displayed::Displayed;
 use super::why::ComparedPair;
 use super::work::job::Job;
 use super::work::waker::Waker;
-use crate::viewer::model::inspection::Region;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::ReadMaterial;
+use crate::model::inspection::Region;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::ReadMaterial;
 
 /// The content of a picture of the panes.
 pub fn content(displayed: Displayed<'_>) -> PictureContent {

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 
 use svbrdf_core::loss::{LossSettings, Sampling, Texels};
-use svbrdf_files::session_window::Display as PaneDisplay;
+use svbrdf_files::session::window::Display as PaneDisplay;
 
 use super::Model;
 use super::settings::Settings;
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
     use svbrdf_core::picture::difference::Difference;
     use svbrdf_core::picture::quantity::Quantity;
-    use svbrdf_files::session_window::Framing;
+    use svbrdf_files::session::window::Framing;
 
     /// Numbers that files may hold, usable and not.
     const NUMBERS: [f64; 12] =

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::window::SessionWindow;
 use svbrdf_files::session::{Session, SessionMaterial, SessionPhotograph};
-use svbrdf_files::session_window::SessionWindow;
-use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::RunId;
 
 use super::Model;
@@ -20,7 +20,7 @@ use super::material::source::{Origin, Source, sources};
 use super::message::Message;
 use super::ranges::bring_into_range;
 use super::view::state::ViewState;
-use crate::viewer::model::settings::options::ViewerOptions;
+use crate::model::settings::options::ViewerOptions;
 
 /// Number of comparisons that are remembered.
 const RECENT: usize = 12;

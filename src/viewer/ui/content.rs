@@ -9,9 +9,9 @@ use super::pane::viewport::{PaneDrawing, Viewport};
 use super::shading::gpu_view::GpuView;
 use super::widgets::bare;
 use super::widgets::texture::PanelTextures;
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::model::command::Command;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::displayed::Displayed;
+use crate::model::command::Command;
+use crate::model::view::state::ViewState;
 
 /// Height of the strip below the panes, in points.
 const STRIP: f32 = 92.0;

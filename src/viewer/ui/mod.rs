@@ -30,9 +30,9 @@ use shading::gpu_view::GpuView;
 use widgets::texture::PanelTextures;
 use widgets::{bare, fixed};
 
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::model::command::{Command, WindowCommand};
-use crate::viewer::model::view::geometry::WindowGeometry;
+use crate::jobs::displayed::Displayed;
+use crate::model::command::{Command, WindowCommand};
+use crate::model::view::geometry::WindowGeometry;
 
 /// Width of the side panel, in points.
 const SIDE: f32 = 320.0;

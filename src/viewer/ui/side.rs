@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_core::diagnose::Finding;
+use svbrdf_evaluate::diagnose::Finding;
 use svbrdf_files::read::Certainty;
 
 use super::loss::panel::LossPanel;
@@ -13,11 +13,11 @@ use super::photograph::card::PhotographCard;
 use super::why::WhyPanel;
 use super::widgets::bare;
 use super::widgets::texture::PanelTextures;
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::jobs::why::ComparedPair;
-use crate::viewer::model::command::{Command, WindowCommand};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::settings::Tab;
+use crate::jobs::displayed::Displayed;
+use crate::jobs::why::ComparedPair;
+use crate::model::command::{Command, WindowCommand};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::settings::Tab;
 
 pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextures) -> Vec<Command> {
     let (model, jobs) = (displayed.model, displayed.jobs);

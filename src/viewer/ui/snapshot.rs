@@ -9,7 +9,7 @@ use super::content::Content;
 use super::pane::viewport::Viewport;
 use super::shading::gpu_view::GpuView;
 use super::shading::snapshot::{Size, snapshot};
-use crate::viewer::jobs::displayed::Displayed;
+use crate::jobs::displayed::Displayed;
 
 impl WindowUi {
     /// The panes and the legend in a picture of this size, in pixels, with or without the handles of light and view.

@@ -23,8 +23,8 @@ fn difference(window: &Window<'_>, verdict: &str) -> String {
     text.split(' ').next().unwrap().replace('\u{2212}', "-")
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_difference_to_the_chosen_prediction_has_its_sign_and_its_verdict() {
     let mut window = by_scenes();
     wait(&mut window, "the loss", |app| app.losses().is_some());
@@ -40,8 +40,8 @@ fn the_difference_to_the_chosen_prediction_has_its_sign_and_its_verdict() {
     assert!(gives(&label, -mean), "{label}, expected {}", -mean);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn what_cannot_be_told_apart_is_said_so() {
     let mut window = by_scenes();
     enter(&mut window, "Near-field scenes", "2");

@@ -28,8 +28,8 @@ fn shown(window: &Window<'_>) -> Vec<String> {
     labels.filter(|text| text.starts_with('[')).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn an_accuracy_is_asked_for_and_kept() {
     let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
@@ -47,8 +47,8 @@ fn an_accuracy_is_asked_for_and_kept() {
     assert!(window.query_by_label_contains("Not within").is_none());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_time_gives_a_loss_with_its_interval() {
     let mut window = by_scenes();
     window.get_by_label("Time").click();
@@ -59,8 +59,8 @@ fn a_time_gives_a_loss_with_its_interval() {
     assert!(window.state().losses().unwrap()[0].estimate.interval95.is_some());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
     let mut window = by_scenes();
     start_a_long_one(&mut window);
@@ -95,8 +95,8 @@ fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
     assert_eq!(shown(&window), kept, "nothing goes on after the end");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn escape_cancels_and_a_change_starts_again() {
     let mut window = by_scenes();
     start_a_long_one(&mut window);
@@ -114,8 +114,8 @@ fn escape_cancels_and_a_change_starts_again() {
     assert!(window.query_by_label_contains("Cancelled").is_none());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_newer_request_supersedes_a_running_one() {
     let mut window = by_scenes();
     start_a_long_one(&mut window);
@@ -126,8 +126,8 @@ fn a_newer_request_supersedes_a_running_one() {
     assert_eq!(window.state().losses().unwrap(), expected);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn going_back_to_what_is_shown_stops_what_was_asked_for_in_between() {
     let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
@@ -144,8 +144,8 @@ fn going_back_to_what_is_shown_stops_what_was_asked_for_in_between() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_old_numbers_stay_until_the_new_ones_are_there() {
     let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use super::*;
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_loss_is_to_1_percent_with_the_few_scenes_of_the_papers_beside_it() {
     let mut window = built_in();
     wait(&mut window, "the loss", |app| app.losses().is_some());
@@ -27,8 +27,8 @@ fn the_loss_is_to_1_percent_with_the_few_scenes_of_the_papers_beside_it() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_why_tab_has_the_loss_of_this_scene_as_the_core_gives_it() {
     let mut window = built_in();
     tab(&mut window, "Why");
@@ -50,8 +50,8 @@ fn the_why_tab_has_the_loss_of_this_scene_as_the_core_gives_it() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
     let folder = tempfile::tempdir().unwrap();
     let picture = crate::pictures::packed("NDRS", 4, |_, value| value);

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf::viewer::model::command::WhyCommand;
-use svbrdf::viewer::model::settings::why::WhySection;
-use svbrdf_core::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
+use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
 use svbrdf_files::read::{NormalY, Order, ReadOptions};
 use svbrdf_files::samples::generate;
+use svbrdf_viewer::model::command::WhyCommand;
+use svbrdf_viewer::model::settings::why::WhySection;
 
 use super::*;
 
@@ -43,7 +43,7 @@ fn on_files<'a>() -> (tempfile::TempDir, Window<'a>) {
     let order: Order = "ndrs".parse().unwrap();
     let read =
         ReadOptions { order: Some(order), preset: Some("deschaintre".parse().unwrap()), ..ReadOptions::AUTO };
-    let open = svbrdf::viewer::model::command::MaterialsCommand::Open {
+    let open = svbrdf_viewer::model::command::MaterialsCommand::Open {
         paths: vec![truth, flipped, darker],
         replace: true,
         read,
@@ -87,8 +87,8 @@ fn lines(window: &Window<'_>) -> Vec<String> {
     found.into_iter().map(|(_, label)| label).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_prediction() {
     let (_folder, mut window) = on_files();
     let found = wait_for_diagnosis(&mut window);
@@ -118,8 +118,8 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_predictio
     assert!(window.query_by_label_contains("Read with").is_none());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_prediction_itself() {
     let (_folder, mut window) = on_files();
     wait_for_diagnosis(&mut window);
@@ -163,8 +163,8 @@ fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_predic
     assert_eq!(window.state().parts.model.view.display.corrected, None);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
     for place in ["Why", "Files"] {
         let (_folder, mut window) = on_files();
@@ -197,8 +197,8 @@ fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_lines_without_a_mark_are_behind_one_line() {
     let (_folder, mut window) = on_files();
     unfold(&mut window, false);
@@ -243,8 +243,8 @@ fn wait_for_label(window: &mut Window<'_>, label: &str) {
     panic!("{label}");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn nothing_moves_while_it_is_diagnosed_and_a_folded_section_diagnoses_nothing() {
     for all in [true, false] {
         nothing_moves(all);
@@ -258,7 +258,7 @@ fn nothing_moves(all: bool) {
     window.get_by_label(SECTION).click();
     window.run_steps(12);
     let convention = |window: &mut Window<'_>, name: &str| {
-        let command = svbrdf::viewer::model::command::SceneCommand::SetConvention(
+        let command = svbrdf_viewer::model::command::SceneCommand::SetConvention(
             svbrdf_core::model::convention::ALL.iter().find(|one| one.name == name).unwrap().name,
         );
         let ctx = window.ctx.clone();

@@ -2,7 +2,7 @@
 
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_core::why::{Hemisphere, hemisphere};
+use svbrdf_evaluate::why::{Hemisphere, hemisphere};
 
 use super::*;
 
@@ -32,8 +32,8 @@ fn unit(p: [f64; 3]) -> [f64; 3] {
     p.map(|c| c / length)
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_map_is_that_of_the_core_over_lights_and_over_views() {
     let mut window = opened();
     let over_lights = wait_for_map(&mut window);
@@ -51,8 +51,8 @@ fn the_map_is_that_of_the_core_over_lights_and_over_views() {
     assert!(!is_same(&over_views, &over_lights), "a planted fault");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of_the_map() {
     let mut window = opened();
     let map = wait_for_map(&mut window);
@@ -88,8 +88,8 @@ fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of
     assert!(is_same(&wait_for_map(&mut window), &map));
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn predictions_are_side_by_side_with_their_difference_and_choosing_one_turns_its_sign() {
     let mut window = opened();
     let map = wait_for_map(&mut window);

@@ -1,13 +1,13 @@
 //! The error map: the log difference of each texel, averaged over the scenes of the loss.
 
-use svbrdf::viewer::model::command::{Command, DisplayCommand, WindowCommand};
-use svbrdf::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::{Request, Sampling, Texels};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::statistics::Statistics;
-use svbrdf_core::why;
+use svbrdf_evaluate::why;
+use svbrdf_viewer::model::command::{Command, DisplayCommand, WindowCommand};
+use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 use super::*;
 
@@ -45,8 +45,8 @@ fn statistics(window: &Window<'_>) -> Vec<Statistics> {
     window.state().difference_statistics().unwrap().iter().map(|one| one.unwrap()).collect()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
     let mut window = shown();
     let found = statistics(&window);
@@ -81,8 +81,8 @@ fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
     window.get_by_label("Title 1  blurred normals: log difference");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn texels_have_the_colours_and_the_readout_of_the_error_map() {
     let mut window = shown();
     press(&mut window, egui::Key::Num0);
@@ -120,8 +120,8 @@ fn texels_have_the_colours_and_the_readout_of_the_error_map() {
     }
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_saved_error_map_has_its_numbers_and_says_what_it_is() {
     let mut window = shown();
     let folder = tempfile::tempdir().unwrap();

@@ -3,7 +3,7 @@
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Map;
 use svbrdf_core::model::convention::{self, Convention};
-use svbrdf_core::why::{Attribution, attribute};
+use svbrdf_evaluate::why::{Attribution, attribute};
 
 use super::*;
 
@@ -18,8 +18,8 @@ fn wait_for_attribution(window: &mut Window<'_>) -> Attribution {
     window.state().attribution().unwrap().clone()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_convention() {
     let mut window = opened();
     let first = expected(1, &convention::PRINTED);
@@ -50,8 +50,8 @@ fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_co
 }
 
 /// A metal and a rougher, darker prediction of it.
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_share_below_0_is_explained_below_the_bars() {
     let folder = tempfile::tempdir().unwrap();
     let [metal, dull] = [("metal.png", 40, 200), ("dull.png", 120, 20)].map(|(name, roughness, specular)| {
@@ -92,8 +92,8 @@ fn isolate(window: &mut Window<'_>, map: &str) {
     window.run_steps(3);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_on_a_bar_of_another_prediction_chooses_it() {
     let mut window = opened();
     wait_for_attribution(&mut window);
@@ -109,8 +109,8 @@ fn wait_for_pane(window: &mut Window<'_>, name: &str) -> egui::Rect {
     pane(window, &format!("1  {name}"))
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
     let mut window = opened();
     let materials = materials();
@@ -145,8 +145,8 @@ fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
     assert_eq!(app.names()[1], "blurred normals", "the material itself is unchanged");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn every_way_back_shows_the_prediction_itself() {
     let mut window = opened();
     let name = "blurred normals, only its normal wrong";
@@ -180,8 +180,8 @@ fn every_way_back_shows_the_prediction_itself() {
     wait_for_pane(&mut window, name);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
     let mut window = opened();
     press(&mut window, egui::Key::D);

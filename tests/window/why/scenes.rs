@@ -2,7 +2,7 @@
 
 use svbrdf_core::loss::{Request, Sampling, Texels};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::why::{RankedScene, TAIL, worst, worst_first};
+use svbrdf_evaluate::why::{RankedScene, TAIL, worst, worst_first};
 
 use super::*;
 
@@ -20,8 +20,8 @@ fn wait_for_scenes(window: &mut Window<'_>) -> Vec<RankedScene> {
     window.state().listed_scenes().unwrap().0.to_vec()
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_listed_scenes_are_those_of_the_core_and_a_click_loads_one() {
     let mut window = opened();
     let listed = wait_for_scenes(&mut window);
@@ -42,8 +42,8 @@ fn the_listed_scenes_are_those_of_the_core_and_a_click_loads_one() {
     assert_ne!(expected(2, SAMPLING), listed, "a planted fault");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_thumbnail_has_the_mean_of_its_scene() {
     let mut window = opened();
     let listed = wait_for_scenes(&mut window);
@@ -65,8 +65,8 @@ fn a_thumbnail_has_the_mean_of_its_scene() {
     assert!(window.query_by_label_contains("Scene 11: ").is_none());
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_loss_over_few_scenes_lists_just_these() {
     let mut window = by_scenes();
     window.set_size(vec2(1200.0, 1800.0));
@@ -80,8 +80,8 @@ fn a_loss_over_few_scenes_lists_just_these() {
     assert!((mean / loss - 1.0).abs() < 1e-12, "{mean} and {loss}");
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn the_search_finds_the_scene_of_the_core_and_shows_it() {
     let mut window = opened();
     window.get_by_label("Find worst scene").click();
@@ -101,8 +101,8 @@ fn the_search_finds_the_scene_of_the_core_and_shows_it() {
     assert_eq!(window.state().worst(), None);
 }
 
+#[needs(adapter)]
 #[test]
-#[cfg_attr(not(has_adapter), ignore = "no graphics adapter")]
 fn a_cancelled_search_leaves_the_scene() {
     let mut window = opened();
     // The list does not push the button away under the click.

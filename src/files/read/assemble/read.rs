@@ -6,7 +6,7 @@ use std::sync::Arc;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 
-use crate::memory::Reserved;
+use crate::disk::memory::Reserved;
 use crate::read::gather::Neighbours;
 use crate::read::gather::map_report::MapReport;
 use crate::read::options::ReadOptions;

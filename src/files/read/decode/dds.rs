@@ -8,7 +8,7 @@ use svbrdf_core::error::Error;
 
 use super::place::Place;
 use super::reader::Reader;
-use crate::panics::caught;
+use crate::disk::panics::caught;
 use crate::read::raster::{Buffer, Raster, Samples};
 
 pub(crate) fn decode(reader: Reader<'_>, place: Place<'_>) -> Result<Raster, Error> {

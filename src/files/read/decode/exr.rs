@@ -13,7 +13,7 @@ use svbrdf_core::error::Error;
 use super::dwa;
 use super::place::{Decoded, Layer, MAX_SIDE, Place};
 use super::reader::Reader;
-use crate::panics::caught;
+use crate::disk::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
 

@@ -8,7 +8,7 @@ use svbrdf_core::error::Error;
 
 use super::place::{MAX_BYTES, Place};
 use super::reader::Reader;
-use crate::panics::caught;
+use crate::disk::panics::caught;
 use crate::read::raster::{Raster, Samples};
 
 /// How a KTX2 begins.

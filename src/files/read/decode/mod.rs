@@ -20,8 +20,8 @@ mod tiff;
 use std::io::BufRead as _;
 use std::path::Path;
 
-use crate::lfs;
-use crate::open::NamedFile;
+use crate::disk::lfs;
+use crate::disk::open::NamedFile;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
 pub(super) use place::{Decoded, Layer};

@@ -18,7 +18,7 @@ use super::head::{self, PngHead};
 use super::known;
 use super::place::{Decoded, FORMATS, MAX_BYTES, MAX_WIDTH, Place, alone};
 use super::reader::Reader;
-use crate::panics::caught;
+use crate::disk::panics::caught;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
 

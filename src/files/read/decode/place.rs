@@ -4,7 +4,7 @@ use std::path::Path;
 
 use svbrdf_core::error::Error;
 
-use crate::memory::{self, Reserved};
+use crate::disk::memory::{self, Reserved};
 use crate::read::options::Role;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};

@@ -12,11 +12,11 @@ use svbrdf_core::error::Error;
 
 use super::colours::measured;
 use super::log_odds::MOST_OF_NEIGHBOURS;
-use crate::open::{NamedFile, hexadecimal};
+use crate::disk::open::{NamedFile, hexadecimal};
+use crate::disk::stamp::Stamp;
 use crate::read::decode;
 use crate::read::locate::neighbours;
 use crate::read::record::{Evidence, Subject};
-use crate::stamp::Stamp;
 
 /// The neighbours that the reading of a material looked at.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::located::set::{ListingDocument, SetFiles};
 use crate::read::options::NormalY;
 use crate::read::options::extensions;

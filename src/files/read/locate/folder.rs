@@ -8,7 +8,7 @@ use svbrdf_core::error::Error;
 use super::directory::{self, folder_of, list, material_name};
 use super::documents;
 use super::grouping::{self, Wanted};
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::located::set::{LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located, WholePicture};
 use crate::read::names::listing;

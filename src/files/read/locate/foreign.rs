@@ -4,7 +4,7 @@ use std::path::Path;
 
 use svbrdf_core::error::Error;
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::names::listing;
 use crate::read::options::extensions::{self, PICTURES};
 

@@ -16,7 +16,7 @@ use std::path::Path;
 
 use svbrdf_core::error::Error;
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::located::binding::Binding;
 use crate::read::located::{Candidate, Located, WholePicture};
 use crate::read::names::Label;
@@ -108,7 +108,7 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::open::NamedBy;
+    use crate::disk::open::NamedBy;
 
     /// A folder of files without any content: no picture could be decoded.
     fn folder(files: &[&str]) -> tempfile::TempDir {

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::directory::{folders, list};
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::names::Label;
 
 /// Most neighbours that are looked at.

@@ -9,13 +9,13 @@ use serde_json::{Map, Value};
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
+use crate::disk::{atomic, own};
 use crate::read::located::binding::Binding;
 use crate::read::names::Label;
 use crate::read::options::ReadOptions;
 use crate::read::options::extensions::EXTENSIONS;
 use crate::read::record::{Assumption, Certainty, Note, SpecifiedBy, What};
-use crate::{atomic, own};
 
 /// The name of the file in a folder.
 const IN_FOLDER: &str = "svbrdf.json";

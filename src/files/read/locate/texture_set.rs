@@ -7,8 +7,8 @@ use serde_json::{Map, Value};
 
 use svbrdf_core::error::Error;
 
-use crate::lfs;
-use crate::open::NamedFile;
+use crate::disk::lfs;
+use crate::disk::open::NamedFile;
 use crate::read::located::binding::LocatedBinding;
 use crate::read::located::set::{LabelledFile, LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located};

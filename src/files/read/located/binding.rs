@@ -5,8 +5,8 @@ use std::str::FromStr;
 
 use svbrdf_core::error::Error;
 
-use crate::open::NamedFile;
-use crate::paths::{absolute, relative};
+use crate::disk::open::NamedFile;
+use crate::disk::paths::{absolute, relative};
 use crate::read::options::Role;
 
 /// A binding with its file.

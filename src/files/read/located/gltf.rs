@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::picture::LocatedPicture;
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::options::NormalY;
 
 /// A material of a glTF, its textures located.

@@ -12,7 +12,7 @@ pub(super) mod surface_model;
 
 use svbrdf_core::error::Error;
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 
 use binding::{BoundSource, LocatedBinding};
 use gltf::LocatedGltf;

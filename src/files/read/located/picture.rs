@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::record::Subject;
 
 /// A picture that has not been decoded.

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::picture::{LocatedPicture, PictureSource};
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::names::{Label, is_named_within};
 use crate::read::options::{NormalY, Role, extensions};
 use crate::read::record::{Note, Subject, Unused};

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::options::transfer::{encoded, linear};
 use crate::read::options::{Albedo, Workflow};
 use crate::read::raster::{Raster, Samples};

@@ -9,13 +9,13 @@ use std::time::{Duration, Instant};
 use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::report::LossReport;
+use svbrdf_evaluate::report::LossReport;
 
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::waker::Waker;
-use crate::viewer::model::material::list::MaterialList;
-use crate::viewer::model::material::loaded::{LoadedMaterial, ids};
-use crate::viewer::model::settings::loss_query::LossQuery;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
+use crate::model::material::list::MaterialList;
+use crate::model::material::loaded::{LoadedMaterial, ids};
+use crate::model::settings::loss_query::LossQuery;
 
 pub use phase::Losses;
 use phase::{LossKey, Phase, RunningLoss, Settled, Step, stopped};

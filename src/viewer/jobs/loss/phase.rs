@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use svbrdf_core::loss::{Estimate, Request};
-use svbrdf_core::report::LossReport;
+use svbrdf_evaluate::report::LossReport;
 
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::settings::loss_query::LossQuery;
+use crate::jobs::work::job::Job;
+use crate::model::material::read::MaterialId;
+use crate::model::settings::loss_query::LossQuery;
 
 /// What a loss depends on: the ids of the materials, the ground truth first, and the request.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,7 +140,7 @@ pub fn stopped(phase: Phase, problem: Option<String>) -> Phase {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::jobs::work::waker::Waker;
+    use crate::jobs::work::waker::Waker;
     use svbrdf_core::loss::{Comparison, Outcome, Sampling};
     use svbrdf_core::material::Material;
     use svbrdf_core::model::brdf::Texel;

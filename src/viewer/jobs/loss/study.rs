@@ -3,12 +3,12 @@
 use svbrdf_core::error::Error;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::study::{self, Pair, Study};
+use svbrdf_evaluate::study::{self, Pair, Study};
 
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::waker::Waker;
-use crate::viewer::model::material::list::MaterialList;
-use crate::viewer::model::material::read::MaterialId;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
+use crate::model::material::list::MaterialList;
+use crate::model::material::read::MaterialId;
 
 /// What a study depends on: the ids of ground truth and prediction, and the convention.
 type StudyKey = ([MaterialId; 2], &'static str);

@@ -7,17 +7,17 @@ use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::error_maps;
+use svbrdf_evaluate::why::error_maps;
 use svbrdf_gpu::Gpu;
 
 use super::computed_maps::ComputedMaps;
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::work::context::JobContext;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
+use crate::model::material::read::ReadMaterial;
+use crate::model::view::state::ViewState;
 
 /// What error maps depend on.
 #[derive(Clone, Debug, PartialEq)]

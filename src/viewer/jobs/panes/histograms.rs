@@ -9,13 +9,13 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Histogram, Statistics};
 use svbrdf_core::progress::Progress;
 
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::work::context::JobContext;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
+use crate::model::material::read::ReadMaterial;
+use crate::model::view::state::ViewState;
 
 /// Bins of a histogram.
 const BINS: usize = 96;

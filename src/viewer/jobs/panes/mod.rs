@@ -15,9 +15,9 @@ use replacement::ReplacementJob;
 
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::viewer::model::Model;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
+use crate::model::Model;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
 
 /// The jobs, and the materials in the panes.
 #[derive(Debug, Default)]

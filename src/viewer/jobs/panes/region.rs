@@ -12,13 +12,13 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::render::render_texel;
 
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::model::inspection::Region;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::work::context::JobContext;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::model::inspection::Region;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
+use crate::model::view::state::ViewState;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,7 +118,7 @@ fn numbers<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::model::view::state::ViewState;
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_files::samples;
 

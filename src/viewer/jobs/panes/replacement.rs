@@ -3,18 +3,18 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::diagnose::Change;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Map, Material};
+use svbrdf_evaluate::diagnose::Change;
 
-use crate::viewer::jobs::reading::upload::{Uploaded, Uploads};
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::reading::upload::{Uploaded, Uploads};
+use crate::jobs::work::context::JobContext;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
+use crate::model::material::read::ReadMaterial;
+use crate::model::view::state::ViewState;
 
 /// What is shown in the place of a prediction.
 #[derive(Clone, Copy, Debug, PartialEq)]

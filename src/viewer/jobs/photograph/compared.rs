@@ -10,14 +10,14 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::photograph::{PhotographComparison, Rectified};
+use svbrdf_evaluate::photograph::{PhotographComparison, Rectified};
 use svbrdf_gpu::{Gpu, Shaded};
 
-use crate::viewer::jobs::photograph::keys::RectifiedKey;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::photograph::keys::RectifiedKey;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
+use crate::model::material::read::ReadMaterial;
+use crate::model::view::state::ViewState;
 
 /// What the comparisons depend on.
 #[derive(Clone, Debug, PartialEq)]

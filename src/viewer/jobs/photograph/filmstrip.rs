@@ -7,11 +7,11 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::capture::{Capture, CapturedPhotograph};
-use svbrdf_files::photograph::Rectified;
+use svbrdf_evaluate::capture::{Capture, CapturedPhotograph};
+use svbrdf_evaluate::photograph::Rectified;
 
 use super::picture::exposure;
-use crate::viewer::jobs::work::picture::Picture;
+use crate::jobs::work::picture::Picture;
 
 /// Side of a thumbnail, in pixels.
 const SIDE: usize = 96;

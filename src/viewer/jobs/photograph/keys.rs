@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use svbrdf_files::photograph::Corners;
+use svbrdf_evaluate::photograph::Corners;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read::PhotographOptions;
-use svbrdf_files::stamp::Stamp;
 
 /// What the samples of a photograph depend on: its file, the stamp of the file when it was opened, and how it is read.
 pub type ReadKey = (PathBuf, Option<Stamp>, PhotographOptions);

@@ -11,18 +11,18 @@ use std::sync::Arc;
 pub use compared::Photographs;
 use svbrdf_core::error::Error;
 use svbrdf_core::picture::statistics::Distributions;
-use svbrdf_files::photograph::{Corners, Rectified};
+use svbrdf_evaluate::photograph::{Corners, Rectified};
 use svbrdf_files::read::{Photograph, read_photograph};
 use svbrdf_files::session::SessionPhotograph;
 
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::jobs::work::picture::Picture;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::photograph::PhotographState;
-use crate::viewer::model::material::source::file_name;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::work::context::JobContext;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::jobs::work::picture::Picture;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::photograph::PhotographState;
+use crate::model::material::source::file_name;
+use crate::model::view::state::ViewState;
 
 use compared::{ComparedKey, compare, key};
 use filmstrip::Filmstrip;

@@ -5,7 +5,7 @@ use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::statistics::quantile;
 use svbrdf_files::read::Photograph;
 
-use crate::viewer::jobs::work::picture::Picture;
+use crate::jobs::work::picture::Picture;
 
 /// Longest side of the texture; larger photographs are reduced.
 const LONGEST: usize = 4096;

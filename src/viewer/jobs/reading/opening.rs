@@ -13,12 +13,12 @@ use svbrdf_gpu::Gpu;
 
 use super::read::{Reader, read_with_retries, runs_of};
 use super::upload::{Uploaded, Uploads};
-use crate::viewer::jobs::work::job::{Job, Worker};
-use crate::viewer::jobs::work::priority;
-use crate::viewer::jobs::work::waker::Waker;
-use crate::viewer::model::material::read::{MaterialId, ReadMaterial};
-use crate::viewer::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
-use crate::viewer::model::material::source::Source;
+use crate::jobs::work::job::{Job, Worker};
+use crate::jobs::work::priority;
+use crate::jobs::work::waker::Waker;
+use crate::model::material::read::{MaterialId, ReadMaterial};
+use crate::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
+use crate::model::material::source::Source;
 
 /// The openings that are going on.
 #[derive(Debug, Default)]

@@ -6,13 +6,13 @@ use std::time::{Duration, SystemTime};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read;
 use svbrdf_files::samples;
-use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep, runs_in};
 
-use crate::viewer::model::material::read::{ReadMaterial, Rules};
-use crate::viewer::model::material::source::{Origin, Source};
+use crate::model::material::read::{ReadMaterial, Rules};
+use crate::model::material::source::{Origin, Source};
 
 /// A file that was written less than this ago may be incomplete.
 const INCOMPLETE: Duration = Duration::from_secs(5);

@@ -8,13 +8,13 @@ use eframe::wgpu;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::memory::{self, Reserved};
+use svbrdf_files::disk::memory::{self, Reserved};
 use svbrdf_gpu::{Gpu, MaterialTextures};
 
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::waker::Waker;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::{MaterialId, ReadMaterial};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::{MaterialId, ReadMaterial};
 
 /// Texels that a slow adapter sends or shades within a frame.
 pub const BAND: usize = 1 << 19;

@@ -7,15 +7,15 @@ use std::sync::Arc;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::progress::Progress;
-use svbrdf_files::stamp::Stamp;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep};
 
-use crate::viewer::jobs::reading::read::{Reader, read_with_retries};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::waker::Waker;
-use crate::viewer::model::material::read::{MaterialId, ReadMaterial, Rules};
-use crate::viewer::model::material::source::{Origin, Source};
-use crate::viewer::model::settings::loss_query::LossQuery;
+use crate::jobs::reading::read::{Reader, read_with_retries};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
+use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
+use crate::model::material::source::{Origin, Source};
+use crate::model::settings::loss_query::LossQuery;
 
 /// The loss of a step, or why there is none.
 pub type StepLoss = Result<Estimate, String>;

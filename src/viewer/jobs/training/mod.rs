@@ -5,7 +5,7 @@ pub mod scan;
 
 use svbrdf_files::steps::{RunId, TrainingRun};
 
-use crate::viewer::model::material::loaded::LoadedMaterial;
+use crate::model::material::loaded::LoadedMaterial;
 
 pub use losses::{RunLosses, RunLossesKey, StepLoss, WantedRun};
 pub use scan::{RunNews, RunScan};
@@ -66,7 +66,7 @@ impl TrainingJobs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use svbrdf_files::stamp::Stamp;
+    use svbrdf_files::disk::stamp::Stamp;
     use svbrdf_files::steps::{Counter, TrainingStep};
 
     #[test]

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::time::{Duration, SystemTime};
 
-use svbrdf_files::stamp::Stamp;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::steps::{TrainingRun, TrainingStep, runs_in};
 
-use crate::viewer::jobs::reading::watch::{INTERVAL, QUIET};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::waker::Waker;
+use crate::jobs::reading::watch::{INTERVAL, QUIET};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
 
 /// The training runs in some folders. Folders are listed once, or again and again where they are watched.
 #[derive(Debug, Default)]

@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Attribution, attribute};
+use svbrdf_evaluate::why::{Attribution, attribute};
 
-use crate::viewer::jobs::why::one_by_one::OneByOne;
-use crate::viewer::jobs::why::pair::ComparedPair;
+use crate::jobs::why::one_by_one::OneByOne;
+use crate::jobs::why::pair::ComparedPair;
 
 /// Half of the 95% interval of the loss, as a share of the loss.
 pub const ATTRIBUTION_TARGET: f64 = 0.01;

@@ -2,16 +2,16 @@
 
 use std::time::{Duration, Instant};
 
-use svbrdf_core::diagnose::{Diagnosis, diagnose, floor};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::diagnose::{Diagnosis, diagnose, floor};
 
-use crate::viewer::jobs::why::one_by_one::OneByOne;
-use crate::viewer::jobs::why::pair::{ComparedPair, GroundTruthKey};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::jobs::work::waker::Waker;
+use crate::jobs::why::one_by_one::OneByOne;
+use crate::jobs::why::pair::{ComparedPair, GroundTruthKey};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::jobs::work::waker::Waker;
 
 /// A diagnosis, and the time that it took.
 #[derive(Clone, Debug)]

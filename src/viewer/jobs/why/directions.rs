@@ -9,13 +9,13 @@ use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::why::{Hemisphere, hemisphere};
+use svbrdf_evaluate::why::{Hemisphere, hemisphere};
 
-use crate::viewer::jobs::why::pair::{self, ComparedPair, PairKey};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::jobs::work::picture::Picture;
-use crate::viewer::jobs::work::waker::Waker;
+use crate::jobs::why::pair::{self, ComparedPair, PairKey};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::jobs::work::picture::Picture;
+use crate::jobs::work::waker::Waker;
 
 /// Columns and rows of the finest map.
 pub const SIDE: usize = 64;

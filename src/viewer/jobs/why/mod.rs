@@ -12,11 +12,11 @@ pub mod thumbnails;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::why::Worst;
+use svbrdf_evaluate::why::Worst;
 
-use crate::viewer::jobs::why::attribution::attributed;
-use crate::viewer::jobs::work::context::JobContext;
-use crate::viewer::model::settings::why::{WhySection, WhySections};
+use crate::jobs::why::attribution::attributed;
+use crate::jobs::work::context::JobContext;
+use crate::model::settings::why::{WhySection, WhySections};
 
 pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
 pub use diagnosis::{Diagnosed, DiagnosisJob};

@@ -5,10 +5,10 @@ use std::time::Duration;
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 
-use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::jobs::work::waker::Waker;
+use crate::jobs::why::pair::{ComparedPair, PairKey};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::jobs::work::waker::Waker;
 
 /// What a result depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_evaluate::diagnose::Storage;
 
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
+use crate::model::material::read::ReadMaterial;
+use crate::model::view::state::ViewState;
 
 /// Identity of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,13 +6,13 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::picture::statistics::Histogram;
-use svbrdf_core::why::{Distribution, RankedScene, worst_first};
+use svbrdf_evaluate::why::{Distribution, RankedScene, worst_first};
 
-use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
-use crate::viewer::jobs::why::thumbnails::{self, Thumbnails};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::latest::Latest;
-use crate::viewer::jobs::work::waker::Waker;
+use crate::jobs::why::pair::{ComparedPair, PairKey};
+use crate::jobs::why::thumbnails::{self, Thumbnails};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::jobs::work::waker::Waker;
 
 /// Bins of the histogram of the losses of scenes.
 const BINS: usize = 40;
@@ -112,7 +112,7 @@ impl SceneList {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::model::view::state::ViewState;
 
     #[test]
     fn every_scene_is_in_a_bin_and_the_worst_in_the_last() {

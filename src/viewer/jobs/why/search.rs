@@ -3,11 +3,11 @@
 use std::time::Duration;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::why::{TAIL, Worst, worst};
+use svbrdf_evaluate::why::{TAIL, Worst, worst};
 
-use crate::viewer::jobs::why::pair::{ComparedPair, PairKey};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::jobs::work::waker::Waker;
+use crate::jobs::why::pair::{ComparedPair, PairKey};
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
 
 /// The search that goes on, and the worst scene that was found.
 #[derive(Debug, Default)]

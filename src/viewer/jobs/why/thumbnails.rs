@@ -10,10 +10,10 @@ use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 use svbrdf_core::statistics::quantile;
-use svbrdf_core::why::RankedScene;
+use svbrdf_evaluate::why::RankedScene;
 
-use crate::viewer::jobs::why::pair::ComparedPair;
-use crate::viewer::jobs::work::picture::Picture;
+use crate::jobs::why::pair::ComparedPair;
+use crate::jobs::work::picture::Picture;
 
 /// Side of a thumbnail, in pixels.
 pub const SIDE: usize = 48;

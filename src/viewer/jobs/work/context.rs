@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use svbrdf_gpu::Gpu;
 
-use crate::viewer::jobs::work::waker::Waker;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::ReadMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::work::waker::Waker;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::ReadMaterial;
+use crate::model::view::state::ViewState;
 
 /// The materials and the view of one frame, for jobs that follow them.
 #[derive(Clone, Copy, Debug)]

@@ -85,7 +85,7 @@ impl<K: Clone + PartialEq, R: Send + 'static, U: Send + 'static> Latest<K, R, U>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::jobs::work::waker::Waker;
+    use crate::jobs::work::waker::Waker;
 
     /// Follows `wanted` until its result is there; the keys for which jobs were started.
     fn settle(latest: &mut Latest<u32, u32>, wanted: u32) -> Vec<u32> {

@@ -1,17 +1,17 @@
 //! Commands about what the panes show, and how.
 
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 
 use super::undo;
-use crate::viewer::model::Model;
-use crate::viewer::model::command::DisplayCommand;
-use crate::viewer::model::command::effect::Effect;
-use crate::viewer::model::exposed::Exposed;
-use crate::viewer::model::ranges::STOPS;
-use crate::viewer::model::view::endpoint::{self, Endpoint};
-use crate::viewer::model::view::framing::{self, Framed};
-use crate::viewer::model::view::state::{AutoExposure, Layout, Projection, ViewState};
+use crate::model::Model;
+use crate::model::command::DisplayCommand;
+use crate::model::command::effect::Effect;
+use crate::model::exposed::Exposed;
+use crate::model::ranges::STOPS;
+use crate::model::view::endpoint::{self, Endpoint};
+use crate::model::view::framing::{self, Framed};
+use crate::model::view::state::{AutoExposure, Layout, Projection, ViewState};
 
 pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
     let state = &mut model.view;

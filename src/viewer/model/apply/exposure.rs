@@ -2,11 +2,11 @@
 
 use svbrdf_core::picture::exposure;
 
-use crate::viewer::model::Model;
-use crate::viewer::model::exposed::Exposed;
-use crate::viewer::model::material::source::Origin;
-use crate::viewer::model::ranges::STOPS;
-use crate::viewer::model::view::state::AutoExposure;
+use crate::model::Model;
+use crate::model::exposed::Exposed;
+use crate::model::material::source::Origin;
+use crate::model::ranges::STOPS;
+use crate::model::view::state::AutoExposure;
 
 /// Computes the exposure where its state asks for it. Called in every frame.
 pub fn follow(model: &mut Model) {

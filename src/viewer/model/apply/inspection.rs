@@ -1,8 +1,8 @@
 //! Commands about texels.
 
-use crate::viewer::model::Model;
-use crate::viewer::model::command::InspectionCommand;
-use crate::viewer::model::command::effect::Effect;
+use crate::model::Model;
+use crate::model::command::InspectionCommand;
+use crate::model::command::effect::Effect;
 
 pub(super) fn apply(model: &mut Model, command: InspectionCommand) -> Vec<Effect> {
     let inspection = &mut model.inspection;

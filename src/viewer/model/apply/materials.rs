@@ -7,12 +7,12 @@ use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
 
-use crate::viewer::model::Model;
-use crate::viewer::model::command::MaterialsCommand;
-use crate::viewer::model::command::effect::{DialogEffect, Effect};
-use crate::viewer::model::material::request::{ReadRequest, Target};
-use crate::viewer::model::material::source::{Source, sources};
-use crate::viewer::model::message::Message;
+use crate::model::Model;
+use crate::model::command::MaterialsCommand;
+use crate::model::command::effect::{DialogEffect, Effect};
+use crate::model::material::request::{ReadRequest, Target};
+use crate::model::material::source::{Source, sources};
+use crate::model::message::Message;
 
 pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect> {
     let materials = &mut model.materials;

@@ -121,8 +121,8 @@ fn apply_to_why(model: &mut Model, command: WhyCommand) -> Vec<Effect> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::command::DisplayCommand;
-    use crate::viewer::model::view::geometry::WindowGeometry;
+    use crate::model::command::DisplayCommand;
+    use crate::model::view::geometry::WindowGeometry;
 
     #[test]
     fn a_command_changes_the_model_and_returns_what_it_does_outside() {

@@ -2,9 +2,9 @@
 
 use svbrdf_files::session::SessionPhotograph;
 
-use crate::viewer::model::Model;
-use crate::viewer::model::command::PhotographCommand;
-use crate::viewer::model::command::effect::{DialogEffect, Effect};
+use crate::model::Model;
+use crate::model::command::PhotographCommand;
+use crate::model::command::effect::{DialogEffect, Effect};
 
 pub(super) fn apply(model: &mut Model, command: PhotographCommand) -> Vec<Effect> {
     match command {

@@ -1,12 +1,12 @@
 //! Commands about light, view and convention.
 
 use super::exposure;
-use crate::viewer::model::Model;
-use crate::viewer::model::command::effect::Effect;
-use crate::viewer::model::command::{MaterialsCommand, SceneCommand};
-use crate::viewer::model::message::Message;
-use crate::viewer::model::message::pasted::{Pasted, pasted, scene_text};
-use crate::viewer::model::view::endpoint;
+use crate::model::Model;
+use crate::model::command::effect::Effect;
+use crate::model::command::{MaterialsCommand, SceneCommand};
+use crate::model::message::Message;
+use crate::model::message::pasted::{Pasted, pasted, scene_text};
+use crate::model::view::endpoint;
 
 pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
     let scene = &mut model.view.scene;

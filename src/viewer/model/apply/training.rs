@@ -1,10 +1,10 @@
 //! Commands about training runs.
 
-use crate::viewer::model::Model;
-use crate::viewer::model::command::TrainingCommand;
-use crate::viewer::model::command::effect::Effect;
-use crate::viewer::model::material::request::{ReadRequest, Target};
-use crate::viewer::model::material::source::Source;
+use crate::model::Model;
+use crate::model::command::TrainingCommand;
+use crate::model::command::effect::Effect;
+use crate::model::material::request::{ReadRequest, Target};
+use crate::model::material::source::Source;
 
 pub(super) fn apply(model: &mut Model, command: TrainingCommand) -> Vec<Effect> {
     match command {

@@ -1,11 +1,11 @@
 //! Undo and redo.
 
-use svbrdf_files::stamp::Stamp;
+use svbrdf_files::disk::stamp::Stamp;
 
-use crate::viewer::model::Model;
-use crate::viewer::model::command::effect::Effect;
-use crate::viewer::model::exposed::Exposed;
-use crate::viewer::model::history::Moment;
+use crate::model::Model;
+use crate::model::command::effect::Effect;
+use crate::model::exposed::Exposed;
+use crate::model::history::Moment;
 
 /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
 pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_settled: bool) {
@@ -65,10 +65,10 @@ fn return_to(model: &mut Model, moment: Option<Moment>) -> Vec<Effect> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::command::{DisplayCommand, SceneCommand};
-    use crate::viewer::model::material::loaded::LoadedMaterial;
-    use crate::viewer::model::material::read::ReadMaterial;
-    use crate::viewer::model::material::source::Source;
+    use crate::model::command::{DisplayCommand, SceneCommand};
+    use crate::model::material::loaded::LoadedMaterial;
+    use crate::model::material::read::ReadMaterial;
+    use crate::model::material::source::Source;
 
     /// A model with the built-in materials.
     fn model() -> Model {
@@ -111,11 +111,11 @@ mod tests {
     fn undo_reads_a_closed_prediction_again_and_keeps_the_others() {
         let mut model = model();
         pause(&mut model, 1.0);
-        model.apply(crate::viewer::model::command::MaterialsCommand::Close(1).into());
+        model.apply(crate::model::command::MaterialsCommand::Close(1).into());
         pause(&mut model, 2.0);
         let effects = model.apply(DisplayCommand::Undo.into());
         let [Effect::Read(request)] = &effects[..] else { panic!("{effects:?}") };
-        use crate::viewer::model::material::request::Item;
+        use crate::model::material::request::Item;
         let reads = request.items.iter().filter(|item| matches!(item, Item::Read(_))).count();
         assert_eq!((request.items.len(), reads), (svbrdf_files::samples::COUNT, 1));
     }

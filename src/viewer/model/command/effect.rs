@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use svbrdf_files::session::SessionPhotograph;
 
 use super::PhotographLight;
-use crate::viewer::model::material::request::ReadRequest;
-use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use crate::model::material::request::ReadRequest;
+use crate::model::settings::save_kind::{SaveKind, SaveRequest};
 
 /// One effect of a command.
 #[derive(Clone, Debug)]

@@ -9,12 +9,12 @@ pub mod photograph;
 
 pub use photograph::{PhotographCommand, PhotographLight};
 
-use svbrdf_core::diagnose::Change;
 use svbrdf_core::loss::{LossSettings, Sampling};
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_evaluate::diagnose::Change;
 use svbrdf_files::read::ReadOptions;
 
 use super::inspection::Region;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_core::model::scene::Scene;
-use svbrdf_files::photograph::Corners;
+use svbrdf_evaluate::photograph::Corners;
 use svbrdf_files::read::Transfer;
 use svbrdf_files::session::SessionPhotograph;
 

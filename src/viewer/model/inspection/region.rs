@@ -62,7 +62,7 @@ mod tests {
     use super::*;
     use svbrdf_core::material::Grid;
 
-    use crate::viewer::model::view::texel_plane::TexelPlane;
+    use crate::model::view::texel_plane::TexelPlane;
 
     const GRID: Grid = Grid { width: 48, height: 20 };
     const SIZE: [usize; 2] = [48, 20];

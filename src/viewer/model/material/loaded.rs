@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use svbrdf_core::material::{Grid, Material};
-use svbrdf_core::report::distinct_names;
+use svbrdf_evaluate::report::distinct_names;
 
 use super::problem::SizeMismatch;
 use super::read::{MaterialId, ReadMaterial};
@@ -85,7 +85,7 @@ pub fn mismatch(ground_truth: &LoadedMaterial, prediction: &ReadMaterial) -> Opt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::material::source::Source;
+    use crate::model::material::source::Source;
 
     #[test]
     fn names_that_steer_the_text_after_them_or_fill_the_window_are_shown_and_do_neither() {

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use svbrdf_core::diagnose::Storage;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
-use svbrdf_files::memory::Reserved;
+use svbrdf_evaluate::diagnose::Storage;
+use svbrdf_files::disk::memory::Reserved;
+use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read::{Assumption, MapReport, Note, Read, ReadOptions};
-use svbrdf_files::stamp::Stamp;
 use svbrdf_files::steps::RunId;
 
 use super::source::{Origin, Source};

@@ -71,8 +71,8 @@ impl MessageList {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::material::problem::MaterialProblem;
-    use crate::viewer::model::material::source::Source;
+    use crate::model::material::problem::MaterialProblem;
+    use crate::model::material::source::Source;
     use std::path::PathBuf;
     use svbrdf_core::error::Error;
     use svbrdf_files::source::MaterialSource;

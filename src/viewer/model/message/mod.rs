@@ -146,7 +146,7 @@ impl fmt::Display for Message {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::material::problem::SizeMismatch;
+    use crate::model::material::problem::SizeMismatch;
     use svbrdf_files::source::MaterialSource;
 
     #[test]

@@ -49,7 +49,7 @@ fn path(line: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::model::view::state::ViewState;
 
     #[test]
     fn a_copied_scene_can_be_pasted() {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use svbrdf_core::model::scene::{Kind, Scene};
 
-use crate::viewer::model::view::endpoint::{self, Endpoint};
+use crate::model::view::endpoint::{self, Endpoint};
 
 /// Radians per second at speed 1: a circle takes 6 seconds.
 const SPEED: f64 = std::f64::consts::TAU / 6.0;
@@ -163,7 +163,7 @@ impl Preset {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::model::view::state::ViewState;
 
     fn length(p: [f64; 3]) -> f64 {
         p.iter().map(|v| v * v).sum::<f64>().sqrt()

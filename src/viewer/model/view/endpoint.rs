@@ -131,7 +131,7 @@ pub fn put_highlight(scene: &mut Scene, [x, y]: [f64; 2]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::model::view::state::ViewState;
 
     #[test]
     fn the_highlight_is_where_the_half_vector_is_the_normal() {

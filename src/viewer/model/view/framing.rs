@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 
 use super::state::ViewState;
 
@@ -167,8 +167,8 @@ fn size(grid: Grid) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::Projection;
-    use svbrdf_files::session_window::Display;
+    use crate::model::view::state::Projection;
+    use svbrdf_files::session::window::Display;
 
     const GRID: Grid = Grid { width: 64, height: 48 };
     const PANE: [f32; 2] = [640.0, 500.0];

@@ -5,11 +5,11 @@ use svbrdf_core::model::convention::{self, Convention};
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
-use svbrdf_files::session_window::Display;
+use svbrdf_files::session::window::Display;
 
 use super::texel_plane::TexelPlane;
 
-pub use svbrdf_files::session_window::{AutoExposure, Layout, Projection};
+pub use svbrdf_files::session::window::{AutoExposure, Layout, Projection};
 
 /// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 
 use svbrdf_core::material::Grid;
 
-use crate::viewer::model::inspection::Region;
+use crate::model::inspection::Region;
 
 /// The cells of the plane, each of which shows one texel.
 ///

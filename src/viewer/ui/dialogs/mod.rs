@@ -12,9 +12,9 @@ use eframe::egui;
 use svbrdf_core::error::Error;
 
 use super::loss::study::StudyWindow;
-use crate::viewer::jobs::browse::Browsed;
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::model::command::Command;
+use crate::jobs::browse::Browsed;
+use crate::jobs::displayed::Displayed;
+use crate::model::command::Command;
 
 use open::OpenDialog;
 use photograph::PhotographDialog;

@@ -8,9 +8,9 @@ use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
 use super::path_field::{PathField, dialog};
-use crate::viewer::model::command::{Command, MaterialsCommand, WindowCommand};
-use crate::viewer::model::material::source::file_name;
-use crate::viewer::ui::widgets::read_options::read_options;
+use crate::model::command::{Command, MaterialsCommand, WindowCommand};
+use crate::model::material::source::file_name;
+use crate::ui::widgets::read_options::read_options;
 
 /// The paths and choices so far.
 #[derive(Debug, Default)]

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::viewer::ui::widgets::theme;
+use crate::ui::widgets::theme;
 
 /// The path field of a dialog, and what went wrong with the path.
 #[derive(Debug, Default)]

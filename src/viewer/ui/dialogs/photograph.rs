@@ -7,8 +7,8 @@ use eframe::egui;
 use svbrdf_files::session::SessionPhotograph;
 
 use super::path_field::{PathField, dialog};
-use crate::viewer::model::command::{Command, PhotographCommand, PhotographLight, WindowCommand};
-use crate::viewer::ui::widgets::number;
+use crate::model::command::{Command, PhotographCommand, PhotographLight, WindowCommand};
+use crate::ui::widgets::number;
 
 /// The choices so far.
 #[derive(Debug)]

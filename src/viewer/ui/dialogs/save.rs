@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use eframe::egui::{self, RichText};
 
 use super::path_field::{PathField, dialog};
-use crate::viewer::jobs::work::job::Job;
-use crate::viewer::model::command::{Command, WindowCommand};
-use crate::viewer::model::settings::save_kind::{SaveKind, SaveRequest};
-use crate::viewer::ui::widgets::number;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::work::job::Job;
+use crate::model::command::{Command, WindowCommand};
+use crate::model::settings::save_kind::{SaveKind, SaveRequest};
+use crate::ui::widgets::number;
+use crate::ui::widgets::theme;
 
 /// Width and height of a picture of the view, in pixels.
 const SIDE: std::ops::RangeInclusive<u32> = 64..=8192;

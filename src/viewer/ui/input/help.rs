@@ -2,8 +2,8 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::viewer::model::command::{Command, WindowCommand};
-use crate::viewer::ui::input::keys::{self, HelpLine};
+use crate::model::command::{Command, WindowCommand};
+use crate::ui::input::keys::{self, HelpLine};
 
 /// Width of the list in one column and in two, in points.
 const WIDTHS: [f32; 2] = [560.0, 1120.0];

@@ -2,12 +2,12 @@
 
 use eframe::egui::{self, Key, Modifiers};
 
-use crate::viewer::model::command::{
+use crate::model::command::{
     Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand, TrainingCommand,
     WindowCommand,
 };
 
-use crate::viewer::model::view::state::AutoExposure;
+use crate::model::view::state::AutoExposure;
 
 /// A gesture or keys, and what they do.
 pub type HelpLine = (&'static str, &'static str);

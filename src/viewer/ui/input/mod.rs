@@ -8,8 +8,8 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use super::dialogs::Dialogs;
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::model::command::{
+use crate::jobs::displayed::Displayed;
+use crate::model::command::{
     Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, PhotographCommand,
     SceneCommand, WhyCommand, WindowCommand,
 };

@@ -4,13 +4,13 @@ use eframe::egui::{self, Align2, Color32, FontId, Sense, Stroke, vec2};
 
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::jobs::panes::histograms::{Channel, Values};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::ui::legend::strip::{beyond, outline};
-use crate::viewer::ui::widgets::bounds::inset;
-use crate::viewer::ui::widgets::numbers::digits;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::displayed::Displayed;
+use crate::jobs::panes::histograms::{Channel, Values};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::ui::legend::strip::{beyond, outline};
+use crate::ui::widgets::bounds::inset;
+use crate::ui::widgets::numbers::digits;
+use crate::ui::widgets::theme;
 
 /// Height of a histogram, in points.
 const HEIGHT: f32 = 60.0;

@@ -6,11 +6,11 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Histogram, Statistics};
 
-use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
-use crate::viewer::ui::legend::strip::{BAR, HISTOGRAM, LegendStrip, STATISTICS};
-use crate::viewer::ui::widgets::names::{FEWEST, Names, fitted};
-use crate::viewer::ui::widgets::numbers::digits;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::panes::error_map::ErrorMapSummary;
+use crate::ui::legend::strip::{BAR, HISTOGRAM, LegendStrip, STATISTICS};
+use crate::ui::widgets::names::{FEWEST, Names, fitted};
+use crate::ui::widgets::numbers::digits;
+use crate::ui::widgets::theme;
 
 /// Width of a name, in points.
 const NAME: f32 = 146.0;

@@ -8,15 +8,15 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Distributions, Histogram};
 
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::jobs::panes::error_map::ErrorMapSummary;
-use crate::viewer::model::command::{Command, DisplayCommand};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::ui::widgets::bounds::inset;
-use crate::viewer::ui::widgets::colour_bar::colour_bar;
-use crate::viewer::ui::widgets::number;
-use crate::viewer::ui::widgets::numbers::digits;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::displayed::Displayed;
+use crate::jobs::panes::error_map::ErrorMapSummary;
+use crate::model::command::{Command, DisplayCommand};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::ui::widgets::bounds::inset;
+use crate::ui::widgets::colour_bar::colour_bar;
+use crate::ui::widgets::number;
+use crate::ui::widgets::numbers::digits;
+use crate::ui::widgets::theme;
 
 /// The error map in the drop-down of differences.
 const ERROR_MAP: &str = "error map (all scenes)";

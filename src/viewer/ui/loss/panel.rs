@@ -8,15 +8,15 @@ use eframe::egui::{self, RichText, Slider, SliderClamping};
 use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::report::SampledScenes;
+use svbrdf_evaluate::report::SampledScenes;
 
-use crate::viewer::jobs::loss::{LossJob, Losses};
-use crate::viewer::model::command::{Command, LossCommand, WindowCommand};
-use crate::viewer::model::material::list::MaterialList;
-use crate::viewer::ui::loss::results::Results;
-use crate::viewer::ui::widgets::number;
-use crate::viewer::ui::widgets::numbers::{self, seconds};
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::loss::{LossJob, Losses};
+use crate::model::command::{Command, LossCommand, WindowCommand};
+use crate::model::material::list::MaterialList;
+use crate::ui::loss::results::Results;
+use crate::ui::widgets::number;
+use crate::ui::widgets::numbers::{self, seconds};
+use crate::ui::widgets::theme;
 
 /// Most scenes of one kind.
 const MOST: usize = 100_000;

@@ -4,13 +4,13 @@ use eframe::egui::{self, Color32, RichText, Sense, Stroke, pos2, vec2};
 
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::report::SampledScenes;
+use svbrdf_evaluate::report::SampledScenes;
 
-use crate::viewer::jobs::loss::Losses;
-use crate::viewer::model::command::{Command, DisplayCommand, LossCommand};
-use crate::viewer::ui::widgets::names::{FEWEST, Names, fitted};
-use crate::viewer::ui::widgets::numbers::{half_width, signed, significant};
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::loss::Losses;
+use crate::model::command::{Command, DisplayCommand, LossCommand};
+use crate::ui::widgets::names::{FEWEST, Names, fitted};
+use crate::ui::widgets::numbers::{half_width, signed, significant};
+use crate::ui::widgets::theme;
 
 /// Number of predictions from which on there is a field that filters them.
 const MANY: usize = 12;

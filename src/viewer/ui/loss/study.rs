@@ -4,14 +4,14 @@ use eframe::egui::{self, Color32, Pos2, Rect, RichText, Sense, Vec2, vec2};
 use egui_plot::{Corner, GridInput, GridMark, Legend, Line, MarkerShape, PlotPoint, PlotPoints, Points};
 
 use svbrdf_core::loss::Sampling;
-use svbrdf_core::study::{Choice, Family, Point, Study};
 use svbrdf_core::text::{percent, time};
+use svbrdf_evaluate::study::{Choice, Family, Point, Study};
 use svbrdf_files::write::Depth;
 
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::jobs::loss::study::StudyJob;
-use crate::viewer::model::command::{Command, LossCommand};
-use crate::viewer::ui::widgets::plot::still_plot;
+use crate::jobs::displayed::Displayed;
+use crate::jobs::loss::study::StudyJob;
+use crate::model::command::{Command, LossCommand};
+use crate::ui::widgets::plot::still_plot;
 
 /// Radius of the clickable area of a point, in points of the screen.
 const REACH: f32 = 8.0;

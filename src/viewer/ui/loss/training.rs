@@ -7,11 +7,11 @@ use egui_plot::{
 
 use svbrdf_core::loss::Estimate;
 
-use crate::viewer::jobs::training::RunView;
-use crate::viewer::model::command::{Command, DisplayCommand, MaterialsCommand, TrainingCommand};
-use crate::viewer::ui::widgets::numbers::significant;
-use crate::viewer::ui::widgets::plot::still_plot;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::training::RunView;
+use crate::model::command::{Command, DisplayCommand, MaterialsCommand, TrainingCommand};
+use crate::ui::widgets::numbers::significant;
+use crate::ui::widgets::plot::still_plot;
+use crate::ui::widgets::theme;
 
 /// Height of the plot, in points.
 const HEIGHT: f32 = 170.0;

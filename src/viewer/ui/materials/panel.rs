@@ -3,18 +3,18 @@
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, FontId, RichText};
 
-use svbrdf_core::diagnose::{Finding, sentence_of};
+use svbrdf_evaluate::diagnose::{Finding, sentence_of};
 use svbrdf_files::read::{Note, ReadOptions, Sidecar};
 
 use super::assumptions::{self, AssumedLine};
-use crate::viewer::jobs::reading::opening::Openings;
-use crate::viewer::model::command::{Command, MaterialsCommand};
-use crate::viewer::model::material::list::MaterialList;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::source::Origin;
-use crate::viewer::ui::widgets::read_options::read_options;
-use crate::viewer::ui::widgets::remedy::{is_offered, remedy_button};
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::reading::opening::Openings;
+use crate::model::command::{Command, MaterialsCommand};
+use crate::model::material::list::MaterialList;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::source::Origin;
+use crate::ui::widgets::read_options::read_options;
+use crate::ui::widgets::remedy::{is_offered, remedy_button};
+use crate::ui::widgets::theme;
 
 /// What the section shows.
 #[derive(Debug)]

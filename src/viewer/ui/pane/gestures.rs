@@ -7,11 +7,11 @@ use eframe::egui::{self, PointerButton, Pos2, Response, Vec2};
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::viewer::model::command::{Command, DisplayCommand, InspectionCommand, SceneCommand};
-use crate::viewer::model::view::endpoint::{self, Endpoint};
-use crate::viewer::model::view::state::{Layout, Projection, ViewState};
-use crate::viewer::ui::pane::handles::{self, REACH};
-use crate::viewer::ui::pane::placed::Placed;
+use crate::model::command::{Command, DisplayCommand, InspectionCommand, SceneCommand};
+use crate::model::view::endpoint::{self, Endpoint};
+use crate::model::view::state::{Layout, Projection, ViewState};
+use crate::ui::pane::handles::{self, REACH};
+use crate::ui::pane::placed::Placed;
 
 /// Radians of orbit per point that the pointer moves.
 const ORBIT_SPEED: f64 = 0.008;

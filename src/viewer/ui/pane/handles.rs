@@ -5,10 +5,10 @@ use glam::Vec3;
 
 use svbrdf_core::picture::camera::Camera;
 
-use crate::viewer::model::view::endpoint::{self, Endpoint};
-use crate::viewer::model::view::state::{Projection, ViewState};
-use crate::viewer::ui::widgets::bounds::{inset, nearest};
-use crate::viewer::ui::widgets::theme;
+use crate::model::view::endpoint::{self, Endpoint};
+use crate::model::view::state::{Projection, ViewState};
+use crate::ui::widgets::bounds::{inset, nearest};
+use crate::ui::widgets::theme;
 
 /// Distance, in points, within which a press grabs a handle or the wipe line.
 pub const REACH: f32 = 12.0;

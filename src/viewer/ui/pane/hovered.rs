@@ -2,10 +2,10 @@
 
 use eframe::egui;
 
-use crate::viewer::ui::pane::handles::ndc_from_pos;
-use crate::viewer::ui::pane::placed::Placed;
-use crate::viewer::ui::pane::scenery::{Content, Scenery};
-use crate::viewer::ui::pane::texels::index_at;
+use crate::ui::pane::handles::ndc_from_pos;
+use crate::ui::pane::placed::Placed;
+use crate::ui::pane::scenery::{Content, Scenery};
+use crate::ui::pane::texels::index_at;
 
 /// What is under the pointer.
 #[derive(Clone, Copy, Debug, PartialEq)]

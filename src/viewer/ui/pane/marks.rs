@@ -2,9 +2,9 @@
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, pos2, vec2};
 
-use crate::viewer::model::inspection::{Inspection, Region};
-use crate::viewer::model::view::texel_plane::CellRect;
-use crate::viewer::ui::pane::placed::Placed;
+use crate::model::inspection::{Inspection, Region};
+use crate::model::view::texel_plane::CellRect;
+use crate::ui::pane::placed::Placed;
 
 /// Side of a texel, in points, from which on its numbers are drawn on it.
 pub const READABLE: f32 = 48.0;

@@ -5,8 +5,8 @@ use glam::Vec3;
 
 use svbrdf_core::picture::camera::Camera;
 
-use crate::viewer::model::view::texel_plane::{CellRect, TexelPlane};
-use crate::viewer::ui::pane::handles::{ndc_from_pos, pos_from_ndc};
+use crate::model::view::texel_plane::{CellRect, TexelPlane};
+use crate::ui::pane::handles::{ndc_from_pos, pos_from_ndc};
 
 /// A pane's picture on the screen.
 #[derive(Clone, Copy, Debug)]

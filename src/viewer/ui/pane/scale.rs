@@ -5,9 +5,9 @@ use eframe::egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::viewer::ui::pane::scenery::{Content, Scenery};
-use crate::viewer::ui::widgets::colour_bar::colour_bar;
-use crate::viewer::ui::widgets::numbers::digits;
+use crate::ui::pane::scenery::{Content, Scenery};
+use crate::ui::widgets::colour_bar::colour_bar;
+use crate::ui::widgets::numbers::digits;
 
 /// Size of the colours, and the distance of the scale from the corner of the pane, in points.
 const BAR: [f32; 2] = [9.0, 84.0];

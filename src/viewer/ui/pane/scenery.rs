@@ -3,13 +3,13 @@
 use svbrdf_core::loss::Loss;
 use svbrdf_gpu::DisplayMode;
 
-use crate::viewer::jobs::panes::computed_maps::ComputedMaps;
-use crate::viewer::jobs::photograph::DisplayedPhotograph;
-use crate::viewer::model::inspection::Inspection;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::view::state::{Layout, ViewState};
-use crate::viewer::ui::photograph::corner_editor::CornerEditor;
-use crate::viewer::ui::widgets::names::shortened;
+use crate::jobs::panes::computed_maps::ComputedMaps;
+use crate::jobs::photograph::DisplayedPhotograph;
+use crate::model::inspection::Inspection;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::view::state::{Layout, ViewState};
+use crate::ui::photograph::corner_editor::CornerEditor;
+use crate::ui::widgets::names::shortened;
 
 /// What the panes show, for one frame.
 #[derive(Debug)]

@@ -2,8 +2,8 @@
 
 use svbrdf_gpu::DisplayMode;
 
-use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
-use crate::viewer::ui::shading::gpu_view::{GpuView, PaneTexels};
+use crate::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::ui::shading::gpu_view::{GpuView, PaneTexels};
 
 /// What a pane draws and what it compares that with; a hint in its place where that is not there yet.
 pub fn texels(

@@ -4,13 +4,13 @@ use eframe::egui::{self, Align2, FontId, Rect, Sense, vec2};
 
 use svbrdf_gpu::DisplayMode;
 
-use crate::viewer::model::command::{Command, DisplayCommand};
-use crate::viewer::model::view::state::Layout;
-use crate::viewer::ui::pane::scenery::{Content, PhotographUse, Scenery};
-use crate::viewer::ui::widgets::bounds::inset;
-use crate::viewer::ui::widgets::names::{FEWEST, fitted};
-use crate::viewer::ui::widgets::numbers::significant;
-use crate::viewer::ui::widgets::theme;
+use crate::model::command::{Command, DisplayCommand};
+use crate::model::view::state::Layout;
+use crate::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::ui::widgets::bounds::inset;
+use crate::ui::widgets::names::{FEWEST, fitted};
+use crate::ui::widgets::numbers::significant;
+use crate::ui::widgets::theme;
 
 /// Width of the button that shows the prediction itself again, in points.
 const BACK: f32 = 96.0;

@@ -2,7 +2,7 @@
 
 use egui_material_icons::icons;
 
-use crate::viewer::model::command::{Command, DisplayCommand, WindowCommand};
+use crate::model::command::{Command, DisplayCommand, WindowCommand};
 
 /// How much room the bar has: what does not fit into one line is in the menu.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -7,14 +7,14 @@ use eframe::egui::{self, FontId, RichText, TextStyle};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Statistics;
 
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::jobs::panes::region::RegionNumbers;
-use crate::viewer::model::command::{Command, InspectionCommand};
-use crate::viewer::model::inspection::{self, HEADS, Inspection, Region};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::view::state::ViewState;
-use crate::viewer::ui::widgets::readout::{fixed, in_width};
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::displayed::Displayed;
+use crate::jobs::panes::region::RegionNumbers;
+use crate::model::command::{Command, InspectionCommand};
+use crate::model::inspection::{self, HEADS, Inspection, Region};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::view::state::ViewState;
+use crate::ui::widgets::readout::{fixed, in_width};
+use crate::ui::widgets::theme;
 
 /// Width of a name, and between columns, in points.
 const NAME: f32 = 110.0;

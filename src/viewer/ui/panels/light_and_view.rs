@@ -7,14 +7,14 @@ use glam::DVec3;
 use svbrdf_core::model::convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 
-use crate::viewer::model::command::{Command, SceneCommand};
-use crate::viewer::model::settings::Settings;
-use crate::viewer::model::view::animation::{Animation, Path, Preset};
-use crate::viewer::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
-use crate::viewer::model::view::state::ViewState;
-use crate::viewer::ui::pane::handles;
-use crate::viewer::ui::widgets::hemisphere::{direction_at, pos_of, unit};
-use crate::viewer::ui::widgets::number;
+use crate::model::command::{Command, SceneCommand};
+use crate::model::settings::Settings;
+use crate::model::view::animation::{Animation, Path, Preset};
+use crate::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
+use crate::model::view::state::ViewState;
+use crate::ui::pane::handles;
+use crate::ui::widgets::hemisphere::{direction_at, pos_of, unit};
+use crate::ui::widgets::number;
 
 /// What the section shows.
 #[derive(Debug)]

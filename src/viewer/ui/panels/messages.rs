@@ -4,10 +4,10 @@ use eframe::egui::{self, Align2, RichText};
 
 use svbrdf_core::text::line;
 
-use crate::viewer::model::command::{Command, WindowCommand};
-use crate::viewer::model::message::list::MessageList;
-use crate::viewer::model::message::{Message, Severity};
-use crate::viewer::ui::widgets::theme;
+use crate::model::command::{Command, WindowCommand};
+use crate::model::message::list::MessageList;
+use crate::model::message::{Message, Severity};
+use crate::ui::widgets::theme;
 
 /// Share of the window's height that the list takes at most.
 const HIGHEST: f32 = 0.3;

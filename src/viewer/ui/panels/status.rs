@@ -4,13 +4,13 @@ use eframe::egui::{self, RichText};
 
 use svbrdf_gpu::AdapterReport;
 
-use crate::viewer::jobs::panes::computed_maps::ComputedMaps;
-use crate::viewer::jobs::photograph::Photographs;
-use crate::viewer::model::command::{Command, InspectionCommand};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::view::state::ViewState;
-use crate::viewer::ui::widgets::readout::{self, Readout};
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::panes::computed_maps::ComputedMaps;
+use crate::jobs::photograph::Photographs;
+use crate::model::command::{Command, InspectionCommand};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::view::state::ViewState;
+use crate::ui::widgets::readout::{self, Readout};
+use crate::ui::widgets::theme;
 
 /// Least width of the line, in points, in which the adapter is named.
 const WIDE: f32 = 1000.0;

@@ -6,11 +6,11 @@ use egui_material_icons::icons;
 
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::viewer::jobs::displayed::Displayed;
-use crate::viewer::model::command::{Command, DisplayCommand, LossCommand, PhotographCommand, WindowCommand};
-use crate::viewer::model::view::state::{AutoExposure, Layout, Projection, ViewState};
-use crate::viewer::ui::panels::bar_item::{BarItem, Room};
-use crate::viewer::ui::widgets::number;
+use crate::jobs::displayed::Displayed;
+use crate::model::command::{Command, DisplayCommand, LossCommand, PhotographCommand, WindowCommand};
+use crate::model::view::state::{AutoExposure, Layout, Projection, ViewState};
+use crate::ui::panels::bar_item::{BarItem, Room};
+use crate::ui::widgets::number;
 
 /// Height of every control, gap between two of them, and width of the exposure, in points.
 const HEIGHT: f32 = 24.0;

@@ -2,16 +2,16 @@
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_files::photograph::Corners;
+use svbrdf_evaluate::photograph::Corners;
 use svbrdf_files::read::Transfer;
 
-use crate::viewer::jobs::photograph::DisplayedPhotograph;
-use crate::viewer::model::command::{Command, PhotographCommand};
-use crate::viewer::ui::photograph::corner_editor::CORNER_NAMES;
-use crate::viewer::ui::photograph::filmstrip;
-use crate::viewer::ui::widgets::number;
-use crate::viewer::ui::widgets::texture::PanelTextures;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::photograph::DisplayedPhotograph;
+use crate::model::command::{Command, PhotographCommand};
+use crate::ui::photograph::corner_editor::CORNER_NAMES;
+use crate::ui::photograph::filmstrip;
+use crate::ui::widgets::number;
+use crate::ui::widgets::texture::PanelTextures;
+use crate::ui::widgets::theme;
 
 /// Height of the list of factors, in points.
 const FACTORS: f32 = 76.0;

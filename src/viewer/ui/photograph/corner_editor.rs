@@ -4,14 +4,14 @@ use eframe::egui::{
     self, Color32, CursorIcon, Pos2, Rect, Sense, Shape, Stroke, TextureId, TextureOptions, Vec2, pos2, vec2,
 };
 
-use svbrdf_files::photograph::Corners;
+use svbrdf_evaluate::photograph::Corners;
 
-use crate::viewer::jobs::photograph::EditedCorners;
-use crate::viewer::model::command::{Command, PhotographCommand};
-use crate::viewer::ui::widgets::bounds::inset;
-use crate::viewer::ui::widgets::hint::paint_hint;
-use crate::viewer::ui::widgets::texture::PanelTextures;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::photograph::EditedCorners;
+use crate::model::command::{Command, PhotographCommand};
+use crate::ui::widgets::bounds::inset;
+use crate::ui::widgets::hint::paint_hint;
+use crate::ui::widgets::texture::PanelTextures;
+use crate::ui::widgets::theme;
 
 /// Names of the corners, in their order.
 pub const CORNER_NAMES: [&str; 4] = ["Top left", "Top right", "Bottom right", "Bottom left"];

@@ -2,13 +2,13 @@
 
 use eframe::egui::{self, Color32, Rect, RichText, Sense, Stroke, vec2};
 
-use svbrdf_core::report::position;
+use svbrdf_evaluate::report::position;
 use svbrdf_files::session::SessionPhotograph;
 
-use crate::viewer::jobs::photograph::filmstrip::Filmstrip;
-use crate::viewer::model::command::{Command, PhotographCommand, PhotographLight};
-use crate::viewer::ui::widgets::texture::PanelTextures;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::photograph::filmstrip::Filmstrip;
+use crate::model::command::{Command, PhotographCommand, PhotographLight};
+use crate::ui::widgets::texture::PanelTextures;
+use crate::ui::widgets::theme;
 
 /// Side of a thumbnail, and height of the strip with its scroll bar, in points.
 const SIDE: f32 = 52.0;

@@ -1,6 +1,6 @@
 //! Draft policy: how much is shaded while something moves; less on a slow adapter, everything after a pause.
 
-use svbrdf_files::session_window::Framing;
+use svbrdf_files::session::window::Framing;
 use svbrdf_gpu::ShadeParams;
 
 /// Seconds of a frame from which on an adapter counts as slow. Some screens show 30 frames a second.
@@ -55,7 +55,7 @@ impl DraftPolicy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::model::view::state::ViewState;
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_core::picture::quantity::Quantity;
 

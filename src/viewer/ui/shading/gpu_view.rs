@@ -9,9 +9,9 @@ use svbrdf_core::error::Error;
 use svbrdf_gpu::{Blit, Display, DisplayParams, Gpu, Pane, PanePlace, Shaded, Shading, Still};
 
 use super::shaded::{ShadedMaterial, ShadedPart, ShadingDevice, ShadingRequest};
-use crate::viewer::jobs::reading::upload::{Uploaded, Uploads};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::read::MaterialId;
+use crate::jobs::reading::upload::{Uploaded, Uploads};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::MaterialId;
 
 /// What a pane shows where a draft of a material will not do, until all of it is there.
 const SENDING: &str = "Sending the material to the graphics adapter...";

@@ -1,11 +1,11 @@
 //! Shaded texels of one material, and how much of them is shaded in a frame.
 
 use svbrdf_core::error::Error;
-use svbrdf_files::memory::Reserved;
+use svbrdf_files::disk::memory::Reserved;
 use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 
-use crate::viewer::jobs::reading::upload::{BAND, reserve_for};
-use crate::viewer::model::inspection::Region;
+use crate::jobs::reading::upload::{BAND, reserve_for};
+use crate::model::inspection::Region;
 
 /// Bytes of a shaded texel.
 const TARGET_BYTES: u64 = 16;
@@ -191,8 +191,8 @@ mod tests {
     use svbrdf_needs::needs;
 
     use super::*;
-    use crate::viewer::jobs::reading::upload::BAND;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::jobs::reading::upload::BAND;
+    use crate::model::view::state::ViewState;
     use svbrdf_core::material::Material;
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_core::picture::quantity::Quantity;

@@ -6,7 +6,7 @@ use eframe::{egui, wgpu};
 use svbrdf_core::error::Error;
 use svbrdf_gpu::{Gpu, read_rgba};
 
-use crate::viewer::ui::widgets::theme;
+use crate::ui::widgets::theme;
 
 /// Frames until the layout is settled.
 const FRAMES: usize = 2;

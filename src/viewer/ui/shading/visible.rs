@@ -3,10 +3,10 @@
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
 
-use crate::viewer::model::inspection::Region;
-use crate::viewer::model::view::state::ViewState;
-use crate::viewer::model::view::texel_plane::TexelPlane;
-use crate::viewer::ui::shading::shaded::ShadedPart;
+use crate::model::inspection::Region;
+use crate::model::view::state::ViewState;
+use crate::model::view::texel_plane::TexelPlane;
+use crate::ui::shading::shaded::ShadedPart;
 
 /// Most texels along an axis that one stands for.
 const MOST: usize = 64;
@@ -44,8 +44,8 @@ fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::Projection;
-    use svbrdf_files::session_window::{Display, Framing};
+    use crate::model::view::state::Projection;
+    use svbrdf_files::session::window::{Display, Framing};
 
     const GRID: Grid = Grid { width: 256, height: 128 };
     const PANE: [f32; 2] = [600.0, 400.0];

@@ -3,20 +3,20 @@
 use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, FontId, RichText, pos2, vec2};
 
-use svbrdf_core::diagnose::{Diagnosis, Finding, SCENES, sentence};
 use svbrdf_core::loss::LossSettings;
+use svbrdf_evaluate::diagnose::{Diagnosis, Finding, SCENES, sentence};
 
-use crate::viewer::jobs::why::{ComparedPair, Diagnosed, WhyJobs};
-use crate::viewer::model::command::{Command, DisplayCommand};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::view::state::ViewState;
-use crate::viewer::ui::why::hypotheses::{HypothesisLines, SHARE, label, share, shown_change, toggle};
-use crate::viewer::ui::why::row::Row;
-use crate::viewer::ui::widgets::names::shortened;
-use crate::viewer::ui::widgets::numbers::{digits, seconds};
-use crate::viewer::ui::widgets::remedy::{is_offered, remedy_button};
-use crate::viewer::ui::widgets::rows;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::why::{ComparedPair, Diagnosed, WhyJobs};
+use crate::model::command::{Command, DisplayCommand};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::view::state::ViewState;
+use crate::ui::why::hypotheses::{HypothesisLines, SHARE, label, share, shown_change, toggle};
+use crate::ui::why::row::Row;
+use crate::ui::widgets::names::shortened;
+use crate::ui::widgets::numbers::{digits, seconds};
+use crate::ui::widgets::remedy::{is_offered, remedy_button};
+use crate::ui::widgets::rows;
+use crate::ui::widgets::theme;
 
 /// Rows of the sentence.
 const SENTENCE: usize = 3;

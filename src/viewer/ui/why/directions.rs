@@ -8,16 +8,16 @@ use glam::DVec3;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::{Kind, Scene};
 
-use crate::viewer::jobs::why::DirectionMaps;
-use crate::viewer::model::command::{Command, SceneCommand, WhyCommand};
-use crate::viewer::ui::pane::handles;
-use crate::viewer::ui::why::WhyPanel;
-use crate::viewer::ui::why::legends::legends;
-use crate::viewer::ui::widgets::hemisphere::{direction_at, pos_of, unit};
-use crate::viewer::ui::widgets::names::shortened;
-use crate::viewer::ui::widgets::numbers::{digits, signed};
-use crate::viewer::ui::widgets::texture::PanelTextures;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::why::DirectionMaps;
+use crate::model::command::{Command, SceneCommand, WhyCommand};
+use crate::ui::pane::handles;
+use crate::ui::why::WhyPanel;
+use crate::ui::why::legends::legends;
+use crate::ui::widgets::hemisphere::{direction_at, pos_of, unit};
+use crate::ui::widgets::names::shortened;
+use crate::ui::widgets::numbers::{digits, signed};
+use crate::ui::widgets::texture::PanelTextures;
+use crate::ui::widgets::theme;
 
 /// Largest side of a map, and gap between maps, in points.
 const MOST: f32 = 230.0;
@@ -257,7 +257,7 @@ fn label(kind: DirectionMap) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::viewer::model::view::state::ViewState;
+    use crate::model::view::state::ViewState;
 
     #[test]
     fn what_is_put_somewhere_keeps_its_distance_and_leaves_the_other() {

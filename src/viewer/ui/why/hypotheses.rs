@@ -2,14 +2,14 @@
 
 use eframe::egui::{self, Align2, FontId, RichText, pos2};
 
-use svbrdf_core::diagnose::{Change, Finding, Hypothesis};
+use svbrdf_evaluate::diagnose::{Change, Finding, Hypothesis};
 
-use crate::viewer::jobs::why::{ComparedPair, Diagnosed};
-use crate::viewer::model::command::{Command, DisplayCommand, WhyCommand};
-use crate::viewer::model::settings::why::WhySection;
-use crate::viewer::ui::why::row::Row;
-use crate::viewer::ui::widgets::numbers::digits;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::why::{ComparedPair, Diagnosed};
+use crate::model::command::{Command, DisplayCommand, WhyCommand};
+use crate::model::settings::why::WhySection;
+use crate::ui::why::row::Row;
+use crate::ui::widgets::numbers::digits;
+use crate::ui::widgets::theme;
 
 /// Where the value and the share of a line end, in points from the right.
 const VALUE: f32 = 62.0;

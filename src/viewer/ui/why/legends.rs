@@ -2,10 +2,10 @@
 
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, pos2, vec2};
 
-use crate::viewer::jobs::why::{DirectionMaps, ScaledPicture};
-use crate::viewer::ui::widgets::bounds::inset;
-use crate::viewer::ui::widgets::colour_bar::colour_bar;
-use crate::viewer::ui::widgets::numbers::{digits, signed};
+use crate::jobs::why::{DirectionMaps, ScaledPicture};
+use crate::ui::widgets::bounds::inset;
+use crate::ui::widgets::colour_bar::colour_bar;
+use crate::ui::widgets::numbers::{digits, signed};
 
 /// Height of a colour bar with its numbers, in points.
 const BAR: f32 = 10.0;

@@ -5,13 +5,13 @@ use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, ve
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_core::why::MapShare;
+use svbrdf_evaluate::why::MapShare;
 
-use crate::viewer::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair, WhyJobs};
-use crate::viewer::model::command::{Command, DisplayCommand};
-use crate::viewer::model::view::state::ViewState;
-use crate::viewer::ui::widgets::numbers::{accuracy, seconds, significant};
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair, WhyJobs};
+use crate::model::command::{Command, DisplayCommand};
+use crate::model::view::state::ViewState;
+use crate::ui::widgets::numbers::{accuracy, seconds, significant};
+use crate::ui::widgets::theme;
 
 /// Most predictions that have numbers in every row.
 const WITH_NUMBERS: usize = 4;

@@ -13,14 +13,14 @@ use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::viewer::jobs::why::{ComparedPair, WhyJobs};
-use crate::viewer::model::command::{Command, DisplayCommand, WhyCommand};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::settings::why::{WhySection, WhySections, WhyState};
-use crate::viewer::model::view::state::ViewState;
-use crate::viewer::ui::widgets::names::shortened;
-use crate::viewer::ui::widgets::texture::PanelTextures;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::why::{ComparedPair, WhyJobs};
+use crate::model::command::{Command, DisplayCommand, WhyCommand};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::settings::why::{WhySection, WhySections, WhyState};
+use crate::model::view::state::ViewState;
+use crate::ui::widgets::names::shortened;
+use crate::ui::widgets::texture::PanelTextures;
+use crate::ui::widgets::theme;
 
 use diagnosis::DiagnosisSection;
 use maps::MapsSection;

@@ -6,16 +6,16 @@ use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke,
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::statistics::Histogram;
-use svbrdf_core::why::{RankedScene, Worst};
+use svbrdf_evaluate::why::{RankedScene, Worst};
 
-use crate::viewer::jobs::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbnails};
-use crate::viewer::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};
-use crate::viewer::ui::why::WhyPanel;
-use crate::viewer::ui::widgets::bounds::{between, inset};
-use crate::viewer::ui::widgets::numbers::digits;
-use crate::viewer::ui::widgets::rows;
-use crate::viewer::ui::widgets::texture::PanelTextures;
-use crate::viewer::ui::widgets::theme;
+use crate::jobs::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbnails};
+use crate::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};
+use crate::ui::why::WhyPanel;
+use crate::ui::widgets::bounds::{between, inset};
+use crate::ui::widgets::numbers::digits;
+use crate::ui::widgets::rows;
+use crate::ui::widgets::texture::PanelTextures;
+use crate::ui::widgets::theme;
 
 /// Side of a thumbnail and height of the number below it, in points.
 const SIDE: f32 = 52.0;

@@ -3,10 +3,10 @@
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::viewer::jobs::panes::computed_maps::ComputedMaps;
-use crate::viewer::jobs::photograph::Photographs;
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::view::state::ViewState;
+use crate::jobs::panes::computed_maps::ComputedMaps;
+use crate::jobs::photograph::Photographs;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::view::state::ViewState;
 
 /// Characters of a number.
 pub const WIDTH: usize = 8;

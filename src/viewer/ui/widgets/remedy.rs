@@ -2,11 +2,11 @@
 
 use eframe::egui;
 
-use svbrdf_core::diagnose::Remedy;
+use svbrdf_evaluate::diagnose::Remedy;
 
-use crate::viewer::model::command::{Command, DisplayCommand, MaterialsCommand};
-use crate::viewer::model::material::loaded::LoadedMaterial;
-use crate::viewer::model::material::source::Origin;
+use crate::model::command::{Command, DisplayCommand, MaterialsCommand};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::source::Origin;
 
 /// Whether a material can be read again with the option: one of a file that does not have it yet.
 pub fn is_offered(material: &LoadedMaterial, remedy: Remedy) -> bool {

@@ -5,7 +5,7 @@ use std::sync::{Arc, Weak};
 
 use eframe::egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
 
-use crate::viewer::jobs::work::picture::Picture;
+use crate::jobs::work::picture::Picture;
 
 /// The textures of the pictures that panels and panes draw; each is freed with its picture.
 #[derive(Default)]

@@ -7,9 +7,9 @@ use gltf::{Document, Glb};
 
 use svbrdf_core::error::Error;
 
-use crate::lfs;
-use crate::memory::{self, Reserved};
-use crate::panics::caught;
+use crate::disk::lfs;
+use crate::disk::memory::{self, Reserved};
+use crate::disk::panics::caught;
 
 /// Parts of a glTF that materials need.
 const PARTS: [&str; 7] = ["asset", "buffers", "bufferViews", "images", "materials", "samplers", "textures"];

@@ -12,7 +12,7 @@ use gltf::{Material, Texture};
 
 use svbrdf_core::error::Error;
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
 use crate::read::located::picture::LocatedPicture;
 use crate::read::options::{NormalY, ReadOptions, Role};

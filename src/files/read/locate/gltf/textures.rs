@@ -13,7 +13,7 @@ use percent_encoding::percent_decode_str;
 use svbrdf_core::error::Error;
 
 use super::document::bad;
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
 use crate::read::located::picture::PictureSource;
 use crate::read::record::Subject;
 

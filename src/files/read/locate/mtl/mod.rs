@@ -6,13 +6,13 @@ use std::path::Path;
 
 use svbrdf_core::error::Error;
 
-use crate::open::NamedFile;
+use crate::disk::open::NamedFile;
+use crate::disk::{lfs, memory};
 use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::names::Label;
 use crate::read::options::{ReadOptions, Role};
 use crate::read::record::Subject;
-use crate::{lfs, memory};
 
 use statement::{Texture, entries};
 

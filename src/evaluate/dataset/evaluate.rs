@@ -1,0 +1,279 @@
+//! The losses of all predictions of all materials.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rayon::prelude::*;
+use serde_json::json;
+
+use crate::diagnose::{Storage, diagnose, floor};
+use crate::metrics::of_maps;
+use crate::rank::most_scenes;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Request, check_same_size};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::progress::Progress;
+
+use super::record::{
+    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
+};
+use super::remark::Remark;
+use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
+use svbrdf_files::disk::atomic::SOFTWARE;
+use svbrdf_files::read::{self, Dependencies, Neighbours, ReadOptions};
+
+/// The results of a run over a data set.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DatasetResults {
+    /// Of every case, in order.
+    pub results: Vec<MaterialResult>,
+    /// The files of the results folder that cannot be used: lines.
+    pub notes: Vec<String>,
+}
+
+/// The results of `cases` in order, computed in parallel.
+///
+/// Each prediction has as many of the scenes of its material as its target error needs, at most [`most_scenes`]: the scenes are the
+/// first ones of one sequence. A material that cannot be read or compared has a result, too, with the reason. A material is one step of
+/// `progress`. The results do not depend on the number of threads, nor on which other materials and predictions there are.
+///
+/// A loss in the folder `results` is not computed again, and each new one is added to it as it comes. The folder is made where there is
+/// none. What fails is not kept, and tried again.
+///
+/// # Errors
+/// [`Error::Cancelled`], [`Error::UnknownName`] for an unknown convention; [`Error::Unwritable`] and [`Error::Unreadable`] of the folder.
+pub fn run(
+    cases: &[Case],
+    settings: &DatasetSettings,
+    reading: &DatasetReading,
+    results: Option<&Path>,
+    progress: &Progress,
+) -> Result<DatasetResults, Error> {
+    let convention = settings.convention.parse()?;
+    let results = results.map(ResultsFolder::open).transpose()?;
+    let run = Run { settings, convention, reading, results, progress };
+    let seeds = settings.seeds();
+    progress.begin(cases.len() as u64);
+    let of_case = |case: &Case| {
+        let result = run.material(case, seeds.get(case.index).copied().unwrap_or(settings.seed))?;
+        progress.step().map(|()| result)
+    };
+    let found = cases.par_iter().map(of_case).collect::<Result<_, _>>()?;
+    Ok(DatasetResults { results: found, notes: run.results.map(ResultsFolder::notes).unwrap_or_default() })
+}
+
+/// What the results of all materials depend on.
+struct Run<'a> {
+    settings: &'a DatasetSettings,
+    convention: Convention,
+    reading: &'a DatasetReading,
+    /// Those that are known.
+    results: Option<ResultsFolder>,
+    progress: &'a Progress,
+}
+
+impl Run<'_> {
+    fn material(&self, case: &Case, seed: u64) -> Result<MaterialResult, Error> {
+        let truth = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
+        let key = |candidate| self.key(case, candidate, truth.as_ref()?, seed);
+        let keys: Vec<Option<Key>> = case.candidates.iter().map(key).collect();
+        let load = |key: &Option<Key>| self.results.as_ref()?.load(&case.material, key.as_ref()?);
+        let known: Vec<Option<PairResult>> = keys.iter().map(load).collect();
+        let (index, material) = (case.index, case.material.clone());
+        let of = |(candidate, known): (&Candidate, &Option<PairResult>)| match known {
+            Some(known) => Some(known.prediction.clone()),
+            None => candidate.missing.clone().map(|problem| without_loss(candidate, problem)),
+        };
+        // Where a result is known, so is the ground truth.
+        if let Some(PairResult { reading, floor, .. }) = known.iter().flatten().next().cloned()
+            && let Some(predictions) = case.candidates.iter().zip(&known).map(of).collect()
+        {
+            return Ok(MaterialResult { index, material, seed, reading, floor, predictions });
+        }
+        let truth = open(&case.ground_truth, &self.reading.ground_truths, self.reading.strict);
+        let floor = self.floor(&truth, seed)?;
+        let mut predictions = Vec::new();
+        for ((candidate, key), known) in case.candidates.iter().zip(keys).zip(known) {
+            let prediction = match known {
+                Some(known) => known.prediction,
+                None => self.new_prediction(case, candidate, &truth, floor, (key, seed))?,
+            };
+            predictions.push(prediction);
+        }
+        Ok(MaterialResult { index, material, seed, reading: truth.remarks, floor, predictions })
+    }
+
+    /// Those of a material, where there is a results folder and the material can be located.
+    fn dependencies(&self, path: &Path, options: &ReadOptions) -> Option<Dependencies> {
+        self.results.as_ref().and_then(|_| Dependencies::of(path, options).ok())
+    }
+
+    /// What the result of a prediction depends on; `None` where it cannot be known before it is computed.
+    fn key(&self, case: &Case, candidate: &Candidate, truth: &Dependencies, seed: u64) -> Option<Key> {
+        let Candidate { method, sample, path, .. } = candidate;
+        let prediction = self.dependencies(path, self.reading.of_method(method))?;
+        // How it is read is a part of the digest.
+        let material =
+            |path: &Path, sha256: &str| json!({"path": path.display().to_string(), "sha256": sha256});
+        let DatasetSettings { convention, target_error, metrics, diagnose, .. } = self.settings;
+        // Another version may compute other numbers, and remark on other things.
+        let of = json!({
+            "software": SOFTWARE,
+            "convention": convention,
+            "target_error": target_error,
+            "seed": seed,
+            "metrics": metrics,
+            "diagnose": diagnose,
+            "strict": self.reading.strict,
+            "ground_truth": material(&case.ground_truth, &truth.sha256),
+            "prediction": material(path, &prediction.sha256),
+            "method": method,
+            "sample": sample,
+        });
+        Some(Key { of, files: truth.files.iter().chain(&prediction.files).cloned().collect() })
+    }
+
+    /// The result of a prediction that is not known, which is kept if it has a loss.
+    fn new_prediction(
+        &self,
+        case: &Case,
+        candidate: &Candidate,
+        truth: &Opened,
+        floor: Option<f64>,
+        (key, seed): (Option<Key>, u64),
+    ) -> Result<PredictionResult, Error> {
+        let opened = self.open(candidate, truth);
+        // Not of files that were written while they were read.
+        let found = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
+        let now = found.and_then(|found| self.key(case, candidate, &found, seed));
+        let kept = key.filter(|key| now.as_ref() == Some(key)).and_then(|key| {
+            let looked_at = truth.neighbours.iter().chain(&opened.neighbours);
+            let neighbours: Option<Vec<_>> = looked_at.map(|one| KnownNeighbours::of(one, &key)).collect();
+            Some((key, neighbours?))
+        });
+        let prediction = self.prediction(candidate, truth, opened, floor.unwrap_or(0.0), seed)?;
+        if let (Some(folder), Some((key, neighbours)), Ok(_)) = (&self.results, kept, &prediction.result) {
+            let (reading, prediction) = (truth.remarks.clone(), prediction.clone());
+            let result = PairResult { reading, floor, prediction, neighbours };
+            folder.add(&case.material, &key, &result, self.progress)?;
+        }
+        Ok(prediction)
+    }
+
+    /// A prediction of the size of the ground truth, or why there is none.
+    fn open(&self, candidate: &Candidate, truth: &Opened) -> Opened {
+        let truth = match (&truth.found, &candidate.missing) {
+            (Err(problem), _) => return Opened::failed(format!("ground truth: {problem}")),
+            (_, Some(problem)) => return Opened::failed(problem.clone()),
+            (Ok(truth), None) => truth,
+        };
+        let opened = open(&candidate.path, self.reading.of_method(&candidate.method), self.reading.strict);
+        let found = opened.found.and_then(|found| {
+            check_same_size(&truth.material, &found.material).map_err(|problem| problem.to_string())?;
+            Ok(found)
+        });
+        Opened { found, ..opened }
+    }
+
+    /// The result of a prediction; `floor` is that of the ground truth.
+    fn prediction(
+        &self,
+        candidate: &Candidate,
+        truth: &Opened,
+        opened: Opened,
+        floor: f64,
+        seed: u64,
+    ) -> Result<PredictionResult, Error> {
+        let pair = truth.found.as_ref().ok().zip(opened.found.as_ref().ok());
+        let metrics = pair.filter(|_| self.settings.metrics).map(metrics).unwrap_or_default();
+        let marks = pair.filter(|_| self.settings.diagnose);
+        let marks = marks.map(|pair| self.marks(pair, floor, seed)).transpose()?;
+        let loss = pair.map(|pair| self.loss(pair, seed)).transpose()?;
+        let result = match (loss, opened.found) {
+            (Some(loss), _) => Ok(loss),
+            (None, Err(problem)) => Err(problem),
+            (None, Ok(_)) => Err("no loss".to_owned()),
+        };
+        let reading = opened.remarks;
+        Ok(PredictionResult { result, reading, metrics, marks, ..without_loss(candidate, String::new()) })
+    }
+
+    fn loss(&self, (truth, prediction): Pair<'_>, seed: u64) -> Result<KnownLoss, Error> {
+        let comparison = Comparison::new(&truth.material, &[&prediction.material], self.convention)?;
+        let request = Request::Accuracy { target: self.settings.target_error, seed };
+        let outcome = comparison.at_most(most_scenes(1)).run(&request, &self.progress.part())?;
+        let estimate = outcome.losses.first().map(|loss| loss.estimate);
+        let estimate = estimate.ok_or_else(|| Error::Internal("a comparison without a loss".to_owned()))?;
+        Ok(KnownLoss {
+            loss: estimate.mean,
+            standard_error: estimate.standard_error.unwrap_or(0.0),
+            interval95: estimate.interval95.unwrap_or([estimate.mean; 2]),
+            scenes: outcome.scenes.len(),
+        })
+    }
+
+    /// The floor of a ground truth that was read, where diagnoses are asked for.
+    fn floor(&self, truth: &Opened, seed: u64) -> Result<Option<f64>, Error> {
+        let truth = truth.found.as_ref().ok().filter(|_| self.settings.diagnose);
+        let of = |truth: &OpenedMaterial| {
+            floor(&truth.material, &truth.storage, &self.convention, seed, &self.progress.part())
+        };
+        Ok(truth.map(of).transpose()?.map(|floor| floor.mean))
+    }
+
+    /// The marks of the diagnosis of a prediction; none where its loss is below `floor`.
+    fn marks(&self, (truth, prediction): Pair<'_>, floor: f64, seed: u64) -> Result<Vec<Mark>, Error> {
+        let pair = [&truth.material, &prediction.material];
+        let storages = [&truth.storage, &prediction.storage];
+        let found = diagnose(pair, storages, &self.convention, floor, seed, &self.progress.part())?;
+        Ok(found.marked().map(Mark::from).collect())
+    }
+}
+
+/// The result of a prediction that was not read.
+fn without_loss(candidate: &Candidate, problem: String) -> PredictionResult {
+    let Candidate { method, sample, path, .. } = candidate.clone();
+    let path = path.display().to_string();
+    let (metrics, marks) = (BTreeMap::new(), None);
+    PredictionResult { method, sample, path, result: Err(problem), reading: Vec::new(), metrics, marks }
+}
+
+/// A ground truth and a prediction of one size.
+type Pair<'a> = (&'a OpenedMaterial, &'a OpenedMaterial);
+
+/// A material that was opened, or why it cannot be used.
+struct Opened {
+    found: Result<OpenedMaterial, String>,
+    remarks: Vec<Remark>,
+    neighbours: Option<Neighbours>,
+}
+
+impl Opened {
+    fn failed(problem: String) -> Self {
+        Self { found: Err(problem), remarks: Vec::new(), neighbours: None }
+    }
+}
+
+/// A material that was read, and how it is stored.
+struct OpenedMaterial {
+    material: Material<f32>,
+    storage: Storage,
+}
+
+fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
+    let read = match read::read::<f32>(path, options, &Progress::default()) {
+        Ok(read) => read,
+        Err(problem) => return Opened::failed(problem.to_string()),
+    };
+    let guesses = if strict { read.refuse_guesses(path) } else { Ok(()) };
+    let (remarks, storage) = (Remark::of(&read), read.storage());
+    let found = guesses.map(|()| OpenedMaterial { material: read.material, storage });
+    Opened { found: found.map_err(|problem| problem.to_string()), remarks, neighbours: read.neighbours }
+}
+
+/// The metrics of the maps.
+fn metrics((truth, prediction): Pair<'_>) -> BTreeMap<String, f64> {
+    let metrics = of_maps(&truth.material, &prediction.material).unwrap_or_default();
+    metrics.into_iter().map(|metric| (metric.name.to_owned(), metric.value)).collect()
+}

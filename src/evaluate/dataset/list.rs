@@ -1,0 +1,271 @@
+//! Lists of cases: materials of folders matched by name, and tables of pairs.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use svbrdf_core::error::Error;
+use svbrdf_core::text::line;
+
+use super::record::{Candidate, Case, Method, Source};
+use svbrdf_files::disk::open::NamedFile;
+use svbrdf_files::disk::{inputs, memory};
+
+/// Extensions of files that are no materials.
+const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];
+
+/// A part of a data set: every n-th material, from the i-th on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// From 1 to `of`.
+    pub number: usize,
+    pub of: usize,
+}
+
+impl Shard {
+    /// The cases of this part.
+    pub fn part(self, cases: Vec<Case>) -> Vec<Case> {
+        cases.into_iter().filter(|case| case.index % self.of == self.number - 1).collect()
+    }
+}
+
+impl FromStr for Shard {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let numbers = text.split_once('/').map(|(number, of)| (number.parse(), of.parse()));
+        match numbers {
+            Some((Ok(number), Ok(of))) if 1 <= number && number <= of => Ok(Self { number, of }),
+            _ => Err(Error::UnknownName {
+                what: "part of a data set",
+                found: text.to_owned(),
+                known: "i/n with i from 1 to n, such as 1/4".to_owned(),
+            }),
+        }
+    }
+}
+
+impl Source {
+    /// Its materials.
+    ///
+    /// # Errors
+    /// As [`cases_of_folders`] and [`cases_of_table`].
+    pub fn cases(&self) -> Result<Vec<Case>, Error> {
+        match self {
+            Self::Folders { ground_truths, methods } => cases_of_folders(ground_truths, methods),
+            Self::Table(path) => cases_of_table(path),
+        }
+    }
+}
+
+/// Matches the materials in the folder `ground_truths` with those of the same name in the folder of each method, or at its pattern.
+///
+/// Every file or folder there is a material, by its name without extension; a folder that holds nothing but folders is searched
+/// itself, and its name is put before theirs. Several predictions of a material are `name_0`, `name_1` and so on. A material
+/// without a prediction by a method is kept: that is a missing prediction.
+///
+/// # Errors
+/// [`Error::Unreadable`], and [`Error::NotAMaterial`] where there are no materials.
+pub fn cases_of_folders(ground_truths: &Path, methods: &[Method]) -> Result<Vec<Case>, Error> {
+    let truths = entries(ground_truths)?;
+    if truths.is_empty() {
+        return Err(nothing_in(ground_truths, "materials"));
+    }
+    let found = methods.iter().map(Predictions::of).collect::<Result<Vec<_>, _>>()?;
+    let case = |(index, (material, ground_truth)): (usize, (&String, &PathBuf))| {
+        let candidates =
+            methods.iter().zip(&found).flat_map(|(method, found)| found.candidates(method, material));
+        let candidates = candidates.collect();
+        Case { index, material: line(material), ground_truth: ground_truth.clone(), candidates }
+    };
+    Ok(truths.iter().enumerate().map(case).collect())
+}
+
+/// The predictions of a method.
+enum Predictions<'a> {
+    /// Those in its folder, by name.
+    InFolder(BTreeMap<String, PathBuf>),
+    /// Those at a pattern.
+    AtPattern(&'a str),
+}
+
+impl<'a> Predictions<'a> {
+    fn of(method: &'a Method) -> Result<Self, Error> {
+        match method.path.to_str().filter(|path| path.contains(PLACEHOLDER) && !method.path.exists()) {
+            Some(pattern) => Ok(Self::AtPattern(pattern)),
+            None => entries(&method.path).map(Self::InFolder),
+        }
+    }
+
+    /// The predictions of a material, or the one that is missing.
+    fn candidates(&self, method: &Method, material: &str) -> Vec<Candidate> {
+        let samples = (0..).map_while(|sample| self.get(&format!("{material}_{sample}")));
+        let paths: Vec<PathBuf> = self.get(material).into_iter().chain(samples).collect();
+        let one = |(sample, path, missing)| Candidate { method: line(&method.name), sample, path, missing };
+        if paths.is_empty() {
+            return vec![one((0, self.expected(method, material), Some(self.missing(method, material))))];
+        }
+        paths.into_iter().enumerate().map(|(sample, path)| one((sample, path, None))).collect()
+    }
+
+    fn get(&self, name: &str) -> Option<PathBuf> {
+        match self {
+            Self::InFolder(found) => found.get(name).cloned(),
+            Self::AtPattern(pattern) => Some(at(pattern, name)).filter(|path| is_there(path)),
+        }
+    }
+
+    fn expected(&self, method: &Method, material: &str) -> PathBuf {
+        match self {
+            Self::InFolder(_) => method.path.join(material),
+            Self::AtPattern(pattern) => at(pattern, material),
+        }
+    }
+
+    /// What is there instead.
+    fn missing(&self, method: &Method, material: &str) -> String {
+        let none = format!("no prediction named {material} in {}", method.path.display());
+        let Self::InFolder(found) = self else {
+            return format!("no prediction at {}", self.expected(method, material).display());
+        };
+        let is_near = |name: &str| name.starts_with(material) || name.ends_with(material);
+        let Some((name, path)) = found.iter().find(|(name, _)| is_near(name)) else { return none };
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let pattern = method.path.join(file.replacen(material, PLACEHOLDER, 1));
+        let folders = material.contains('/') || name.contains('/');
+        match folders {
+            true => format!("{none}; found {name}"),
+            false => format!("{none}; found {file}: if this is it, name the pattern {}", pattern.display()),
+        }
+    }
+}
+
+/// Stands for the name of a material in the pattern of a method.
+const PLACEHOLDER: &str = "{}";
+
+/// The path of a material by the pattern of a method.
+fn at(pattern: &str, material: &str) -> PathBuf {
+    PathBuf::from(pattern.replace(PLACEHOLDER, material))
+}
+
+/// Whether there is a file or folder of this path, or, where it names no form of files, files of a set that begin with it.
+fn is_there(path: &Path) -> bool {
+    let Some(name) = path.file_name().map(|name| name.to_string_lossy()) else { return false };
+    if path.exists() || path.extension().is_some() {
+        return path.exists();
+    }
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let begins =
+        |entry: PathBuf| entry.file_name().is_some_and(|entry| entry.to_string_lossy().starts_with(&*name));
+    children(parent).is_ok_and(|entries| entries.into_iter().any(begins))
+}
+
+/// The materials of a folder by name.
+fn entries(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Error> {
+    let mut found = BTreeMap::new();
+    collect(folder, "", &mut found)?;
+    Ok(found)
+}
+
+fn collect(folder: &Path, prefix: &str, found: &mut BTreeMap<String, PathBuf>) -> Result<(), Error> {
+    for path in children(folder)? {
+        let Some(name) = path.file_stem().map(|name| name.to_string_lossy().into_owned()) else { continue };
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        if name.starts_with('.') || (path.is_file() && OTHER.contains(&extension.as_str())) {
+            continue;
+        }
+        let whole = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        if path.is_dir() {
+            let inside = children(&path)?;
+            if !inside.is_empty() && inside.iter().all(|path| path.is_dir()) {
+                collect(&path, &format!("{prefix}{whole}/"), found)?;
+                continue;
+            }
+            found.insert(format!("{prefix}{whole}"), path);
+        } else {
+            found.insert(format!("{prefix}{name}"), path);
+        }
+    }
+    Ok(())
+}
+
+/// The entries of a folder, by name.
+fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+    let listed = || -> std::io::Result<Vec<PathBuf>> {
+        std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect()
+    };
+    let mut paths = listed().map_err(|source| Error::unreadable(folder, source))?;
+    paths.sort();
+    Ok(paths)
+}
+
+/// Reads a CSV table with the columns `ground_truth` and `prediction`, and, where they are given, `method` and `material`.
+///
+/// Paths are relative to the folder of the table. Rows of the same ground truth are one material, in the order of the first; several
+/// rows of one method are samples, in their order.
+///
+/// # Errors
+/// [`Error::Unreadable`]; [`Error::NotAMaterial`] where a column is missing or there are no rows; [`Error::Memory`].
+pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
+    let bad = |problem: csv::Error| Error::unreadable(path, std::io::Error::other(problem));
+    let file = NamedFile::by_user(path).reader()?;
+    inputs::protect(path);
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+    let heading = reader.headers().map_err(bad)?.clone();
+    let column = |name: &str| heading.iter().position(|heading| heading == name);
+    let (Some(truth), Some(prediction)) = (column("ground_truth"), column("prediction")) else {
+        return Err(nothing_in(path, "the columns ground_truth and prediction"));
+    };
+    let [method, material] = [column("method"), column("material")];
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut cases: Vec<Case> = Vec::new();
+    // The place of each ground truth, and the samples of each method: a table may have a million rows.
+    let mut places: HashMap<PathBuf, usize> = HashMap::new();
+    let mut samples: HashMap<(usize, String), usize> = HashMap::new();
+    for row in reader.records() {
+        let row = row.map_err(bad)?;
+        let cell = |column: usize| row.get(column).unwrap_or_default();
+        let ground_truth = folder.join(cell(truth));
+        let method = line(method.map_or("prediction", cell));
+        let at = *places.entry(ground_truth.clone()).or_insert(cases.len());
+        if at == cases.len() {
+            let stem = ground_truth.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let material = line(&material.map_or(stem, |column| cell(column).to_owned()));
+            cases.push(Case { index: at, material, ground_truth, candidates: Vec::new() });
+        }
+        let count = samples.entry((at, method.clone())).or_insert(0);
+        let sample = *count;
+        *count += 1;
+        let path = folder.join(cell(prediction));
+        cases[at].candidates.push(Candidate { method, sample, path, missing: None });
+    }
+    if cases.is_empty() {
+        return Err(nothing_in(path, "rows"));
+    }
+    check_count(path, &cases).map(|()| cases)
+}
+
+/// Refuses a table of so many methods and materials that tables of their losses do not fit into memory: a page has a cell for every
+/// method and every material, whether the table of pairs has that pair or not.
+///
+/// # Errors
+/// [`Error::Memory`].
+fn check_count(path: &Path, cases: &[Case]) -> Result<(), Error> {
+    /// The cell of a loss, in bytes.
+    const ENTRY: u64 = 128;
+    let candidates = cases.iter().flat_map(|case| &case.candidates);
+    let methods = candidates.map(|candidate| candidate.method.as_str()).collect::<HashSet<_>>().len() as u64;
+    let materials = cases.len() as u64;
+    let what =
+        || format!("comparing {methods} methods over {materials} materials, as {} lists,", path.display());
+    memory::reserve(methods.saturating_mul(materials).saturating_mul(ENTRY), what).map(drop)
+}
+
+fn nothing_in(path: &Path, expected: &str) -> Error {
+    Error::NotAMaterial {
+        path: path.to_owned(),
+        expected: expected.to_owned(),
+        found: "none".to_owned(),
+        remedy: "give a folder of materials, or a table with a row for each pair".to_owned(),
+    }
+}

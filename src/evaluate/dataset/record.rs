@@ -1,0 +1,257 @@
+//! Records of a data set: the cases to compare, the settings of a run and the results.
+
+use std::collections::{BTreeMap, HashMap};
+use std::path::{Path, PathBuf};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::diagnose::Finding;
+use svbrdf_core::loss::Estimate;
+
+use super::remark::Remark;
+use svbrdf_files::read::ReadOptions;
+
+/// A material: its ground truth, and the predictions of all methods.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Case {
+    /// Its place in the whole data set, from 0.
+    pub index: usize,
+    pub material: String,
+    pub ground_truth: PathBuf,
+    pub candidates: Vec<Candidate>,
+}
+
+/// A prediction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Candidate {
+    pub method: String,
+    /// Which of the predictions of this method, from 0.
+    pub sample: usize,
+    /// Where it is, or would be.
+    pub path: PathBuf,
+    /// Why there is none.
+    pub missing: Option<String>,
+}
+
+/// Where the materials of a data set are, as the user named them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Source {
+    /// Folders of materials of the same names.
+    Folders {
+        #[serde(serialize_with = "as_text")]
+        ground_truths: PathBuf,
+        methods: Vec<Method>,
+    },
+    /// A table of pairs.
+    #[serde(serialize_with = "as_text")]
+    Table(PathBuf),
+}
+
+/// A method by its name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Method {
+    pub name: String,
+    /// The folder of its predictions, or a pattern: a path in which `{}` stands for the name of a material.
+    #[serde(serialize_with = "as_text")]
+    pub path: PathBuf,
+}
+
+/// A path as it is printed: it may be no Unicode.
+fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&path.display())
+}
+
+/// The settings that the results of all materials have in common.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DatasetSettings {
+    /// Where the materials are.
+    pub source: Source,
+    pub convention: String,
+    /// Half of the 95% interval of each loss over scenes, as a share of the loss.
+    pub target_error: f64,
+    /// Names the scenes, together with the name of the material.
+    pub seed: u64,
+    /// The materials of the whole data set, in order.
+    pub materials: Vec<String>,
+    /// In order.
+    pub methods: Vec<String>,
+    /// Whether results have metrics of the maps.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub metrics: bool,
+    /// Whether results have the marks of a diagnosis.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub diagnose: bool,
+}
+
+impl DatasetSettings {
+    /// The settings for `cases`, which are those of the whole data set.
+    pub fn new(source: Source, convention: &str, target_error: f64, seed: u64, cases: &[Case]) -> Self {
+        let mut methods: Vec<String> = Vec::new();
+        for candidate in cases.iter().flat_map(|case| &case.candidates) {
+            if !methods.contains(&candidate.method) {
+                methods.push(candidate.method.clone());
+            }
+        }
+        let materials = cases.iter().map(|case| case.material.clone()).collect();
+        Self {
+            source,
+            convention: convention.to_owned(),
+            target_error,
+            seed,
+            materials,
+            methods,
+            metrics: false,
+            diagnose: false,
+        }
+    }
+
+    /// The seed of the scenes of each material, in order: by its name, and for materials of one name by their order, so that it does
+    /// not depend on which other materials there are.
+    pub fn seeds(&self) -> Vec<u64> {
+        let mut counts: HashMap<&str, u64> = HashMap::new();
+        let mut seeds = Vec::new();
+        for material in &self.materials {
+            let count = counts.entry(material).or_default();
+            *count += 1;
+            let [seed, count] = [self.seed, *count].map(u64::to_le_bytes);
+            seeds.push(fnv1a(&[&seed[..], &count, material.as_bytes()].concat()));
+        }
+        seeds
+    }
+}
+
+/// FNV-1a (Fowler, Noll and Vo) of bytes, 64 bits.
+fn fnv1a(bytes: &[u8]) -> u64 {
+    const BASIS: u64 = 0xcbf2_9ce4_8422_2325;
+    const PRIME: u64 = 0x0100_0000_01b3;
+    bytes.iter().fold(BASIS, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(PRIME))
+}
+
+/// How the materials of a data set are read.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct DatasetReading {
+    pub ground_truths: ReadOptions,
+    /// Of all methods but those of `methods`.
+    pub predictions: ReadOptions,
+    /// By the name of a method.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub methods: BTreeMap<String, ReadOptions>,
+    /// Whether a material that can only be read by guesses has no result.
+    pub strict: bool,
+}
+
+impl DatasetReading {
+    /// How the predictions of a method are read.
+    pub fn of_method(&self, method: &str) -> &ReadOptions {
+        self.methods.get(method).unwrap_or(&self.predictions)
+    }
+}
+
+/// The results of one material.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct MaterialResult {
+    pub index: usize,
+    pub material: String,
+    /// The seed of its scenes: errors due to scenes are independent between materials.
+    pub seed: u64,
+    /// What was noticed and assumed in reading the ground truth.
+    pub reading: Vec<Remark>,
+    /// The loss that the ground truth cannot resolve, where diagnoses were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub floor: Option<f64>,
+    pub predictions: Vec<PredictionResult>,
+}
+
+impl MaterialResult {
+    /// Whether a loss, or a difference of losses, is known not to be above the floor.
+    pub fn is_below_floor(&self, value: Option<f64>) -> bool {
+        self.floor.zip(value).is_some_and(|(floor, value)| value <= floor)
+    }
+}
+
+/// The result of one prediction.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct PredictionResult {
+    pub method: String,
+    pub sample: usize,
+    pub path: String,
+    /// The loss, or why there is none.
+    #[schemars(with = "LossOrError")]
+    pub result: Result<KnownLoss, String>,
+    /// What was noticed and assumed in reading it.
+    pub reading: Vec<Remark>,
+    /// The metrics of its maps by name, where they were asked for; the PSNR of equal maps is infinite, in JSON null.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "with_infinities")]
+    #[schemars(with = "Option<BTreeMap<String, Option<f64>>>")]
+    pub metrics: BTreeMap<String, f64>,
+    /// The marks of its diagnosis, the largest share first, where they were asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub marks: Option<Vec<Mark>>,
+}
+
+/// The schema of the result of a prediction: it has one of both.
+#[derive(JsonSchema)]
+#[schemars(rename_all = "PascalCase")]
+#[expect(dead_code, reason = "a schema alone")]
+struct LossOrError {
+    #[schemars(skip_serializing_if = "Option::is_none")]
+    ok: Option<KnownLoss>,
+    /// Why there is no loss.
+    #[schemars(skip_serializing_if = "Option::is_none")]
+    err: Option<String>,
+}
+
+/// A marked finding of a diagnosis.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Mark {
+    /// Its name, such as "exposure".
+    pub hypothesis: String,
+    /// A number, a list of numbers or a name.
+    pub value: serde_json::Value,
+    /// The part of the loss that disappears under the hypothesis.
+    pub share: f64,
+    /// The options that correct the reading, as `--read` has them after the name of the method: `normal-y=down`; after that of the ground
+    /// truths where `hypothesis` is "ground_truth".
+    pub remedy: Option<String>,
+}
+
+impl From<&Finding> for Mark {
+    fn from(finding: &Finding) -> Self {
+        Self {
+            hypothesis: finding.hypothesis.name().to_owned(),
+            // Numbers and names have a value.
+            value: serde_json::to_value(&finding.value).unwrap_or_default(),
+            share: finding.share.unwrap_or(0.0),
+            remedy: finding.remedy.map(|remedy| remedy.to_string()),
+        }
+    }
+}
+
+/// Metrics whose null is infinity, which JSON does not have.
+fn with_infinities<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<String, f64>, D::Error> {
+    let metrics = BTreeMap::<String, Option<f64>>::deserialize(deserializer)?;
+    Ok(metrics.into_iter().map(|(name, value)| (name, value.unwrap_or(f64::INFINITY))).collect())
+}
+
+/// A loss that is known.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct KnownLoss {
+    pub loss: f64,
+    /// Due to the sampling of scenes and texels.
+    pub standard_error: f64,
+    pub interval95: [f64; 2],
+    /// The number of scenes that its accuracy took: the first ones of the seed of its material, so that it does not depend on which
+    /// other predictions there are.
+    pub scenes: usize,
+}
+
+impl KnownLoss {
+    /// The loss as an estimate.
+    pub fn estimate(&self) -> Estimate {
+        let Self { loss, standard_error, interval95, .. } = *self;
+        Estimate { mean: loss, standard_error: Some(standard_error), interval95: Some(interval95) }
+    }
+}

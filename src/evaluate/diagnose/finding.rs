@@ -1,0 +1,233 @@
+//! Findings of a diagnosis: the loss under each hypothesis.
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::change::Change;
+use super::ladder::Rung;
+use super::remedy::Remedy;
+use super::seams::Seam;
+use super::storage::Storage;
+use svbrdf_core::loss::Estimate;
+
+/// An explanation of a loss that is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Hypothesis {
+    /// One factor on the radiance.
+    Exposure,
+    /// A factor on each channel.
+    ExposureRgb,
+    /// A displacement by whole texels.
+    Shift,
+    /// The displacement by parts of a texel that a parabola suggests: not tested.
+    Subtexel,
+    /// Maps mirrored or turned.
+    Symmetry,
+    /// Detail smaller than 2 texels: not tested.
+    Resampling,
+    NormalY,
+    NormalX,
+    AlbedoEncoding,
+    DiffuseEncoding,
+    SpecularEncoding,
+    Roughness,
+    Channels,
+    Energy,
+    /// Another reading of the ground truth.
+    GroundTruth,
+}
+
+impl Hypothesis {
+    /// In the order of the lines.
+    const ALL: [Self; 15] = [
+        Self::Exposure,
+        Self::ExposureRgb,
+        Self::Shift,
+        Self::Subtexel,
+        Self::Symmetry,
+        Self::Resampling,
+        Self::NormalY,
+        Self::NormalX,
+        Self::AlbedoEncoding,
+        Self::DiffuseEncoding,
+        Self::SpecularEncoding,
+        Self::Roughness,
+        Self::Channels,
+        Self::Energy,
+        Self::GroundTruth,
+    ];
+
+    /// The lines of a prediction that is stored so: maps without an encoding that is known to be another one have no line for it.
+    pub fn of(storage: &Storage) -> impl Iterator<Item = Self> {
+        let [colours, specular] =
+            [storage.colours, storage.specular].map(|transfer| !Storage::encodings(transfer).is_empty());
+        let has_specular = !storage.base_colour;
+        Self::ALL.into_iter().filter(move |hypothesis| match hypothesis {
+            Self::AlbedoEncoding => colours && (specular || !has_specular),
+            Self::DiffuseEncoding => colours && has_specular,
+            Self::SpecularEncoding => specular && has_specular,
+            _ => true,
+        })
+    }
+
+    /// The name in reports.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Exposure => "exposure",
+            Self::ExposureRgb => "exposure_rgb",
+            Self::Shift => "shift",
+            Self::Subtexel => "subtexel",
+            Self::Symmetry => "symmetry",
+            Self::Resampling => "resampling",
+            Self::NormalY => "normal_y",
+            Self::NormalX => "normal_x",
+            Self::AlbedoEncoding => "albedo_encoding",
+            Self::DiffuseEncoding => "diffuse_encoding",
+            Self::SpecularEncoding => "specular_encoding",
+            Self::Roughness => "roughness",
+            Self::Channels => "channels",
+            Self::Energy => "energy",
+            Self::GroundTruth => "ground_truth",
+        }
+    }
+
+    /// The unit of its value.
+    pub fn unit(self) -> Option<&'static str> {
+        match self {
+            Self::Exposure | Self::ExposureRgb => Some("stops"),
+            Self::Shift | Self::Subtexel | Self::Resampling => Some("texels"),
+            _ => None,
+        }
+    }
+}
+
+/// The value of a hypothesis.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Value {
+    /// The stops that the prediction would have to be brightened by; a number of texels.
+    Number(f64),
+    /// Stops of red, green and blue.
+    Numbers([f64; 3]),
+    /// How far the prediction is displaced to the right and down.
+    Displacement([f64; 2]),
+    /// What would have to be done with the prediction, or how it would have to be read.
+    Name(&'static str),
+}
+
+/// Numbers have two decimals, texels none where they are whole; `0.40`, `-0.05 -0.03 -0.03`, `3 -2`, `flipped`.
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => f.write_str(&hundredths(*number)),
+            Self::Numbers(numbers) => f.write_str(&numbers.map(hundredths).join(" ")),
+            Self::Displacement([x, y]) if x.fract() == 0.0 && y.fract() == 0.0 => write!(f, "{x} {y}"),
+            Self::Displacement(displacement) => f.write_str(&displacement.map(hundredths).join(" ")),
+            Self::Name(name) => f.write_str(name),
+        }
+    }
+}
+
+/// Two decimals, without the sign of a number that rounds to 0.
+fn hundredths(number: f64) -> String {
+    let text = format!("{number:.2}");
+    if text == "-0.00" { "0.00".to_owned() } else { text }
+}
+
+/// The loss under a hypothesis.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Finding {
+    pub hypothesis: Hypothesis,
+    /// The value with the least loss in the pilot.
+    pub value: Value,
+    pub unit: Option<&'static str>,
+    /// The loss under the hypothesis; `None` where it has none.
+    pub loss: Option<f64>,
+    /// The 95% confidence interval of this loss.
+    pub interval95: Option<[f64; 2]>,
+    /// The part of the loss that disappears under the hypothesis, paired by scenes; negative where the loss grows.
+    pub share: Option<f64>,
+    /// The 95% confidence interval of the share, from the paired differences.
+    pub share_interval95: Option<[f64; 2]>,
+    /// The probability of such a fall where there is none, corrected for the number of hypotheses (Holm); `None`: not tested.
+    pub p: Option<f64>,
+    /// Whether the loss falls significantly and by at least 10% beside the corrections of the other marked findings. Never where
+    /// the loss is below the floor.
+    pub marked: bool,
+    /// Whether the marked findings explain the whole loss, and no other change in place of this one does.
+    #[serde(skip)]
+    pub certain: bool,
+    /// Another change in place of this one that explains as much.
+    #[serde(skip)]
+    pub alternative: Option<Change>,
+    /// The option of reading that corrects it; a report writes it as an option of the command line.
+    #[serde(skip)]
+    pub remedy: Option<Remedy>,
+    /// What is changed with the value; `None` where it changes nothing, or is not tested.
+    #[serde(skip)]
+    pub change: Option<Change>,
+}
+
+/// What might explain the loss of one prediction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnosis {
+    /// The name of the prediction.
+    pub prediction: String,
+    /// Its loss over the scenes of the evaluation.
+    pub loss: Estimate,
+    /// The part of the loss that disappears under all marked findings together; `None` without marks.
+    pub explained: Option<f64>,
+    /// In the order of [`Hypothesis`].
+    pub findings: Vec<Finding>,
+    /// From single texels to the largest blocks.
+    pub ladder: Vec<Rung>,
+    /// Those of the prediction.
+    pub seams: Vec<Seam>,
+}
+
+impl Finding {
+    /// The option that corrects the reading of the prediction.
+    pub fn remedy_of_prediction(&self) -> Option<Remedy> {
+        self.remedy.filter(|_| self.hypothesis != Hypothesis::GroundTruth)
+    }
+
+    /// What `--read` takes to correct the reading of the ground truth or of the prediction with these names.
+    pub fn statement(&self, names: [&str; 2]) -> Option<String> {
+        self.remedy.map(|remedy| remedy.statement(self.corrected(names)))
+    }
+
+    /// The same as an option of the command line.
+    pub fn command_option(&self, names: [&str; 2]) -> Option<String> {
+        self.remedy.map(|remedy| remedy.command_option(self.corrected(names)))
+    }
+
+    /// Which of the two is read otherwise.
+    fn corrected<'a>(&self, [ground_truth, prediction]: [&'a str; 2]) -> &'a str {
+        if self.hypothesis == Hypothesis::GroundTruth { ground_truth } else { prediction }
+    }
+}
+
+impl Diagnosis {
+    /// The marked findings, the largest share first.
+    pub fn marked(&self) -> impl Iterator<Item = &Finding> {
+        let mut marked: Vec<_> = self.findings.iter().filter(|finding| finding.marked).collect();
+        marked.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
+        marked.into_iter()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_rounds_to_0_has_no_sign() {
+        let numbers = [-0.004, -0.0, 0.004, -0.006].map(|number| Value::Number(number).to_string());
+        assert_eq!(numbers, ["0.00", "0.00", "0.00", "-0.01"]);
+        assert_eq!(Value::Displacement([-0.001, 1.25]).to_string(), "0.00 1.25");
+        assert_eq!(Value::Numbers([-0.001, 0.2, -1.0]).to_string(), "0.00 0.20 -1.00");
+    }
+}

@@ -1,0 +1,84 @@
+//! The floor: the loss that a ground truth cannot resolve, since its maps have steps or its captures differ.
+
+use super::dither::dithered;
+use super::storage::Storage;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request, Sampling, Texels};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
+
+/// Dithered copies that are compared with the ground truth.
+const COPIES: u64 = 2;
+/// Scenes: near-field, distant.
+const SCENES: [usize; 2] = [128, 64];
+/// Texels of a scene up to which all are compared; of larger maps an eighth as many.
+const TEXELS: usize = 1 << 16;
+
+/// The expected loss between a ground truth and a copy that is [`dithered`].
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub fn floor(
+    ground_truth: &Material<f32>,
+    storage: &Storage,
+    convention: &Convention,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Estimate, Error> {
+    let copies = (0..COPIES).map(|copy| dithered(ground_truth, storage, seed.wrapping_add(copy)));
+    let copies = copies.collect::<Result<Vec<_>, Error>>()?;
+    let copies: Vec<_> = copies.iter().collect();
+    Ok(mean(&[losses(ground_truth, &copies, convention, seed, progress)?]))
+}
+
+/// The mean loss between repeated captures of one material: over all pairs of the ground truth and its `repeats`.
+///
+/// # Errors
+/// [`Error::SizesDiffer`], [`Error::NoPrediction`] without repeats, [`Error::Cancelled`].
+pub fn floor_of_captures(
+    ground_truth: &Material<f32>,
+    repeats: &[Material<f32>],
+    convention: &Convention,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Estimate, Error> {
+    if repeats.is_empty() {
+        return Err(Error::NoPrediction);
+    }
+    let all: Vec<_> = std::iter::once(ground_truth).chain(repeats).collect();
+    progress.begin(repeats.len() as u64);
+    let of_first = |first: usize| {
+        let outcome = losses(all[first], &all[first + 1..], convention, seed, &progress.part())?;
+        progress.step()?;
+        Ok(outcome)
+    };
+    let outcomes = (0..repeats.len()).map(of_first).collect::<Result<Vec<_>, Error>>()?;
+    Ok(mean(&outcomes))
+}
+
+fn losses(
+    first: &Material<f32>,
+    others: &[&Material<f32>],
+    convention: &Convention,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Outcome, Error> {
+    let [near, distant] = SCENES;
+    let all = first.width() * first.height() <= TEXELS;
+    let texels = if all { Texels::All } else { Texels::Sampled(TEXELS / 8) };
+    let sampling = Sampling { near, distant, seed, sampler: Sampler::Sobol, texels };
+    let comparison = Comparison::new(first, others, *convention)?.without_pilot();
+    comparison.run(&Request::Scenes(sampling), progress)
+}
+
+/// The mean over all comparisons, which are in the same scenes.
+fn mean(outcomes: &[Outcome]) -> Estimate {
+    let losses: Vec<_> = outcomes.iter().flat_map(|outcome| &outcome.losses).collect();
+    let scenes = outcomes.first().map_or(&[][..], |outcome| outcome.scenes.as_slice());
+    let of_scene =
+        |scene: usize| losses.iter().map(|loss| loss.per_scene[scene]).sum::<f64>() / losses.len() as f64;
+    let per_scene: Vec<f64> = (0..scenes.len()).map(of_scene).collect();
+    Estimate::of_sampled(Sampler::Sobol, scenes, &per_scene)
+}

@@ -1,0 +1,66 @@
+//! Diagnosis: whether an error of exposure, alignment or reading explains a loss, and how far the ground truth resolves it.
+//!
+//! Free values (stops, texels, a symmetry) are fitted in the scenes of a pilot and evaluated in other scenes, so that their intervals
+//! are valid after the search. `docs/diagnose.md` describes each line.
+//!
+//! ```
+//! use crate::diagnose::{Storage, diagnose};
+//! use svbrdf_core::material::Material;
+//! use svbrdf_core::model::brdf::Texel;
+//! use svbrdf_core::model::convention::Convention;
+//! use svbrdf_core::progress::Progress;
+//!
+//! let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
+//! let truth = Material::uniform("truth", 32, 32, &texel(0.3))?;
+//! let glossiness = Material::uniform("glossiness", 32, 32, &texel(0.7))?;
+//! let storage = Storage::default();
+//! let found = diagnose([&truth, &glossiness], [&storage; 2], &Convention::default(), 0.0, 0, &Progress::default())?;
+//! assert!(found.marked().next().is_some_and(|finding| finding.hypothesis.name() == "roughness"));
+//! # Ok::<(), svbrdf_core::error::Error>(())
+//! ```
+
+mod change;
+mod corrected;
+mod dither;
+mod evaluation;
+mod explanation;
+mod exposure;
+mod filtered;
+mod finding;
+mod floor;
+mod holm;
+mod ladder;
+mod marking;
+mod pair;
+mod proposals;
+mod radiances;
+mod reading;
+mod remedy;
+mod seams;
+mod search;
+mod sentence;
+mod shift;
+mod storage;
+mod symmetry;
+mod trials;
+mod words;
+
+#[cfg(test)]
+pub(crate) mod tests;
+
+pub use change::Change;
+pub use dither::dithered;
+pub use exposure::best_stops;
+pub use filtered::filtered_roughness;
+pub use finding::{Diagnosis, Finding, Hypothesis, Value};
+pub use floor::{floor, floor_of_captures};
+pub use holm::holm;
+pub use ladder::{Rung, ladder};
+pub use reading::Reading;
+pub use remedy::Remedy;
+pub use seams::{Seam, seams};
+pub use search::{SCENES, diagnose};
+pub use sentence::{sentence, sentence_of};
+pub use shift::{MOST_SHIFT, shifted};
+pub use storage::{Storage, Transfer};
+pub use symmetry::Symmetry;

@@ -1,0 +1,150 @@
+//! Proposals: each hypothesis with the value that fits best in the scenes of a pilot.
+
+use super::change::Change;
+use super::finding::{Hypothesis, Value};
+use super::reading::Reading;
+use super::remedy::Remedy;
+use super::shift::{Fit, candidates, interior};
+use super::storage::{Storage, Transfer};
+use super::symmetry::Symmetry;
+use super::trials::{Paired, Trials, mean};
+use svbrdf_core::error::Error;
+
+/// A hypothesis with the value that was fitted.
+#[derive(Clone, Debug)]
+pub(super) struct Proposal {
+    pub(super) hypothesis: Hypothesis,
+    pub(super) value: Value,
+    /// `None`: the best value changes nothing.
+    pub(super) change: Option<Change>,
+    pub(super) remedy: Option<Remedy>,
+}
+
+impl Proposal {
+    fn new(hypothesis: Hypothesis, value: Value, change: Change) -> Self {
+        Self { hypothesis, value, change: Some(change), remedy: None }
+    }
+
+    /// All hypotheses in the order of their lines, with the values that have the least loss in `pilot`; and the displacement by parts
+    /// of a texel. `fits` are those of the pair of `pilot`.
+    pub(super) fn all(pilot: &Trials<'_>, fits: &[Fit]) -> Result<(Vec<Self>, Value), Error> {
+        let (shift, subtexel) = shift(pilot, fits)?;
+        let fitted = |hypothesis| -> Result<Self, Error> {
+            Ok(Self::exposure(pilot.best_exposure(&[], hypothesis == Hypothesis::ExposureRgb)?, hypothesis))
+        };
+        let first =
+            [fitted(Hypothesis::Exposure)?, fitted(Hypothesis::ExposureRgb)?, shift, symmetry(pilot)?];
+        let mut all = first.to_vec();
+        for mut readings in Self::readings(pilot.pair.storages).into_iter().filter(|some| !some.is_empty()) {
+            let best = best(pilot, readings.iter().filter_map(|reading| reading.change))?;
+            all.push(readings.swap_remove(best));
+        }
+        Ok((all, subtexel))
+    }
+
+    pub(super) fn exposure(stops: [f64; 3], hypothesis: Hypothesis) -> Self {
+        let value = match hypothesis {
+            Hypothesis::ExposureRgb => Value::Numbers(stops),
+            _ => Value::Number(stops[0]),
+        };
+        Self::new(hypothesis, value, Change::Exposure(stops))
+    }
+
+    pub(super) fn shift(shift: [i32; 2]) -> Self {
+        let value = Value::Displacement(shift.map(f64::from));
+        let change = (shift != [0, 0]).then_some(Change::Shift(shift));
+        Self { hypothesis: Hypothesis::Shift, value, change, remedy: None }
+    }
+
+    pub(super) fn symmetry(symmetry: Symmetry) -> Self {
+        Self::new(Hypothesis::Symmetry, Value::Name(symmetry.name()), Change::Symmetry(symmetry))
+    }
+
+    /// All readings by hypothesis, those of the ground truth last.
+    pub(super) fn readings([of_truth, of_prediction]: [&Storage; 2]) -> Vec<Vec<Self>> {
+        let one = |hypothesis: Hypothesis, reading: Reading| Self {
+            remedy: Remedy::of(of_prediction, reading),
+            ..Self::new(hypothesis, Value::Name(reading.name()), Change::Reading(reading))
+        };
+        let truth = |reading: Reading| Self {
+            remedy: Remedy::of(of_truth, reading),
+            ..Self::new(Hypothesis::GroundTruth, Value::Name(reading.words()), Change::GroundTruth(reading))
+        };
+        let prediction = readings(of_prediction)
+            .into_iter()
+            .map(|(hypothesis, readings)| readings.into_iter().map(|r| one(hypothesis, r)).collect());
+        let truths = readings(of_truth).into_iter().flat_map(|(_, readings)| readings).map(truth).collect();
+        prediction.chain([truths]).collect()
+    }
+}
+
+fn symmetry(pilot: &Trials<'_>) -> Result<Proposal, Error> {
+    let mut symmetries: Vec<Symmetry> = Symmetry::of(pilot.pair.ground_truth.size()).collect();
+    let best = best(pilot, symmetries.iter().map(|&symmetry| Change::Symmetry(symmetry)))?;
+    Ok(Proposal::symmetry(symmetries.swap_remove(best)))
+}
+
+/// The readings that are tried, by hypothesis.
+fn readings(storage: &Storage) -> Vec<(Hypothesis, Vec<Reading>)> {
+    let encodings = |of: Transfer, reading: fn(Transfer) -> Reading| {
+        Storage::encodings(of).iter().map(|&to| reading(to)).collect::<Vec<_>>()
+    };
+    let energy = if storage.unscaled { Reading::Scaled } else { Reading::Unscaled };
+    let all = vec![
+        (Hypothesis::NormalY, vec![Reading::NormalY]),
+        (Hypothesis::NormalX, vec![Reading::NormalX]),
+        (Hypothesis::AlbedoEncoding, encodings(storage.colours, Reading::Colours)),
+        (Hypothesis::DiffuseEncoding, encodings(storage.colours, Reading::Diffuse)),
+        (Hypothesis::SpecularEncoding, encodings(storage.specular, Reading::Specular)),
+        (Hypothesis::Roughness, vec![Reading::Gloss, Reading::RootOfRoughness, Reading::SquaredRoughness]),
+        (Hypothesis::Channels, vec![Reading::RedBlue]),
+        (Hypothesis::Energy, vec![energy]),
+    ];
+    let has = |hypothesis| Hypothesis::of(storage).any(|of_storage| of_storage == hypothesis);
+    all.into_iter().filter(|(hypothesis, _)| has(*hypothesis)).collect()
+}
+
+/// The index of the change with the least loss.
+fn best(pilot: &Trials<'_>, changes: impl Iterator<Item = Change>) -> Result<usize, Error> {
+    let trials: Vec<Vec<Change>> = changes.map(|change| vec![change]).collect();
+    if trials.len() < 2 {
+        return Ok(0);
+    }
+    let losses = pilot.losses(&trials)?;
+    let least = losses.iter().enumerate().min_by(|a, b| mean(&a.1.after).total_cmp(&mean(&b.1.after)));
+    Ok(least.map_or(0, |(index, _)| index))
+}
+
+/// The displacement of the prediction by whole texels with the least loss, and that by parts of a texel.
+pub(super) fn shift(pilot: &Trials<'_>, fits: &[Fit]) -> Result<(Proposal, Value), Error> {
+    let candidates = candidates(fits);
+    let ratios = ratios(pilot, &candidates)?;
+    let least = candidates.into_iter().zip(ratios).min_by(|a, b| a.1.total_cmp(&b.1));
+    let (shift, ratio) = least.filter(|(_, ratio)| *ratio < 1.0).unwrap_or(([0, 0], 1.0));
+    let proposal = Proposal::shift(shift);
+    let subtexel = subtexel(pilot, shift, ratio)?;
+    let subtexel = subtexel.map_or_else(|| proposal.value.clone(), Value::Displacement);
+    Ok((proposal, subtexel))
+}
+
+/// The losses after shifts by the losses before, on the texels that both have.
+fn ratios(pilot: &Trials<'_>, shifts: &[[i32; 2]]) -> Result<Vec<f64>, Error> {
+    let trials: Vec<Vec<Change>> = shifts.iter().map(|&shift| vec![Change::Shift(shift)]).collect();
+    let ratio = |paired: &Paired| {
+        if mean(&paired.before) > 0.0 { mean(&paired.after) / mean(&paired.before) } else { 1.0 }
+    };
+    Ok(pilot.losses(&trials)?.iter().map(ratio).collect())
+}
+
+/// The vertex of the parabolas through the losses at a shift, where the `centre` is, and at its neighbours; `None` where the map has no
+/// room for them.
+fn subtexel(pilot: &Trials<'_>, [x, y]: [i32; 2], centre: f64) -> Result<Option<[f64; 2]>, Error> {
+    let neighbours = [[x - 1, y], [x + 1, y], [x, y - 1], [x, y + 1]];
+    let [left, right, above, below] = ratios(pilot, &neighbours)?[..] else { return Ok(None) };
+    let vertex = |before: f64, after: f64| {
+        let curvature = before - 2.0 * centre + after;
+        if curvature > 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
+    };
+    let has_room = !interior(pilot.pair.ground_truth.size(), [x.abs() + 1, y.abs() + 1]).is_empty();
+    Ok(has_room.then(|| [f64::from(x) + vertex(left, right), f64::from(y) + vertex(above, below)]))
+}

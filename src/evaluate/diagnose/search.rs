@@ -1,0 +1,107 @@
+//! The diagnosis of a prediction: values fitted in a pilot, evaluated in other scenes, and marked.
+
+use super::evaluation::findings;
+use super::explanation::explain;
+use super::finding::{Diagnosis, Finding, Hypothesis, Value};
+use super::ladder::{Rung, ladder};
+use super::marking::Marking;
+use super::pair::Pair;
+use super::proposals::Proposal;
+use super::seams::seams;
+use super::shift::fits;
+use super::storage::Storage;
+use super::trials::Trials;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Estimate, check_same_size};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
+
+/// Near-field and distant scenes of what is found.
+pub const SCENES: [usize; 2] = [2048, 1024];
+/// Near-field scenes, distant scenes, and texels of each up to which all are compared: of the pilot, and of the evaluation. Of larger maps
+/// an eighth as many are.
+const PILOT: [usize; 3] = [64, 32, 8192];
+pub(super) const EVALUATION: [usize; 3] = [SCENES[0], SCENES[1], 2048];
+/// The same of the search among sets of changes, which are many.
+const SEARCH: [usize; 3] = [16, 8, 2048];
+/// What the seed of the pilot differs by.
+const PILOT_SEED: u64 = 0x7069_6c6f_7400_0000;
+/// Near-field and distant scenes of the ladder.
+const LADDER: [usize; 2] = [16, 8];
+/// The steps of `progress`.
+const STEPS: u64 = 4;
+
+/// Tries what may explain the loss of a prediction, `pair[1]`, against a ground truth, `pair[0]`, which were read from `storages`.
+/// Nothing is marked where the loss is not above `floor`. `seed` names the scenes.
+///
+/// # Errors
+/// [`Error::SizesDiffer`], [`Error::Cancelled`].
+pub fn diagnose(
+    [ground_truth, prediction]: [&Material<f32>; 2],
+    storages: [&Storage; 2],
+    convention: &Convention,
+    floor: f64,
+    seed: u64,
+    progress: &Progress,
+) -> Result<Diagnosis, Error> {
+    check_same_size(ground_truth, prediction)?;
+    progress.begin(STEPS);
+    let pair = Pair { ground_truth, prediction, storages };
+    let trials = |size, seed| Trials::new(pair, convention, size, seed, progress);
+    let (pilot, evaluation) = (trials(PILOT, seed ^ PILOT_SEED)?, trials(EVALUATION, seed)?);
+    let search = trials(SEARCH, seed ^ PILOT_SEED)?;
+    let fits = fits(ground_truth, prediction, pilot.sampling.seed);
+    let (mut proposals, subtexel) = Proposal::all(&pilot, &fits)?;
+    progress.step()?;
+    let unchanged = evaluation.unchanged()?;
+    let loss = Estimate::of_sampled(Sampler::Sobol, &evaluation.scenes, &unchanged.before);
+    let resolvable = floor / loss.mean.max(f64::MIN_POSITIVE);
+    let explained =
+        if resolvable < 1.0 { explain([&search, &pilot], &fits, resolvable)? } else { Vec::new() };
+    for proposal in &explained {
+        let line = proposals.iter_mut().find(|line| line.hypothesis == proposal.hypothesis);
+        line.into_iter().for_each(|line| *line = proposal.clone());
+    }
+    progress.step()?;
+    let name = prediction.name().to_owned();
+    let mut findings = findings(&evaluation, &proposals, &unchanged)?;
+    let scenes = Sampler::Sobol.scenes(seed, LADDER[0], LADDER[1], convention);
+    let ladder = ladder(ground_truth, prediction, &scenes, convention, &progress.part())?;
+    progress.step()?;
+    findings.insert(3, untested(Hypothesis::Subtexel, subtexel, None));
+    findings.insert(5, resampling(&ladder));
+    let seams = seams(prediction);
+    let mut diagnosis = Diagnosis { prediction: name, loss, explained: None, findings, ladder, seams };
+    let marking =
+        Marking { search: &search, pilot: &pilot, evaluation: &evaluation, hypotheses: proposals.len() };
+    marking.mark(&mut diagnosis, explained, resolvable)?;
+    progress.step()?;
+    Ok(diagnosis)
+}
+
+/// A line without a test.
+fn untested(hypothesis: Hypothesis, value: Value, losses: Option<[f64; 2]>) -> Finding {
+    Finding {
+        hypothesis,
+        value,
+        unit: hypothesis.unit(),
+        loss: losses.map(|[_, after]| after),
+        interval95: None,
+        share: losses.map(|[before, after]| if before > 0.0 { 1.0 - after / before } else { 0.0 }),
+        share_interval95: None,
+        p: None,
+        marked: false,
+        certain: false,
+        alternative: None,
+        remedy: None,
+        change: None,
+    }
+}
+
+/// The part of the loss that is due to detail smaller than 2 texels.
+fn resampling(ladder: &[Rung]) -> Finding {
+    let losses = ladder.get(1).map(|half| [ladder[0].loss, half.loss]);
+    untested(Hypothesis::Resampling, Value::Number(2.0), losses)
+}

@@ -1,0 +1,193 @@
+//! The losses of a prediction before and after changes, in the same scenes on the same texels.
+
+use super::change::Change;
+use super::corrected::Corrected;
+use super::exposure;
+use super::pair::Pair;
+use super::radiances::{Radiances, radiances};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Compute as _, Request, Sampling, Texels};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+
+/// Changed predictions are rendered together as far as their maps fit into this much memory.
+const MOST_BYTES: usize = 1 << 30;
+/// Texels of a scene whose radiances are compared one by one, for exposures.
+const RADIANCES: usize = 1024;
+
+/// A pair, and the scenes that changes of it are tried in.
+pub(super) struct Trials<'a> {
+    pub(super) pair: Pair<'a>,
+    pub(super) convention: &'a Convention,
+    pub(super) sampling: Sampling,
+    /// Most texels of a scene.
+    pub(super) texels: usize,
+    pub(super) scenes: Vec<Scene>,
+    pub(super) progress: &'a Progress,
+}
+
+/// The losses of each scene without and with changes, on the texels that both have.
+#[derive(Clone, Debug)]
+pub(super) struct Paired {
+    pub(super) before: Vec<f64>,
+    pub(super) after: Vec<f64>,
+}
+
+/// The mean; 0 of none.
+pub(super) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}
+
+impl<'a> Trials<'a> {
+    pub(super) fn new(
+        pair: Pair<'a>,
+        convention: &'a Convention,
+        [near, distant, texels]: [usize; 3],
+        seed: u64,
+        progress: &'a Progress,
+    ) -> Result<Self, Error> {
+        // Texels that are listed take far longer than whole maps.
+        let is_whole = pair.ground_truth.width() * pair.ground_truth.height() <= texels;
+        let texels = if is_whole { texels } else { texels / 8 };
+        let sampling =
+            Sampling { near, distant, seed, sampler: Sampler::Sobol, texels: Texels::Sampled(texels) };
+        let scenes = sampling.scenes(convention)?;
+        Ok(Self { pair, convention, sampling, texels, scenes, progress })
+    }
+
+    /// The losses under each of `trials`.
+    pub(super) fn losses(&self, trials: &[Vec<Change>]) -> Result<Vec<Paired>, Error> {
+        let [width, height] = self.pair.ground_truth.size();
+        let bytes = 10 * size_of::<f32>() * width * height;
+        let mut losses = Vec::new();
+        for trials in trials.chunks((MOST_BYTES / bytes.max(1)).max(1)) {
+            let corrected = trials.iter().map(|changes| self.corrected(changes));
+            losses.extend(self.of_corrected(&corrected.collect::<Result<Vec<_>, Error>>()?)?);
+        }
+        Ok(losses)
+    }
+
+    /// The losses without changes.
+    pub(super) fn unchanged(&self) -> Result<Paired, Error> {
+        let mut losses = self.on_all_texels(self.pair.ground_truth, &[self.pair.prediction])?;
+        let losses = losses.pop().unwrap_or_default();
+        Ok(Paired { before: losses.clone(), after: losses })
+    }
+
+    fn corrected(&self, changes: &[Change]) -> Result<Corrected, Error> {
+        Corrected::new(&self.pair, changes)
+    }
+
+    fn of_corrected(&self, corrected: &[Corrected]) -> Result<Vec<Paired>, Error> {
+        let is_whole = |one: &&Corrected| one.texels.is_none() && one.ground_truth.is_none();
+        let whole = corrected.iter().filter(is_whole).map(|one| &one.material);
+        let materials: Vec<_> = std::iter::once(self.pair.prediction).chain(whole).collect();
+        let mut losses = self.on_all_texels(self.pair.ground_truth, &materials)?.into_iter();
+        let before = losses.next().unwrap_or_default();
+        let one = |corrected: &Corrected| {
+            let whole = if is_whole(&corrected) { losses.next() } else { None };
+            let paired = match whole {
+                Some(after) => Paired { before: before.clone(), after },
+                None => self.alone(corrected, &before)?,
+            };
+            match corrected.stops {
+                Some(stops) => self.exposed(paired, corrected, stops),
+                None => Ok(paired),
+            }
+        };
+        corrected.iter().map(one).collect()
+    }
+
+    /// On a part of the texels, or against another ground truth.
+    fn alone(&self, corrected: &Corrected, before: &[f64]) -> Result<Paired, Error> {
+        let Pair { ground_truth, prediction, .. } = self.pair;
+        let changed = corrected.ground_truth.as_ref().unwrap_or(ground_truth);
+        let losses = match &corrected.texels {
+            None => {
+                let after = self.on_all_texels(changed, &[&corrected.material])?;
+                [vec![before.to_vec()], after].concat()
+            }
+            Some(texels) if corrected.ground_truth.is_none() => {
+                self.on_texels(changed, &[prediction, &corrected.material], texels)?
+            }
+            Some(texels) => [
+                self.on_texels(ground_truth, &[prediction], texels)?,
+                self.on_texels(changed, &[&corrected.material], texels)?,
+            ]
+            .concat(),
+        };
+        let mut losses = losses.into_iter();
+        Ok(Paired { before: losses.next().unwrap_or_default(), after: losses.next().unwrap_or_default() })
+    }
+
+    /// The losses of each scene, of each prediction.
+    fn on_all_texels(
+        &self,
+        ground_truth: &Material<f32>,
+        predictions: &[&Material<f32>],
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let comparison = Comparison::new(ground_truth, predictions, *self.convention)?.without_pilot();
+        let outcome = comparison.run(&Request::Scenes(self.sampling), &self.progress.part())?;
+        Ok(outcome.losses.into_iter().map(|loss| loss.per_scene).collect())
+    }
+
+    /// The same on a part of the texels: in each scene on those of its subset that are among `texels`, which are in order. Trials of
+    /// other parts are compared on the same subset. A scene without any has a loss of 0.
+    fn on_texels(
+        &self,
+        ground_truth: &Material<f32>,
+        predictions: &[&Material<f32>],
+        texels: &[usize],
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let comparison = Comparison::new(ground_truth, predictions, *self.convention)?;
+        let progress = self.progress.part();
+        let is_one_of_them = |texel: &usize| texels.binary_search(texel).is_ok();
+        let subset = |number: usize| self.subset(number).into_iter().filter(is_one_of_them).collect();
+        match self.sampling.texels.sampled(ground_truth.size()) {
+            None if texels.is_empty() => Ok(vec![vec![0.0; self.scenes.len()]; predictions.len()]),
+            None => f32::cpu().scene_losses(&comparison, &self.scenes, Some(texels), &progress),
+            Some(_) => f32::cpu().losses_on_own_texels(&comparison, &self.scenes, &subset, &progress),
+        }
+    }
+
+    /// The independent random subset of the texels that a scene is compared on.
+    fn subset(&self, number: usize) -> Vec<usize> {
+        let Sampling { near, seed, sampler, .. } = self.sampling;
+        let kind = self.scenes[number].kind;
+        let index = if kind == Kind::Near { number } else { number - near };
+        sampler.texels(seed, kind, index, self.texels, self.pair.ground_truth.size())
+    }
+
+    /// Adds what an exposure changes on random texels of each scene.
+    fn exposed(&self, paired: Paired, corrected: &Corrected, stops: [f64; 3]) -> Result<Paired, Error> {
+        let epsilon = self.convention.epsilon;
+        let change = |pairs: &Vec<Radiances>| {
+            exposure::loss(pairs, stops, epsilon) - exposure::loss(pairs, [0.0; 3], epsilon)
+        };
+        let changes = self.radiances(corrected)?;
+        let after = paired.after.iter().zip(&changes).map(|(loss, pairs)| loss + change(pairs)).collect();
+        Ok(Paired { after, ..paired })
+    }
+
+    fn radiances(&self, corrected: &Corrected) -> Result<Vec<Vec<Radiances>>, Error> {
+        let progress = self.progress.part();
+        radiances(
+            corrected.ground_truth.as_ref().unwrap_or(self.pair.ground_truth),
+            corrected,
+            &self.sampling,
+            &self.scenes,
+            RADIANCES.min(self.texels),
+            self.convention,
+            &progress,
+        )
+    }
+
+    /// The stops of red, green and blue with the least loss, each or all together, after `changes` other than exposures.
+    pub(super) fn best_exposure(&self, changes: &[Change], per_channel: bool) -> Result<[f64; 3], Error> {
+        let pairs = self.radiances(&self.corrected(changes)?)?;
+        Ok(exposure::best_exposure(&pairs, self.convention.epsilon, per_channel))
+    }
+}

@@ -1,0 +1,53 @@
+//! Many predictions of one ground truth, best first, with what the data can separate.
+
+use svbrdf_core::loss::{Estimate, MOST_SCENES, Outcome};
+
+/// Most scenes for a ranking of `predictions`, which are compared in the same ones: half as many renderings as a loss may take, and
+/// at least 24,576 scenes.
+pub fn most_scenes(predictions: usize) -> usize {
+    (MOST_SCENES / (1 + predictions)).max(24_576)
+}
+
+/// A prediction in its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ranked {
+    /// The index of its loss in the outcome.
+    pub index: usize,
+    /// Its loss - the loss of the best prediction, over the same scenes; `None` for the best one.
+    pub to_best: Option<Estimate>,
+    /// Groups are counted from 1. A group begins with the first prediction whose difference to the first of the group before has a
+    /// 95% interval without 0. Within a group, no prediction is separated from its first.
+    pub group: usize,
+}
+
+/// The predictions of an outcome, smallest loss first. Equal losses keep their order.
+pub fn places(outcome: &Outcome) -> Vec<Ranked> {
+    let mean = |index: usize| outcome.losses[index].estimate.mean;
+    let mut order: Vec<usize> = (0..outcome.losses.len()).collect();
+    order.sort_by(|&a, &b| mean(a).total_cmp(&mean(b)));
+    let Some(&best) = order.first() else { return Vec::new() };
+    let (mut first, mut group) = (best, 1);
+    let place = |&index: &usize| {
+        if index != first && separated(&outcome.difference(index, first)) {
+            (first, group) = (index, group + 1);
+        }
+        let to_best = (index != best).then(|| outcome.difference(index, best));
+        Ranked { index, to_best, group }
+    };
+    order.iter().map(place).collect()
+}
+
+/// Whether a difference is larger than 0 at 95% confidence.
+fn separated(difference: &Estimate) -> bool {
+    difference.interval95.is_some_and(|[low, _]| low > 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_predictions_share_the_work_of_one_down_to_a_least_number_of_scenes() {
+        assert_eq!([1, 3, 31, 32, 1000].map(most_scenes), [393_216, 196_608, 24_576, 24_576, 24_576]);
+    }
+}

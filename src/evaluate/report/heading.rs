@@ -1,0 +1,101 @@
+//! The settings that reports have in common: lines above a table, and the first keys of the JSON.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use svbrdf_core::loss::{Estimate, Sampling};
+use svbrdf_core::material::Material;
+use svbrdf_core::math::real::Real;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::named_scenes::NamedScenes;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::{Kind, Scene};
+
+/// The ground truth of a report, and the convention of its losses.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct Compared {
+    pub ground_truth: String,
+    /// Width and height in texels.
+    #[serde(skip)]
+    pub size: [usize; 2],
+    /// The name of the convention.
+    pub convention: &'static str,
+    pub epsilon: f64,
+}
+
+impl Compared {
+    /// Comparisons with `ground_truth` under `convention`.
+    pub fn new<T: Real>(ground_truth: &Material<T>, convention: &Convention) -> Self {
+        Self {
+            ground_truth: ground_truth.name().to_owned(),
+            size: ground_truth.size(),
+            convention: convention.name,
+            epsilon: convention.epsilon,
+        }
+    }
+
+    /// The lines above a table of `content`, such as "rendering loss".
+    pub fn heading(&self, content: &str) -> String {
+        let Self { ground_truth, size: [width, height], convention, epsilon } = self;
+        format!(
+            "{content} against {ground_truth}, {width} x {height} texels\nconvention {convention}, epsilon {epsilon}\n"
+        )
+    }
+}
+
+/// The numbers of scenes, how they were sampled and the texels of each, for materials of `size`: a line. `None` for `sampling`: the
+/// scenes are listed, and may be a set with a name.
+pub fn scenes_line(sampling: Option<&Sampling>, scenes: &[Scene], size: [usize; 2]) -> String {
+    let count = |kind| scenes.iter().filter(|scene| scene.kind == kind).count();
+    let counts = format!("{} near-field and {} distant scenes", count(Kind::Near), count(Kind::Distant));
+    let Some(sampling) = sampling else {
+        let named = NamedScenes::of(scenes).map(NamedScenes::description);
+        return named.map_or(counts.clone() + ", listed\n", |named| format!("{counts}: {named}\n"));
+    };
+    let sampler = if sampling.sampler == Sampler::Sobol { ", scrambled Sobol" } else { "" };
+    let texels = match sampling.texels.sampled(size) {
+        None => String::new(),
+        Some(1) => ", 1 random texel per scene".to_owned(),
+        Some(count) => format!(", {count} random texels per scene"),
+    };
+    format!("{counts}, seed {}{sampler}{texels}\n", sampling.seed)
+}
+
+/// The floor of the ground truth: a line. `captures`: the number of captures that it is the mean loss between; `None`: it is that of
+/// rounding.
+pub fn floor_line(floor: &Estimate, captures: Option<usize>) -> String {
+    let between =
+        captures.map(|count| format!(", the mean loss between {count} captures")).unwrap_or_default();
+    format!(
+        "floor of the ground truth {:.6}{between}: smaller losses and differences are not resolvable\n",
+        floor.mean
+    )
+}
+
+/// A position or direction as people read it.
+pub fn position([x, y, z]: [f64; 3]) -> String {
+    format!("({x:.3}, {y:.3}, {z:.3})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use svbrdf_core::loss::Texels;
+    use svbrdf_core::model::named_scenes::flash_9;
+
+    #[test]
+    fn a_line_about_scenes_has_the_texels_that_are_compared() {
+        let line = |texels| {
+            let sampling = Sampling { texels, ..Sampling::default() };
+            scenes_line(Some(&sampling), &[], [2, 2])
+        };
+        let of_all = "0 near-field and 0 distant scenes, seed 0\n";
+        assert_eq!(line(Texels::All), of_all);
+        assert_eq!(line(Texels::Sampled(4)), of_all, "the maps have no more");
+        assert!(line(Texels::Sampled(3)).ends_with(", 3 random texels per scene\n"));
+        assert!(line(Texels::Sampled(1)).ends_with(", 1 random texel per scene\n"));
+        assert_eq!(scenes_line(None, &[], [2, 2]), "0 near-field and 0 distant scenes, listed\n");
+        let nine = scenes_line(None, &flash_9(), [2, 2]);
+        assert!(nine.starts_with("9 near-field and 0 distant scenes: flash at the camera in nine"), "{nine}");
+    }
+}

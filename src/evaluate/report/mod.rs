@@ -1,0 +1,86 @@
+//! Reports: results with the settings that they depend on, as text, JSON and CSV.
+//!
+//! The command line prints them, the window copies their text, and Python has the same keys and values.
+//!
+//! ```
+//! use svbrdf_core::loss::{Comparison, Question};
+//! use svbrdf_core::material::Material;
+//! use svbrdf_core::model::brdf::Texel;
+//! use svbrdf_core::model::convention::Convention;
+//! use svbrdf_core::progress::Progress;
+//! use crate::report::{LossReport, Report};
+//!
+//! let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
+//! let truth = Material::uniform("truth", 64, 64, &texel(0.6))?;
+//! let prediction = Material::uniform("too rough", 64, 64, &texel(0.7))?;
+//! let comparison = Comparison::new(&truth, &[&prediction], Convention::default())?;
+//! let report = LossReport::answer(&comparison, &Question::default(), &Progress::default())?;
+//! assert!(report.text().starts_with("rendering loss against truth, 64 x 64 texels, f32 on the cpu"));
+//! assert!(report.csv()?.starts_with("prediction,loss,standard_error,"));
+//! # Ok::<(), svbrdf_core::error::Error>(())
+//! ```
+
+mod blame;
+mod diagnose;
+mod heading;
+mod latex;
+mod loss;
+mod loss_table;
+mod loss_text;
+mod map;
+mod metrics;
+mod missed;
+mod names;
+mod rank;
+mod scenes;
+mod table;
+mod worst;
+
+pub use blame::BlameReport;
+pub use diagnose::DiagnoseReport;
+pub use heading::{Compared, position, scenes_line};
+pub use latex::{bold, escaped, latex};
+pub use loss::{LossReport, SampledScenes};
+pub use map::MapReport;
+pub use metrics::MetricsReport;
+pub use missed::missed;
+pub use names::distinct_names;
+pub use rank::{MaterialReading, RankReport, Repetition};
+pub use scenes::ScenesReport;
+pub use table::{Cell, Column, Table, aligned, aligned_columns};
+pub use worst::WorstReport;
+
+use serde::Serialize;
+
+use svbrdf_core::error::Error;
+
+/// A result with the settings that it depends on; its serialization is its JSON.
+pub trait Report: Serialize {
+    /// Tables for people with the settings above them; ends with a line break.
+    fn text(&self) -> String;
+
+    /// The results as rows for spreadsheets.
+    fn table(&self) -> Table;
+
+    /// An [`Error::Inaccurate`] for each result that is known less well than requested.
+    fn missed(&self) -> Vec<Error> {
+        Vec::new()
+    }
+
+    /// One JSON object; ends with a line break.
+    ///
+    /// # Errors
+    /// [`Error::Internal`], which no report of this crate gives.
+    fn json(&self) -> Result<String, Error> {
+        let text = serde_json::to_string_pretty(self).map_err(|problem| Error::Internal(problem.to_string()));
+        Ok(text? + "\n")
+    }
+
+    /// The [`Report::table`] as CSV (RFC 4180) with a heading.
+    ///
+    /// # Errors
+    /// [`Error::Internal`], which no table in memory gives.
+    fn csv(&self) -> Result<String, Error> {
+        self.table().csv()
+    }
+}

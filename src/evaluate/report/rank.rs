@@ -1,0 +1,200 @@
+//! A ranking of predictions of one ground truth.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::Report;
+use super::heading::{Compared, floor_line, scenes_line};
+use super::latex::{bold, escaped, latex};
+use super::missed::missed_by_any;
+use super::table::{Cell, Column, Table, aligned};
+use crate::rank::{Ranked, places};
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Estimate, Outcome};
+
+const TITLES: [&str; 7] =
+    ["prediction", "loss", "95% interval", "- best", "95% interval", "group", "not resolvable"];
+
+/// Predictions of one ground truth, smallest loss first, with what the data can separate.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RankReport {
+    #[serde(flatten)]
+    compared: Compared,
+    /// The number of scenes.
+    scenes: usize,
+    seed: Option<u64>,
+    /// The requested accuracy of every loss: half of its 95% interval, as a share of it.
+    target_error: f64,
+    /// By every prediction.
+    target_reached: bool,
+    /// The loss that the ground truth cannot resolve; `None`: the depth of its files is not known here.
+    floor: Option<f64>,
+    /// The number of captures that the floor is the mean loss between; `None`: it is that of rounding.
+    captures: Option<usize>,
+    /// How to repeat it; `None` for materials that no command names.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub repetition: Option<Repetition>,
+    /// Best first.
+    pub ranking: Vec<RankedPrediction>,
+    /// The lines about the ground truth and the scenes.
+    #[serde(skip)]
+    heading: String,
+}
+
+/// A prediction in a ranking.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RankedPrediction {
+    /// The index of the prediction in the order of the question.
+    pub index: usize,
+    pub prediction: String,
+    pub loss: Estimate,
+    /// The loss - the loss of the best prediction, over the same scenes; `None` for the best.
+    to_best: Option<Estimate>,
+    /// From 1. Predictions of one group are not separated from its first at 95% confidence.
+    group: usize,
+    /// Whether the loss is above the floor; `None` without a floor.
+    resolvable: Option<bool>,
+    /// Whether the difference to the best is above the floor.
+    to_best_resolvable: Option<bool>,
+}
+
+/// What a ranking depends on beside its settings.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Repetition {
+    /// The program and its version.
+    pub software: &'static str,
+    /// The command line.
+    pub command: String,
+    /// For each material, the ground truth first, what was noticed and assumed in reading it.
+    pub readings: Vec<MaterialReading>,
+}
+
+/// How a material was read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct MaterialReading {
+    pub material: String,
+    pub remarks: Vec<String>,
+}
+
+impl RankReport {
+    /// The ranking of the predictions of `outcome`.
+    pub fn new(compared: Compared, target_error: f64, outcome: &Outcome) -> Self {
+        let place = |Ranked { index, to_best, group }: Ranked| {
+            let loss = &outcome.losses[index];
+            let (prediction, loss) = (loss.prediction.clone(), loss.estimate);
+            RankedPrediction {
+                index,
+                prediction,
+                loss,
+                to_best,
+                group,
+                resolvable: None,
+                to_best_resolvable: None,
+            }
+        };
+        let heading = compared.heading("rendering loss")
+            + &scenes_line(outcome.sampling.as_ref(), &outcome.scenes, compared.size)
+            + &most_scenes(outcome);
+        Self {
+            compared,
+            scenes: outcome.scenes.len(),
+            seed: outcome.sampling.map(|sampling| sampling.seed),
+            target_error,
+            target_reached: outcome.relative_error95() <= target_error,
+            floor: None,
+            captures: None,
+            repetition: None,
+            ranking: places(outcome).into_iter().map(place).collect(),
+            heading,
+        }
+    }
+
+    /// The same report with the loss that the ground truth cannot resolve, and the number of captures that it is the mean loss between;
+    /// `None`: it is that of rounding.
+    #[must_use]
+    pub fn with_floor(mut self, floor: &Estimate, captures: Option<usize>) -> Self {
+        let is_above = |value: f64| value > floor.mean;
+        for place in &mut self.ranking {
+            place.resolvable = Some(is_above(place.loss.mean));
+            place.to_best_resolvable = place.to_best.map(|difference| is_above(difference.mean.abs()));
+        }
+        self.heading += &floor_line(floor, captures);
+        Self { floor: Some(floor.mean), captures, ..self }
+    }
+
+    /// A table for a paper: the first group in bold.
+    pub fn latex(&self) -> String {
+        let row = |place: &RankedPrediction| {
+            let [low, high] = place.loss.interval95.unwrap_or([f64::NAN; 2]);
+            let mean = bold(&format!("{:.4}", place.loss.mean), place.group == 1);
+            format!("{} & {mean} & [{low:.4}, {high:.4}] \\\\\n", escaped(&place.prediction))
+        };
+        let rows: String = self.ranking.iter().map(row).collect();
+        latex("lrl", "Prediction & Loss & 95\\% interval", &rows)
+    }
+}
+
+/// A line about the prediction that needed the most scenes, where there are others: all are compared in as many.
+fn most_scenes(outcome: &Outcome) -> String {
+    let error = |loss: &Estimate| loss.relative_error95();
+    let most = outcome.losses.iter().max_by(|a, b| error(&a.estimate).total_cmp(&error(&b.estimate)));
+    match most.filter(|_| outcome.losses.len() > 1) {
+        Some(most) => format!("as many scenes for all as {} needs\n", most.prediction),
+        None => String::new(),
+    }
+}
+
+impl RankedPrediction {
+    /// What is not resolvable: "loss", "difference" or both; empty where both are.
+    fn unresolvable(&self) -> String {
+        let parts = [(self.resolvable, "loss"), (self.to_best_resolvable, "difference")];
+        let not = parts.into_iter().filter(|(is, _)| *is == Some(false));
+        not.map(|(_, name)| name).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl Report for RankReport {
+    fn text(&self) -> String {
+        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
+        rows.extend(self.ranking.iter().map(|place| {
+            let [mean, _, interval] = place.loss.texts();
+            let [difference, _, of_difference] =
+                place.to_best.map_or_else(|| [const { String::new() }; 3], |estimate| estimate.texts());
+            let (group, unresolvable) = (place.group.to_string(), place.unresolvable());
+            vec![place.prediction.clone(), mean, interval, difference, of_difference, group, unresolvable]
+        }));
+        if rows[1..].iter().all(|row| row.last().is_some_and(String::is_empty)) {
+            rows.iter_mut().for_each(|row| row.truncate(TITLES.len() - 1));
+        }
+        let repetition = self
+            .repetition
+            .as_ref()
+            .map(|Repetition { software, command, .. }| format!("\nrepeat with {software}: {command}\n"));
+        format!("{}\n{}{}", self.heading, aligned(&rows), repetition.unwrap_or_default())
+    }
+
+    fn table(&self) -> Table {
+        let columns: [Column<'_, (usize, &RankedPrediction, f64)>; 13] = [
+            ("place", |(index, ..)| (index + 1).into()),
+            ("prediction", |(_, place, _)| place.prediction.as_str().into()),
+            ("loss", |(_, place, _)| place.loss.mean.into()),
+            ("standard_error", |(_, place, _)| place.loss.standard_error.into()),
+            ("interval95_low", |(_, place, _)| Cell::low(place.loss.interval95)),
+            ("interval95_high", |(_, place, _)| Cell::high(place.loss.interval95)),
+            ("to_best", |(_, place, _)| place.to_best.map(|estimate| estimate.mean).into()),
+            ("to_best_low", |(_, place, _)| Cell::low(place.to_best.and_then(|e| e.interval95))),
+            ("to_best_high", |(_, place, _)| Cell::high(place.to_best.and_then(|e| e.interval95))),
+            ("group", |(_, place, _)| place.group.into()),
+            ("target_reached", |(_, place, target)| (place.loss.relative_error95() <= *target).into()),
+            ("resolvable", |(_, place, _)| place.resolvable.into()),
+            ("to_best_resolvable", |(_, place, _)| place.to_best_resolvable.into()),
+        ];
+        let rows = self.ranking.iter().enumerate().map(|(index, place)| (index, place, self.target_error));
+        Table::of(&columns, rows)
+    }
+
+    fn missed(&self) -> Vec<Error> {
+        let losses = self.ranking.iter().map(|place| (place.prediction.as_str(), place.loss));
+        missed_by_any(self.target_error, losses, self.scenes).into_iter().collect()
+    }
+}

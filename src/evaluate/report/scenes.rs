@@ -1,0 +1,111 @@
+//! The scenes of a loss, worst first.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::Report;
+use super::heading::{Compared, position, scenes_line};
+use super::table::{Cell, Column, Table, aligned};
+use crate::why::{Distribution, worst_first};
+use svbrdf_core::loss::Outcome;
+use svbrdf_core::model::scene::Scene;
+
+/// The scenes with the largest losses, sorted by the mean of the losses of all predictions in them, worst first. Its JSON is a
+/// scene file, too.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ScenesReport {
+    #[serde(flatten)]
+    compared: Compared,
+    /// `None` where the scenes were listed.
+    seed: Option<u64>,
+    /// The number of scenes that these are the worst of.
+    of: usize,
+    /// One per prediction.
+    results: Vec<ScenesLoss>,
+    scenes: Vec<Scene>,
+    /// The number of each listed scene among all.
+    #[serde(skip)]
+    indices: Vec<usize>,
+    /// The lines above the table.
+    #[serde(skip)]
+    heading: String,
+}
+
+/// The loss of a prediction in single scenes.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct ScenesLoss {
+    prediction: String,
+    /// Over all scenes.
+    loss: f64,
+    /// The loss of each listed scene.
+    losses: Vec<f64>,
+}
+
+impl ScenesReport {
+    /// The report of the `count` worst scenes of `outcome`.
+    pub fn new(compared: Compared, outcome: &Outcome, count: usize) -> Self {
+        let mut ranked = worst_first(outcome);
+        ranked.truncate(count);
+        let heading = compared.heading("losses of scenes")
+            + &scenes_line(outcome.sampling.as_ref(), &outcome.scenes, compared.size);
+        let distributions = outcome.losses.iter();
+        let distributions = distributions
+            .filter_map(|loss| Some(distribution(&loss.prediction, &Distribution::of(&loss.per_scene)?)));
+        let results = outcome.losses.iter().enumerate().map(|(index, loss)| ScenesLoss {
+            prediction: loss.prediction.clone(),
+            loss: loss.estimate.mean,
+            losses: ranked.iter().map(|ranked| ranked.losses[index]).collect(),
+        });
+        Self {
+            heading: heading + &distributions.collect::<String>(),
+            compared,
+            seed: outcome.sampling.map(|sampling| sampling.seed),
+            of: outcome.scenes.len(),
+            results: results.collect(),
+            scenes: ranked.iter().map(|ranked| ranked.scene).collect(),
+            indices: ranked.iter().map(|ranked| ranked.index).collect(),
+        }
+    }
+}
+
+fn distribution(prediction: &str, d: &Distribution) -> String {
+    let Distribution { least, median, percentile95, largest, worst_tenth } = d;
+    format!(
+        "{prediction}: from {least:.3} to {largest:.3}, median {median:.3}, 95th percentile {percentile95:.3}; \
+         the worst tenth of the scenes adds {:.0}% of the loss\n",
+        100.0 * worst_tenth
+    )
+}
+
+impl Report for ScenesReport {
+    fn text(&self) -> String {
+        let names = self.results.iter().map(|result| result.prediction.as_str());
+        let titles: Vec<_> = ["scene", "kind", "view", "light"].into_iter().chain(names).collect();
+        let mut rows = vec![titles.into_iter().map(str::to_owned).collect::<Vec<_>>()];
+        rows.extend(self.indices.iter().zip(&self.scenes).enumerate().map(|(k, (index, scene))| {
+            let start =
+                [index.to_string(), scene.kind.to_string(), position(scene.view), position(scene.light)];
+            let losses = self.results.iter().map(|result| format!("{:.6}", result.losses[k]));
+            start.into_iter().chain(losses).collect()
+        }));
+        format!("{}\n{}", self.heading, aligned(&rows))
+    }
+
+    fn table(&self) -> Table {
+        let columns: [Column<'_, (&usize, &Scene)>; 8] = [
+            ("scene", |(index, _)| (**index).into()),
+            ("kind", |(_, scene)| scene.kind.to_string().into()),
+            ("view_x", |(_, scene)| scene.view[0].into()),
+            ("view_y", |(_, scene)| scene.view[1].into()),
+            ("view_z", |(_, scene)| scene.view[2].into()),
+            ("light_x", |(_, scene)| scene.light[0].into()),
+            ("light_y", |(_, scene)| scene.light[1].into()),
+            ("light_z", |(_, scene)| scene.light[2].into()),
+        ];
+        let mut table = Table::of(&columns, self.indices.iter().zip(&self.scenes));
+        for result in &self.results {
+            table.push(result.prediction.clone(), result.losses.iter().map(|&loss| Cell::from(loss)));
+        }
+        table
+    }
+}

@@ -1,0 +1,122 @@
+//! The scene with the largest loss of each prediction.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::Report;
+use super::heading::{Compared, position};
+use super::missed::missed;
+use super::table::{Cell, Column, Table, aligned_columns};
+use crate::why;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate};
+use svbrdf_core::model::scene::Scene;
+
+/// The scene with the largest loss of each prediction. Its JSON is a scene file, too.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct WorstReport {
+    #[serde(flatten)]
+    compared: Compared,
+    /// The share of the nearest distances, and of the farthest ones, that the search leaves out.
+    distance_tail: f64,
+    /// One per prediction.
+    results: Vec<Worst>,
+    /// The worst scene of each prediction.
+    scenes: Vec<Scene>,
+}
+
+/// The worst scene of a prediction.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Worst {
+    prediction: String,
+    /// The loss in that scene.
+    worst: f64,
+    /// The loss over all scenes.
+    mean: f64,
+    /// The 95% confidence interval of the mean.
+    interval95: Option<[f64; 2]>,
+    /// The requested accuracy of the mean.
+    target_error: f64,
+    target_reached: bool,
+    /// The number of scenes that the search rendered.
+    evaluations: usize,
+    /// The number of scenes that the mean is over.
+    #[serde(skip)]
+    mean_scenes: usize,
+}
+
+impl WorstReport {
+    /// The report of what was `found` for each prediction without the share `tail` of either end of the distances.
+    pub fn new(compared: Compared, tail: f64, found: Vec<why::Worst>) -> Self {
+        let scenes = found.iter().map(|worst| worst.scene).collect();
+        let results = found.into_iter().map(Worst::from).collect();
+        Self { compared, distance_tail: tail, results, scenes }
+    }
+
+    fn rows(&self) -> impl Iterator<Item = (&Worst, Scene)> {
+        self.results.iter().zip(self.scenes.iter().copied())
+    }
+}
+
+impl From<why::Worst> for Worst {
+    fn from(found: why::Worst) -> Self {
+        Self {
+            prediction: found.prediction,
+            worst: found.loss,
+            mean: found.mean.mean,
+            interval95: found.mean.interval95,
+            target_error: ALL_SCENES_TARGET,
+            target_reached: found.mean.relative_error95() <= ALL_SCENES_TARGET,
+            evaluations: found.evaluations,
+            mean_scenes: found.mean_scenes,
+        }
+    }
+}
+
+impl Report for WorstReport {
+    fn text(&self) -> String {
+        let columns: [Column<'_, (&Worst, Scene), String>; 8] = [
+            ("prediction", |(worst, _)| worst.prediction.clone()),
+            ("worst", |(worst, _)| format!("{:.6}", worst.worst)),
+            ("mean", |(worst, _)| format!("{:.6}", worst.mean)),
+            ("times the mean", |(Worst { worst, mean, .. }, _)| match *mean > 0.0 {
+                true => format!("{:.2}", worst / mean),
+                false => "-".to_owned(),
+            }),
+            ("kind", |(_, scene)| scene.kind.to_string()),
+            ("view", |(_, scene)| position(scene.view)),
+            ("light", |(_, scene)| position(scene.light)),
+            ("evaluations", |(worst, _)| worst.evaluations.to_string()),
+        ];
+        let central = 100.0 - 200.0 * self.distance_tail;
+        let cut = format!("distances within the central {central}% of their distributions\n");
+        let table = aligned_columns(&columns, self.rows());
+        format!("{}{cut}\n{table}", self.compared.heading("worst scenes"))
+    }
+
+    fn table(&self) -> Table {
+        let columns: [Column<'_, (&Worst, Scene)>; 12] = [
+            ("prediction", |(worst, _)| worst.prediction.as_str().into()),
+            ("worst", |(worst, _)| worst.worst.into()),
+            ("mean", |(worst, _)| worst.mean.into()),
+            ("kind", |(_, scene)| scene.kind.to_string().into()),
+            ("view_x", |(_, scene)| scene.view[0].into()),
+            ("view_y", |(_, scene)| scene.view[1].into()),
+            ("view_z", |(_, scene)| scene.view[2].into()),
+            ("light_x", |(_, scene)| scene.light[0].into()),
+            ("light_y", |(_, scene)| scene.light[1].into()),
+            ("light_z", |(_, scene)| scene.light[2].into()),
+            ("evaluations", |(worst, _)| worst.evaluations.into()),
+            ("target_reached", |(worst, _)| Cell::from(worst.target_reached)),
+        ];
+        Table::of(&columns, self.rows())
+    }
+
+    fn missed(&self) -> Vec<Error> {
+        let of = |worst: &Worst| {
+            let mean = Estimate { mean: worst.mean, standard_error: None, interval95: worst.interval95 };
+            missed(worst.target_error, &format!("the mean of {}", worst.prediction), &mean, worst.mean_scenes)
+        };
+        self.results.iter().filter_map(of).collect()
+    }
+}

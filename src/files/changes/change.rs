@@ -1,0 +1,115 @@
+//! Changes of a prediction that may explain its loss.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::reading::Reading;
+use super::shift::shifted;
+use super::storage::Storage;
+use super::symmetry::Symmetry;
+use super::words::displacement;
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+
+/// A change that is tried on a prediction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Change {
+    /// Its radiance times 2^stops, for red, green and blue.
+    Exposure([f64; 3]),
+    /// It is moved back from this displacement (right, down), in texels.
+    Shift([i32; 2]),
+    Symmetry(Symmetry),
+    Reading(Reading),
+    /// The ground truth in another reading; the prediction stays as it is.
+    GroundTruth(Reading),
+}
+
+impl Change {
+    /// Whether maps of a prediction of this size (width, height) show it: an exposure changes no map, and only square maps are
+    /// transposed.
+    pub fn fits(self, size: [usize; 2]) -> bool {
+        match self {
+            Self::Exposure(_) | Self::GroundTruth(_) => false,
+            Self::Symmetry(symmetry) => Symmetry::of(size).any(|of_size| of_size == symmetry),
+            Self::Shift(_) | Self::Reading(_) => true,
+        }
+    }
+
+    /// `prediction`, whose values were read from `storage`, after the change. What a shift moves out on one side enters on the other.
+    /// Where the change does not [fit](Change::fits), the prediction itself.
+    ///
+    /// # Errors
+    /// Those of [`Material::new`], which values of a material do not give.
+    pub fn applied(self, prediction: &Material<f32>, storage: &Storage) -> Result<Material<f32>, Error> {
+        match self {
+            _ if !self.fits(prediction.size()) => Ok(prediction.clone()),
+            Self::Exposure(_) | Self::GroundTruth(_) => Ok(prediction.clone()),
+            Self::Shift(by) => shifted(prediction, by.map(i32::saturating_neg)),
+            Self::Symmetry(symmetry) => symmetry.applied(prediction),
+            Self::Reading(reading) => reading.applied(prediction, storage),
+        }
+    }
+}
+
+/// `moved 3 texels left`, `rotated by 180 degrees`, `Y of normals flipped`.
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Exposure([red, green, blue]) if red == green && green == blue => {
+                write!(f, "exposure {red:+.2} stops")
+            }
+            Self::Exposure([red, green, blue]) => {
+                write!(f, "exposure {red:+.2} {green:+.2} {blue:+.2} stops")
+            }
+            Self::Shift(by) => write!(f, "moved {}", displacement(by.map(|by| -f64::from(by)))),
+            Self::Symmetry(symmetry) => f.write_str(symmetry.words()),
+            Self::Reading(reading) => f.write_str(reading.words()),
+            Self::GroundTruth(reading) => write!(f, "ground truth with {}", reading.words()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::materials::generated;
+    use super::*;
+
+    #[test]
+    fn a_change_of_a_session_file_is_read_as_it_was_written_and_never_fails_on_a_material() {
+        let square = generated(0, 8);
+        let wide = square.clone().resized([12, 4]).unwrap();
+        let changes = Symmetry::ALL.map(Change::Symmetry).into_iter().chain([
+            Change::Exposure([0.5, 0.0, -1.0]),
+            Change::Shift([i32::MIN, i32::MAX]),
+            Change::Reading(Reading::Gloss),
+            Change::Reading(Reading::Colours(super::super::Transfer::Srgb)),
+        ]);
+        for change in changes {
+            let text = serde_json::to_string(&change).unwrap();
+            assert_eq!(serde_json::from_str::<Change>(&text).unwrap(), change, "{text}");
+            for material in [&square, &wide] {
+                let changed = change.applied(material, &Storage::default()).unwrap();
+                assert_eq!(changed.size(), material.size());
+                assert!(change.fits(material.size()) || changed == *material, "{change}");
+            }
+        }
+        assert!(serde_json::from_str::<Change>(r#"{"symmetry":"twist"}"#).is_err());
+        assert_ne!(Change::Shift([1, 0]).applied(&square, &Storage::default()).unwrap(), square);
+    }
+
+    #[test]
+    fn changes_in_words() {
+        let words = [
+            (Change::Shift([3, -1]), "moved 3 texels left and 1 texel down"),
+            (Change::Shift([0, 2]), "moved 2 texels up"),
+            (Change::Exposure([-0.25; 3]), "exposure -0.25 stops"),
+            (Change::Symmetry(Symmetry::ALL[2]), "rotated by 180 degrees"),
+            (Change::Reading(Reading::NormalY), "Y of normals flipped"),
+        ];
+        for (change, expected) in words {
+            assert_eq!(change.to_string(), expected);
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! Writing of files that appear when they are complete, or not at all.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use svbrdf_core::error::Error;
+use svbrdf_core::progress::Progress;
+
+use crate::disk::{inputs, own};
+
+/// The program and its version, as the files that it writes name it.
+pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
+/// How the names of temporary files begin.
+pub(crate) const TEMPORARY: &str = ".svbrdf-";
+/// A chain of links that is longer has no end.
+const MOST_LINKS: usize = 40;
+
+/// A file to be written in one of the formats `F`, in a folder that is there.
+#[derive(Clone, Debug)]
+pub struct Destination<F> {
+    path: PathBuf,
+    pub(crate) format: F,
+}
+
+impl<F> Destination<F> {
+    /// Checks `path` before there is anything to write. `format` belongs to an extension in
+    /// small letters, `what` names the extension in messages, and `known` lists all.
+    pub fn among(
+        path: &Path,
+        format: impl FnOnce(&str) -> Option<F>,
+        what: &'static str,
+        known: &str,
+    ) -> Result<Self, Error> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        let Some(format) = format(&extension) else {
+            let (found, known) = (path.display().to_string(), known.to_owned());
+            return Err(Error::UnknownName { what, found, known });
+        };
+        check_place(path)?;
+        Ok(Self { path: path.to_owned(), format })
+    }
+
+    /// [`replace`] for this file.
+    pub fn replace(
+        &self,
+        progress: &Progress,
+        write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+    ) -> Result<(), Error> {
+        replace(&self.path, progress, write)
+    }
+}
+
+/// A file that takes no more once the work is cancelled.
+#[derive(Debug)]
+pub struct Watched<'a> {
+    file: &'a mut File,
+    progress: &'a Progress,
+}
+
+impl<'a> Watched<'a> {
+    pub fn new(file: &'a mut File, progress: &'a Progress) -> Self {
+        Self { file, progress }
+    }
+}
+
+impl Write for Watched<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        check(self.progress)?;
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for Watched<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+/// An error once the work is cancelled.
+pub fn check(progress: &Progress) -> io::Result<()> {
+    // Not `Interrupted`, after which writing is tried again.
+    if progress.is_cancelled() { Err(io::Error::other("cancelled")) } else { Ok(()) }
+}
+
+/// Checks that a file can be at `path`, before there is anything to write.
+///
+/// # Errors
+/// [`Error::Unwritable`] where its folder is missing or it is itself a folder.
+pub fn check_place(path: &Path) -> Result<(), Error> {
+    if !folder_of(path).is_dir() {
+        let source = io::Error::new(io::ErrorKind::NotFound, "its folder does not exist");
+        return Err(unwritable(path, source, "create the folder first, or name another"));
+    }
+    if path.is_dir() {
+        let source = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
+        return Err(unwritable(path, source, "name a file"));
+    }
+    Ok(())
+}
+
+/// [`replace`] by a text.
+///
+/// # Errors
+/// As [`replace`].
+pub fn write_text(path: &Path, text: &str, progress: &Progress) -> Result<(), Error> {
+    replace(path, progress, |file| file.write_all(text.as_bytes()))
+}
+
+/// Writes a file that a person named: a temporary file beside `path`, which is brought to the disk and renamed. At any moment,
+/// even after a loss of power, the old file or the new one is there, whole.
+///
+/// A symbolic link stays, and what it points to is replaced, unless that is a protected input: whoever names a link means its
+/// target. A device or a pipe stays, too: it is written to.
+///
+/// # Errors
+/// [`Error::ReplacesInput`]; [`Error::Unwritable`]; [`Error::Cancelled`], and then `path` is as it was.
+pub fn replace(
+    path: &Path,
+    progress: &Progress,
+    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+) -> Result<(), Error> {
+    inputs::check_output(path)?;
+    written(path, progress, write)
+}
+
+/// [`replace`] for a file that the program named, such as a figure beside a page: a link there is refused, since whoever made it
+/// did not mean this file.
+///
+/// # Errors
+/// As [`replace`].
+pub fn replace_own(
+    path: &Path,
+    progress: &Progress,
+    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+) -> Result<(), Error> {
+    own::check(path)?;
+    replace(path, progress, write)
+}
+
+/// [`replace`] for a file that the program reads, changes and writes again, such as a sidecar file. It is an input from then on.
+///
+/// # Errors
+/// As [`replace`].
+pub(crate) fn update(
+    path: &Path,
+    progress: &Progress,
+    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+) -> Result<(), Error> {
+    written(path, progress, write)?;
+    inputs::protect(path);
+    Ok(())
+}
+
+fn written(
+    path: &Path,
+    progress: &Progress,
+    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+) -> Result<(), Error> {
+    let fill = |file: &mut File| -> io::Result<()> {
+        let mut buffer = BufWriter::new(Watched::new(file, progress));
+        write(&mut buffer)?;
+        buffer.flush()?;
+        drop(buffer);
+        check(progress)
+    };
+    let replaced = || -> io::Result<()> {
+        if fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir()) {
+            // Formats go back to fill in lengths, which a pipe cannot.
+            let mut whole = tempfile::tempfile()?;
+            fill(&mut whole)?;
+            whole.rewind()?;
+            io::copy(&mut whole, &mut OpenOptions::new().write(true).open(path)?)?;
+            return Ok(());
+        }
+        let target = target_of(path)?;
+        let mut temporary = temporary_in(folder_of(&target))?;
+        fill(temporary.as_file_mut())?;
+        // The name must not lead to content that a loss of power takes away.
+        temporary.as_file().sync_all()?;
+        temporary.persist(&target)?;
+        Ok(())
+    };
+    replaced().map_err(|source| match progress.is_cancelled() {
+        true => Error::Cancelled,
+        false => unwritable(path, source, "check that its folder is writable and the disk not full"),
+    })
+}
+
+/// The target of `path` where it is a link: a file, or nothing yet.
+fn target_of(path: &Path) -> io::Result<PathBuf> {
+    let mut target = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&target) {
+            Ok(next) => target = folder_of(&target).join(next),
+            Err(_) => return Ok(target),
+        }
+    }
+    Err(io::Error::other("its symbolic links go round in a circle"))
+}
+
+pub fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// A temporary file with the permissions of any other new file, not of a secret.
+fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+    #[cfg(unix)]
+    builder.permissions(permissions);
+    builder.prefix(TEMPORARY).tempfile_in(folder)
+}
+
+fn unwritable(path: &Path, source: io::Error, remedy: &'static str) -> Error {
+    Error::Unwritable { path: path.to_owned(), source, remedy }
+}
+
+#[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "a test reads its own files")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_or_cancelled_write_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let progress = Progress::default();
+        let half_written = |then: &dyn Fn() -> io::Result<()>| {
+            replace(&path, &progress, |file| file.write_all(b"half").and_then(|()| then()))
+        };
+        let failed = half_written(&|| Err(io::Error::other("disk full")));
+        assert!(failed.unwrap_err().to_string().contains("disk full"));
+        let cancel = || {
+            progress.cancel();
+            Ok(())
+        };
+        assert!(matches!(half_written(&cancel), Err(Error::Cancelled)));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_stay_and_their_targets_are_replaced() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let of = |name: &str| folder.path().join(name);
+        fs::create_dir(of("deep")).unwrap();
+        fs::write(of("deep/old"), "old").unwrap();
+        symlink("deep/link", of("first")).unwrap();
+        symlink("old", of("deep/link")).unwrap();
+        symlink("deep/none", of("dangling")).unwrap();
+        symlink("circle", of("circle")).unwrap();
+        let write = |name| {
+            replace(&of(name), &Progress::default(), |file: &mut BufWriter<Watched<'_>>| {
+                file.write_all(name.as_bytes())
+            })
+        };
+        for (link, target) in [("first", "deep/old"), ("dangling", "deep/none")] {
+            write(link).unwrap();
+            assert!(of(link).is_symlink() && !of(target).is_symlink());
+            assert_eq!(fs::read_to_string(of(target)).unwrap(), link);
+        }
+        assert!(write("circle").unwrap_err().to_string().contains("circle"));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 4, "a temporary file is left");
+    }
+}

@@ -1,0 +1,269 @@
+//! The session file: a comparison that another person can open, with everything that it takes.
+
+use std::iter;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use svbrdf_core::error::Error;
+use svbrdf_core::model::scene::Scene;
+
+use super::read::{PhotographOptions, ReadOptions};
+use crate::disk::inputs;
+use crate::disk::open::NamedFile;
+use crate::disk::paths::{absolute, is_outside, relative};
+use window::SessionWindow;
+
+/// What the names of session files end with.
+const ENDING: &str = ".svbrdf-session.json";
+/// The version that is written, and the latest that is read.
+const VERSION: u32 = 1;
+
+/// A comparison: materials, how they are read and rendered, and what a window adds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Session {
+    #[serde(rename = "svbrdf-session")]
+    version: u32,
+    /// The ground truth first, then the predictions.
+    pub materials: Vec<SessionMaterial>,
+    pub scene: Scene,
+    /// The name of the convention.
+    pub convention: String,
+    /// Exposure in stops.
+    #[serde(default)]
+    pub exposure: f32,
+    /// The photograph that renderings are compared with.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub photograph: Option<SessionPhotograph>,
+    /// Display and loss settings of the window.
+    #[serde(default, skip_serializing_if = "SessionWindow::is_empty")]
+    pub window: SessionWindow,
+}
+
+/// A material of a session.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct SessionMaterial {
+    /// The name that it is given; `None` for that of its files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Its file, folder or prefix. In a file, it is relative to the folder of the file. `None` for a built-in material.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathBuf>,
+    /// The number of a built-in material.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub built_in: Option<usize>,
+    /// How it is read; what is not specified is inferred.
+    #[serde(default)]
+    pub read: ReadOptions,
+    /// Whether it is resized to the ground truth.
+    #[serde(default)]
+    pub fit: bool,
+    /// Whether it is a step of a training run whose other steps the window has at hand.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub steps: bool,
+}
+
+/// A photograph of a session, taken in its scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct SessionPhotograph {
+    /// Its file. In a file, it is relative to the folder of the file.
+    pub path: PathBuf,
+    /// How it is read; what is not specified is inferred.
+    #[serde(default)]
+    pub read: PhotographOptions,
+    /// The corners of the material in pixels, as in [`crate::photograph::Corners`]. `None` for the whole picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corners: Option<[[f64; 2]; 4]>,
+    /// Whether the falloff of the light is divided out.
+    #[serde(default)]
+    pub falloff: bool,
+    /// The file that lists the capture to which it belongs. In a file, it is relative to the folder of the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub capture: Option<PathBuf>,
+}
+
+impl Session {
+    /// Whether `path` is named like a session file.
+    pub fn is_named(path: &Path) -> bool {
+        path.file_name().is_some_and(|name| name.to_string_lossy().ends_with(ENDING))
+    }
+
+    /// A session without anything of a window.
+    pub fn new(materials: Vec<SessionMaterial>, scene: Scene, convention: String, exposure: f32) -> Self {
+        let (photograph, window) = (None, SessionWindow::default());
+        Self { version: VERSION, materials, scene, convention, exposure, photograph, window }
+    }
+
+    /// Reads a session file; the paths of its materials become those from here.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`], [`Error::BadSession`].
+    pub fn read(path: &Path) -> Result<Self, Error> {
+        let text = NamedFile::by_user(path).text()?;
+        inputs::protect(path);
+        let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
+        let value: Value = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
+        // Before its fields are judged: a newer version may have others.
+        let version = value.get("svbrdf-session").and_then(Value::as_u64).unwrap_or(0);
+        if version > u64::from(VERSION) {
+            return Err(bad(format!(
+                "expected version {VERSION}, found version {version} of a newer program"
+            )));
+        }
+        let mut session: Self = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
+        session.scene.check().map_err(|problem| bad(format!("the scene cannot be rendered, {problem}")))?;
+        if session.materials.is_empty() {
+            return Err(bad("expected at least one material, found none".to_owned()));
+        }
+        if let Some(photograph) = &mut session.photograph {
+            photograph
+                .read
+                .check()
+                .map_err(|problem| bad(format!("the photograph cannot be read: {problem}")))?;
+            photograph.path = named(&photograph.path, path)?;
+            photograph.capture =
+                photograph.capture.as_ref().map(|capture| named(capture, path)).transpose()?;
+        }
+        for material in &mut session.materials {
+            match (&mut material.path, material.built_in) {
+                (Some(name), None) => *name = named(name, path)?,
+                (None, Some(_)) => {}
+                _ => return Err(bad("expected a path or the number of a built-in material".to_owned())),
+            }
+        }
+        Ok(session)
+    }
+
+    /// The files of a session that was read from `path` which lie outside of its folder.
+    pub fn outside(&self, path: &Path) -> Vec<&Path> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let materials = self.materials.iter().filter_map(|material| material.path.as_deref());
+        let photograph = self.photograph.iter();
+        let photograph = photograph
+            .flat_map(|photograph| std::iter::once(&photograph.path).chain(&photograph.capture))
+            .map(PathBuf::as_path);
+        materials.chain(photograph).filter(|file| is_outside(file, folder)).collect()
+    }
+
+    /// The text of the session file `path`: the paths of materials are relative to its folder.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] where the file is not named like a session file, [`Error::Internal`].
+    pub fn text(&self, path: &Path) -> Result<String, Error> {
+        if !Self::is_named(path) {
+            let (found, known) = (path.display().to_string(), format!("NAME{ENDING}"));
+            return Err(Error::UnknownName { what: "name of a session file", found, known });
+        }
+        let mut session = self.clone();
+        let folder = absolute(path.parent().unwrap_or(Path::new("")));
+        for material in &mut session.materials {
+            material.path = material.path.as_ref().map(|path| relative(&absolute(path), &folder));
+        }
+        if let Some(photograph) = &mut session.photograph {
+            for path in iter::once(&mut photograph.path).chain(&mut photograph.capture) {
+                *path = relative(&absolute(path), &folder);
+            }
+        }
+        let failed = |e: serde_json::Error| Error::Internal(format!("a session cannot be written: {e}"));
+        let mut value = serde_json::to_value(&session).map_err(failed)?;
+        for material in value["materials"].as_array_mut().into_iter().flatten() {
+            if let Some(read) = material["read"].as_object_mut() {
+                read.retain(|_, option| !option.is_null());
+            }
+        }
+        if let Some(read) = value.pointer_mut("/photograph/read").and_then(Value::as_object_mut) {
+            read.retain(|_, option| !option.is_null());
+        }
+        Ok(format!("{value:#}\n"))
+    }
+}
+
+/// The path that `session` calls `name`: of a file, a folder or a prefix, and of nothing that waits or has no end.
+fn named(name: &Path, session: &Path) -> Result<PathBuf, Error> {
+    let file = NamedFile::within(name, session);
+    file.check()?;
+    if file.path().metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        file.open()?;
+    }
+    Ok(file.path().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::{Albedo, Transfer};
+    use std::fs;
+    use svbrdf_core::model::scene::Kind;
+
+    fn session(paths: &[PathBuf]) -> Session {
+        let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };
+        let material = |path: &PathBuf| SessionMaterial {
+            name: None,
+            path: Some(path.clone()),
+            built_in: None,
+            read,
+            fit: true,
+            steps: false,
+        };
+        let scene = Scene { kind: Kind::Distant, view: [0.1, 0.2, 1.0], light: [0.3, 0.1, 0.7] };
+        Session::new(paths.iter().map(material).collect(), scene, "guided-2020".to_owned(), -0.5)
+    }
+
+    fn photograph(path: PathBuf) -> SessionPhotograph {
+        let read = PhotographOptions { transfer: Some(Transfer::Srgb), ..PhotographOptions::default() };
+        let corners = Some([[1.0, 2.0], [90.5, 1.0], [88.0, 70.0], [3.0, 69.0]]);
+        SessionPhotograph { path, read, corners, falloff: true, capture: None }
+    }
+
+    #[test]
+    fn a_session_that_moves_with_its_files_finds_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let [here, there] = ["here", "there"].map(|name| folder.path().join(name));
+        fs::create_dir_all(here.join("runs")).unwrap();
+        let paths = [here.join("maps/gt.png"), here.join("p.png")];
+        let file = here.join("runs/a.svbrdf-session.json");
+        let saved = session(&paths);
+        let mut saved = saved;
+        saved.photograph = Some(photograph(here.join("photos/a.jpg")));
+        let text = saved.text(&file).unwrap();
+        assert!(text.contains("\"../maps/gt.png\"") && text.contains("\"../p.png\""), "{text}");
+        assert!(text.contains("\"../photos/a.jpg\""), "{text}");
+        assert!(!text.contains("null") && text.contains("srgb"), "{text}");
+        fs::write(&file, text).unwrap();
+        fs::rename(&here, &there).unwrap();
+        let read = Session::read(&there.join("runs/a.svbrdf-session.json")).unwrap();
+        let found: Vec<_> = read.materials.iter().map(|m| absolute(m.path.as_ref().unwrap())).collect();
+        assert_eq!(found, [there.join("maps/gt.png"), there.join("p.png")]);
+        let moved = [there.join("runs/../maps/gt.png"), there.join("runs/../p.png")];
+        let photographed =
+            Session { photograph: Some(photograph(there.join("runs/../photos/a.jpg"))), ..session(&moved) };
+        assert_eq!(read, photographed);
+    }
+
+    #[test]
+    fn what_is_no_session_is_refused_with_its_reason() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.svbrdf-session.json");
+        let good = session(&["gt.png".into()]).text(&path).unwrap();
+        let cases = [
+            (good.replace("\"svbrdf-session\": 1", "\"svbrdf-session\": 2"), "newer program"),
+            (good.replace("0.7", "-0.7"), "cannot be rendered"),
+            (good.replace("\"path\"", "\"way\""), "expected a path"),
+            (good.replace("\"materials\"", "\"things\""), "materials"),
+            ("[".to_owned(), "EOF"),
+            (r#"{"svbrdf-session": 9, "materials": 3}"#.to_owned(), "newer program"),
+            (good.replacen('{', r#"{"window": {"loss": {"ask": "Acuracy"}},"#, 1), "window.loss.ask"),
+        ];
+        for (text, reason) in cases {
+            assert_ne!(text, good);
+            fs::write(&path, text).unwrap();
+            let error = Session::read(&path).unwrap_err().to_string();
+            assert!(error.contains(reason), "{error}");
+        }
+        assert!(session(&[]).text(Path::new("a.json")).is_err());
+    }
+}

@@ -1,0 +1,91 @@
+//! The content of a report.
+
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::{Endpoint, Scene};
+use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::report::LossReport;
+use svbrdf_evaluate::why::{
+    Attribution, Hemisphere, RankedScene, attribute, hemisphere, worst_on_all_texels,
+};
+
+use svbrdf_files::session::window::Display;
+
+/// Worst scenes of the page.
+const SCENES: usize = 6;
+/// Columns of the map over directions of the light, and the view of that map.
+const SIDE: usize = 24;
+const ALONG_NORMAL: [f64; 3] = [0.0, 0.0, 1.0];
+
+/// What the figure displays at first.
+#[derive(Clone, Debug)]
+pub struct View {
+    pub scene: Scene,
+    /// In stops.
+    pub exposure_ev: f32,
+    pub display: Display,
+}
+
+/// The results of a comparison.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    pub loss: LossReport,
+    /// One per prediction.
+    pub attributions: Vec<Attribution>,
+    /// The worst scenes of the loss, worst first, with their losses on all texels.
+    pub worst: Vec<RankedScene>,
+    /// The loss over the directions of the light, under a view along the normal.
+    pub lights: Hemisphere,
+}
+
+impl Findings {
+    /// The findings of `request`, which every prediction has in the same scenes.
+    ///
+    /// # Errors
+    /// Those of [`Comparison::run`] and [`attribute`].
+    pub fn new(
+        ground_truth: &Material<f32>,
+        predictions: &[&Material<f32>],
+        convention: Convention,
+        request: &Request,
+        progress: &Progress,
+    ) -> Result<Self, Error> {
+        let comparison = Comparison::new(ground_truth, predictions, convention)?;
+        let outcome = comparison.run(request, progress)?;
+        let worst = worst_on_all_texels(&comparison, &outcome, SCENES, progress)?;
+        let loss = LossReport::new(&comparison, request, outcome);
+        let one =
+            |prediction: &&Material<f32>| attribute(ground_truth, prediction, &convention, request, progress);
+        let attributions = predictions.iter().map(one).collect::<Result<_, _>>()?;
+        let lights = hemisphere(&comparison, Endpoint::Light, ALONG_NORMAL, SIDE, progress, |_| {})?;
+        Ok(Self { loss, attributions, worst, lights })
+    }
+}
+
+/// How a report is made again.
+#[derive(Clone, Debug)]
+pub struct Repetition {
+    /// The command, or the call of a function.
+    pub command: String,
+    /// The name and the text of the session file that the command reads; `None`: it names the materials.
+    pub session: Option<[String; 2]>,
+}
+
+/// The content of a report.
+#[derive(Clone, Debug)]
+pub struct Report<'a> {
+    /// The ground truth, then the predictions, of one size.
+    pub materials: &'a [&'a Material<f32>],
+    pub convention: Convention,
+    pub view: View,
+    /// `None`: the figure alone.
+    pub findings: Option<Findings>,
+    /// For each material the assumptions and notes of reading it; empty: not written.
+    pub readings: Vec<Vec<String>>,
+    /// `None`: not written.
+    pub repetition: Option<Repetition>,
+    /// Most bytes of the file: maps are halved until it fits.
+    pub max_bytes: usize,
+}

@@ -1,0 +1,180 @@
+//! The data of the figure, as JSON for its script.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use serde_json::Value;
+
+use svbrdf_core::error::Error;
+use svbrdf_core::model::brdf::Model;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::colour_map::{diverging, heat};
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+
+use super::content::{Report, View};
+use super::encode::EncodedMaterial;
+use svbrdf_files::session::window::Framing;
+
+/// GLSL made from the WGSL of the window: tests/page/shaders.rs makes it anew.
+const SHADERS: &str = include_str!("shaders.json");
+/// Colours of a legend.
+const COLOURS: usize = 64;
+
+/// A scene of the findings, with the exposure of its thumbnail in stops.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct LinkedScene {
+    pub scene: Scene,
+    pub exposure: f32,
+}
+
+#[derive(Serialize)]
+struct Data<'a> {
+    materials: &'a [EncodedMaterial],
+    convention: &'a str,
+    model: BTreeMap<&'a str, f64>,
+    epsilon: f64,
+    kinds: BTreeMap<&'a str, Vec<Kind>>,
+    colours: BTreeMap<&'a str, Vec<String>>,
+    start: Start<'a>,
+    scenes: &'a [LinkedScene],
+    shaders: Value,
+}
+
+#[derive(Serialize)]
+struct Kind {
+    key: &'static str,
+    name: &'static str,
+    unit: &'static str,
+    signed: bool,
+    range: f64,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Start<'a> {
+    scene: Scene,
+    exposure: f32,
+    quantity: &'a str,
+    difference: bool,
+    kinds: BTreeMap<&'a str, &'a str>,
+    ranges: BTreeMap<&'a str, f64>,
+    layout: &'a str,
+    prediction: usize,
+    projection: String,
+    framing: Option<StartFraming>,
+    wipe: f32,
+    tiled: bool,
+    false_colour: bool,
+    clipping: bool,
+}
+
+/// [`Framing`] in texels of the maps of the page.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct StartFraming {
+    pixels_per_texel: f32,
+    centre: [f32; 2],
+}
+
+/// The JSON of the figure.
+///
+/// # Errors
+/// [`Error::Internal`], which these values never give.
+pub(super) fn json(
+    materials: &[EncodedMaterial],
+    report: &Report<'_>,
+    scenes: &[LinkedScene],
+) -> Result<String, Error> {
+    let Report { convention, .. } = report;
+    let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
+    let shaders: Value = serde_json::from_str(SHADERS).map_err(failed)?;
+    let data = Data {
+        materials,
+        convention: convention.name,
+        model: model(convention),
+        epsilon: convention.epsilon,
+        kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
+        colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
+        start: start(report, materials),
+        scenes,
+        shaders,
+    };
+    serde_json::to_string(&data).map_err(failed)
+}
+
+/// The members of `Model` of brdf.wgsl.
+fn model(convention: &Convention) -> BTreeMap<&'static str, f64> {
+    let model = Model::<f32>::from(convention);
+    [
+        ("intensity", model.intensity),
+        ("roughness_floor", model.roughness_floor),
+        ("light_z_floor", model.light_z_floor),
+        ("clamp_n_dot_h", f32::from(model.clamp_n_dot_h)),
+        ("d_floor", model.d_floor),
+        ("g_floor", model.g_floor),
+    ]
+    .map(|(name, value)| (name, f64::from(value)))
+    .into()
+}
+
+fn kinds(quantity: Quantity) -> Vec<Kind> {
+    let kind = |kind: &Difference| Kind {
+        key: kind.key(),
+        name: kind.name(),
+        unit: kind.unit(),
+        signed: kind.is_signed(),
+        range: kind.default_range(),
+    };
+    Difference::pointwise(quantity).iter().map(kind).collect()
+}
+
+/// The colours of amounts from `low` to 1.
+fn colours(map: fn(f32) -> [f32; 3], low: f32) -> Vec<String> {
+    let colour = |i: usize| {
+        let amount = low + (1.0 - low) * i as f32 / (COLOURS - 1) as f32;
+        let [r, g, b] = map(amount).map(|c| (c * 255.0).round() as u8);
+        format!("#{r:02x}{g:02x}{b:02x}")
+    };
+    (0..COLOURS).map(colour).collect()
+}
+
+fn start<'a>(report: &'a Report<'_>, materials: &[EncodedMaterial]) -> Start<'a> {
+    let View { scene, exposure_ev, ref display } = report.view;
+    let differences = &display.differences;
+    let chosen = |quantity: Quantity| (quantity.name(), differences.pointwise(quantity).0.key());
+    let range = |quantity: Quantity| {
+        let (kind, range) = differences.pointwise(quantity);
+        Some((kind.key(), range?))
+    };
+    let ranges = Quantity::ALL.into_iter().filter_map(range);
+    Start {
+        scene,
+        exposure: exposure_ev,
+        quantity: display.quantity.name(),
+        difference: display.difference,
+        kinds: Quantity::ALL.map(chosen).into(),
+        ranges: ranges.collect(),
+        layout: display.layout.key(),
+        prediction: display.prediction.min(materials.len().saturating_sub(2)),
+        projection: format!("{:?}", display.projection).to_lowercase(),
+        framing: display.framing.and_then(|framing| in_stored_texels(framing, report, materials)),
+        wipe: display.wipe,
+        tiled: display.tiled,
+        false_colour: display.false_colour,
+        clipping: display.show_clipping,
+    }
+}
+
+/// A framing of the materials, whose maps may be stored in fewer texels.
+fn in_stored_texels(
+    Framing { pixels_per_texel, centre: [x, y] }: Framing,
+    report: &Report<'_>,
+    stored: &[EncodedMaterial],
+) -> Option<StartFraming> {
+    let [width, height] = report.materials.first()?.size().map(|side| side as f32);
+    let [columns, rows] = stored.first()?.size().map(|side| side as f32);
+    let pixels_per_texel = pixels_per_texel * height / rows;
+    Some(StartFraming { pixels_per_texel, centre: [x * columns / width, y * rows / height] })
+}

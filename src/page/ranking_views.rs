@@ -1,0 +1,209 @@
+//! Views of the materials of a ranking: thumbnails of all, and figures of some, in files beside the page.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::str::FromStr;
+
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
+use rayon::prelude::*;
+
+use svbrdf_core::error::Error;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::progress::Progress;
+
+use super::content::{Report, View};
+use super::exposure::exposure;
+use super::pictures;
+use super::ranking::MaterialView;
+use svbrdf_evaluate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
+use svbrdf_files::disk::atomic::replace_own;
+use svbrdf_files::disk::own;
+use svbrdf_files::disk::paths::plain;
+use svbrdf_files::read::{self, ReadOptions};
+use svbrdf_files::session::window::Display;
+
+/// Light and view of thumbnails and figures.
+const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
+/// Thumbnails of the ground truth and of all methods.
+const THUMBNAILS: pictures::Rows = pictures::Rows { width: 72, columns: usize::MAX };
+/// Longest side of the maps that they are rendered from.
+const RENDERED: usize = 256;
+/// What is written as `%..` in an address.
+const ENCODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_').remove(b'.');
+/// Most bytes of a figure.
+const FIGURE: usize = 2_000_000;
+
+/// The materials of a ranking that have a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Figures {
+    All,
+    /// As many, those of the largest mean loss of all methods.
+    Worst(usize),
+}
+
+impl FromStr for Figures {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let count = text.strip_prefix("worst:").and_then(|count| count.parse().ok());
+        match count.filter(|count| *count > 0) {
+            Some(count) => Ok(Self::Worst(count)),
+            None if text == "all" => Ok(Self::All),
+            None => Err(Error::UnknownName {
+                what: "choice of figures",
+                found: text.to_owned(),
+                known: "all, or worst:N with N from 1 on, such as worst:20".to_owned(),
+            }),
+        }
+    }
+}
+
+/// Reads the materials of `cases` again, renders thumbnails and writes the figures of `figures` into a folder beside the `page`, which
+/// is named after it. A material that cannot be read any more has neither. A material is one step of `progress`.
+///
+/// # Errors
+/// [`Error::Cancelled`], [`Error::Unwritable`], [`Error::UnknownName`] for an unknown convention.
+pub fn material_views(
+    report: &DatasetReport,
+    cases: &[Case],
+    figures: Option<Figures>,
+    page: &Path,
+    progress: &Progress,
+) -> Result<Vec<MaterialView>, Error> {
+    let convention: Convention = report.settings.convention.parse()?;
+    let chosen = figures.map_or_else(BTreeSet::new, |figures| chosen(report, figures));
+    let folder = folder(page);
+    if !chosen.is_empty() {
+        own::folder(&folder)?;
+    }
+    let cases: BTreeMap<usize, &Case> = cases.iter().map(|case| (case.index, case)).collect();
+    progress.begin(report.results.len() as u64);
+    let one = |result: &MaterialResult| {
+        let materials = cases.get(&result.index).and_then(|case| opened(report, result, case));
+        let view = materials.map_or(Ok(MaterialView::default()), |materials| {
+            let figure = chosen.contains(&result.index).then(|| folder.join(file_name(result)));
+            view(&materials, &convention, figure, progress)
+        })?;
+        progress.step().map(|()| view)
+    };
+    report.results.par_iter().map(one).collect()
+}
+
+/// The folder of the figures of a page.
+fn folder(page: &Path) -> PathBuf {
+    let mut name = page.file_stem().unwrap_or_default().to_owned();
+    name.push("-figures");
+    page.with_file_name(name)
+}
+
+/// The file of the figure of a material: its place in the data set, and of its name what every file system and address takes.
+fn file_name(result: &MaterialResult) -> String {
+    format!("{:04}-{}.html", result.index + 1, plain(&result.material))
+}
+
+/// The indices of the materials that have a figure.
+fn chosen(report: &DatasetReport, figures: Figures) -> BTreeSet<usize> {
+    let mean = |result: &MaterialResult| {
+        let losses = report
+            .ranking
+            .methods
+            .iter()
+            .filter_map(|summary| counted_loss(result, &summary.method, report.pick));
+        let losses: Vec<f64> = losses.map(|known| known.loss).collect();
+        (!losses.is_empty()).then(|| (losses.iter().sum::<f64>() / losses.len() as f64, result.index))
+    };
+    let mut known: Vec<(f64, usize)> = report.results.iter().filter_map(mean).collect();
+    known.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let count = match figures {
+        Figures::All => known.len(),
+        Figures::Worst(count) => count,
+    };
+    known.into_iter().take(count).map(|(_, index)| index).collect()
+}
+
+/// The ground truth, then the prediction of each method that has one, under the name of the method; `None` where one cannot be read.
+fn opened(report: &DatasetReport, result: &MaterialResult, case: &Case) -> Option<Vec<Material<f32>>> {
+    let open = |path: &Path, options: &ReadOptions, name: &str| -> Option<Material<f32>> {
+        Some(read::read(path, options, &Progress::default()).ok()?.material.renamed(name))
+    };
+    let ground_truth = open(&case.ground_truth, &report.reading.ground_truths, &result.material)?;
+    let mut materials = vec![ground_truth];
+    for summary in &report.ranking.methods {
+        let Some(sample) = counted_sample(result, &summary.method, report.pick) else { continue };
+        let mut candidates = case.candidates.iter();
+        let candidate = candidates.find(|one| one.method == summary.method && one.sample == sample)?;
+        materials.push(open(&candidate.path, report.reading.of_method(&summary.method), &summary.method)?);
+    }
+    Some(materials)
+}
+
+/// The thumbnails of materials; their figure is written to the file `figure`.
+fn view(
+    materials: &[Material<f32>],
+    convention: &Convention,
+    figure: Option<PathBuf>,
+    progress: &Progress,
+) -> Result<MaterialView, Error> {
+    let materials: Vec<&Material<f32>> = materials.iter().collect();
+    let small = pictures::reduced(&materials, RENDERED)?;
+    let small: Vec<&Material<f32>> = small.iter().collect();
+    let exposure_ev = exposure(small[0], &SCENE, convention);
+    let thumbnails =
+        pictures::thumbnail(&small, &SCENE, convention, exposure_ev, THUMBNAILS, &progress.part())?;
+    let figure = figure.map(|path| {
+        let report = Report {
+            materials: &materials,
+            convention: *convention,
+            view: View { scene: SCENE, exposure_ev, display: Display::default() },
+            findings: None,
+            readings: Vec::new(),
+            repetition: None,
+            max_bytes: FIGURE,
+        };
+        let page = report.page(&progress.part())?;
+        replace_own(&path, progress, |file| file.write_all(page.html.as_bytes())).map(|()| address(&path))
+    });
+    Ok(MaterialView { thumbnails: Some(thumbnails), figure: figure.transpose()? })
+}
+
+/// The address of a figure, relative to the page beside its folder.
+fn address(path: &Path) -> String {
+    let part = |name: Option<&std::ffi::OsStr>| {
+        utf8_percent_encode(&name.unwrap_or_default().to_string_lossy(), ENCODED).to_string()
+    };
+    let folder = path.parent().and_then(Path::file_name);
+    format!("{}/{}", part(folder), part(path.file_name()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_are_all_or_the_worst() {
+        assert_eq!("all".parse::<Figures>().unwrap(), Figures::All);
+        assert_eq!("worst:20".parse::<Figures>().unwrap(), Figures::Worst(20));
+        for wrong in ["", "worst", "worst:0", "worst:-1", "best:3"] {
+            assert!(wrong.parse::<Figures>().unwrap_err().to_string().contains("worst:20"), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn names_of_files_and_addresses_are_plain() {
+        let result = MaterialResult {
+            index: 6,
+            material: "../wood/\"oak\" é<".to_owned(),
+            seed: 0,
+            reading: Vec::new(),
+            floor: None,
+            predictions: Vec::new(),
+        };
+        assert_eq!(file_name(&result), "0007-___wood__oak____.html");
+        let folder = folder(Path::new("out/a page.html"));
+        assert_eq!(folder, Path::new("out/a page-figures"));
+        assert_eq!(address(&folder.join("0001-x.html")), "a%20page-figures/0001-x.html");
+    }
+}
