@@ -18,7 +18,6 @@
 //! ```
 
 pub mod atomic;
-pub mod capture;
 pub mod dataset;
 pub mod export;
 pub mod inputs;

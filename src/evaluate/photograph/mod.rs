@@ -1,7 +1,8 @@
-//! Renderings against a photograph: the photograph on the texels of a material, at the exposure of its renderings.
+//! Renderings against photographs: a photograph on the texels of a material, at the exposure of its renderings.
 //!
-//! The photograph shows the plane of the material within four [`Corners`]. [`Rectified`] averages it over the area of each
+//! A photograph shows the plane of the material within four [`Corners`]. [`Rectified`] averages it over the area of each
 //! texel; one factor, which [`Rectified::compare`] fits, brings it to the unit of Algorithm 3. Nothing else is calibrated.
+//! [`PhotoReport`] compares materials with all photographs of a [`Capture`], which may be one.
 //!
 //! ```
 //! use svbrdf_files::read::{Photograph, Transfer};
@@ -33,16 +34,28 @@
 //! # Ok::<(), svbrdf_core::error::Error>(())
 //! ```
 
+mod capture;
 mod comparison;
 mod corners;
 mod exposure;
+mod listed;
+mod materialgan;
+mod measured;
+mod outliers;
+mod read;
 mod rectified;
 mod report;
+mod setting;
 
+pub use capture::{Capture, CapturedPhotograph, SessionPhotograph};
 pub use comparison::PhotographComparison;
 pub use corners::Corners;
-pub(crate) use exposure::Ratios;
+pub(crate) use materialgan::Calibration;
+pub use materialgan::LightPower;
+pub use measured::{PhotoMeans, PhotoMeasure, PhotoResult, PhotoStatistics, ReadPhotograph};
+pub use outliers::PhotoOutlier;
 pub use rectified::Rectified;
-pub use report::{PhotoReport, PhotoResult, PhotoSetting};
+pub use report::PhotoReport;
+pub use setting::{CaptureExposure, PhotoSetting};
 
 pub use svbrdf_core::model::named_scenes::flash;

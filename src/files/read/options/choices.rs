@@ -11,7 +11,7 @@ use svbrdf_core::error::Error;
 macro_rules! choices {
     ($(#[$meta:meta])* $type:ident, $what:literal: $($(#[$of_variant:meta])* $variant:ident = $name:literal $(| $old:literal)*,)+) => {
         $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
         pub enum $type {
             $($(#[$of_variant])* #[serde(rename = $name $(, alias = $old)*)] $variant,)+
         }

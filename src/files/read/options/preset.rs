@@ -1,7 +1,5 @@
 //! Presets: bundles of options for sources of materials.
 
-use serde::{Deserialize, Serialize};
-
 use super::choices::choices;
 use super::order::Order;
 

@@ -1,7 +1,7 @@
 //! Photograph of the window: which one is open, and whether its corners are edited.
 
+use svbrdf_evaluate::photograph::SessionPhotograph;
 use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::session::SessionPhotograph;
 
 /// The photograph that renderings are compared with.
 #[derive(Debug, Default)]

@@ -1,38 +1,26 @@
 //! Captures: photographs of one material, each with its light and view.
 //!
-//! A capture is a folder with a `capture.json` (`docs/photographs.md`), or one of MaterialGAN. [`CaptureReport`] compares materials
-//! with all of its photographs, at one exposure.
-
-mod comparison;
-mod listed;
-mod materialgan;
-mod measured;
-mod outliers;
-mod read;
-mod report;
+//! A capture is a folder with a `capture.json` (`docs/photographs.md`), one of MaterialGAN, or a single photograph.
 
 use std::path::{Path, PathBuf};
 
-pub use comparison::{CaptureExposure, CaptureReport, CaptureSetting, ReadCaptured};
-pub(crate) use materialgan::Calibration;
-pub use materialgan::LightPower;
-use materialgan::TEXTS;
-pub use measured::{CaptureGroup, CapturedResult, MaterialResult};
-pub use outliers::Outlier;
+use serde::{Deserialize, Serialize};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
 
-use crate::photograph::Corners;
+use super::corners::Corners;
+use super::materialgan::{LightPower, TEXTS};
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::read::{Photograph, PhotographOptions, Transfer, read_named_photograph};
-use svbrdf_files::session::SessionPhotograph;
 
 /// The photographs of a material, with their lights and views.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Capture {
-    /// The file that lists them.
-    pub file: PathBuf,
+    /// The path that a user gave: of a photograph, a folder, or the file that lists the photographs.
+    pub path: PathBuf,
+    /// The file that lists them; `None`: the path is that of the one photograph.
+    pub file: Option<PathBuf>,
     /// Whether it is one of MaterialGAN.
     pub is_materialgan: bool,
     /// At least one; their names differ.
@@ -55,7 +43,27 @@ pub struct CapturedPhotograph {
     pub options: PhotographOptions,
 }
 
-fn is_json(path: &Path) -> bool {
+/// A photograph and how it is used, as the command line gives it and a session stores it. It is taken in the scene of the session.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct SessionPhotograph {
+    /// Its file. In a file, it is relative to the folder of the file.
+    pub path: PathBuf,
+    /// How it is read; what is not specified is inferred.
+    #[serde(default)]
+    pub read: PhotographOptions,
+    /// The corners of the material. `None` for the whole picture.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub corners: Option<Corners>,
+    /// Whether the falloff of the light is divided out.
+    #[serde(default)]
+    pub falloff: bool,
+    /// The file that lists the capture to which it belongs. In a file, it is relative to the folder of the file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub capture: Option<PathBuf>,
+}
+
+pub(super) fn is_json(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
 }
 
@@ -72,12 +80,12 @@ impl CapturedPhotograph {
     }
 
     /// Whether `name` is its name, with or without extension.
-    fn is_called(&self, name: &str) -> bool {
+    pub(super) fn is_called(&self, name: &str) -> bool {
         self.name == name || Path::new(&self.name).with_extension("") == Path::new(name)
     }
 
     /// The source of the transfer curve.
-    fn transfer_from(&self, photograph: &Photograph, is_materialgan: bool) -> &'static str {
+    pub(super) fn transfer_from(&self, photograph: &Photograph, is_materialgan: bool) -> &'static str {
         match is_materialgan && self.options.transfer == Some(Transfer::Gamma22) {
             true => "as MaterialGAN encodes",
             false => photograph.transfer_from,
@@ -86,10 +94,21 @@ impl CapturedPhotograph {
 }
 
 impl Capture {
-    /// The files of photographs outside of the folder of the capture.
-    pub fn outside(&self) -> impl Iterator<Item = &Path> {
-        let outside = self.photographs.iter().filter(|one| one.file.outside().is_some());
-        outside.map(|one| one.file.path())
+    /// One photograph, taken in this scene.
+    pub fn of_one(photograph: SessionPhotograph, scene: Scene) -> Self {
+        let SessionPhotograph { path, read: options, corners, falloff, .. } = photograph;
+        let (name, file) = (path.display().to_string(), NamedFile::by_user(&path));
+        let photographs = vec![CapturedPhotograph { name, file, scene, corners, options }];
+        Self { path, file: None, is_materialgan: false, photographs, falloff, power: None }
+    }
+
+    /// A note about each photograph outside of the folder of the file that lists it.
+    pub fn outside(&self) -> Vec<String> {
+        let outside = self.photographs.iter().filter_map(|one| Some((one.file.path(), one.file.outside()?)));
+        let note = |(file, by): (&Path, &Path)| {
+            format!("{} lies outside of the folder of {}, which names it", file.display(), by.display())
+        };
+        outside.map(note).collect()
     }
 
     /// Whether a path may be that of a capture: a folder, JSON, or the first of the text files of MaterialGAN.
@@ -97,24 +116,27 @@ impl Capture {
         is_json(path) || path.file_name().is_some_and(|name| name == TEXTS[0]) || path.is_dir()
     }
 
-    /// The photograph at this index, as a session keeps it; `None` beyond the last.
-    pub fn session_photograph(&self, index: usize) -> Option<SessionPhotograph> {
+    /// The photograph at this index, as a session keeps it, and its light and view; `None` beyond the last.
+    pub fn session_photograph(&self, index: usize) -> Option<(SessionPhotograph, Scene)> {
         let one = self.photographs.get(index)?;
-        Some(SessionPhotograph {
+        let photograph = SessionPhotograph {
             path: one.file.path().to_owned(),
             read: one.options,
-            corners: one.corners.map(|corners| corners.0),
+            corners: one.corners,
             falloff: self.falloff,
-            capture: Some(self.file.clone()),
-        })
+            capture: self.file.clone(),
+        };
+        Some((photograph, one.scene))
     }
 
     /// The photographs as they are read with these options, where they are specified.
-    pub fn set_options(&mut self, options: &PhotographOptions) {
+    #[must_use]
+    pub fn with_options(mut self, options: &PhotographOptions) -> Self {
         for one in &mut self.photographs {
             one.options.transfer = options.transfer.or(one.options.transfer);
             one.options.clip = options.clip.or(one.options.clip);
         }
+        self
     }
 
     /// The names of the photographs at the indices that are `wanted`.
