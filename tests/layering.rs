@@ -14,7 +14,7 @@ use graph::{Arrow, CRATES, Tree, circles};
 /// From the bottom to the top. A module belongs to the longest name that it begins with; files of one layer may use one
 /// another.
 const LAYERS: [&[&str]; 20] = [
-    &["core/error", "core/progress", "core/text"],
+    &["core/choices", "core/error", "core/progress", "core/text"],
     &["core/math"],
     &["core/statistics"],
     &["core/image"],

@@ -12,7 +12,8 @@ use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::photograph::{Corners, PhotographComparison, Rectified};
+use svbrdf_evaluate::photograph::{PhotographComparison, Rectified};
+use svbrdf_files::photograph::Corners;
 use svbrdf_files::read::{Photograph, Transfer};
 use svbrdf_files::samples;
 

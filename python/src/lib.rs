@@ -5,7 +5,6 @@
 
 mod arrays;
 mod asked;
-mod capture;
 mod dataset;
 mod errors;
 mod files;
@@ -49,7 +48,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(metrics::matfusion, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::metrics, module)?)?;
     module.add_function(wrap_pyfunction!(photo::photo, module)?)?;
-    module.add_function(wrap_pyfunction!(capture::capture, module)?)?;
     module.add_function(wrap_pyfunction!(dataset::rank_dataset, module)?)?;
     module.add_function(wrap_pyfunction!(page::page, module)?)?;
     module.add_function(wrap_pyfunction!(session::session, module)?)?;

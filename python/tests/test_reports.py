@@ -288,7 +288,9 @@ def test_a_photograph_has_differences_as_arrays_and_a_scene(materials: Materials
     assert report.scenes == (scene,)
     for result, values in zip(report.results, report.differences, strict=True):
         assert values.shape == (13, 11, 3)
-        assert np.nanmean(values) == pytest.approx(result.absolute.mean, rel=1e-5)
+        absolute = result.photographs[0].absolute
+        assert absolute is not None
+        assert np.nanmean(values) == pytest.approx(absolute.mean, rel=1e-5)
     path = tmp_path / "scenes.json"
     listed = [{"kind": "near", "view": [0, 0, z], "light": [0, 0, z]} for z in (2, 3)]
     path.write_text(json.dumps({"scenes": listed}))
@@ -298,6 +300,8 @@ def test_a_photograph_has_differences_as_arrays_and_a_scene(materials: Materials
         svbrdf.photo(photo, materials[0], scene=path)
     with pytest.raises(ValueError, match="expected either scene, or flash with fov"):
         svbrdf.photo(photo, materials[0])
+    with pytest.raises(ValueError, match="exposure and hold_out: expected only with a capture"):
+        svbrdf.photo(photo, materials[0], scene=scene, hold_out=["5"])
     with pytest.raises(ValueError, match="flash and fov: expected both or neither"):
         svbrdf.photo(photo, materials[0], flash=True)
     with pytest.raises(svbrdf.Error, match="unknown difference `angle`; use one of: log, absolute, relative"):
@@ -320,7 +324,7 @@ def captured(materials: Materials, tmp_path: Path) -> Path:
 
 def test_a_capture_is_that_of_the_command_line(program: str, materials: Materials, captured: Path) -> None:
     paths = [materials[0], *materials[1]]
-    report = svbrdf.capture(captured, paths, hold_out=["5.npy"])
+    report = svbrdf.photo(captured, paths, hold_out=["5.npy"])
     right = report.results[0]
     assert (right.material, right.factor, report.notes) == ("gt", 1.0, ())
     assert [one.outlier.exposure for one in right.photographs] == [k == 2 for k in range(6)]
@@ -333,14 +337,16 @@ def test_a_capture_is_that_of_the_command_line(program: str, materials: Material
         for output in ("text", "json", "csv")
     }
     assert report.to_dict() == json.loads(printed["json"])
-    assert problems(program, "capture", report.to_dict()) == []
+    assert problems(program, "photo", report.to_dict()) == []
     assert str(report) + "\n" == printed["text"]
     assert_is_csv(report.to_pandas(), printed["csv"])
-    each = svbrdf.capture(captured / "capture.json", paths[0], exposure="photograph")
+    each = svbrdf.photo(captured / "capture.json", paths[0], exposure="photograph")
     assert each.results[0].photographs[2].factor == pytest.approx(0.5)
     with pytest.raises(svbrdf.Error, match=r"unknown photograph `7`; use one of: 0\.npy, 1\.npy"):
-        svbrdf.capture(captured, paths, hold_out=["7"])
+        svbrdf.photo(captured, paths, hold_out=["7"])
     with pytest.raises(svbrdf.Error, match="unknown exposure `none`; use one of: capture, photograph"):
-        svbrdf.capture(captured, paths, exposure="none")  # type: ignore[arg-type]
+        svbrdf.photo(captured, paths, exposure="none")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="clip: expected a number above 0, found 0"):
-        svbrdf.capture(captured, paths, clip=0)
+        svbrdf.photo(captured, paths, clip=0)
+    with pytest.raises(ValueError, match="corners and falloff: expected only with a single photograph"):
+        svbrdf.photo(captured, paths, falloff=True)

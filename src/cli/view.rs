@@ -7,11 +7,11 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
 #[cfg(feature = "viewer")]
 use svbrdf_core::model::scene::Scene;
-use svbrdf_evaluate::capture::Capture;
+use svbrdf_files::photograph::Capture;
+#[cfg(feature = "viewer")]
+use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
-#[cfg(feature = "viewer")]
-use svbrdf_files::session::SessionPhotograph;
 
 use super::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
 use super::args::{Given, MaterialArgs, modes};
@@ -94,15 +94,11 @@ fn open_window(args: ViewArgs) -> Result<(), CommandError> {
 
 /// The photograph, and its light and view where they are specified.
 #[cfg(feature = "viewer")]
-fn photograph_of(args: &ViewArgs) -> Result<Option<(SessionPhotograph, Option<Scene>)>, CommandError> {
-    let Some(path) = args.photo.clone() else { return Ok(None) };
-    if Capture::is_named(&path) {
-        let capture = Capture::read(&path)?;
-        let scene = capture.photographs.first().map(|one| one.scene);
-        return Ok(capture.session_photograph(0).map(|photograph| (photograph, scene)));
-    }
-    let scene = args.photo_scene.specified()?;
-    Ok(Some((args.photo_reading.of_session(path), scene)))
+fn photograph_of(args: &ViewArgs) -> Result<Option<(SessionPhotograph, Option<Scene>)>, Error> {
+    let photograph = args.photo.clone().map(|path| args.photo_reading.photograph(path));
+    let opened =
+        photograph.map(|one| scene_file::open_photograph(one, args.photo_scene.specified().as_ref()));
+    opened.transpose()
 }
 
 /// Takes the scene file out of `materials`, and reads it.

@@ -18,6 +18,7 @@
 //!
 //! Modules use those above them only, except that `error`, `progress` and `text` serve all; a test checks it.
 
+mod choices;
 pub mod error;
 pub mod image;
 pub mod loss;

@@ -8,11 +8,10 @@
 //! | [`rank`] | many predictions of one ground truth, best first |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`report`] | results with their settings as values, and their tables |
-//! | [`photograph`], [`capture`] | renderings against photographs of the real material |
+//! | [`photograph`] | renderings against photographs of the real material |
 //! | [`dataset`] | methods over the materials of a data set, with a folder of results |
 //! | [`schema`] | the JSON Schema of each report |
 
-pub mod capture;
 pub mod dataset;
 pub mod diagnose;
 pub mod metrics;

@@ -8,15 +8,14 @@ use schemars::transform::RecursiveTransform;
 use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
-use crate::capture::CaptureReport;
 use crate::dataset::DatasetReport;
 use crate::photograph::PhotoReport;
 
 /// The name of a report, and its schema.
 pub type ReportSchema = (&'static str, fn() -> Schema);
 
-/// The schema of each report by its name: that of its command, `capture` for `photo --capture`, `dataset` for `rank --dataset`.
-pub const REPORTS: [ReportSchema; 11] = [
+/// The schema of each report by its name: that of its command, `dataset` for `rank --dataset`.
+pub const REPORTS: [ReportSchema; 10] = [
     ("loss", of::<LossReport>),
     ("rank", of::<RankReport>),
     ("blame", of::<BlameReport>),
@@ -26,7 +25,6 @@ pub const REPORTS: [ReportSchema; 11] = [
     ("map", of::<MapReport>),
     ("metrics", of::<MetricsReport>),
     ("photo", of::<PhotoReport>),
-    ("capture", of::<CaptureReport>),
     ("dataset", of::<DatasetReport>),
 ];
 

@@ -21,6 +21,7 @@ pub mod changes;
 pub mod disk;
 pub mod export;
 mod npy;
+pub mod photograph;
 pub mod read;
 pub mod samples;
 pub mod scene_file;

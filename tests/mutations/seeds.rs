@@ -2,7 +2,7 @@
 
 use exr::prelude::Compression;
 use svbrdf_core::model::scene::SceneFile;
-use svbrdf_evaluate::capture::Capture;
+use svbrdf_files::photograph::Capture;
 use svbrdf_files::read::read_photograph;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::{Session, SessionMaterial};

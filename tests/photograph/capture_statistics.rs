@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use tempfile::{TempDir, tempdir};
 
 use svbrdf_core::material::Material;
-use svbrdf_evaluate::capture::{CaptureExposure, CaptureReport, MaterialResult};
+use svbrdf_evaluate::photograph::{CaptureExposure, PhotoReport, PhotoResult};
 
 use super::captures::{SIDE, compared, physical, setting, view, write};
 use super::small;
@@ -55,7 +55,7 @@ impl Pool {
         chosen: &[usize],
         exposure: CaptureExposure,
         materials: &[&Material<f32>],
-    ) -> CaptureReport {
+    ) -> PhotoReport {
         let listed: Vec<&Value> = chosen.iter().map(|&k| &self.entries[k]).collect();
         let path: &Path = self.folder.path();
         write(path, &json!({"falloff": true, "photographs": listed}));
@@ -89,7 +89,7 @@ struct Shown {
     inside: [u64; 3],
 }
 
-fn of_material<'a>(report: &'a CaptureReport, material: &Material<f32>) -> &'a MaterialResult {
+fn of_material<'a>(report: &'a PhotoReport, material: &Material<f32>) -> &'a PhotoResult {
     report.results.iter().find(|result| result.material == material.name()).unwrap()
 }
 

@@ -13,8 +13,9 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::{Model, Texel, reflectance};
 use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::capture::{Capture, CaptureExposure, CaptureReport, CaptureSetting, Outlier};
+use svbrdf_evaluate::photograph::{CaptureExposure, PhotoOutlier, PhotoReport, PhotoSetting};
 use svbrdf_evaluate::report::Report as _;
+use svbrdf_files::photograph::Capture;
 
 use super::small;
 use crate::support::pictures::{gamma, npy};
@@ -87,22 +88,22 @@ pub(super) fn setting(
     folder: &Path,
     exposure: CaptureExposure,
     hold_out: &[&str],
-) -> Result<CaptureSetting, Error> {
+) -> Result<PhotoSetting, Error> {
     let hold_out: Vec<String> = hold_out.iter().map(|name| (*name).to_owned()).collect();
     let capture = Capture::read(folder)?;
-    CaptureSetting::new("cap".to_owned(), capture, exposure, &hold_out, Convention::default())
+    PhotoSetting::new(capture, exposure, &hold_out, Convention::default())
 }
 
-pub(super) fn compared(setting: CaptureSetting, materials: &[&Material<f32>]) -> CaptureReport {
+pub(super) fn compared(setting: PhotoSetting, materials: &[&Material<f32>]) -> PhotoReport {
     let named = materials.iter().map(|material| (material.name(), *material));
-    CaptureReport::new(setting, named, &Progress::default()).unwrap()
+    PhotoReport::new(setting, named, &Progress::default()).unwrap()
 }
 
-pub(super) fn of_folder(folder: &Path, materials: &[&Material<f32>]) -> CaptureReport {
+pub(super) fn of_folder(folder: &Path, materials: &[&Material<f32>]) -> PhotoReport {
     compared(setting(folder, CaptureExposure::Capture, &[]).unwrap(), materials)
 }
 
-fn outliers(report: &CaptureReport, result: usize) -> Vec<(usize, Outlier)> {
+fn outliers(report: &PhotoReport, result: usize) -> Vec<(usize, PhotoOutlier)> {
     let all = report.results[result].photographs.iter().map(|one| one.outlier).enumerate();
     all.filter(|(_, outlier)| outlier.is_any()).collect()
 }
@@ -220,7 +221,7 @@ fn a_clipped_photograph_is_left_out_of_the_means() {
     fs::write(&path, npy([SIDE as u64, SIDE as u64, 3], &vec![f32::NAN; SIDE * SIDE * 3])).unwrap();
     let report = of_folder(folder.path(), &[&truth]);
     let one = &report.results[0].photographs[3];
-    assert_eq!((one.clipped, one.log, one.own_exposure_ev, one.ssim), (SIDE * SIDE, None, None, None));
+    assert_eq!((one.clipped, one.mean_log(), one.own_exposure_ev, one.ssim), (SIDE * SIDE, None, None, None));
     let log = report.results[0].means[0].log.unwrap();
     assert!(log.mean < 1e-5 && log.interval95.is_some());
     let csv = report.csv().unwrap();
@@ -235,7 +236,7 @@ fn a_clipped_photograph_is_left_out_of_the_means() {
     }
     for exposure in CaptureExposure::ALL {
         let setting = setting(folder.path(), exposure, &[]).unwrap();
-        let report = CaptureReport::new(setting, [("truth", &truth)], &Progress::default());
+        let report = PhotoReport::new(setting, [("truth", &truth)], &Progress::default());
         assert!(matches!(report, Err(Error::NoExposure { .. })), "{exposure:?}");
     }
 }

@@ -11,7 +11,8 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_evaluate::photograph::{Corners, PhotographComparison, flash};
+use svbrdf_evaluate::photograph::{PhotographComparison, flash};
+use svbrdf_files::photograph::Corners;
 
 use super::{SCENE, compared, glossy, photograph, rectified, small};
 use crate::support::tolerance::{PHOTOGRAPH_FACTOR, PHOTOGRAPH_LOG};
@@ -179,9 +180,12 @@ fn what_cannot_be_compared_is_refused_with_its_reason() {
         rectified.compare(&material, &SCENE, &PRINTED, &Progress::default()).unwrap_err().to_string()
     };
     let all_clipped = refusal(&|image| image.pixels.fill([f32::NAN; 3]));
-    assert!(all_clipped.contains("to glossy: every texel of the photograph is clipped"), "{all_clipped}");
+    assert!(all_clipped.contains("to glossy: every texel is clipped"), "{all_clipped}");
     let dark = refusal(&|image| image.pixels.fill([0.0; 3]));
-    assert!(dark.contains("no part of the material is lit in both"), "{dark}");
+    assert!(
+        dark.contains("no part of the material is lit both in a photograph and in its rendering"),
+        "{dark}"
+    );
     let size = refusal(&|image| *image = Image { width: 1, height: 1, pixels: vec![[1.0; 3]] });
     assert!(size.contains("the rectified photograph is 1 x 1, glossy is 64 x 48"), "{size}");
     let photograph = photograph(64, 48, |_, _| [0.5; 3]);

@@ -11,7 +11,7 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_evaluate::photograph::Corners;
+use svbrdf_files::photograph::Corners;
 use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
 
 use super::{SCENE, compared, rectified, small};

@@ -1,10 +1,11 @@
 //! The corners of the material in a photograph, dragged by their handles.
 
-use svbrdf_evaluate::photograph::Corners;
+use svbrdf_evaluate::photograph::flash;
+use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand};
 use svbrdf_viewer::model::view::state::Layout;
 
-use super::photograph::{CORNERS, SIZE, agrees, apply, expected_within, opened};
+use super::photograph::{CORNERS, FOV, SIZE, agrees, apply, expected_of, opened, source};
 use super::*;
 
 const TITLE: &str = "PHOTOGRAPH  photo.npy  as it was taken";
@@ -58,7 +59,9 @@ fn a_dragged_handle_moves_its_corner_and_undo_brings_it_back() {
     let moved = corners(&window);
     assert!(is_near(moved, expected), "{moved:?}, expected {expected:?}");
     assert_eq!(moved[1..], CORNERS[1..], "the others stay");
-    let core = expected_within(&folder.path().join("photo.npy"), moved, false);
+    let moved_source =
+        SessionPhotograph { corners: Some(Corners(moved)), ..source(&folder.path().join("photo.npy")) };
+    let core = expected_of(&moved_source, &flash(FOV).unwrap());
     wait(&mut window, "the comparison", |app| {
         app.against_photograph().is_some_and(|all| all[0].factor == core[0].factor)
     });

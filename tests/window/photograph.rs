@@ -4,17 +4,18 @@ use std::path::{Path, PathBuf};
 
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_evaluate::photograph::{Corners, PhotographComparison, Rectified, flash};
-use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
+use svbrdf_evaluate::photograph::{PhotographComparison, Rectified, flash};
+use svbrdf_files::photograph::{Corners, SessionPhotograph};
+use svbrdf_files::read::{Transfer, read_photograph};
 use svbrdf_files::samples;
-use svbrdf_files::session::{Session, SessionPhotograph};
-use svbrdf_viewer::model::command::{
-    Command, DisplayCommand, PhotographCommand, PhotographLight, WindowCommand,
-};
+use svbrdf_files::scene_file::PhotographLight;
+use svbrdf_files::session::Session;
+use svbrdf_viewer::model::command::{Command, DisplayCommand, PhotographCommand, WindowCommand};
 use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 use super::*;
@@ -44,27 +45,22 @@ pub(super) fn photograph(folder: &Path) -> PathBuf {
     path
 }
 
-fn source(path: &Path) -> SessionPhotograph {
-    let read = PhotographOptions::default();
-    SessionPhotograph { path: path.to_owned(), read, corners: Some(CORNERS), falloff: false, capture: None }
+pub(super) fn source(path: &Path) -> SessionPhotograph {
+    SessionPhotograph { path: path.to_owned(), corners: Some(Corners(CORNERS)), ..Default::default() }
 }
 
 /// The comparisons of the core.
 fn expected(path: &Path, falloff: bool) -> Vec<PhotographComparison> {
-    expected_within(path, CORNERS, falloff)
+    expected_of(&SessionPhotograph { falloff, ..source(path) }, &flash(FOV).unwrap())
 }
 
-/// The comparisons of the core with these corners.
-pub(super) fn expected_within(
-    path: &Path,
-    corners: [[f64; 2]; 4],
-    falloff: bool,
-) -> Vec<PhotographComparison> {
-    let photograph = read_photograph(path, &PhotographOptions::default()).unwrap();
-    let (scene, progress) = (flash(FOV).unwrap(), Progress::default());
-    let rectified = Rectified::new(&photograph, &Corners(corners), [256, 256], &progress).unwrap();
-    let rectified = if falloff { rectified.without_falloff(&scene) } else { rectified };
-    let one = |material| rectified.compare(material, &scene, &PRINTED, &progress).unwrap();
+/// The comparisons of the core with a photograph in this scene.
+pub(super) fn expected_of(source: &SessionPhotograph, scene: &Scene) -> Vec<PhotographComparison> {
+    let photograph = read_photograph(&source.path, &source.read).unwrap();
+    let (corners, progress) = (source.corners.unwrap_or(Corners::whole([256; 2])), Progress::default());
+    let rectified = Rectified::new(&photograph, &corners, [256, 256], &progress).unwrap();
+    let rectified = if source.falloff { rectified.without_falloff(scene) } else { rectified };
+    let one = |material| rectified.compare(material, scene, &PRINTED, &progress).unwrap();
     materials().iter().map(one).collect()
 }
 
@@ -99,7 +95,7 @@ pub(super) fn opened<'a>() -> (Window<'a>, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let photograph = source(&photograph(folder.path()));
     let mut window = built_in();
-    let light = PhotographLight::Flash { fov_degrees: FOV };
+    let light = Some(PhotographLight::Flash { fov_degrees: FOV });
     apply(&mut window, PhotographCommand::Open { photograph, light });
     wait_for_it(&mut window);
     (window, folder)
@@ -267,7 +263,7 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
 
     // A photograph that cannot be read is reported, and the ground truth comes back.
     let absent = source(&folder.path().join("absent.png"));
-    let light = PhotographLight::AsNow;
+    let light = None;
     apply(&mut window, PhotographCommand::Open { photograph: absent, light });
     wait(&mut window, "the message", |app| !app.messages().is_empty());
     assert!(window.state().messages()[0].contains("absent.png"), "{:?}", window.state().messages());
@@ -279,10 +275,12 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     apply(&mut window, PhotographCommand::ShowOpen(true));
     let of = |number| PhotographCommand::Open {
         photograph: source(&path),
-        light: PhotographLight::File { path: scenes.clone(), number },
+        light: Some(PhotographLight::File { path: scenes.clone(), number: Some(number) }),
     };
     apply(&mut window, of(1));
-    window.get_by_label_contains("it lists 1 scenes, counted from 0, and number 1 was asked for");
+    window.get_by_label_contains(
+        "it lists 1 scenes, of which a photograph has one, found number 1; give its number from 0 to 0",
+    );
     apply(&mut window, of(0));
     wait_for_it(&mut window);
     assert_eq!(window.state().parts.model.view.scene.light, [1.0, 0.0, 2.0]);
@@ -312,7 +310,7 @@ fn a_photograph_that_was_replaced_is_read_again_when_it_is_opened_again() {
     std::fs::write(&path, pictures::npy([SIZE[1] as u64, SIZE[0] as u64, 3], &values)).unwrap();
     let time = std::time::SystemTime::now() + std::time::Duration::from_secs(5);
     std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
-    let open = PhotographCommand::Open { photograph: source(&path), light: PhotographLight::AsNow };
+    let open = PhotographCommand::Open { photograph: source(&path), light: None };
     apply(&mut window, open);
     wait(&mut window, "the new photograph", |app| {
         app.against_photograph().is_some_and(|all| (all[0].factor / before - 2.0).abs() < 0.01)

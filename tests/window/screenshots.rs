@@ -9,10 +9,11 @@ use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 use svbrdf_evaluate::photograph::flash;
+use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::{self, generate};
-use svbrdf_files::session::SessionPhotograph;
-use svbrdf_viewer::model::command::{MaterialsCommand, PhotographCommand, PhotographLight, TrainingCommand};
+use svbrdf_files::scene_file::PhotographLight;
+use svbrdf_viewer::model::command::{MaterialsCommand, PhotographCommand, TrainingCommand};
 
 use super::photograph::apply;
 use super::*;
@@ -208,14 +209,8 @@ fn photographed() {
     let (path, corners) = photograph_from_the_side(folder.path());
     let mut window = built_in();
     window.set_size(SIZE);
-    let photograph = SessionPhotograph {
-        path,
-        read: Default::default(),
-        corners: Some(corners),
-        falloff: false,
-        capture: None,
-    };
-    let light = PhotographLight::Flash { fov_degrees: 45.0 };
+    let photograph = SessionPhotograph { path, corners: Some(Corners(corners)), ..Default::default() };
+    let light = Some(PhotographLight::Flash { fov_degrees: 45.0 });
     apply(&mut window, PhotographCommand::Open { photograph, light });
     window.get_by_label("Light and view").click();
     wait(&mut window, "the photograph", |app| app.against_photograph().is_some());

@@ -17,7 +17,6 @@ are those of the command line, bit for bit. `svbrdf.torch` has the same loss for
 
 from . import _reports
 from ._assumptions import Assumption, AssumptionWarning
-from ._capture import capture
 from ._core import Error, __version__
 from ._dataset import rank_dataset
 from ._loss import loss, rank
@@ -47,7 +46,6 @@ __all__ = [
     "__version__",
     "blame",
     "built_in",
-    "capture",
     "diagnose",
     "figure",
     "loss",

@@ -103,25 +103,10 @@ def listed(materials: Predictions, argument: str) -> Sequence[Material | Source]
 
 def names(ground_truth: Material, predictions: Sequence[Material]) -> list[str]:
     """Names of the materials in reports, which tell them apart."""
-    return distinct([ground_truth, *predictions], ["ground truth", *_numbered("prediction", len(predictions))])
+    return distinct([ground_truth, *predictions], ["ground truth", *numbered("prediction", len(predictions))])
 
 
-def photographed(
-    materials: Predictions, *, transfer: str | None, clip: float | None, **asked: Any
-) -> tuple[list[_core.CoreMaterial], dict[str, Any]]:
-    """The first arguments of a function of the core that compares materials with photographs.
-
-    Raises:
-        ValueError: There is no material, or `clip` is not above 0.
-    """
-    if clip is not None and not 0 < clip < float("inf"):
-        raise ValueError(f"clip: expected a number above 0, found {clip}")
-    found = [opened(material) for material in listed(materials, "materials")]
-    named = distinct(found, _numbered("material", len(found)))
-    return [material._core for material in found], {**asked, "names": named, "transfer": transfer, "clip": clip}
-
-
-def _numbered(word: str, count: int) -> list[str]:
+def numbered(word: str, count: int) -> list[str]:
     """A word for each of several things, which has a number where there is more than one."""
     return [f"{word} {i}" for i in range(1, count + 1)] if count > 1 else [word] * count
 

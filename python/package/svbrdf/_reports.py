@@ -14,12 +14,6 @@ from ._scenes import Scene
 __all__ = [
     "Attribution",
     "BlameReport",
-    "CaptureMeans",
-    "CaptureMeasure",
-    "CaptureOutlier",
-    "CapturePhotograph",
-    "CaptureReport",
-    "CaptureResult",
     "DatasetReport",
     "DiagnoseReport",
     "Diagnosis",
@@ -42,11 +36,15 @@ __all__ = [
     "MetricSummary",
     "Metrics",
     "MetricsReport",
+    "PhotoMeans",
+    "PhotoMeasure",
+    "PhotoOutlier",
     "PhotoResult",
     "PhotoStatistics",
     "PredictionResult",
     "RankReport",
     "RankedPrediction",
+    "ReadPhotograph",
     "ReadingSummary",
     "Remark",
     "Repetition",
@@ -108,109 +106,6 @@ class BlameReport(Report):
     """The requested accuracy of each loss: half of its 95% interval, as a share of it."""
     attributions: tuple[Attribution, ...]
     """One per prediction."""
-
-
-class CapturePhotograph(Record):
-    """How a photograph of a capture was read."""
-
-    photograph: str
-    """The name of its file in the capture."""
-    size: tuple[int, int]
-    """Width and height in pixels."""
-    transfer: Literal["linear", "srgb", "gamma2.2"]
-    corners: tuple[tuple[float, float], tuple[float, float], tuple[float, float], tuple[float, float]]
-    """Top left, top right, bottom right and bottom left of the material, in pixels."""
-    held_out: bool
-    """Whether the exposure of the capture is not fitted to it."""
-
-
-class CaptureMeans(Record):
-    """The means over a group of photographs, each with its interval over photographs; None where no photograph has the measure."""
-
-    photographs: str
-    """`all`, `fitted` or `held out`."""
-    count: int
-    """The number of photographs."""
-    log: Estimate | None
-    rmse: Estimate | None
-    ssim: Estimate | None
-
-
-class CaptureOutlier(Record):
-    """In what a photograph differs from the others of its capture."""
-
-    exposure: bool
-    """The exposure that fits it alone: brighter or darker than the others."""
-    difference: bool
-    """Its log difference: larger than of the others."""
-
-
-class CaptureMeasure(Record):
-    """A material against one photograph; measures are None where all of it is clipped."""
-
-    photograph: str
-    """The name of the photograph."""
-    factor: float | None
-    """What the photograph was multiplied by; None where no factor fits."""
-    exposure_ev: float | None
-    """The factor in stops."""
-    own_exposure_ev: float | None
-    """The factor that fits this photograph alone, in stops; None where none does."""
-    log: float | None
-    """The mean log difference over the texels that are not clipped."""
-    rmse: float | None
-    """The root mean square difference of sRGB values."""
-    ssim: float | None
-    """The SSIM of sRGB values."""
-    texels: int
-    clipped: int
-    """The number of texels that are left out."""
-    outlier: CaptureOutlier
-
-
-class CaptureResult(Record):
-    """A material against all photographs."""
-
-    material: str
-    """The name of the material."""
-    size: tuple[int, int]
-    """Width and height in texels."""
-    factor: float | None
-    """The factor on all photographs; None where each has its own."""
-    exposure_ev: float | None
-    """The factor in stops."""
-    declared_ev: float | None
-    """The stops by which it exceeds the factor that the power of the light gives."""
-    means: tuple[CaptureMeans, ...]
-    """Over all photographs, or where some are held out, over the others and over these."""
-    photographs: tuple[CaptureMeasure, ...]
-    """In the order of the capture."""
-
-
-class CaptureReport(Report):
-    """Materials against the photographs of a capture. Its JSON is a scene file, too."""
-
-    capture: str
-    """The path of the capture."""
-    file: str
-    """The file that lists the photographs."""
-    photographs: tuple[CapturePhotograph, ...]
-    """In the order of the capture."""
-    falloff: bool
-    """Whether the falloff of the light is divided out of the photographs."""
-    exposure: Literal["capture", "photograph"]
-    """What one factor is fitted to."""
-    declared_factor: float | None
-    """The factor that the power of the light gives."""
-    convention: str
-    """The name of the convention."""
-    epsilon: float
-    results: tuple[CaptureResult, ...]
-    """The smallest mean log difference first: over the held-out photographs, or over all."""
-    scenes: tuple[Scene, ...]
-    """Of the photographs."""
-    notes: tuple[str, ...]
-    """What reading the photographs noticed."""
 
 
 class DoubtCount(Record):
@@ -606,6 +501,32 @@ class MetricsReport(Report):
     """The published evaluation."""
 
 
+class ReadPhotograph(Record):
+    """How a photograph was read."""
+
+    photograph: str
+    """The name of its file in the capture, or the path of a single photograph."""
+    size: tuple[int, int]
+    """Width and height in pixels."""
+    transfer: Literal["linear", "srgb", "gamma2.2"]
+    corners: tuple[tuple[float, float], tuple[float, float], tuple[float, float], tuple[float, float]]
+    """Top left, top right, bottom right and bottom left of the material, in pixels."""
+    held_out: bool
+    """Whether the exposure of the capture is not fitted to it."""
+
+
+class PhotoMeans(Record):
+    """The means over a group of photographs, each with its interval over photographs; None where no photograph has the measure."""
+
+    photographs: str
+    """`all`, `fitted` or `held out`."""
+    count: int
+    """The number of photographs."""
+    log: Estimate | None
+    rmse: Estimate | None
+    ssim: Estimate | None
+
+
 class PhotoStatistics(Record):
     """A difference over the texels that are not clipped."""
 
@@ -615,45 +536,82 @@ class PhotoStatistics(Record):
     """The 95th percentile."""
 
 
+class PhotoOutlier(Record):
+    """In what a photograph differs from the others of its capture."""
+
+    exposure: bool
+    """The exposure that fits it alone: brighter or darker than the others."""
+    difference: bool
+    """Its log difference: larger than of the others."""
+
+
+class PhotoMeasure(Record):
+    """A material against one photograph; measures are None where all of it is clipped."""
+
+    photograph: str
+    """The name of the photograph."""
+    factor: float | None
+    """What the photograph was multiplied by; None where no factor fits."""
+    exposure_ev: float | None
+    """The factor in stops."""
+    own_exposure_ev: float | None
+    """The factor that fits this photograph alone, in stops; None where none does."""
+    log: PhotoStatistics | None
+    absolute: PhotoStatistics | None
+    relative: PhotoStatistics | None
+    rmse: float | None
+    """The root mean square difference of sRGB values."""
+    ssim: float | None
+    """The SSIM of sRGB values."""
+    texels: int
+    clipped: int
+    """The number of texels that are left out."""
+    outlier: PhotoOutlier
+
+
 class PhotoResult(Record):
-    """A material against the photograph."""
+    """A material against all photographs."""
 
     material: str
     """The name of the material."""
     size: tuple[int, int]
     """Width and height in texels."""
-    clipped: int
-    """The number of texels that are left out."""
-    factor: float
-    """What the photograph was multiplied by: the median of rendering / photograph."""
-    exposure_ev: float
+    factor: float | None
+    """The factor on all photographs: the median of rendering / photograph. None where each has its own."""
+    exposure_ev: float | None
     """The factor in stops."""
-    log: PhotoStatistics
-    absolute: PhotoStatistics
-    relative: PhotoStatistics
+    declared_ev: float | None
+    """The stops by which it exceeds the factor that the power of the light gives."""
+    means: tuple[PhotoMeans, ...]
+    """Over all photographs, or where some are held out, over the others and over these."""
+    photographs: tuple[PhotoMeasure, ...]
+    """In the order of the capture."""
 
 
 class PhotoReport(Report):
-    """Materials against a photograph. Its JSON is a scene file, too."""
+    """Materials against photographs. Its JSON is a scene file, too."""
 
-    photograph: str
-    """The path of the photograph."""
-    size: tuple[int, int]
-    """Width and height in pixels."""
-    transfer: Literal["linear", "srgb", "gamma2.2"]
-    corners: tuple[tuple[float, float], tuple[float, float], tuple[float, float], tuple[float, float]]
-    """Top left, top right, bottom right and bottom left of the material, in pixels."""
+    capture: str | None
+    """The path of the capture; None: a single photograph."""
+    file: str | None
+    """The file that lists the photographs."""
+    photographs: tuple[ReadPhotograph, ...]
+    """In the order of the capture."""
     falloff: bool
-    """Whether the falloff of the light is divided out of the photograph."""
+    """Whether the falloff of the light is divided out of the photographs."""
+    exposure: Literal["capture", "photograph"]
+    """What one factor is fitted to."""
+    declared_factor: float | None
+    """The factor that the power of the light gives."""
     convention: str
     """The name of the convention."""
     epsilon: float
     results: tuple[PhotoResult, ...]
-    """The smallest mean log difference first."""
+    """The smallest mean log difference first: over the held-out photographs, or over all."""
     scenes: tuple[Scene, ...]
-    """The one scene of the photograph."""
+    """Of the photographs."""
     notes: tuple[str, ...]
-    """What reading the photograph noticed."""
+    """What reading the photographs noticed."""
 
 
 class RankedPrediction(Record):

@@ -1,13 +1,11 @@
 //! A photograph as arguments: its light and view, how it is read, and the material in it. The window takes them, too.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use svbrdf_core::model::scene::Scene;
-use svbrdf_evaluate::photograph::{Corners, flash};
+use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::{PhotographOptions, Transfer};
-use svbrdf_files::scene_file;
-#[cfg(feature = "viewer")]
-use svbrdf_files::session::SessionPhotograph;
+use svbrdf_files::scene_file::PhotographLight;
 
 use super::values::{degrees, pair, positive, whole};
 use crate::cli::output::CommandError;
@@ -62,7 +60,7 @@ pub struct PhotoReadingArgs {
     /// Divides the photograph by the falloff of a point light, (l.z / d)^3 at the distance d, which Algorithm 3 does not model: use it
     /// for photographs with a flash or lamp near the material
     #[arg(long, requires = "photo")]
-    pub falloff: bool,
+    falloff: bool,
 }
 
 impl PhotoSceneArgs {
@@ -71,60 +69,28 @@ impl PhotoSceneArgs {
     /// # Errors
     /// [`CommandError::Usage`] where nothing specifies them; or where a scene file cannot be read.
     pub fn scene(&self, saved: Option<Scene>) -> Result<Scene, CommandError> {
-        self.specified()?.or(saved).ok_or_else(|| {
+        let specified = self.specified().map(|light| light.scene()).transpose()?;
+        specified.or(saved).ok_or_else(|| {
             CommandError::usage(
                 "light and view of the photograph are missing; give --scene FILE, or --flash with --fov DEGREES",
             )
         })
     }
 
-    /// Light and view, where they are specified.
-    ///
-    /// # Errors
-    /// Where a scene file cannot be read.
-    pub fn specified(&self) -> Result<Option<Scene>, CommandError> {
-        match &self.scene {
-            Some(path) => self.of_file(path).map(Some),
-            None => Ok(self.fov.map(flash).transpose()?),
-        }
-    }
-
-    fn of_file(&self, path: &Path) -> Result<Scene, CommandError> {
-        let scenes = scene_file::read(path)?;
-        let number = self.scene_number.unwrap_or(0);
-        let count = scenes.len();
-        match scenes.get(number) {
-            Some(scene) if count == 1 || self.scene_number.is_some() => Ok(*scene),
-            found => Err(CommandError::Usage(format!(
-                "{} lists {count} scenes, of which a photograph has one{}; give its number from 0 to {} as --scene-number",
-                path.display(),
-                if found.is_none() { format!(", found number {number}") } else { String::new() },
-                count - 1
-            ))),
-        }
+    /// Where light and view come from, where that is specified.
+    pub fn specified(&self) -> Option<PhotographLight> {
+        let file = |path: &PathBuf| PhotographLight::File { path: path.clone(), number: self.scene_number };
+        let flash = self.fov.map(|fov_degrees| PhotographLight::Flash { fov_degrees });
+        self.scene.as_ref().map(file).or(flash)
     }
 }
 
 impl PhotoReadingArgs {
-    pub fn options(&self) -> PhotographOptions {
-        PhotographOptions { transfer: self.transfer, clip: self.clip, light_colour: None }
-    }
-
-    /// The photograph at `path`, as the window opens it.
-    #[cfg(feature = "viewer")]
-    pub fn of_session(&self, path: PathBuf) -> SessionPhotograph {
-        let corners = self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok());
-        SessionPhotograph { path, read: self.options(), corners, falloff: self.falloff, capture: None }
-    }
-
-    /// The corners in a photograph of `size`.
-    pub fn corners(&self, size: [usize; 2]) -> Corners {
-        let specified = self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok());
-        specified.map_or_else(|| Corners::whole(size), Corners)
-    }
-
-    /// Whether the whole photograph is taken as the material.
-    pub fn is_whole(&self) -> bool {
-        self.corners.is_none()
+    /// The photograph at `path`.
+    pub fn photograph(&self, path: PathBuf) -> SessionPhotograph {
+        let corners =
+            self.corners.as_ref().and_then(|corners| corners.as_slice().try_into().ok()).map(Corners);
+        let read = PhotographOptions { transfer: self.transfer, clip: self.clip, light_colour: None };
+        SessionPhotograph { path, read, corners, falloff: self.falloff, capture: None }
     }
 }

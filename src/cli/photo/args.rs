@@ -3,22 +3,22 @@
 use std::path::PathBuf;
 
 use svbrdf_core::picture::difference::Difference;
-use svbrdf_evaluate::capture::CaptureExposure;
+use svbrdf_evaluate::photograph::CaptureExposure;
 
 use crate::cli::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
 use crate::cli::args::{ComparisonArgs, NamedPath};
 use crate::cli::output::report::ReportFormat;
 
-/// Compares renderings of materials with a photograph
+/// Compares renderings of materials with a photograph, or with all photographs of a capture
 ///
 /// Each material is rendered under the light and the view of the photograph (Algorithm 3). One factor brings the photograph to the
 /// exposure of the rendering, and is printed: the median of rendering / photograph. Then the log, absolute and relative
-/// differences are printed, the material with the smallest mean log difference first. Clipped pixels are left out. Beyond the
-/// four corners, nothing is aligned or calibrated.
+/// differences, RMSE and SSIM are printed, the material with the smallest mean log difference first. Clipped pixels are left out.
+/// Beyond the four corners, nothing is aligned or calibrated.
 ///
-/// With --capture: each material is compared with all photographs of a capture, which lists their lights and views. One factor for
-/// all photographs is fitted, and the mean log difference, RMSE and SSIM are printed for each photograph and as means with their
-/// intervals over photographs. A photograph far from the others is named. docs/photographs.md describes the files of a capture.
+/// With --capture: the photographs of a capture, which lists their lights and views. One factor for all of them is fitted, and the
+/// mean log difference, RMSE and SSIM are printed for each photograph and as means with their intervals over photographs. A
+/// photograph far from the others is named. docs/photographs.md describes the files of a capture.
 #[derive(Debug, clap::Args)]
 #[command(
     override_usage = "svbrdf photo [OPTIONS] <PHOTO> <MATERIAL>...\n       svbrdf photo [OPTIONS] --capture <FOLDER> <MATERIAL>..."

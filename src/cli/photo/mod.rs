@@ -1,94 +1,57 @@
-//! `svbrdf photo`: renderings against a photograph.
+//! `svbrdf photo`: renderings against a photograph, or against all photographs of a capture.
 
 mod args;
-mod capture;
+mod notes;
 mod output;
-mod stretching;
 
-use svbrdf_core::error::Error;
-use svbrdf_core::material::Material;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_evaluate::photograph::{PhotoReport, PhotoSetting};
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat};
-use svbrdf_files::read::read_photograph;
+use svbrdf_files::photograph::Capture;
 
 use super::args::{Given, modes};
 use super::job::{ComparisonJob, check_heights};
-use super::output::exit::{put, tell};
+use super::output::exit::put;
 use super::output::stop::stoppable;
 use super::output::{CommandError, watched};
 pub use args::PhotoArgs;
-use stretching::stretched;
 
 /// Compares, prints the differences to stdout and writes the file.
 ///
 /// # Errors
-/// Where the photograph, a scene or a material cannot be read or used, or the file cannot be written.
+/// Where the capture, a photograph, a scene or a material cannot be read or used, or the file cannot be written.
 pub fn run(mut args: PhotoArgs, given: &Given) -> Result<(), CommandError> {
-    match args.capture.capture.take() {
-        Some(capture) => capture::run(args, &capture, given),
-        None => {
-            given.check(&modes::PHOTO_ALONE)?;
-            of_photograph(&args, given)
-        }
+    match args.capture.capture {
+        Some(_) => args.shift_materials(),
+        None => given.check(&modes::PHOTO_ALONE)?,
     }
-}
-
-fn of_photograph(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
     let destination = args.output.as_deref().map(Destination::<PictureFormat>::new).transpose()?;
-    let known = PhotoReport::DIFFERENCES;
+    let known = PhotoSetting::DIFFERENCES;
     if !known.contains(&args.difference) {
         let (known, found) = (known.map(Difference::key).join(", "), args.difference.key());
         return Err(CommandError::Usage(format!("expected one of the differences {known}, found {found}")));
     }
     let job = ComparisonJob::new(&args.comparison, given)?;
-    let scene = args.scene.scene(job.session.as_ref().map(|session| session.scene))?;
-    let text = format!("reading {}", args.photo.display());
-    let photograph = watched(&text, |_| read_photograph(&args.photo, &args.reading.options()))?;
-    let corners = args.reading.corners(photograph.size());
-    corners.check(photograph.size())?;
-    for note in &photograph.notes {
-        tell(&format!("note: {note}"));
-    }
+    let photograph = args.reading.photograph(args.photo);
+    let capture = match &args.capture.capture {
+        Some(path) => Capture::read(path)?.with_options(&photograph.read),
+        None => Capture::of_one(photograph, args.scene.scene(job.session.as_ref().map(|one| one.scene))?),
+    };
+    let setting = PhotoSetting::new(capture, args.capture.exposure, &args.capture.hold_out, job.convention)?;
     let opened = job.materials.open::<f32>()?;
     args.output.as_deref().map_or(Ok(()), check_output)?;
     let materials = opened.into_all();
     if destination.is_some() {
         check_heights(&materials)?;
     }
-    note_stretching(args, photograph.size(), &materials);
-    let setting = PhotoSetting {
-        name: args.photo.display().to_string(),
-        photograph,
-        corners,
-        falloff: args.reading.falloff,
-        scene,
-        convention: job.convention,
-    };
     let named = materials.iter().map(|material| (material.name(), material));
-    let report = watched("rendering", |progress| PhotoReport::new(setting, named, progress))?;
+    let report = watched("comparing", |progress| PhotoReport::new(setting, named, progress))?;
+    notes::tell_notes(&report, &materials);
     if let Some(destination) = destination {
-        write_differences(&destination, &report, args.difference)?;
+        let (panes, last) = output::panes(&report, args.difference);
+        let entries = output::entries(&report, args.difference, last);
+        stoppable(|progress| destination.write_maps(&panes, last as f32, &entries, progress))?;
     }
     Ok(put(&args.format.write(&report)?)?)
-}
-
-/// Notes for each size of `materials` where the whole photograph has another shape.
-fn note_stretching(args: &PhotoArgs, size: [usize; 2], materials: &[Material<f32>]) {
-    if args.reading.is_whole() {
-        let remedy = "--corners gives the corners of the material in it";
-        stretched(size, materials.iter().map(Material::size), remedy).iter().for_each(|note| tell(note));
-    }
-}
-
-fn write_differences(
-    destination: &Destination<PictureFormat>,
-    report: &PhotoReport,
-    kind: Difference,
-) -> Result<(), Error> {
-    let panes: Vec<_> = report.results.iter().map(|result| result.compared.difference(kind)).collect();
-    let last = output::last_colour(report, kind);
-    let entries = output::entries(report, kind, last);
-    stoppable(|progress| destination.write_maps(&panes, last as f32, &entries, progress))
 }

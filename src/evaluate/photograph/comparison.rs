@@ -38,7 +38,7 @@ impl Rectified {
     ) -> Result<PhotographComparison, Error> {
         let rendering = self.rendering(material, scene, convention, progress)?;
         let factor = self.ratios(&rendering, convention.epsilon).factor();
-        let factor = factor.ok_or_else(|| self.no_exposure(material.name()))?;
+        let factor = factor.ok_or_else(|| no_exposure(material.name(), std::slice::from_ref(self)))?;
         Ok(self.at(factor, rendering, convention.epsilon))
     }
 
@@ -46,7 +46,7 @@ impl Rectified {
     ///
     /// # Errors
     /// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::Cancelled`].
-    pub(crate) fn rendering(
+    pub(super) fn rendering(
         &self,
         material: &Material<f32>,
         scene: &Scene,
@@ -67,27 +67,27 @@ impl Rectified {
     }
 
     /// The ratios of `rendering` and the photograph.
-    pub(crate) fn ratios(&self, rendering: &Image<f32>, epsilon: f64) -> Ratios {
+    pub(super) fn ratios(&self, rendering: &Image<f32>, epsilon: f64) -> Ratios {
         Ratios::of(&self.image, rendering, epsilon)
     }
 
     /// The photograph, multiplied by `factor`, and `rendering`.
-    pub(crate) fn at(&self, factor: f64, rendering: Image<f32>, epsilon: f64) -> PhotographComparison {
+    pub(super) fn at(&self, factor: f64, rendering: Image<f32>, epsilon: f64) -> PhotographComparison {
         // A stored value below 0 is noise: there is no negative radiance.
         let expose = |value: f32| if value.is_nan() { value } else { (value * factor as f32).max(0.0) };
         let pixels = self.image.pixels.iter().map(|pixel| pixel.map(expose)).collect();
         let photograph = Image { width: self.image.width, height: self.image.height, pixels };
         PhotographComparison { factor, photograph, rendering, epsilon }
     }
+}
 
-    /// The error of a photograph that has no factor for the material `name`.
-    fn no_exposure(&self, name: &str) -> Error {
-        let problem = match self.clipped() == self.image.pixels.len() {
-            true => "every texel of the photograph is clipped",
-            false => "no part of the material is lit in both",
-        };
-        Error::NoExposure { name: name.to_owned(), problem: problem.to_owned() }
-    }
+/// The error of photographs that have no factor for the material `name`.
+pub(super) fn no_exposure(name: &str, photographs: &[Rectified]) -> Error {
+    let problem = match photographs.iter().all(|one| one.clipped() == one.image.pixels.len()) {
+        true => "every texel is clipped",
+        false => "no part of the material is lit both in a photograph and in its rendering",
+    };
+    Error::NoExposure { name: name.to_owned(), problem: problem.to_owned() }
 }
 
 impl PhotographComparison {

@@ -1,12 +1,14 @@
-//! Renderings against a photograph: the photograph on the texels of a material, at the exposure of its renderings.
+//! Renderings against photographs: a photograph on the texels of a material, at the exposure of its renderings.
 //!
-//! The photograph shows the plane of the material within four [`Corners`]. [`Rectified`] averages it over the area of each
+//! A photograph shows the plane of the material within four [`Corners`](svbrdf_files::photograph::Corners). [`Rectified`] averages it over the area of each
 //! texel; one factor, which [`Rectified::compare`] fits, brings it to the unit of Algorithm 3. Nothing else is calibrated.
+//! [`PhotoReport`] compares materials with all photographs of a [`Capture`](svbrdf_files::photograph::Capture), which may be one.
 //!
 //! ```
+//! use svbrdf_files::photograph::Corners;
 //! use svbrdf_files::read::{Photograph, Transfer};
 //! use svbrdf_core::model::convention::PRINTED;
-//! use svbrdf_evaluate::photograph::{Corners, Rectified, flash};
+//! use svbrdf_evaluate::photograph::{PhotographComparison, Rectified, flash};
 //! use svbrdf_core::picture::difference::Difference;
 //! use svbrdf_core::progress::Progress;
 //! use svbrdf_core::render;
@@ -26,7 +28,7 @@
 //! let rectified = Rectified::new(&photograph, &corners, truth.size(), &progress)?;
 //! let right = rectified.compare(truth, &scene, &PRINTED, &progress)?;
 //! let wrong = rectified.compare(&built_in.predictions[1].material, &scene, &PRINTED, &progress)?;
-//! let mean = |compared: &crate::photograph::PhotographComparison| {
+//! let mean = |compared: &PhotographComparison| {
 //!     compared.statistics(Difference::Log).map(|statistics| statistics.mean)
 //! };
 //! assert!((right.factor - 2.0).abs() < 1e-6 && mean(&right) < Some(1e-6) && mean(&wrong) > Some(0.01));
@@ -34,15 +36,18 @@
 //! ```
 
 mod comparison;
-mod corners;
 mod exposure;
+mod measured;
+mod outliers;
 mod rectified;
 mod report;
+mod setting;
 
 pub use comparison::PhotographComparison;
-pub use corners::Corners;
-pub(crate) use exposure::Ratios;
+pub use measured::{PhotoMeans, PhotoMeasure, PhotoResult, PhotoStatistics, ReadPhotograph};
+pub use outliers::PhotoOutlier;
 pub use rectified::Rectified;
-pub use report::{PhotoReport, PhotoResult, PhotoSetting};
+pub use report::PhotoReport;
+pub use setting::{CaptureExposure, PhotoSetting};
 
 pub use svbrdf_core::model::named_scenes::flash;

@@ -8,7 +8,7 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 
-use super::corners::{Corners, Homography};
+use svbrdf_files::photograph::{Corners, Homography};
 use svbrdf_files::read::Photograph;
 
 /// How much a length in pixels may exceed a whole number by rounding.

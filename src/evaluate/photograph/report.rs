@@ -1,230 +1,333 @@
-//! Materials against a photograph as text, JSON and CSV.
+//! Materials against photographs as JSON, text and CSV.
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::report::{Column, Report, Table, aligned_columns, position};
+use crate::report::{Cell, Report, Table, aligned, position};
 use svbrdf_core::error::Error;
+use svbrdf_core::loss::Estimate;
 use svbrdf_core::material::Material;
-use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::statistics::median;
 
 use super::comparison::PhotographComparison;
-use super::corners::Corners;
-use super::rectified::Rectified;
-use svbrdf_files::read::{Photograph, Transfer};
+use super::measured::{PhotoMeans, PhotoMeasure, PhotoResult, ReadPhotograph};
+use super::setting::{CaptureExposure, PhotoSetting};
+use svbrdf_files::disk::memory;
 
-/// The photograph that materials are compared with, and how.
-#[derive(Clone, Debug)]
-pub struct PhotoSetting {
-    /// What the report calls the photograph: its path.
-    pub name: String,
-    pub photograph: Photograph,
-    pub corners: Corners,
-    /// Whether the falloff of the light is divided out of the photograph.
-    pub falloff: bool,
-    pub scene: Scene,
-    pub convention: Convention,
-}
+/// Bytes of a texel on the photographs, and of its ratios.
+const BYTES: usize = 12 + 24;
 
-/// Materials against a photograph. Its JSON is a scene file, too.
+/// Materials against photographs. Its JSON is a scene file, too.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PhotoReport {
-    /// The path of the photograph.
-    photograph: String,
-    /// Width and height in pixels.
-    size: [usize; 2],
-    transfer: Transfer,
-    /// Top left, top right, bottom right and bottom left of the material, in pixels.
-    corners: Corners,
-    /// Whether the falloff of the light is divided out of the photograph.
+    /// The path of the capture; `None`: a single photograph.
+    capture: Option<String>,
+    /// The file that lists the photographs.
+    file: Option<String>,
+    /// In the order of the capture.
+    pub photographs: Vec<ReadPhotograph>,
+    /// Whether the falloff of the light is divided out of the photographs.
     falloff: bool,
+    /// What one factor is fitted to.
+    exposure: CaptureExposure,
+    /// The factor that the power of the light gives.
+    pub declared_factor: Option<f64>,
     /// The name of the convention.
     convention: &'static str,
     epsilon: f64,
-    /// The smallest mean log difference first.
+    /// The smallest mean log difference first: over the held-out photographs, or over all.
     pub results: Vec<PhotoResult>,
-    /// The one scene of the photograph.
+    /// Of the photographs.
     scenes: Vec<Scene>,
-    /// What reading the photograph noticed.
+    /// What reading the photographs noticed.
     notes: Vec<String>,
     #[serde(skip)]
     pub setting: PhotoSetting,
 }
 
-/// A material against the photograph.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct PhotoResult {
-    /// The name of the material.
-    pub material: String,
-    /// Width and height in texels.
-    size: [usize; 2],
-    /// The number of texels that are left out.
-    clipped: usize,
-    /// What the photograph was multiplied by: the median of rendering / photograph.
-    factor: f64,
-    /// The factor in stops.
-    exposure_ev: f64,
-    log: PhotoStatistics,
-    absolute: PhotoStatistics,
-    relative: PhotoStatistics,
-    #[serde(skip)]
-    pub compared: PhotographComparison,
-}
-
-/// A difference over the texels that are not clipped.
-#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
-struct PhotoStatistics {
-    mean: f64,
-    median: f64,
-    /// The 95th percentile.
-    p95: f64,
-}
-
 impl PhotoReport {
-    /// The differences that are reported.
-    pub const DIFFERENCES: [Difference; 3] = [Difference::Log, Difference::Absolute, Difference::Relative];
-
-    /// Compares each of `materials`, which have the names of the report beside them, with the photograph.
+    /// Reads the photographs and compares each of `materials`, which have the names of the report beside them, with all of them.
+    ///
+    /// A photograph that is read, and a material on a photograph, are a step of `progress`.
     ///
     /// # Errors
-    /// [`Error::UnusableCorners`], [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Cancelled`].
+    /// As [`CapturedPhotograph::read`](svbrdf_files::photograph::CapturedPhotograph::read), and [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Memory`],
+    /// [`Error::Cancelled`].
     pub fn new<'a>(
         setting: PhotoSetting,
         materials: impl IntoIterator<Item = (&'a str, &'a Material<f32>)>,
         progress: &Progress,
     ) -> Result<Self, Error> {
-        setting.corners.check(setting.photograph.size())?;
-        let mut rectified: Vec<([usize; 2], Rectified)> = Vec::new();
-        let mut results = Vec::new();
-        for (name, material) in materials {
-            let size = material.size();
-            let index = match rectified.iter().position(|(of, _)| *of == size) {
-                Some(index) => index,
-                None => {
-                    rectified.push((size, setting.rectified(size, progress)?));
-                    rectified.len() - 1
-                }
-            };
-            let photograph = &rectified[index].1;
-            let compared = photograph.compare(material, &setting.scene, &setting.convention, progress)?;
-            let clipped = photograph.clipped();
-            results.push(PhotoResult::new(name.to_owned(), compared, clipped));
-        }
-        // NaN, of a photograph that is clipped everywhere, comes last.
-        results.sort_by(|a, b| a.log.mean.total_cmp(&b.log.mean));
+        let materials: Vec<_> = materials.into_iter().collect();
+        let mut sizes: Vec<[usize; 2]> = materials.iter().map(|(_, material)| material.size()).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        let count = setting.capture.photographs.len();
+        let texels: usize = sizes.iter().map(|[width, height]| width * height).sum();
+        let bytes = (BYTES * count).saturating_mul(texels) as u64;
+        let _reserved = memory::reserve(bytes, || format!("comparing with the {count} photographs"))?;
+        progress.begin((count * (1 + materials.len())) as u64);
+        let (photographs, rectified) = setting.read(&sizes, progress)?;
+        let measured = materials.into_iter().map(|(name, material)| {
+            let index = sizes.partition_point(|size| *size < material.size());
+            setting.measure(name, material, &rectified[index], progress)
+        });
+        let mut results = measured.collect::<Result<Vec<_>, _>>()?;
+        results.sort_by(|a, b| a.log().total_cmp(&b.log()));
+        let file = setting.capture.file.as_ref();
         Ok(Self {
-            photograph: setting.name.clone(),
-            size: setting.photograph.size(),
-            transfer: setting.photograph.transfer,
-            corners: setting.corners,
-            falloff: setting.falloff,
+            capture: file.map(|_| setting.capture.path.display().to_string()),
+            file: file.map(|file| file.display().to_string()),
+            notes: setting.notes(&photographs),
+            photographs,
+            falloff: setting.capture.falloff,
+            exposure: setting.exposure,
+            declared_factor: setting.declared_factor(),
             convention: setting.convention.name,
             epsilon: setting.convention.epsilon,
             results,
-            scenes: vec![setting.scene],
-            notes: setting.photograph.notes.iter().map(ToString::to_string).collect(),
+            scenes: setting.capture.photographs.iter().map(|one| one.scene).collect(),
             setting,
+        })
+    }
+
+    /// Of each material, the single photograph and its rendering; none where there are several photographs.
+    pub fn compared(&self) -> impl Iterator<Item = &PhotographComparison> {
+        self.results.iter().flat_map(|result| &result.photographs).filter_map(|one| one.compared.as_ref())
+    }
+
+    /// The photographs, and how they were read.
+    pub fn source(&self) -> String {
+        let mut transfers: Vec<String> = self
+            .photographs
+            .iter()
+            .map(|one| format!("{} {}", one.transfer.label(), one.transfer_from))
+            .collect();
+        transfers.dedup();
+        let (path, transfers) = (self.setting.capture.path.display(), transfers.join("; "));
+        let [one] = self.photographs.as_slice() else {
+            return format!("the {} photographs of {path}, {transfers}", self.photographs.len());
+        };
+        let of = if self.capture.is_some() { format!("{} of {path}", one.name) } else { one.name.clone() };
+        let ([width, height], corners) = (one.size, one.corners.0.map(|[x, y]| format!("{x},{y}")).join(" "));
+        format!("{of}, {width} x {height} pixels, {transfers}, corners {corners}")
+    }
+
+    /// The lines above the tables.
+    fn heading(&self) -> String {
+        let falloff = if self.falloff { ", falloff of the light divided out" } else { "" };
+        let below = match self.scenes.as_slice() {
+            [Scene { kind, view, light }] => {
+                format!("{kind} scene: view {}, light {}", position(*view), position(*light))
+            }
+            _ => self.exposure(),
+        };
+        let (source, convention) = (self.source(), self.convention);
+        format!(
+            "differences from {source}{falloff}\nconvention {convention}, epsilon {}\n{below}; RMSE and SSIM of sRGB values\n",
+            self.epsilon
+        )
+    }
+
+    /// To what the exposure is fitted.
+    fn exposure(&self) -> String {
+        let held_out = self.setting.held_out();
+        let exposure = match (self.exposure, held_out.is_empty()) {
+            (CaptureExposure::Capture, true) => "one exposure for all photographs".to_owned(),
+            (CaptureExposure::Capture, false) => {
+                format!(
+                    "one exposure for all photographs, not fitted to the held-out photographs: {held_out}"
+                )
+            }
+            (CaptureExposure::Photograph, true) => "one exposure for each photograph".to_owned(),
+            (CaptureExposure::Photograph, false) => {
+                format!("one exposure for each photograph; held out: {held_out}")
+            }
+        };
+        exposure + "\nmeans over photographs with 95% intervals"
+    }
+
+    /// The line about the photograph at `index` where it is an outlier, with the numbers of the first material for which it is one.
+    fn outlier(&self, index: usize) -> Option<String> {
+        let is_outlier = |result: &&PhotoResult| result.photographs[index].outlier.is_any();
+        let result = self.results.iter().find(is_outlier)?;
+        let outlier = result.photographs[index].outlier;
+        let exposure = outlier.exposure.then(|| {
+            let [own, middle] = beside_median(result, index, |one| one.own_exposure_ev);
+            format!("the exposure that fits it alone is {:+.2} EV from the median", own - middle)
+        });
+        let difference = outlier.difference.then(|| {
+            let [log, middle] = beside_median(result, index, PhotoMeasure::mean_log);
+            format!("its log difference is {log:.4}, the median {middle:.4}")
+        });
+        let findings: Vec<String> = exposure.into_iter().chain(difference).collect();
+        let (count, all) = (self.results.iter().filter(is_outlier).count(), self.results.len());
+        let whose = match all {
+            1 => String::new(),
+            _ => format!(" for {count} of {all} materials (numbers of {})", result.material),
+        };
+        Some(format!("{} is an outlier{whose}: {}\n", self.photographs[index].name, findings.join("; ")))
+    }
+
+    /// Of each material, its means over groups of several photographs, then its measures on each photograph.
+    fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        let has_means = self.photographs.len() > 1;
+        self.results.iter().flat_map(move |result| {
+            let row = move |group, read, one| Row { report: self, result, group, read, one };
+            let groups =
+                result.means.iter().filter(move |_| has_means).map(move |group| row(Some(group), None, None));
+            let each = self.photographs.iter().zip(&result.photographs);
+            groups.chain(each.map(move |(read, one)| row(None, Some(read), Some(one))))
         })
     }
 }
 
-impl PhotoSetting {
-    fn rectified(&self, size: [usize; 2], progress: &Progress) -> Result<Rectified, Error> {
-        let rectified = Rectified::new(&self.photograph, &self.corners, size, progress)?;
-        Ok(if self.falloff { rectified.without_falloff(&self.scene) } else { rectified })
+/// A quantity of the photograph at `index`, and its median over all photographs.
+fn beside_median(result: &PhotoResult, index: usize, of: impl Fn(&PhotoMeasure) -> Option<f64>) -> [f64; 2] {
+    let mut known: Vec<f64> = result.photographs.iter().filter_map(&of).collect();
+    let middle = median(&mut known).unwrap_or(f64::NAN);
+    [of(&result.photographs[index]).unwrap_or(f64::NAN), middle]
+}
+
+/// A row of the tables: the means of a material over a group of photographs, or the material against one of them.
+#[derive(Clone, Copy)]
+struct Row<'a> {
+    report: &'a PhotoReport,
+    result: &'a PhotoResult,
+    group: Option<&'a PhotoMeans>,
+    read: Option<&'a ReadPhotograph>,
+    one: Option<&'a PhotoMeasure>,
+}
+
+impl Row<'_> {
+    fn photographs(&self) -> &'static str {
+        let of_one = if self.one.is_some_and(|one| one.is_held_out) { "held out" } else { "fitted" };
+        self.group.map_or(of_one, |group| group.name)
     }
 
-    /// The photograph, and how it was read.
-    pub fn source(&self) -> String {
-        let [width, height] = self.photograph.size();
-        let corners = self.corners.0.map(|[x, y]| format!("{x},{y}")).join(" ");
-        format!(
-            "{}, {width} x {height} pixels, {} {}, corners {corners}",
-            self.name, self.photograph.transfer, self.photograph.transfer_from
-        )
+    fn factor(&self) -> Option<f64> {
+        self.one.map_or(self.result.factor, |one| one.factor)
+    }
+
+    /// The mean of a measure over a group, or the measure of one photograph.
+    fn measure(&self, (of_group, of_one): Measure) -> Option<f64> {
+        self.group.and_then(of_group).map(|estimate| estimate.mean).or_else(|| self.one.and_then(of_one))
+    }
+
+    fn interval(&self, (of_group, _): Measure) -> Option<[f64; 2]> {
+        self.group.and_then(of_group)?.interval95
     }
 }
 
-impl PhotoResult {
-    fn new(material: String, compared: PhotographComparison, clipped: usize) -> Self {
-        let statistics = |kind| match compared.statistics(kind) {
-            Some(Statistics { mean, median, p95, .. }) => PhotoStatistics { mean, median, p95 },
-            None => PhotoStatistics { mean: f64::NAN, median: f64::NAN, p95: f64::NAN },
-        };
-        let [log, absolute, relative] = PhotoReport::DIFFERENCES.map(statistics);
-        Self {
-            material,
-            size: [compared.rendering.width, compared.rendering.height],
-            clipped,
-            factor: compared.factor,
-            exposure_ev: compared.exposure_ev(),
-            log,
-            absolute,
-            relative,
-            compared,
-        }
-    }
+/// A measure of a group and of one photograph.
+type Measure = (fn(&PhotoMeans) -> Option<Estimate>, fn(&PhotoMeasure) -> Option<f64>);
 
-    fn texels(&self) -> usize {
-        self.size[0] * self.size[1]
-    }
+const LOG: Measure = (|group| group.log, PhotoMeasure::mean_log);
+const RMSE: Measure = (|group| group.rmse, |one| one.rmse);
+const SSIM: Measure = (|group| group.ssim, |one| one.ssim);
+
+/// A column of CSV: its name, the title of its column in the text, its format there, and its value.
+type PhotoColumn = (&'static str, &'static str, fn(&Row<'_>, &Cell) -> String, fn(&Row<'_>) -> Cell);
+
+const COLUMNS: [PhotoColumn; 33] = [
+    ("material", "material", plain, |row| row.result.material.as_str().into()),
+    ("photographs", "photographs", counted, |row| row.photographs().into()),
+    ("photograph", "photograph", plain, |row| row.read.map(|read| read.name.as_str()).into()),
+    ("factor", "factor", number, |row| row.factor().into()),
+    ("exposure_ev", "EV", stops, |row| row.factor().map(f64::log2).into()),
+    ("own_exposure_ev", "EV alone", stops, |row| row.one.and_then(|one| one.own_exposure_ev).into()),
+    ("log_mean", "log mean", number, |row| row.measure(LOG).into()),
+    ("log_interval95_low", "95% interval", |row, _| ends(row, LOG), |row| Cell::low(row.interval(LOG))),
+    ("log_interval95_high", "", plain, |row| Cell::high(row.interval(LOG))),
+    ("log_median", "median", number, |row| row.one.and_then(|one| Some(one.log?.median)).into()),
+    ("log_p95", "95%", number, |row| row.one.and_then(|one| Some(one.log?.p95)).into()),
+    ("absolute_mean", "abs. mean", number, |row| row.one.and_then(|one| Some(one.absolute?.mean)).into()),
+    ("absolute_median", "median", number, |row| row.one.and_then(|one| Some(one.absolute?.median)).into()),
+    ("absolute_p95", "95%", number, |row| row.one.and_then(|one| Some(one.absolute?.p95)).into()),
+    ("relative_mean", "rel. mean", number, |row| row.one.and_then(|one| Some(one.relative?.mean)).into()),
+    ("relative_median", "median", number, |row| row.one.and_then(|one| Some(one.relative?.median)).into()),
+    ("relative_p95", "95%", number, |row| row.one.and_then(|one| Some(one.relative?.p95)).into()),
+    ("rmse", "RMSE", number, |row| row.measure(RMSE).into()),
+    ("rmse_interval95_low", "95% interval", |row, _| ends(row, RMSE), |row| Cell::low(row.interval(RMSE))),
+    ("rmse_interval95_high", "", plain, |row| Cell::high(row.interval(RMSE))),
+    ("ssim", "SSIM", number, |row| row.measure(SSIM).into()),
+    ("ssim_interval95_low", "95% interval", |row, _| ends(row, SSIM), |row| Cell::low(row.interval(SSIM))),
+    ("ssim_interval95_high", "", plain, |row| Cell::high(row.interval(SSIM))),
+    ("texels", "texels", plain, |row| row.one.map(|one| one.texels).into()),
+    ("clipped", "clipped", share, |row| row.one.map(|one| one.clipped).into()),
+    ("outlier", "", marks, |row| row.one.map(|one| one.outlier.is_any()).into()),
+    ("transfer", "transfer", plain, |row| row.read.map(|read| read.transfer.name()).into()),
+    ("exposure", "exposure", plain, |row| row.report.exposure.name().into()),
+    ("declared_ev", "EV from light_pow", stops, |row| row.report.setting.declared_ev(row.factor()).into()),
+    ("falloff", "falloff", plain, |row| row.report.falloff.into()),
+    ("capture", "capture", plain, |row| row.report.capture.as_deref().into()),
+    ("convention", "convention", plain, |row| row.report.convention.into()),
+    ("epsilon", "epsilon", plain, |row| row.report.epsilon.into()),
+];
+/// The columns of the text: of means over photographs, of each of several photographs, and of a single one.
+const OF_MEANS: &str = "material photographs factor exposure_ev declared_ev log_mean log_interval95_low \
+                        rmse rmse_interval95_low ssim ssim_interval95_low";
+const OF_EACH: &str = "photograph material own_exposure_ev log_mean rmse ssim clipped outlier";
+const OF_ONE: &str = "material factor exposure_ev declared_ev log_mean log_median log_p95 \
+                      absolute_mean absolute_median absolute_p95 relative_mean relative_median relative_p95 rmse ssim clipped";
+
+fn plain(_: &Row<'_>, cell: &Cell) -> String {
+    cell.to_string()
+}
+
+fn number(_: &Row<'_>, cell: &Cell) -> String {
+    if let Cell::Number(number) = cell { format!("{number:.4}") } else { "-".to_owned() }
+}
+
+fn stops(_: &Row<'_>, cell: &Cell) -> String {
+    if let Cell::Number(stops) = cell { format!("{stops:+.2}") } else { "-".to_owned() }
+}
+
+fn counted(row: &Row<'_>, _: &Cell) -> String {
+    row.group.map_or_else(String::new, |group| format!("{} {}", group.count, group.name).replace(" all", ""))
+}
+
+fn ends(row: &Row<'_>, measure: Measure) -> String {
+    row.interval(measure).map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.4} to {high:.4}"))
+}
+
+fn share(row: &Row<'_>, _: &Cell) -> String {
+    row.one.map_or_else(String::new, |one| format!("{:.2}%", 100.0 * one.clipped as f64 / one.texels as f64))
+}
+
+fn marks(row: &Row<'_>, _: &Cell) -> String {
+    let marks = row.one.map(|one| [(one.outlier.is_any(), "outlier"), (one.is_held_out, "held out")]);
+    let marks = marks.into_iter().flatten().filter(|(is, _)| *is).map(|(_, mark)| mark);
+    marks.collect::<Vec<_>>().join(", ")
+}
+
+/// The columns of these names in aligned text. That of the power of the light is left out where there is none.
+fn text_of(rows: &[Row<'_>], names: &str) -> String {
+    let has_power = rows.iter().any(|row| row.report.declared_factor.is_some());
+    let names = names.split_whitespace().filter(|name| has_power || *name != "declared_ev");
+    let columns: Vec<_> = names.filter_map(|name| COLUMNS.iter().find(|(of, ..)| *of == name)).collect();
+    let titles = columns.iter().map(|(_, title, ..)| (*title).to_owned()).collect();
+    let texts = |row| columns.iter().map(|(_, _, format, value)| format(row, &value(row))).collect();
+    aligned(&std::iter::once(titles).chain(rows.iter().map(texts)).collect::<Vec<_>>())
 }
 
 impl Report for PhotoReport {
     fn text(&self) -> String {
-        let columns: [Column<'_, &PhotoResult, String>; 13] = [
-            ("material", |result| result.material.clone()),
-            ("factor", |result| format!("{:.4}", result.factor)),
-            ("EV", |result| format!("{:+.2}", result.exposure_ev)),
-            ("log mean", |result| format!("{:.4}", result.log.mean)),
-            ("median", |result| format!("{:.4}", result.log.median)),
-            ("95%", |result| format!("{:.4}", result.log.p95)),
-            ("abs. mean", |result| format!("{:.4}", result.absolute.mean)),
-            ("median", |result| format!("{:.4}", result.absolute.median)),
-            ("95%", |result| format!("{:.4}", result.absolute.p95)),
-            ("rel. mean", |result| format!("{:.4}", result.relative.mean)),
-            ("median", |result| format!("{:.4}", result.relative.median)),
-            ("95%", |result| format!("{:.4}", result.relative.p95)),
-            ("clipped", |one| format!("{:.2}%", 100.0 * one.clipped as f64 / one.texels() as f64)),
-        ];
-        let Scene { kind, view, light } = &self.setting.scene;
-        let falloff = if self.falloff { "\nfalloff of the light divided out" } else { "" };
-        format!(
-            "differences from {}\nconvention {}, epsilon {}\n{kind} scene: view {}, light {}{falloff}\n\n{}",
-            self.setting.source(),
-            self.convention,
-            self.epsilon,
-            position(*view),
-            position(*light),
-            aligned_columns(&columns, &self.results)
-        )
+        let (heading, count) = (self.heading(), self.photographs.len());
+        let (means, each): (Vec<_>, Vec<_>) = self.rows().partition(|row| row.group.is_some());
+        if count == 1 {
+            return format!("{heading}\n{}", text_of(&each, OF_ONE));
+        }
+        let outliers: String = (0..count).filter_map(|index| self.outlier(index)).collect();
+        let by_photograph = (0..count).flat_map(|index| each.iter().skip(index).step_by(count).copied());
+        let (means, each) = (text_of(&means, OF_MEANS), text_of(&by_photograph.collect::<Vec<_>>(), OF_EACH));
+        format!("{heading}{outliers}\n{means}\n{each}")
     }
 
     fn table(&self) -> Table {
-        let columns: [Column<'_, (&Self, &PhotoResult)>; 18] = [
-            ("material", |(_, result)| result.material.as_str().into()),
-            ("factor", |(_, result)| result.factor.into()),
-            ("exposure_ev", |(_, result)| result.exposure_ev.into()),
-            ("log_mean", |(_, result)| result.log.mean.into()),
-            ("log_median", |(_, result)| result.log.median.into()),
-            ("log_p95", |(_, result)| result.log.p95.into()),
-            ("absolute_mean", |(_, result)| result.absolute.mean.into()),
-            ("absolute_median", |(_, result)| result.absolute.median.into()),
-            ("absolute_p95", |(_, result)| result.absolute.p95.into()),
-            ("relative_mean", |(_, result)| result.relative.mean.into()),
-            ("relative_median", |(_, result)| result.relative.median.into()),
-            ("relative_p95", |(_, result)| result.relative.p95.into()),
-            ("texels", |(_, result)| result.texels().into()),
-            ("clipped", |(_, result)| result.clipped.into()),
-            ("photograph", |(report, _)| report.photograph.as_str().into()),
-            ("transfer", |(report, _)| report.transfer.name().into()),
-            ("convention", |(report, _)| report.convention.into()),
-            ("epsilon", |(report, _)| report.epsilon.into()),
-        ];
-        Table::of(&columns, self.results.iter().map(|result| (self, result)))
+        let cells = |row| COLUMNS.iter().map(|(.., value)| value(&row)).collect();
+        Table::new(COLUMNS.map(|(name, ..)| name), self.rows().map(cells))
     }
 }

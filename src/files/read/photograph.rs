@@ -1,13 +1,12 @@
 //! Photographs: radiance as a camera stores it.
 
-use std::fmt;
 use std::path::Path;
-use std::str::FromStr;
 
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use svbrdf_core::choices;
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 
@@ -18,17 +17,16 @@ use crate::read::options::{Albedo, transfer};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject};
 
-/// How the samples of a photograph encode radiance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum Transfer {
+choices! {
+    /// How the samples of a photograph encode radiance.
+    #[derive(JsonSchema)]
+    Transfer, "transfer curve":
     /// Samples are proportional to radiance.
-    Linear,
+    Linear = "linear",
     /// The curve of IEC 61966-2-1.
-    Srgb,
+    Srgb = "srgb",
     /// A power of 2.2.
-    #[serde(rename = "gamma2.2")]
-    Gamma22,
+    Gamma22 = "gamma2.2",
 }
 
 /// How a photograph is read.
@@ -59,14 +57,12 @@ pub struct Photograph {
 }
 
 impl Transfer {
-    pub const ALL: [Self; 3] = [Self::Linear, Self::Srgb, Self::Gamma22];
-
-    /// The name on the command line and in files.
-    pub fn name(self) -> &'static str {
+    /// The name in texts.
+    pub fn label(self) -> &'static str {
         match self {
             Self::Linear => "linear",
-            Self::Srgb => "srgb",
-            Self::Gamma22 => "gamma2.2",
+            Self::Srgb => "sRGB",
+            Self::Gamma22 => "gamma 2.2",
         }
     }
 
@@ -76,29 +72,6 @@ impl Transfer {
             Self::Srgb => Albedo::Srgb,
             Self::Gamma22 => Albedo::Gamma22,
         }
-    }
-}
-
-impl fmt::Display for Transfer {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Linear => "linear",
-            Self::Srgb => "sRGB",
-            Self::Gamma22 => "gamma 2.2",
-        })
-    }
-}
-
-impl FromStr for Transfer {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self, Error> {
-        let found = Self::ALL.into_iter().find(|transfer| transfer.name() == text);
-        found.ok_or_else(|| Error::UnknownName {
-            what: "transfer curve",
-            found: text.to_owned(),
-            known: Self::ALL.map(Self::name).join(", "),
-        })
     }
 }
 

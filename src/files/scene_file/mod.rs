@@ -1,19 +1,18 @@
-//! Files of scenes: the project's own, and the captures of MaterialGAN.
-
-pub mod materialgan;
+//! Files of scenes: the project's own, and the captures of MaterialGAN; and the one scene of a photograph.
 
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
+use svbrdf_core::model::named_scenes::flash;
 use svbrdf_core::model::scene::{Scene, SceneFile};
 
 use crate::disk::atomic::Destination;
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
+use crate::photograph::{Calibration, Capture, SessionPhotograph};
 use crate::read::Sidecar;
 use crate::session::Session;
-use materialgan::Calibration;
 
 /// Reads a scene file: JSON, `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`, or the
 /// `render.json` (later `parameters.json`) of a MaterialGAN capture.
@@ -69,6 +68,61 @@ pub fn read_one(paths: &[PathBuf]) -> Result<Option<FileScenes>, Error> {
         [path] => read_named(path).map(Some),
         [first, second, ..] => Err(Error::SeveralSceneFiles { first: first.clone(), second: second.clone() }),
     }
+}
+
+/// Where light and view of a photograph come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PhotographLight {
+    /// A flash at the camera: the angle that the width of the material spans there.
+    Flash {
+        fov_degrees: f64,
+    },
+    Scene(Scene),
+    /// A scene of a file; its number, from 0, where the file has several.
+    File {
+        path: PathBuf,
+        number: Option<usize>,
+    },
+}
+
+impl PhotographLight {
+    /// Light and view.
+    ///
+    /// # Errors
+    /// As [`flash`] and [`read`], and [`Error::BadScene`] where the file has no scene of that number.
+    pub fn scene(&self) -> Result<Scene, Error> {
+        let (path, number) = match self {
+            Self::Flash { fov_degrees } => return flash(*fov_degrees),
+            Self::Scene(scene) => return Ok(*scene),
+            Self::File { path, number } => (path, number),
+        };
+        let scenes = read(path)?;
+        let found = scenes.get(number.unwrap_or(0)).filter(|_| number.is_some() || scenes.len() == 1);
+        found.copied().ok_or_else(|| {
+            let (count, last) = (scenes.len(), scenes.len() - 1);
+            let found = number.map_or_else(String::new, |number| format!(", found number {number}"));
+            let problem = format!(
+                "it lists {count} scenes, of which a photograph has one{found}; give its number from 0 to {last}"
+            );
+            Error::BadScene { path: path.clone(), problem }
+        })
+    }
+}
+
+/// The photograph that the path of `photograph` leads to, with its light and view, `None` without a light: where that is a capture,
+/// the first of it, in its own.
+///
+/// # Errors
+/// As [`Capture::read`] and [`PhotographLight::scene`].
+pub fn open_photograph(
+    photograph: SessionPhotograph,
+    light: Option<&PhotographLight>,
+) -> Result<(SessionPhotograph, Option<Scene>), Error> {
+    if !Capture::is_named(&photograph.path) {
+        return Ok((photograph, light.map(PhotographLight::scene).transpose()?));
+    }
+    let (first, scene) = Capture::read(&photograph.path)?.session_photograph(0).unzip();
+    Ok((first.unwrap_or(photograph), scene))
 }
 
 fn parse(text: &str) -> Result<Vec<Scene>, String> {

@@ -14,7 +14,8 @@ use svbrdf_core::model::scene::Scene;
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
 use crate::disk::paths::{absolute, is_outside, relative};
-use crate::read::{PhotographOptions, ReadOptions};
+use crate::photograph::SessionPhotograph;
+use crate::read::ReadOptions;
 use window::SessionWindow;
 
 /// What the names of session files end with.
@@ -66,26 +67,6 @@ pub struct SessionMaterial {
     /// Whether it is a step of a training run whose other steps the window has at hand.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub steps: bool,
-}
-
-/// A photograph of a session, taken in its scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct SessionPhotograph {
-    /// Its file. In a file, it is relative to the folder of the file.
-    pub path: PathBuf,
-    /// How it is read; what is not specified is inferred.
-    #[serde(default)]
-    pub read: PhotographOptions,
-    /// The corners of the material in pixels, as in [`crate::photograph::Corners`]. `None` for the whole picture.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub corners: Option<[[f64; 2]; 4]>,
-    /// Whether the falloff of the light is divided out.
-    #[serde(default)]
-    pub falloff: bool,
-    /// The file that lists the capture to which it belongs. In a file, it is relative to the folder of the file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub capture: Option<PathBuf>,
 }
 
 impl Session {
@@ -197,7 +178,8 @@ fn named(name: &Path, session: &Path) -> Result<PathBuf, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::read::{Albedo, Transfer};
+    use crate::photograph::Corners;
+    use crate::read::{Albedo, PhotographOptions, Transfer};
     use std::fs;
     use svbrdf_core::model::scene::Kind;
 
@@ -217,7 +199,7 @@ mod tests {
 
     fn photograph(path: PathBuf) -> SessionPhotograph {
         let read = PhotographOptions { transfer: Some(Transfer::Srgb), ..PhotographOptions::default() };
-        let corners = Some([[1.0, 2.0], [90.5, 1.0], [88.0, 70.0], [3.0, 69.0]]);
+        let corners = Some(Corners([[1.0, 2.0], [90.5, 1.0], [88.0, 70.0], [3.0, 69.0]]));
         SessionPhotograph { path, read, corners, falloff: true, capture: None }
     }
 

@@ -1,24 +1,21 @@
 //! Effects of commands, carried out.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use eframe::egui;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::model::scene::Scene;
-use svbrdf_evaluate::capture::Capture;
-use svbrdf_evaluate::photograph::flash;
 use svbrdf_files::disk::open::allow_outside;
 use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::scene_file;
-use svbrdf_files::session::{Session, SessionPhotograph};
+use svbrdf_files::photograph::SessionPhotograph;
+use svbrdf_files::scene_file::{self, PhotographLight};
+use svbrdf_files::session::Session;
 
 use super::parts::Parts;
 use super::{saving, training};
 use crate::jobs::browse;
 use crate::jobs::why::ComparedPair;
 use crate::jobs::work::job::Job;
-use crate::model::command::PhotographLight;
 use crate::model::command::effect::{DialogEffect, Effect, LossEffect};
 use crate::model::inspection;
 use crate::model::material::request::ReadRequest;
@@ -41,7 +38,7 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::AllowOutside => allow_outside(),
         Effect::ReadScenes(paths) => parts.jobs.read_scenes(paths),
         Effect::ReadSession(paths) => read_session(parts, &paths),
-        Effect::OpenPhotograph { photograph, light } => open_photograph(parts, photograph, &light),
+        Effect::OpenPhotograph { photograph, light } => open_photograph(parts, photograph, light.as_ref()),
         Effect::SaveAssumptions(index) => save_assumptions(parts, index),
         Effect::RescanTraining => parts.jobs.training.scan.again(),
         Effect::ShowStep { index, number } => training::show_step(parts, index, number),
@@ -132,38 +129,16 @@ fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
 }
 
 /// Compares renderings with a photograph, under its light and view.
-fn open_photograph(parts: &mut Parts, photograph: SessionPhotograph, light: &PhotographLight) {
-    let opened = if Capture::is_named(&photograph.path) {
-        first_of_capture(&photograph.path)
-    } else {
-        scene_of_photograph(light, parts.model.view.scene).map(|scene| (photograph, scene))
-    };
-    match (opened, &mut parts.ui.dialogs.photograph) {
+fn open_photograph(parts: &mut Parts, photograph: SessionPhotograph, light: Option<&PhotographLight>) {
+    match (scene_file::open_photograph(photograph, light), &mut parts.ui.dialogs.photograph) {
         (Ok((photograph, scene)), _) => {
             parts.ui.dialogs.photograph = None;
             let stamp = Stamp::of(&photograph.path);
-            parts.model.show_photograph(photograph, stamp, Some(scene));
+            parts.model.show_photograph(photograph, stamp, scene);
         }
         (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
         (Err(error), None) => parts.model.report([Message::Failed(error)]),
     }
-}
-
-/// Light and view of a photograph; `now` are those of the window.
-fn scene_of_photograph(light: &PhotographLight, now: Scene) -> Result<Scene, Error> {
-    match light {
-        PhotographLight::AsNow => Ok(now),
-        PhotographLight::Flash { fov_degrees } => flash(*fov_degrees),
-        PhotographLight::Scene(scene) => Ok(*scene),
-        PhotographLight::File { path, number } => scene_of(path, *number),
-    }
-}
-
-/// The first photograph of the capture at `path`, with its light and view.
-fn first_of_capture(path: &Path) -> Result<(SessionPhotograph, Scene), Error> {
-    let capture = Capture::read(path)?;
-    let first = capture.session_photograph(0).zip(capture.photographs.first().map(|one| one.scene));
-    first.ok_or_else(|| Error::Internal("a capture without photographs".to_owned()))
 }
 
 fn save_assumptions(parts: &mut Parts, index: usize) {
@@ -189,12 +164,4 @@ fn pins_csv(parts: &Parts) -> String {
         let rows = inspection::rows(all, *pin, &view.scene, &convention);
         (*pin, materials.iter().map(|one| one.name()).zip(rows).collect())
     }))
-}
-
-/// Scene `number` of a file.
-fn scene_of(path: &Path, number: usize) -> Result<Scene, Error> {
-    let scenes = scene_file::read(path)?;
-    let problem =
-        format!("it lists {} scenes, counted from 0, and number {number} was asked for", scenes.len());
-    scenes.get(number).copied().ok_or_else(|| Error::BadScene { path: path.to_owned(), problem })
 }

@@ -66,7 +66,7 @@ impl App {
 
     /// The corners of the material in the photograph; `None` for the whole picture, or without a photograph.
     pub fn photograph_corners(&self) -> Option<[[f64; 2]; 4]> {
-        self.parts.model.photograph.source().and_then(|source| source.corners)
+        self.parts.model.photograph.source().and_then(|source| source.corners).map(|corners| corners.0)
     }
 
     /// The number of photographs in the filmstrip, once they have been read.

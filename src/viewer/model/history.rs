@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use svbrdf_core::loss::FileScenes;
-use svbrdf_files::session::SessionPhotograph;
+use svbrdf_files::photograph::SessionPhotograph;
 
 use super::material::source::Source;
 use super::view::state::{AutoExposure, ViewState};

@@ -6,9 +6,10 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::disk::stamp::Stamp;
+use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::window::SessionWindow;
-use svbrdf_files::session::{Session, SessionMaterial, SessionPhotograph};
+use svbrdf_files::session::{Session, SessionMaterial};
 use svbrdf_files::steps::RunId;
 
 use super::Model;

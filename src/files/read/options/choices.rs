@@ -5,52 +5,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+use svbrdf_core::choices;
 use svbrdf_core::error::Error;
-
-/// An enum whose values have names for users and files; `| "old"` is a former name that is still read.
-macro_rules! choices {
-    ($(#[$meta:meta])* $type:ident, $what:literal: $($(#[$of_variant:meta])* $variant:ident = $name:literal $(| $old:literal)*,)+) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-        pub enum $type {
-            $($(#[$of_variant])* #[serde(rename = $name $(, alias = $old)*)] $variant,)+
-        }
-
-        impl $type {
-            /// Every choice.
-            pub const ALL: [Self; [$($name),+].len()] = [$(Self::$variant),+];
-
-            /// The name for users.
-            pub fn name(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $name,)+
-                }
-            }
-        }
-
-        impl std::fmt::Display for $type {
-            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.pad(self.name())
-            }
-        }
-
-        impl std::str::FromStr for $type {
-            type Err = svbrdf_core::error::Error;
-
-            fn from_str(name: &str) -> Result<Self, Self::Err> {
-                match name {
-                    $($name $(| $old)* => Ok(Self::$variant),)+
-                    _ => Err(svbrdf_core::error::Error::UnknownName {
-                        what: $what,
-                        found: name.to_owned(),
-                        known: Self::ALL.map(Self::name).join(", "),
-                    }),
-                }
-            }
-        }
-    };
-}
-pub(crate) use choices;
 
 choices! {
     /// Colour space of diffuse, specular and base colour as stored.

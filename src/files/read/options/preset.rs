@@ -1,9 +1,7 @@
 //! Presets: bundles of options for sources of materials.
 
-use serde::{Deserialize, Serialize};
-
-use super::choices::choices;
 use super::order::Order;
+use svbrdf_core::choices;
 
 choices! {
     /// A source of materials: a research code, a data set, a library or a tool.

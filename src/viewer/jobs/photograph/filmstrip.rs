@@ -7,8 +7,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::capture::{Capture, CapturedPhotograph};
 use svbrdf_evaluate::photograph::Rectified;
+use svbrdf_files::photograph::{Capture, CapturedPhotograph};
 
 use super::picture::exposure;
 use crate::jobs::work::picture::Picture;
@@ -84,7 +84,7 @@ pub fn read(path: &Path, progress: &Progress) -> Result<Filmstrip, Error> {
         picture: Arc::new(atlas(&images, ev)),
         problems: images.into_iter().map(Result::err).collect(),
         paths: capture.photographs.iter().map(|one| absolute(one.file.path())).collect(),
-        outside: capture.outside().count(),
+        outside: capture.outside().len(),
         capture,
     })
 }

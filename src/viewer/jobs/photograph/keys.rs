@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use svbrdf_evaluate::photograph::Corners;
 use svbrdf_files::disk::stamp::Stamp;
+use svbrdf_files::photograph::Corners;
 use svbrdf_files::read::PhotographOptions;
 
 /// What the samples of a photograph depend on: its file, the stamp of the file when it was opened, and how it is read.

@@ -11,9 +11,10 @@ use std::sync::Arc;
 pub use compared::Photographs;
 use svbrdf_core::error::Error;
 use svbrdf_core::picture::statistics::Distributions;
-use svbrdf_evaluate::photograph::{Corners, Rectified};
+use svbrdf_evaluate::photograph::Rectified;
+use svbrdf_files::photograph::Corners;
+use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::{Photograph, read_photograph};
-use svbrdf_files::session::SessionPhotograph;
 
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
@@ -169,7 +170,7 @@ impl PhotographJobs {
             return None;
         };
         let photograph = self.photograph(state)?.clone();
-        let corners = source.corners.map_or_else(|| Corners::whole(photograph.size()), Corners);
+        let corners = source.corners.unwrap_or_else(|| Corners::whole(photograph.size()));
         let size = ground_truth.material().size();
         let wanted = RectifiedKey { read: read_key(state)?, corners, size };
         self.rectified.follow(Some(wanted), |_| {
@@ -212,11 +213,7 @@ impl PhotographJobs {
         let picture = self.picture.get().filter(|(of, _)| of_now(of)).map(|(_, picture)| picture);
         let corners = photograph.filter(|_| state.edits_corners()).map(|photograph| {
             let size = photograph.size();
-            EditedCorners {
-                picture,
-                size,
-                corners: source.corners.map_or_else(|| Corners::whole(size), Corners),
-            }
+            EditedCorners { picture, size, corners: source.corners.unwrap_or_else(|| Corners::whole(size)) }
         });
         let all = self.compared.get().filter(|(of, _)| of.is_of(materials) && of_now(&of.rectified.read));
         let filmstrip = self.filmstrip.get().filter(|(of, _)| source.capture.as_ref() == Some(of));
@@ -243,7 +240,7 @@ impl PhotographJobs {
         let (rectified, _) = self.rectified.get()?;
         let now = key(rectified.clone(), source.falloff, materials, view);
         let of_now = Some(&rectified.read) == read_key(state).as_ref()
-            && source.corners.is_none_or(|corners| rectified.corners == Corners(corners));
+            && source.corners.is_none_or(|corners| rectified.corners == corners);
         (of.is_of(materials) && of.kind == now.kind).then_some((&all.distributions, *of == now && of_now))
     }
 }

@@ -1,6 +1,6 @@
 //! Commands about the photograph that renderings are compared with.
 
-use svbrdf_files::session::SessionPhotograph;
+use svbrdf_files::photograph::SessionPhotograph;
 
 use crate::model::Model;
 use crate::model::command::PhotographCommand;
@@ -24,9 +24,7 @@ pub(super) fn apply(model: &mut Model, command: PhotographCommand) -> Vec<Effect
             change(model, |source| source.read.transfer = transfer);
         }
         PhotographCommand::SetFalloff(on) => change(model, |source| source.falloff = on),
-        PhotographCommand::SetCorners(corners) => {
-            change(model, |source| source.corners = corners.map(|corners| corners.0));
-        }
+        PhotographCommand::SetCorners(corners) => change(model, |source| source.corners = corners),
     }
     Vec::new()
 }

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use svbrdf_files::session::SessionPhotograph;
+use svbrdf_files::photograph::SessionPhotograph;
+use svbrdf_files::scene_file::PhotographLight;
 
-use super::PhotographLight;
 use crate::model::material::request::ReadRequest;
 use crate::model::settings::save_kind::{SaveKind, SaveRequest};
 
@@ -26,7 +26,7 @@ pub enum Effect {
     /// Reads light and view of a photograph where a file has them, and compares renderings with the photograph.
     OpenPhotograph {
         photograph: SessionPhotograph,
-        light: PhotographLight,
+        light: Option<PhotographLight>,
     },
     /// Saves the assumptions specified for the material at this index in a sidecar file, and reads it again.
     SaveAssumptions(usize),

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 pub mod effect;
 pub mod photograph;
 
-pub use photograph::{PhotographCommand, PhotographLight};
+pub use photograph::PhotographCommand;
 
 use svbrdf_core::loss::{LossSettings, Sampling};
 use svbrdf_core::material::Map;

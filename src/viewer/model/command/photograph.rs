@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::model::scene::Scene;
-use svbrdf_evaluate::photograph::Corners;
+use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::Transfer;
-use svbrdf_files::session::SessionPhotograph;
+use svbrdf_files::scene_file::PhotographLight;
 
 /// The photograph that renderings are compared with.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,11 +12,11 @@ pub enum PhotographCommand {
     ShowOpen(bool),
     /// Puts a path into the dialog.
     Fill(PathBuf),
-    /// Compares renderings with this photograph, and sets light and view. A folder or JSON is a capture, of which the first
-    /// photograph is compared, in its own light and view.
+    /// Compares renderings with this photograph, and sets light and view; `None` for those of the window. A folder or JSON is a
+    /// capture, of which the first photograph is compared, in its own light and view.
     Open {
         photograph: SessionPhotograph,
-        light: PhotographLight,
+        light: Option<PhotographLight>,
     },
     /// Compares with the ground truth again.
     Close,
@@ -29,17 +28,4 @@ pub enum PhotographCommand {
     SetCorners(Option<Corners>),
     /// Whether the falloff of the light is divided out.
     SetFalloff(bool),
-}
-
-/// Light and view of a photograph.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PhotographLight {
-    /// Those of the window.
-    AsNow,
-    /// A flash at the camera.
-    Flash { fov_degrees: f64 },
-    /// Those of a photograph of a capture.
-    Scene(Scene),
-    /// A scene of a file.
-    File { path: PathBuf, number: usize },
 }

@@ -1,7 +1,7 @@
 //! Photograph of the window: which one is open, and whether its corners are edited.
 
 use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::session::SessionPhotograph;
+use svbrdf_files::photograph::SessionPhotograph;
 
 /// The photograph that renderings are compared with.
 #[derive(Debug, Default)]

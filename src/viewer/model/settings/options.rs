@@ -2,7 +2,8 @@
 
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_files::session::{Session, SessionPhotograph};
+use svbrdf_files::photograph::SessionPhotograph;
+use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
 
 /// The materials that the window opens, and how it reads them.

@@ -1,13 +1,14 @@
 //! Dialog that opens a photograph with its light and view.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use eframe::egui;
 
-use svbrdf_files::session::SessionPhotograph;
+use svbrdf_files::photograph::SessionPhotograph;
+use svbrdf_files::scene_file::PhotographLight;
 
 use super::path_field::{PathField, dialog};
-use crate::model::command::{Command, PhotographCommand, PhotographLight, WindowCommand};
+use crate::model::command::{Command, PhotographCommand, WindowCommand};
 use crate::ui::widgets::number;
 
 /// The choices so far.
@@ -92,13 +93,8 @@ impl PhotographDialog {
             .on_disabled_hover_text("Needs a path above");
         let entered = ui.input(|i| i.key_pressed(egui::Key::Enter)) && !path.is_empty();
         if button.on_hover_text("Return").clicked() || entered {
-            let photograph = SessionPhotograph {
-                path: PathBuf::from(path),
-                read: Default::default(),
-                corners: None,
-                falloff: self.falloff,
-                capture: None,
-            };
+            let photograph =
+                SessionPhotograph { path: path.into(), falloff: self.falloff, ..Default::default() };
             self.field.clear();
             commands.push(PhotographCommand::Open { photograph, light: self.chosen() }.into());
         }
@@ -136,13 +132,14 @@ impl PhotographDialog {
         });
     }
 
-    fn chosen(&self) -> PhotographLight {
-        match self.light {
-            LightChoice::AsNow => PhotographLight::AsNow,
+    /// `None`: those of the window.
+    fn chosen(&self) -> Option<PhotographLight> {
+        Some(match self.light {
+            LightChoice::AsNow => return None,
             LightChoice::Flash => PhotographLight::Flash { fov_degrees: self.fov },
             LightChoice::File => {
-                PhotographLight::File { path: PathBuf::from(self.scenes.trim()), number: self.number }
+                PhotographLight::File { path: self.scenes.trim().into(), number: Some(self.number) }
             }
-        }
+        })
     }
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_evaluate::photograph::Corners;
+use svbrdf_files::photograph::Corners;
 use svbrdf_files::read::Transfer;
 
 use crate::jobs::photograph::DisplayedPhotograph;
@@ -109,12 +109,12 @@ impl PhotographCard<'_> {
         let Some(photograph) = self.photograph.photograph else { return };
         let set = self.photograph.source.read.transfer;
         let mut transfer = set;
-        let text = format!("{} {}", photograph.transfer, photograph.transfer_from);
+        let text = format!("{} {}", photograph.transfer.label(), photograph.transfer_from);
         let combo = egui::ComboBox::from_id_salt("photograph transfer").selected_text(text);
         let response = combo.show_ui(ui, |ui| {
             ui.selectable_value(&mut transfer, None, "auto: by the file");
             for one in Transfer::ALL {
-                ui.selectable_value(&mut transfer, Some(one), one.to_string());
+                ui.selectable_value(&mut transfer, Some(one), one.label());
             }
         });
         let response = response.response;
@@ -156,7 +156,7 @@ impl PhotographCard<'_> {
 
     fn corners(&self, ui: &mut egui::Ui, size: [usize; 2], commands: &mut Vec<Command>) {
         let whole = Corners::whole(size);
-        let set = self.photograph.source.corners.map_or(whole, Corners);
+        let set = self.photograph.source.corners.unwrap_or(whole);
         let mut corners = set;
         egui::Grid::new("photograph corners").num_columns(3).spacing([8.0, 2.0]).show(ui, |ui| {
             for (index, name) in CORNER_NAMES.into_iter().enumerate() {

@@ -4,7 +4,7 @@ use eframe::egui::{
     self, Color32, CursorIcon, Pos2, Rect, Sense, Shape, Stroke, TextureId, TextureOptions, Vec2, pos2, vec2,
 };
 
-use svbrdf_evaluate::photograph::Corners;
+use svbrdf_files::photograph::Corners;
 
 use crate::jobs::photograph::EditedCorners;
 use crate::model::command::{Command, PhotographCommand};

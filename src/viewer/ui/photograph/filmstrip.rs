@@ -3,10 +3,11 @@
 use eframe::egui::{self, Color32, Rect, RichText, Sense, Stroke, vec2};
 
 use svbrdf_evaluate::report::position;
-use svbrdf_files::session::SessionPhotograph;
+use svbrdf_files::photograph::SessionPhotograph;
+use svbrdf_files::scene_file::PhotographLight;
 
 use crate::jobs::photograph::filmstrip::Filmstrip;
-use crate::model::command::{Command, PhotographCommand, PhotographLight};
+use crate::model::command::{Command, PhotographCommand};
 use crate::ui::widgets::texture::PanelTextures;
 use crate::ui::widgets::theme;
 
@@ -70,9 +71,8 @@ fn about(ui: &mut egui::Ui, strip: Option<&Filmstrip>, current: Option<usize>) {
 
 /// The command that compares with another photograph, in its light and view.
 fn open(strip: &Filmstrip, index: usize) -> Option<Command> {
-    let photograph = strip.capture.session_photograph(index)?;
-    let light = PhotographLight::Scene(strip.capture.photographs.get(index)?.scene);
-    Some(PhotographCommand::Open { photograph, light }.into())
+    let (photograph, scene) = strip.capture.session_photograph(index)?;
+    Some(PhotographCommand::Open { photograph, light: Some(PhotographLight::Scene(scene)) }.into())
 }
 
 fn thumbnail(

@@ -9,13 +9,12 @@ use serde_json::Value;
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::{Kind, Scene};
 
+use super::capture::{Capture, CapturedPhotograph, is_json};
 use super::listed::Listed;
-use svbrdf_files::scene_file::materialgan::{Calibration, POSITIONS, TEXTS};
-
-use super::{Capture, CapturedPhotograph, is_json};
-use svbrdf_files::disk::inputs;
-use svbrdf_files::disk::open::NamedFile;
-use svbrdf_files::read::{PhotographOptions, Transfer};
+use super::materialgan::{Calibration, LightPower, POSITIONS, TEXTS};
+use crate::disk::inputs;
+use crate::disk::open::NamedFile;
+use crate::read::{PhotographOptions, Transfer};
 
 /// The name of the project's own description.
 const OWN: &str = "capture.json";
@@ -34,7 +33,7 @@ impl Capture {
     pub fn read(path: &Path) -> Result<Self, Error> {
         let capture = if path.is_dir() { in_folder(path)? } else { in_file(path)? };
         capture.photographs.iter().try_for_each(|photograph| photograph.file.check())?;
-        Ok(capture)
+        Ok(Self { path: path.to_owned(), ..capture })
     }
 
     /// The capture that the text of the file at `path` describes.
@@ -57,8 +56,7 @@ impl Capture {
 
     fn of_list(path: &Path, listed: &Listed) -> Result<Self, String> {
         let photographs = listed.photographs(path)?;
-        let file = path.to_owned();
-        Ok(Self { file, is_materialgan: false, photographs, falloff: listed.falloff, power: None })
+        Ok(Self::listed_by(path, photographs, listed.falloff, None))
     }
 
     /// Its renderer stores the power 1 / 2.2 of radiance, which falls off with the distance of the light.
@@ -77,7 +75,17 @@ impl Capture {
             CapturedPhotograph { name, file, scene, corners: None, options }
         };
         let photographs = calibration.numbers().into_iter().zip(scenes).map(photograph).collect();
-        Ok(Self { file: path.to_owned(), is_materialgan: true, photographs, falloff: true, power })
+        Ok(Self { is_materialgan: true, ..Self::listed_by(path, photographs, true, power) })
+    }
+
+    fn listed_by(
+        file: &Path,
+        photographs: Vec<CapturedPhotograph>,
+        falloff: bool,
+        power: Option<LightPower>,
+    ) -> Self {
+        let (path, file) = (file.to_owned(), Some(file.to_owned()));
+        Self { path, file, is_materialgan: false, photographs, falloff, power }
     }
 
     fn check(&self) -> Result<(), String> {

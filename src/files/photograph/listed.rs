@@ -7,10 +7,10 @@ use serde::Deserialize;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::text::line;
 
-use super::CapturedPhotograph;
-use crate::photograph::Corners;
-use svbrdf_files::disk::open::NamedFile;
-use svbrdf_files::read::{PhotographOptions, Transfer};
+use super::capture::CapturedPhotograph;
+use super::corners::Corners;
+use crate::disk::open::NamedFile;
+use crate::read::{PhotographOptions, Transfer};
 
 /// The content of the file.
 #[derive(Debug, Deserialize)]
@@ -20,7 +20,7 @@ pub struct Listed {
     /// Of photographs without their own, as the three below.
     transfer: Option<Transfer>,
     clip: Option<f64>,
-    corners: Option<[[f64; 2]; 4]>,
+    corners: Option<Corners>,
     /// Whether the falloff of the light is divided out of the photographs.
     #[serde(default)]
     pub falloff: bool,
@@ -34,7 +34,7 @@ struct Entry {
     scene: Scene,
     transfer: Option<Transfer>,
     clip: Option<f64>,
-    corners: Option<[[f64; 2]; 4]>,
+    corners: Option<Corners>,
 }
 
 impl Listed {
@@ -54,7 +54,7 @@ impl Listed {
             name: line(&entry.file.display().to_string()),
             file: NamedFile::within(&entry.file, by),
             scene: entry.scene,
-            corners: entry.corners.or(self.corners).map(Corners),
+            corners: entry.corners.or(self.corners),
             options,
         })
     }

@@ -1,44 +1,37 @@
-//! Materials against all photographs of a capture.
-
-use std::str::FromStr;
+//! Materials against the photographs of a capture: exposures and measures.
 
 use schemars::JsonSchema;
-use serde::Serialize;
 
 use crate::metrics::{PictureMetrics, of_pictures};
+use svbrdf_core::choices;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
 
-use super::measured::CaptureGroup;
-use super::outliers::Outlier;
-use super::{Capture, CapturedPhotograph, CapturedResult, MaterialResult};
-use crate::photograph::{Corners, Ratios, Rectified};
-use svbrdf_files::disk::memory;
-use svbrdf_files::read::{Note, Transfer};
+use super::comparison::no_exposure;
+use super::exposure::Ratios;
+use super::measured::{PhotoMeans, PhotoMeasure, PhotoResult, PhotoStatistics, ReadPhotograph};
+use super::outliers::PhotoOutlier;
+use super::rectified::Rectified;
+use svbrdf_files::photograph::{Capture, CapturedPhotograph};
 
-/// Bytes of a texel on the photographs, and of its ratios.
-const BYTES: usize = 12 + 24;
-
-/// What one factor brings to the exposure of the renderings.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum CaptureExposure {
+choices! {
+    /// What one factor brings to the exposure of the renderings.
+    #[derive(Default, JsonSchema)]
+    CaptureExposure, "exposure":
     /// All photographs of a capture.
     #[default]
-    Capture,
+    Capture = "capture",
     /// Each photograph.
-    Photograph,
+    Photograph = "photograph",
 }
 
-/// A capture, and how materials are compared with it.
+/// Photographs, and how materials are compared with them.
 #[derive(Clone, Debug)]
-pub struct CaptureSetting {
-    /// What the report calls the capture: its path.
-    pub name: String,
+pub struct PhotoSetting {
     pub capture: Capture,
     pub exposure: CaptureExposure,
     pub convention: Convention,
@@ -46,91 +39,16 @@ pub struct CaptureSetting {
     held_out: Vec<bool>,
 }
 
-/// How a photograph of a capture was read.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-#[schemars(rename = "CapturePhotograph")]
-pub struct ReadCaptured {
-    /// The name of its file in the capture.
-    #[serde(rename = "photograph")]
-    pub name: String,
-    /// Width and height in pixels.
-    pub size: [usize; 2],
-    pub transfer: Transfer,
-    /// Top left, top right, bottom right and bottom left of the material, in pixels.
-    pub corners: Corners,
-    /// Whether the exposure of the capture is not fitted to it.
-    pub held_out: bool,
-    /// The source of the transfer curve.
-    #[serde(skip)]
-    pub transfer_from: &'static str,
-    /// Whether the whole picture is taken as the material.
-    #[serde(skip)]
-    pub is_whole: bool,
-    #[serde(skip)]
-    pub notes: Vec<Note>,
-}
+impl PhotoSetting {
+    /// The differences that are reported.
+    pub const DIFFERENCES: [Difference; 3] = [Difference::Log, Difference::Absolute, Difference::Relative];
 
-/// Materials against the photographs of a capture. Its JSON is a scene file, too.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct CaptureReport {
-    /// The path of the capture.
-    capture: String,
-    /// The file that lists the photographs.
-    file: String,
-    /// In the order of the capture.
-    pub photographs: Vec<ReadCaptured>,
-    /// Whether the falloff of the light is divided out of the photographs.
-    falloff: bool,
-    /// What one factor is fitted to.
-    exposure: CaptureExposure,
-    /// The factor that the power of the light gives.
-    pub declared_factor: Option<f64>,
-    /// The name of the convention.
-    convention: &'static str,
-    epsilon: f64,
-    /// The smallest mean log difference first: over the held-out photographs, or over all.
-    pub results: Vec<MaterialResult>,
-    /// Of the photographs.
-    scenes: Vec<Scene>,
-    /// What reading the photographs noticed.
-    notes: Vec<String>,
-    #[serde(skip)]
-    pub setting: CaptureSetting,
-}
-
-impl CaptureExposure {
-    pub const ALL: [Self; 2] = [Self::Capture, Self::Photograph];
-
-    /// The name on the command line and in JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Capture => "capture",
-            Self::Photograph => "photograph",
-        }
-    }
-}
-
-impl FromStr for CaptureExposure {
-    type Err = Error;
-
-    fn from_str(text: &str) -> Result<Self, Error> {
-        let found = Self::ALL.into_iter().find(|exposure| exposure.name() == text);
-        found.ok_or_else(|| Error::UnknownName {
-            what: "exposure",
-            found: text.to_owned(),
-            known: Self::ALL.map(Self::name).join(", "),
-        })
-    }
-}
-
-impl CaptureSetting {
     /// The setting without the photographs of the names `hold_out`, to which the exposure is not fitted. A name may lack its
     /// extension.
     ///
     /// # Errors
     /// [`Error::UnknownName`] for a name that no photograph has; [`Error::BadCapture`] where none is left.
     pub fn new(
-        name: String,
         capture: Capture,
         exposure: CaptureExposure,
         hold_out: &[String],
@@ -148,9 +66,9 @@ impl CaptureSetting {
         }
         if held_out.iter().all(|held_out| *held_out) {
             let problem = "every photograph is held out, and none is left to fit the exposure to".to_owned();
-            return Err(Error::BadCapture { path: capture.file, problem });
+            return Err(Error::BadCapture { path: capture.path, problem });
         }
-        Ok(Self { name, capture, exposure, convention, held_out })
+        Ok(Self { capture, exposure, convention, held_out })
     }
 
     /// The names of the held-out photographs.
@@ -174,16 +92,12 @@ impl CaptureSetting {
     }
 
     /// What reading the photographs noticed.
-    fn notes(&self, photographs: &[ReadCaptured]) -> Vec<String> {
-        let by = self.capture.file.display();
-        let outside = self.capture.outside();
-        let outside = outside
-            .map(|file| format!("{} lies outside of the folder of {by}, which names it", file.display()));
-        let of = |read: &ReadCaptured| {
+    pub(super) fn notes(&self, photographs: &[ReadPhotograph]) -> Vec<String> {
+        let of = |read: &ReadPhotograph| {
             let name = read.name.clone();
             read.notes.clone().into_iter().map(move |note| format!("{name}: {note}"))
         };
-        outside.chain(photographs.iter().flat_map(of)).collect()
+        self.capture.outside().into_iter().chain(photographs.iter().flat_map(of)).collect()
     }
 
     /// A photograph on the texels of a material, without falloff where that is divided out. What remains of the falloff is common to
@@ -199,11 +113,11 @@ impl CaptureSetting {
     }
 
     /// Reads the photographs: how, and for each of `sizes` of materials, all of them on its texels.
-    fn read(
+    pub(super) fn read(
         &self,
         sizes: &[[usize; 2]],
         progress: &Progress,
-    ) -> Result<(Vec<ReadCaptured>, Vec<Vec<Rectified>>), Error> {
+    ) -> Result<(Vec<ReadPhotograph>, Vec<Vec<Rectified>>), Error> {
         let (mut photographs, mut rectified) = (Vec::new(), vec![Vec::new(); sizes.len()]);
         for one in &self.capture.photographs {
             let (photograph, corners) = one.read()?;
@@ -211,7 +125,7 @@ impl CaptureSetting {
                 let found = Rectified::new(&photograph, &corners, *size, &progress.part())?;
                 rectified.push(self.without_falloff(found, one));
             }
-            photographs.push(ReadCaptured {
+            photographs.push(ReadPhotograph {
                 name: one.name.clone(),
                 size: photograph.size(),
                 transfer: photograph.transfer,
@@ -246,21 +160,20 @@ impl CaptureSetting {
     }
 
     /// Fits the exposure of `material` and measures it on every photograph.
-    fn measure(
+    pub(super) fn measure(
         &self,
         name: &str,
         material: &Material<f32>,
         photographs: &[Rectified],
         progress: &Progress,
-    ) -> Result<MaterialResult, Error> {
+    ) -> Result<PhotoResult, Error> {
         let (factor, own) = self.factors(material, photographs, progress)?;
         let is_fitted = match self.exposure {
             CaptureExposure::Capture => factor.is_some(),
             CaptureExposure::Photograph => own.iter().any(Option::is_some),
         };
         if !is_fitted {
-            let problem = "in no photograph is a part of the material lit and not clipped".to_owned();
-            return Err(Error::NoExposure { name: name.to_owned(), problem });
+            return Err(no_exposure(name, photographs));
         }
         let mut results = Vec::new();
         for (index, rectified) in photographs.iter().enumerate() {
@@ -269,16 +182,16 @@ impl CaptureSetting {
             progress.step()?;
         }
         let exposures: Vec<_> = results.iter().map(|one| one.own_exposure_ev).collect();
-        let differences: Vec<_> = results.iter().map(|one| one.log).collect();
-        let outliers = Outlier::among(&exposures, &differences);
+        let differences: Vec<_> = results.iter().map(PhotoMeasure::mean_log).collect();
+        let outliers = PhotoOutlier::among(&exposures, &differences);
         results.iter_mut().zip(outliers).for_each(|(one, outlier)| one.outlier = outlier);
-        Ok(MaterialResult {
+        Ok(PhotoResult {
             material: name.to_owned(),
             size: material.size(),
             factor,
             exposure_ev: factor.map(f64::log2),
             declared_ev: self.declared_ev(factor),
-            means: CaptureGroup::all(&results),
+            means: PhotoMeans::all(&results),
             photographs: results,
         })
     }
@@ -291,71 +204,33 @@ impl CaptureSetting {
         material: &Material<f32>,
         [factor, own_factor]: [Option<f64>; 2],
         progress: &Progress,
-    ) -> Result<CapturedResult, Error> {
+    ) -> Result<PhotoMeasure, Error> {
         let CapturedPhotograph { name, scene, .. } = &self.capture.photographs[index];
         let rendering = rectified.rendering(material, scene, &self.convention, &progress.part())?;
         let compared = factor.map(|factor| rectified.at(factor, rendering, self.convention.epsilon));
-        let statistics = compared.as_ref().and_then(|compared| compared.statistics(Difference::Log));
-        let metrics = compared.map(|compared| of_pictures(&compared.photograph, &compared.rendering));
+        let [log, absolute, relative] = Self::DIFFERENCES.map(|kind| {
+            let Statistics { mean, median, p95, .. } = compared.as_ref()?.statistics(kind)?;
+            Some(PhotoStatistics { mean, median, p95 })
+        });
+        let metrics =
+            compared.as_ref().map(|compared| of_pictures(&compared.photograph, &compared.rendering));
         let PictureMetrics { rmse, ssim } = metrics.unwrap_or(PictureMetrics { rmse: None, ssim: None });
-        Ok(CapturedResult {
+        Ok(PhotoMeasure {
             photograph: name.clone(),
             scene: *scene,
             is_held_out: self.held_out[index],
             factor,
             exposure_ev: factor.map(f64::log2),
             own_exposure_ev: own_factor.map(f64::log2),
-            log: statistics.map(|statistics| statistics.mean),
+            log,
+            absolute,
+            relative,
             rmse,
             ssim,
             texels: rectified.image.pixels.len(),
             clipped: rectified.clipped(),
-            outlier: Outlier::default(),
-        })
-    }
-}
-
-impl CaptureReport {
-    /// Reads the photographs and compares each of `materials`, which have the names of the report beside them, with all of them.
-    ///
-    /// A photograph that is read, and a material on a photograph, are a step of `progress`.
-    ///
-    /// # Errors
-    /// As [`CapturedPhotograph::read`], and [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Memory`], [`Error::Cancelled`].
-    pub fn new<'a>(
-        setting: CaptureSetting,
-        materials: impl IntoIterator<Item = (&'a str, &'a Material<f32>)>,
-        progress: &Progress,
-    ) -> Result<Self, Error> {
-        let materials: Vec<_> = materials.into_iter().collect();
-        let mut sizes: Vec<[usize; 2]> = materials.iter().map(|(_, material)| material.size()).collect();
-        sizes.sort_unstable();
-        sizes.dedup();
-        let count = setting.capture.photographs.len();
-        let texels: usize = sizes.iter().map(|[width, height]| width * height).sum();
-        let bytes = (BYTES * count).saturating_mul(texels) as u64;
-        let _reserved = memory::reserve(bytes, || format!("comparing with the {count} photographs"))?;
-        progress.begin((count * (1 + materials.len())) as u64);
-        let (photographs, rectified) = setting.read(&sizes, progress)?;
-        let measured = materials.into_iter().map(|(name, material)| {
-            let index = sizes.partition_point(|size| *size < material.size());
-            setting.measure(name, material, &rectified[index], progress)
-        });
-        let mut results = measured.collect::<Result<Vec<_>, _>>()?;
-        results.sort_by(|a, b| a.log().total_cmp(&b.log()));
-        Ok(Self {
-            capture: setting.name.clone(),
-            file: setting.capture.file.display().to_string(),
-            notes: setting.notes(&photographs),
-            photographs,
-            falloff: setting.capture.falloff,
-            exposure: setting.exposure,
-            declared_factor: setting.declared_factor(),
-            convention: setting.convention.name,
-            epsilon: setting.convention.epsilon,
-            results,
-            scenes: setting.capture.photographs.iter().map(|one| one.scene).collect(),
-            setting,
+            outlier: PhotoOutlier::default(),
+            compared: compared.filter(|_| self.capture.photographs.len() == 1),
         })
     }
 }

@@ -53,7 +53,7 @@ impl Corners {
 
     /// The map from (s, t), where s runs from 0 at the left edge of the material to 1 at the right one and t from 0 at the top
     /// to 1 at the bottom, to pixels.
-    pub(super) fn homography(&self) -> Homography {
+    pub fn homography(&self) -> Homography {
         // Heckbert 1989, "Fundamentals of Texture Mapping and Image Warping", section 2.2.3.
         let [[x0, y0], [x1, y1], [x2, y2], [x3, y3]] = self.0;
         let ([dx1, dy1], [dx2, dy2]) = ([x1 - x2, y1 - y2], [x3 - x2, y3 - y2]);
@@ -71,7 +71,7 @@ impl Corners {
 
 /// A projective map of the unit square: the rows of a matrix on (s, t, 1).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Homography {
+pub struct Homography {
     x: [f64; 3],
     y: [f64; 3],
     w: [f64; 3],
@@ -79,7 +79,7 @@ pub(super) struct Homography {
 
 impl Homography {
     /// Where (s, t) of the unit square lies.
-    pub(super) fn at(&self, s: f64, t: f64) -> [f64; 2] {
+    pub fn at(&self, s: f64, t: f64) -> [f64; 2] {
         let row = |[a, b, c]: [f64; 3]| a * s + b * t + c;
         let w = row(self.w);
         [row(self.x) / w, row(self.y) / w]

@@ -1,4 +1,4 @@
-//! Outliers among the photographs of a capture.
+//! PhotoOutliers among the photographs of a capture.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -15,15 +15,14 @@ const LEAST_SHARE: f64 = 0.5;
 
 /// In what a photograph differs from the others of its capture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
-#[schemars(rename = "CaptureOutlier")]
-pub struct Outlier {
+pub struct PhotoOutlier {
     /// The exposure that fits it alone: brighter or darker than the others.
     pub exposure: bool,
     /// Its log difference: larger than of the others.
     pub difference: bool,
 }
 
-impl Outlier {
+impl PhotoOutlier {
     /// Whether the photograph is one.
     pub fn is_any(self) -> bool {
         self.exposure || self.difference
@@ -59,8 +58,8 @@ fn far(values: &[Option<f64>], matter: impl Fn(f64, f64) -> bool) -> Vec<bool> {
 mod tests {
     use super::*;
 
-    fn among(exposures: [f64; 6], differences: [f64; 6]) -> Vec<Outlier> {
-        Outlier::among(&exposures.map(Some), &differences.map(Some))
+    fn among(exposures: [f64; 6], differences: [f64; 6]) -> Vec<PhotoOutlier> {
+        PhotoOutlier::among(&exposures.map(Some), &differences.map(Some))
     }
 
     #[test]
@@ -72,8 +71,8 @@ mod tests {
         let mut worse = log;
         worse[4] = 0.4;
         let found = among(darker, worse);
-        assert_eq!(found[2], Outlier { exposure: true, difference: false });
-        assert_eq!(found[4], Outlier { exposure: false, difference: true });
+        assert_eq!(found[2], PhotoOutlier { exposure: true, difference: false });
+        assert_eq!(found[4], PhotoOutlier { exposure: false, difference: true });
         assert_eq!(found.iter().filter(|one| one.is_any()).count(), 2);
         // Far from the others, which agree to the last digit, but by too little.
         let found = among([1.0, 1.0, 1.0, 1.0, 1.0, 1.05], [0.1, 0.1, 0.1, 0.1, 0.1, 0.14]);
@@ -85,10 +84,10 @@ mod tests {
     #[test]
     fn few_photographs_and_unknown_values_have_no_outliers() {
         let few = [0.0, 0.0, 0.0, 9.0].map(Some);
-        assert!(Outlier::among(&few, &few).iter().all(|one| !one.is_any()));
+        assert!(PhotoOutlier::among(&few, &few).iter().all(|one| !one.is_any()));
         let mut unknown = [0.0, 0.0, 0.0, 0.0, 9.0, 0.0].map(Some);
         unknown[0] = None;
-        let found = Outlier::among(&unknown, &unknown);
+        let found = PhotoOutlier::among(&unknown, &unknown);
         assert_eq!(
             found.iter().map(|one| one.is_any()).collect::<Vec<_>>(),
             [false, false, false, false, true, false]
