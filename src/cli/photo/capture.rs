@@ -7,7 +7,6 @@ use svbrdf_evaluate::capture::{Capture, CaptureReport, CaptureSetting};
 
 use super::args::PhotoArgs;
 use super::stretching::stretched;
-use crate::cli::args::Given;
 use crate::cli::job::ComparisonJob;
 use crate::cli::output::exit::{put, tell};
 use crate::cli::output::{CommandError, watched};
@@ -16,9 +15,7 @@ use crate::cli::output::{CommandError, watched};
 ///
 /// # Errors
 /// Where the capture, a photograph or a material cannot be read or used.
-pub fn run(mut args: PhotoArgs, path: &Path, given: &Given) -> Result<(), CommandError> {
-    args.shift_materials();
-    let job = ComparisonJob::new(&args.comparison, given)?;
+pub fn run(args: &PhotoArgs, path: &Path, job: &ComparisonJob) -> Result<(), CommandError> {
     let mut capture = Capture::read(path)?;
     capture.set_options(&args.reading.options());
     let of = capture.file.display();

@@ -13,36 +13,52 @@ use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat};
 use svbrdf_files::read::read_photograph;
 
-use super::args::{Given, modes};
-use super::job::{ComparisonJob, check_heights};
+use super::args::Given;
+use super::job::{ComparisonJob, Job, NewJob, check_heights};
 use super::output::exit::{put, tell};
 use super::output::stop::stoppable;
 use super::output::{CommandError, watched};
 pub use args::PhotoArgs;
+use args::PhotoCaptureArgs;
 use stretching::stretched;
 
+/// Photographs and materials to compare.
+#[derive(Debug)]
+struct PhotoJob {
+    args: PhotoArgs,
+    comparison: ComparisonJob,
+}
+
+impl PhotoArgs {
+    pub fn job(mut self, given: &Given) -> NewJob {
+        if self.capture.capture.is_some() {
+            self.shift_materials();
+        } else {
+            let reason = "the exposure of a capture and held-out photographs belong to --capture";
+            given.refuse::<PhotoCaptureArgs>(reason)?;
+        }
+        let comparison = ComparisonJob::new(&self.comparison, given)?;
+        Ok(Box::new(PhotoJob { args: self, comparison }))
+    }
+}
+
 /// Compares, prints the differences to stdout and writes the file.
-///
-/// # Errors
-/// Where the photograph, a scene or a material cannot be read or used, or the file cannot be written.
-pub fn run(mut args: PhotoArgs, given: &Given) -> Result<(), CommandError> {
-    match args.capture.capture.take() {
-        Some(capture) => capture::run(args, &capture, given),
-        None => {
-            given.check(&modes::PHOTO_ALONE)?;
-            of_photograph(&args, given)
+impl Job for PhotoJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        match &self.args.capture.capture {
+            Some(capture) => capture::run(&self.args, capture, &self.comparison),
+            None => of_photograph(&self.args, &self.comparison),
         }
     }
 }
 
-fn of_photograph(args: &PhotoArgs, given: &Given) -> Result<(), CommandError> {
+fn of_photograph(args: &PhotoArgs, job: &ComparisonJob) -> Result<(), CommandError> {
     let destination = args.output.as_deref().map(Destination::<PictureFormat>::new).transpose()?;
     let known = PhotoReport::DIFFERENCES;
     if !known.contains(&args.difference) {
         let (known, found) = (known.map(Difference::key).join(", "), args.difference.key());
         return Err(CommandError::Usage(format!("expected one of the differences {known}, found {found}")));
     }
-    let job = ComparisonJob::new(&args.comparison, given)?;
     let scene = args.scene.scene(job.session.as_ref().map(|session| session.scene))?;
     let text = format!("reading {}", args.photo.display());
     let photograph = watched(&text, |_| read_photograph(&args.photo, &args.reading.options()))?;

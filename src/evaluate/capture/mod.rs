@@ -23,8 +23,8 @@ pub use outliers::Outlier;
 use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
 
-use crate::photograph::Corners;
 use svbrdf_files::disk::open::NamedFile;
+use crate::photograph::Corners;
 use svbrdf_files::read::{Photograph, PhotographOptions, Transfer, read_named_photograph};
 use svbrdf_files::session::SessionPhotograph;
 
