@@ -1,18 +1,16 @@
 //! The arguments that the comparisons have in common.
 
-use std::time::Duration;
-
 use pyo3::prelude::*;
-use svbrdf_core::loss::{Question, Request, SceneChoice};
+use serde_json::Value;
+use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
 
-use crate::errors::exception;
+use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
-use crate::model::SceneTuple;
 
-/// Names, convention and scenes.
+/// Names, convention and question.
 #[derive(Debug, FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Asked {
@@ -22,15 +20,8 @@ pub struct Asked {
     pub paths: Vec<Option<String>>,
     pub convention: String,
     pub precision: String,
-    pub seed: u64,
-    near: Option<usize>,
-    distant: Option<usize>,
-    sampler: Option<String>,
-    texels: Option<String>,
-    target_error: Option<f64>,
-    /// In seconds.
-    time_budget: Option<f64>,
-    scenes: Option<Vec<SceneTuple>>,
+    /// [`LossOptions`] as JSON.
+    question: String,
 }
 
 impl Asked {
@@ -42,37 +33,37 @@ impl Asked {
         self.convention.parse().map_err(exception)
     }
 
-    /// The question: the default where nothing chooses scenes.
+    /// The options of the question.
     ///
     /// # Errors
     /// Where a word is none of the known ones.
-    pub fn question(&self) -> PyResult<Question> {
-        let Self { near, distant, sampler, texels, seed, .. } = self;
-        let request = if let Some(scenes) = &self.scenes {
-            Request::Listed(scenes.iter().map(SceneTuple::scene).collect::<PyResult<_>>()?)
-        } else if let Some(target) = self.target_error {
-            Request::Accuracy { target, seed: *seed }
-        } else if let Some(seconds) = self.time_budget {
-            Request::Time { budget: Duration::from_secs_f64(seconds), seed: *seed }
-        } else {
-            let (sampler, texels) = (sampler.as_ref(), texels.as_ref());
-            let choice = SceneChoice {
-                near: *near,
-                distant: *distant,
-                sampler: sampler.map(|name| name.parse()).transpose().map_err(exception)?,
-                texels: texels.map(|text| text.parse()).transpose().map_err(exception)?,
-            };
-            return choice.question(*seed).map_err(exception);
-        };
-        Ok(request.into())
+    pub fn options(&self) -> PyResult<LossOptions> {
+        let options = serde_json::from_str::<Value>(&self.question).and_then(serde_json::from_value);
+        options.map_err(|problem| Error::new_err(problem.to_string()))
     }
 
-    /// The request for the scenes.
+    /// The seed of the question.
     ///
     /// # Errors
-    /// As [`Asked::question`].
+    /// As [`Asked::options`].
+    pub fn seed(&self) -> PyResult<u64> {
+        Ok(self.options()?.seed.unwrap_or(0))
+    }
+
+    /// The request of the question.
+    ///
+    /// # Errors
+    /// As [`LossOptions::question`].
     pub fn request(&self) -> PyResult<Request> {
-        Ok(self.question()?.request)
+        Ok(self.options()?.question().map_err(exception)?.request)
+    }
+
+    /// The request for scenes that are listed one by one.
+    ///
+    /// # Errors
+    /// As [`LossOptions::listed`].
+    pub fn listed(&self) -> PyResult<Request> {
+        self.options()?.listed().map_err(exception)
     }
 
     /// The ground truth and the predictions of a comparison as the report calls them: each as `of` takes it from Python.

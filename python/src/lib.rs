@@ -34,7 +34,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(material::render, module)?)?;
     module.add_function(wrap_pyfunction!(material::distinct_names, module)?)?;
     module.add_function(wrap_pyfunction!(model::conventions, module)?)?;
-    module.add_function(wrap_pyfunction!(model::scene_counts, module)?)?;
     module.add_function(wrap_pyfunction!(model::sample_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(model::named_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(model::read_scenes, module)?)?;

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use pyo3::prelude::*;
-use svbrdf_core::loss::{Comparison, Compute, Precision, Request};
+use svbrdf_core::loss::{ALL_SCENES_TARGET, Comparison, Compute, Precision};
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::rank::most_scenes;
 use svbrdf_evaluate::report::{Compared, LossReport, RankReport};
@@ -41,7 +41,7 @@ fn answer<T: Compute>(
     materials: &[Material<T>],
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<LossReport> {
-    let question = asked.question()?;
+    let question = asked.options()?.question().map_err(exception)?;
     let predictions: Vec<_> = materials[1..].iter().collect();
     let comparison = Comparison::new(&materials[0], &predictions, asked.convention()?).map_err(exception)?;
     work::run(py, progress, |progress| LossReport::answer(&comparison, &question, progress))
@@ -54,7 +54,6 @@ pub fn rank(
     ground_truth: &CoreMaterial,
     predictions: Vec<PyRef<'_, CoreMaterial>>,
     asked: Asked,
-    target_error: f64,
     repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
@@ -62,11 +61,12 @@ pub fn rank(
     let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?;
     let comparison = comparison.at_most(most_scenes(predictions.len()));
-    let request = Request::Accuracy { target: target_error, seed: asked.seed };
+    let (request, target_error) =
+        (asked.request()?, asked.options()?.target_error.unwrap_or(ALL_SCENES_TARGET));
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
     let mut report = RankReport::new(Compared::new(all[0], &convention), target_error, &outcome);
     if ground_truth.storage.has_steps() || !repeats.is_empty() {
-        let (floor, captures) = floor_of(py, (ground_truth, &repeats), &convention, asked.seed, progress)?;
+        let (floor, captures) = floor_of(py, (ground_truth, &repeats), &convention, asked.seed()?, progress)?;
         report = report.with_floor(&floor, captures);
     }
     Views::new(&report)

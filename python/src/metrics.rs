@@ -4,7 +4,7 @@ use std::path::Path;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use svbrdf_core::loss::{Request, check_same_size};
+use svbrdf_core::loss::check_same_size;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::metrics::{RenderedScenes, of_maps, of_matfusion, of_renderings};
 use svbrdf_evaluate::report::{Compared, MetricsReport};
@@ -26,11 +26,8 @@ pub fn metrics(
     exposure: f32,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let (convention, request) = (asked.convention()?, asked.request()?);
-    let sampling = match &request {
-        Request::Scenes(sampling) => Some(*sampling),
-        _ => None,
-    };
+    let (convention, request) = (asked.convention()?, asked.listed()?);
+    let sampling = request.sampling();
     let scenes = request.scenes(&convention).map_err(exception)?.unwrap_or_default();
     let rendered = RenderedScenes {
         scenes: &scenes,

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf_core::loss::{Sampling, SceneChoice, Texels};
+use svbrdf_core::loss::{Sampling, Texels};
 use svbrdf_core::model::convention::{self, Convention};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::scene::{Kind, Scene};
@@ -79,12 +79,6 @@ impl From<&Scene> for SceneTuple {
     fn from(scene: &Scene) -> Self {
         Self(scene.kind.to_string(), scene.view, scene.light)
     }
-}
-
-/// The numbers of near-field and distant scenes, of which `None` is left open; `usual` where both are.
-#[pyfunction]
-pub fn scene_counts(near: Option<usize>, distant: Option<usize>, usual: [usize; 2]) -> [usize; 2] {
-    SceneChoice { near, distant, ..SceneChoice::default() }.counts(usual)
 }
 
 /// The scenes of a seed.

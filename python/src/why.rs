@@ -84,17 +84,17 @@ pub fn diagnose(
     repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let each = Each::new(ground_truth, &predictions, &asked)?;
-    let floor = floor_of(py, (ground_truth, &repeats), &each.convention, asked.seed, progress)?;
+    let (each, seed) = (Each::new(ground_truth, &predictions, &asked)?, asked.seed()?);
+    let floor = floor_of(py, (ground_truth, &repeats), &each.convention, seed, progress)?;
     let storages: Vec<_> = predictions.iter().map(|prediction| &prediction.storage).collect();
     let of_truth = &ground_truth.storage;
     let diagnoses = each.answers(py, progress, |index, prediction, progress| {
         let (pair, storages) = ([each.ground_truth(), prediction], [of_truth, storages[index]]);
-        diagnosis::diagnose(pair, storages, &each.convention, floor.0.mean, asked.seed, progress)
+        diagnosis::diagnose(pair, storages, &each.convention, floor.0.mean, seed, progress)
     })?;
     let seams = diagnosis::seams(each.ground_truth());
     let compared = each.compared();
-    Views::new(&DiagnoseReport::new(compared, asked.seed, floor, seams, diagnoses))
+    Views::new(&DiagnoseReport::new(compared, seed, floor, seams, diagnoses))
 }
 
 /// The loss that a ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of
@@ -129,9 +129,9 @@ pub fn worst(
     asked: Asked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let each = Each::new(ground_truth, &predictions, &asked)?;
+    let (each, seed) = (Each::new(ground_truth, &predictions, &asked)?, asked.seed()?);
     let found = each.answers(py, progress, |_, prediction, progress| {
-        why::worst(each.ground_truth(), prediction, &each.convention, asked.seed, why::TAIL, progress)
+        why::worst(each.ground_truth(), prediction, &each.convention, seed, why::TAIL, progress)
     })?;
     Views::new(&WorstReport::new(each.compared(), why::TAIL, found))
 }
@@ -146,7 +146,7 @@ pub fn scenes(
     top: usize,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let (convention, request) = (asked.convention()?, asked.request()?);
+    let (convention, request) = (asked.convention()?, asked.listed()?);
     let materials = asked.singles(ground_truth, &predictions);
     let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?.without_pilot();
@@ -191,7 +191,7 @@ pub fn map<'py>(
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?.without_pilot();
     let report = match over {
         None => {
-            let scenes = asked.request()?.scenes(&convention).map_err(exception)?.unwrap_or_default();
+            let scenes = asked.listed()?.scenes(&convention).map_err(exception)?.unwrap_or_default();
             work::run(py, progress, |progress| MapReport::over_texels(&comparison, &scenes, progress))
         }
         Some(DirectionsAsked { over, fixed, side }) => {

@@ -196,11 +196,11 @@ def test_arguments_are_checked_by_name() -> None:
         svbrdf.rank_dataset("gt", "ours", seed=-1)
     with pytest.raises(ValueError, match="time_budget: expected seconds above 0"):
         svbrdf.loss(material, material, time_budget=0)
-    with pytest.raises(ValueError, match="target_error and scenes: expected one of them"):
-        svbrdf.loss(material, material, target_error=0.1, scenes=[])
-    with pytest.raises(ValueError, match="near and texels: not used with target_error"):
+    with pytest.raises(ValueError, match="target_error is not used: the scenes are a fixed list"):
+        svbrdf.loss(material, material, target_error=0.1, scenes=svbrdf.sample_scenes())
+    with pytest.raises(ValueError, match="near is not used: the target error decides the scenes; leave out near"):
         svbrdf.loss(material, material, target_error=0.1, near=6, texels=3)
-    with pytest.raises(ValueError, match="sampler: not used with scenes"):
+    with pytest.raises(ValueError, match="sampler is not used: the scenes are a fixed list"):
         svbrdf.scenes(material, material, sampler="random", scenes=svbrdf.sample_scenes())
     with pytest.raises(ValueError, match="seed: not used with over='lights'"):
         svbrdf.map(material, material, over="lights", seed=1)

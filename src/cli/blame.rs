@@ -1,16 +1,13 @@
 //! `svbrdf blame`: how much of a loss comes from each map.
 
-use std::path::PathBuf;
-
-use svbrdf_core::loss::Request;
+use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::report::{BlameReport, Compared, Report as _};
 use svbrdf_evaluate::why::attribute;
-use svbrdf_files::scene_file;
 
-use super::args::lights::LightsArgs;
-use super::args::{ComparisonArgs, Given, SeedArgs, values};
-use super::job::ComparisonJob;
+use super::args::scenes::{AccuracyArgs, ListArgs};
+use super::args::{ComparisonArgs, Given};
+use super::job::{ComparisonJob, Job, NewJob};
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
 
@@ -22,20 +19,14 @@ use super::output::{CommandError, exit, target, watched};
 /// below 0%: the error of this map hides errors of others. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  svbrdf blame gt.png a.png")]
+#[command(mut_arg("target_error", |arg| arg.help(
+    "Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152 [default: 1%]")))]
 pub struct BlameArgs {
-    /// Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152
-    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
-    target_error: f64,
+    #[command(flatten)]
+    accuracy: AccuracyArgs,
 
     #[command(flatten)]
-    seed: SeedArgs,
-
-    /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
-    #[arg(help_heading = "Scenes", long, value_name = "FILE", conflicts_with_all = ["target_error", "seed", "lights", "fov"])]
-    scenes: Option<PathBuf>,
-
-    #[command(flatten)]
-    lights: LightsArgs,
+    list: ListArgs,
 
     /// Output format
     #[arg(long, value_enum, default_value_t)]
@@ -45,28 +36,34 @@ pub struct BlameArgs {
     comparison: ComparisonArgs,
 }
 
-/// Prints the attributions to stdout.
-///
-/// # Errors
-/// Where a material or the scenes cannot be read or used; with `--strict` where the target error is not reached, after the results
-/// are printed.
-pub fn run(args: &BlameArgs, given: &Given) -> Result<(), CommandError> {
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    job.materials.check_predictions()?;
-    let request = match (&args.scenes, args.lights.scenes(given)?) {
-        (_, Some(scenes)) => Request::Listed(scenes),
-        (Some(path), None) => Request::Listed(scene_file::read(path)?),
-        (None, None) => Request::Accuracy { target: args.target_error, seed: args.seed.seed },
-    };
-    let opened = job.materials.open::<f32>()?;
-    let one = |prediction: &Material<f32>| {
-        watched("rendering", |progress| {
-            attribute(&opened.ground_truth, prediction, &job.convention, &request, progress)
-        })
-    };
-    let attributions = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let compared = Compared::new(&opened.ground_truth, &job.convention);
-    let report = BlameReport::new(compared, &request, attributions);
-    exit::put(&args.format.write(&report)?)?;
-    target::warn_of(report.missed(), job.materials.strict)
+#[derive(Debug)]
+struct BlameJob {
+    comparison: ComparisonJob,
+    request: Request,
+    format: ReportFormat,
+}
+
+impl BlameArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let Self { accuracy, list, format, comparison } = self;
+        let comparison = ComparisonJob::with_predictions(&comparison, given)?;
+        let options = LossOptions { file: list.file()?, ..accuracy.options() };
+        Ok(Box::new(BlameJob { comparison, request: options.question()?.request, format }))
+    }
+}
+
+/// Prints the attributions to stdout; with `--strict` fails where the target error is not reached, after the results are printed.
+impl Job for BlameJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { comparison: ComparisonJob { convention, materials, .. }, request, format } = *self;
+        let opened = materials.open::<f32>()?;
+        let truth = &opened.ground_truth;
+        let one = |prediction: &Material<f32>| {
+            watched("rendering", |progress| attribute(truth, prediction, &convention, &request, progress))
+        };
+        let attributions = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+        let report = BlameReport::new(Compared::new(truth, &convention), &request, attributions);
+        exit::put(&format.write(&report)?)?;
+        target::warn_of(report.missed(), materials.strict)
+    }
 }

@@ -9,7 +9,8 @@ use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 
 use super::args::NamedPath;
 use super::args::reading::ReadingArgs;
-use super::job::materials::{noted, read_one};
+use super::job::materials::{OneMaterial, noted};
+use super::job::{Job, NewJob};
 use super::output::CommandError;
 use super::output::exit::tell;
 use super::output::stop::stoppable;
@@ -62,19 +63,33 @@ pub struct ConvertArgs {
     reading: ReadingArgs,
 }
 
-/// Reads and writes the material.
-///
-/// # Errors
-/// Those of the reader and of the writer.
-pub fn run(args: &ConvertArgs) -> Result<(), CommandError> {
-    let options = WriteOptions { depth: args.depth, like: args.like, preview: args.preview };
-    let kind = FileKind::new(&args.output, &options)?;
-    let read = read_one(&args.material, &args.bindings, &args.reading)?;
-    check_output(&args.output)?;
-    let material: Material<f32> = noted(read, args.reading.verbose);
-    let surface = stoppable(|progress| write::write_watched(&material, &args.output, kind, progress))?;
-    if let Some(surface) = surface {
-        tell(&format!("note: {}: {surface}", args.output.display()));
+#[derive(Debug)]
+struct ConvertJob {
+    material: OneMaterial,
+    output: PathBuf,
+    kind: FileKind,
+}
+
+impl ConvertArgs {
+    pub fn job(self) -> NewJob {
+        let Self { material, output, depth, like, preview, bindings, reading } = self;
+        let kind = FileKind::new(&output, &WriteOptions { depth, like, preview })?;
+        let material = OneMaterial::new(material, bindings, &reading)?;
+        Ok(Box::new(ConvertJob { material, output, kind }))
     }
-    Ok(())
+}
+
+/// Reads and writes the material.
+impl Job for ConvertJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { material, output, kind } = *self;
+        let read = material.read()?;
+        check_output(&output)?;
+        let material: Material<f32> = noted(read, material.verbose);
+        let surface = stoppable(|progress| write::write_watched(&material, &output, kind, progress))?;
+        if let Some(surface) = surface {
+            tell(&format!("note: {}: {surface}", output.display()));
+        }
+        Ok(())
+    }
 }

@@ -1,13 +1,16 @@
 //! `svbrdf diagnose`: whether something trivial explains a loss.
 
+use std::path::PathBuf;
+
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::diagnose::{Storage, diagnose, seams};
 use svbrdf_evaluate::report::{Compared, DiagnoseReport};
 
 use super::args::floor::FloorArgs;
-use super::args::{ComparisonArgs, Given, SeedArgs};
-use super::job::ComparisonJob;
+use super::args::scenes::SeedArgs;
+use super::args::{ComparisonArgs, Given};
 use super::job::floor::floor_of;
+use super::job::{ComparisonJob, Job, NewJob};
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
 
@@ -35,24 +38,39 @@ pub struct DiagnoseArgs {
     comparison: ComparisonArgs,
 }
 
+#[derive(Debug)]
+struct DiagnoseJob {
+    comparison: ComparisonJob,
+    seed: u64,
+    repeats: Vec<PathBuf>,
+    format: ReportFormat,
+}
+
+impl DiagnoseArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let Self { seed, format, floor: FloorArgs { repeats }, comparison } = self;
+        let comparison = ComparisonJob::with_predictions(&comparison, given)?;
+        Ok(Box::new(DiagnoseJob { comparison, seed: seed.seed.unwrap_or(0), repeats, format }))
+    }
+}
+
 /// Prints the diagnoses to stdout.
-///
-/// # Errors
-/// Where a material cannot be read or used.
-pub fn run(args: &DiagnoseArgs, given: &Given) -> Result<(), CommandError> {
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    job.materials.check_predictions()?;
-    let opened = job.materials.open::<f32>()?;
-    let (truth, convention) = (&opened.ground_truth, &job.convention);
-    let seed = args.seed.seed;
-    let floor = floor_of(&args.floor, &job, &opened, seed)?;
-    let (of_truth, storages) = (&opened.storages[0], &opened.storages[1..]);
-    let one = |(prediction, storage): (&Material<f32>, &Storage)| {
-        let (pair, storages) = ([truth, prediction], [of_truth, storage]);
-        watched("diagnosing", |progress| diagnose(pair, storages, convention, floor.0.mean, seed, progress))
-    };
-    let diagnoses = opened.predictions.iter().zip(storages).map(one).collect::<Result<Vec<_>, _>>()?;
-    let compared = Compared::new(truth, convention);
-    let report = DiagnoseReport::new(compared, seed, floor, seams(truth), diagnoses);
-    Ok(exit::put(&args.format.write(&report)?)?)
+impl Job for DiagnoseJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { comparison, seed, repeats, format } = *self;
+        let opened = comparison.materials.open::<f32>()?;
+        let (truth, convention) = (&opened.ground_truth, &comparison.convention);
+        let floor = floor_of(&repeats, &comparison, &opened, seed)?;
+        let (of_truth, storages) = (&opened.storages[0], &opened.storages[1..]);
+        let one = |(prediction, storage): (&Material<f32>, &Storage)| {
+            let (pair, storages) = ([truth, prediction], [of_truth, storage]);
+            watched("diagnosing", |progress| {
+                diagnose(pair, storages, convention, floor.0.mean, seed, progress)
+            })
+        };
+        let diagnoses = opened.predictions.iter().zip(storages).map(one).collect::<Result<Vec<_>, _>>()?;
+        let compared = Compared::new(truth, convention);
+        let report = DiagnoseReport::new(compared, seed, floor, seams(truth), diagnoses);
+        Ok(exit::put(&format.write(&report)?)?)
+    }
 }

@@ -9,8 +9,9 @@ use svbrdf_core::text::{line, printable};
 use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;
-use super::args::{Given, NamedPath, modes};
-use super::job::materials::read_one;
+use super::args::{NamedPath, refuse};
+use super::job::materials::OneMaterial;
+use super::job::{Job, NewJob};
 use super::output::stop::stoppable;
 use super::output::{CommandError, advice, exit, json};
 
@@ -62,31 +63,44 @@ struct Info<'a> {
     notes: &'a [Note],
 }
 
-/// Reads the material and prints the report.
-///
-/// # Errors
-/// Those of the reader; [`Error::Guessed`](svbrdf_core::error::Error::Guessed) with `--strict`; [`Error::Unwritable`](svbrdf_core::error::Error::Unwritable) with `--save`.
-pub fn run(args: &InfoArgs, given: &Given) -> Result<(), CommandError> {
-    given.check(&modes::INFO)?;
-    let read: Read<f32> = read_one(&args.material, &args.bindings, &args.reading)?;
-    if args.save {
-        let (path, options) = (&args.material.path, args.reading.of_one(&args.material.source())?);
-        let saved = Sidecar::load(path)?.overridden_by(&options, &args.bindings);
-        let place = stoppable(|progress| saved.save(path, progress))?;
-        exit::tell(&format!("note: saved in {}", place.display()));
+#[derive(Debug)]
+struct InfoJob {
+    material: OneMaterial,
+    save: bool,
+    format: InfoFormat,
+}
+
+impl InfoArgs {
+    pub fn job(self) -> NewJob {
+        let Self { material, format, bindings, save, reading } = self;
+        refuse(reading.verbose, "verbose", "everything noticed and assumed is printed in any case")?;
+        Ok(Box::new(InfoJob { material: OneMaterial::new(material, bindings, &reading)?, save, format }))
     }
-    let info = Info {
-        name: read.material.name(),
-        size: read.material.size(),
-        maps: &read.maps,
-        assumptions: &read.assumptions,
-        notes: &read.notes,
-    };
-    let printed = match args.format {
-        InfoFormat::Text => printable(&text(&info)),
-        InfoFormat::Json => json::text(&info)?,
-    };
-    Ok(exit::put(&printed)?)
+}
+
+/// Reads the material and prints the report.
+impl Job for InfoJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let read: Read<f32> = self.material.read()?;
+        if self.save {
+            let OneMaterial { material: NamedPath { path, .. }, bindings, options, .. } = &self.material;
+            let saved = Sidecar::load(path)?.overridden_by(options, bindings);
+            let place = stoppable(|progress| saved.save(path, progress))?;
+            exit::tell(&format!("note: saved in {}", place.display()));
+        }
+        let info = Info {
+            name: read.material.name(),
+            size: read.material.size(),
+            maps: &read.maps,
+            assumptions: &read.assumptions,
+            notes: &read.notes,
+        };
+        let printed = match self.format {
+            InfoFormat::Text => printable(&text(&info)),
+            InfoFormat::Json => json::text(&info)?,
+        };
+        Ok(exit::put(&printed)?)
+    }
 }
 
 fn text(info: &Info<'_>) -> String {

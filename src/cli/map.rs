@@ -3,15 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::error::Error;
-use svbrdf_core::loss::Comparison;
+use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_evaluate::report::{MapReport, Report as _};
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, write_text};
 
 use super::args::scenes::SceneArgs;
-use super::args::{ComparisonArgs, Given, modes, values};
-use super::job::ComparisonJob;
+use super::args::{ComparisonArgs, Given, values};
+use super::job::{ComparisonJob, Job, NewJob};
 use super::output::stop::stoppable;
 use super::output::{CommandError, exit, watched};
 
@@ -31,6 +31,19 @@ pub struct MapArgs {
     #[arg(long, value_enum, default_value_t)]
     over: Over,
 
+    #[command(flatten)]
+    directions: DirectionArgs,
+
+    #[command(flatten)]
+    scenes: SceneArgs,
+
+    #[command(flatten)]
+    comparison: ComparisonArgs,
+}
+
+/// The directions of a map over lights or views.
+#[derive(Debug, clap::Args)]
+struct DirectionArgs {
     /// Direction of the view of a map over lights, or of the light of a map over views
     #[arg(long, value_name = "X,Y,Z", value_parser = values::triple, allow_hyphen_values = true,
         default_value = "0,0,1")]
@@ -39,12 +52,6 @@ pub struct MapArgs {
     /// Columns and rows of a map over lights or views
     #[arg(long, value_name = "N", value_parser = values::side, default_value = "64")]
     side: u16,
-
-    #[command(flatten)]
-    scenes: SceneArgs,
-
-    #[command(flatten)]
-    comparison: ComparisonArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -58,64 +65,93 @@ enum Over {
     Views,
 }
 
+#[derive(Debug)]
+struct MapJob {
+    comparison: ComparisonJob,
+    axes: Axes,
+    output: Output,
+    path: PathBuf,
+}
+
+/// What the map is over, with what it takes.
+#[derive(Debug)]
+enum Axes {
+    Texels(Request),
+    Directions { moved: Endpoint, fixed: [f64; 3], side: usize },
+}
+
+impl MapArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let comparison = ComparisonJob::with_predictions(&self.comparison, given)?;
+        let axes = match self.over {
+            Over::Texels => {
+                let reason = "a map over texels has no fixed direction and the size of its material";
+                given.refuse::<DirectionArgs>(reason)?;
+                Axes::Texels(self.scenes.options()?.listed()?)
+            }
+            Over::Lights => self.directions.axes(Endpoint::Light, given)?,
+            Over::Views => self.directions.axes(Endpoint::View, given)?,
+        };
+        Ok(Box::new(MapJob { comparison, axes, output: Output::new(&self.output)?, path: self.output }))
+    }
+}
+
+impl DirectionArgs {
+    fn axes(&self, moved: Endpoint, given: &Given) -> Result<Axes, CommandError> {
+        given.refuse::<SceneArgs>("a map over directions samples no scenes")?;
+        Ok(Axes::Directions { moved, fixed: self.fixed, side: usize::from(self.side) })
+    }
+}
+
 /// Writes the map, and prints its means and its largest values.
-///
-/// # Errors
-/// Where a material or the scenes cannot be read or used, or the file cannot be written.
-pub fn run(args: &MapArgs, given: &Given) -> Result<(), CommandError> {
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    job.materials.check_predictions()?;
-    given.check(match args.over {
-        Over::Texels => &modes::MAP_OVER_TEXELS,
-        Over::Lights | Over::Views => &modes::MAP_OVER_DIRECTIONS,
-    })?;
-    let output = Output::new(&args.output)?;
-    let opened = job.materials.open::<f32>()?;
-    check_output(&args.output)?;
-    let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
-    let over = |moved| {
-        watched("rendering", |progress| {
-            MapReport::over_directions(&comparison, moved, args.fixed, usize::from(args.side), progress)
-        })
-    };
-    let map = match args.over {
-        Over::Texels => {
-            let (_, scenes) = args.scenes.scenes(comparison.convention(), given)?;
-            watched("rendering", |progress| MapReport::over_texels(&comparison, &scenes, progress))?
-        }
-        Over::Lights => over(Endpoint::Light)?,
-        Over::Views => over(Endpoint::View)?,
-    };
-    let largest = map.images.iter().flat_map(|pane| pane.pixels.as_flattened()).copied().fold(0.0, f32::max);
-    let sources: Vec<_> =
-        [comparison.ground_truth()].into_iter().chain(predictions).map(|m| m.name()).collect();
-    let entries = [
-        ("svbrdf:shows", format!("{}; the last colour is {largest}", map.shows)),
-        ("svbrdf:sources", sources.join(" | ")),
-        ("svbrdf:convention", job.convention.name.to_owned()),
-        ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
-    ];
-    stoppable(|progress| match &output {
-        Output::Picture(destination) => {
-            destination.write_maps(&map.images, largest.max(f32::MIN_POSITIVE), &entries, progress)
-        }
-        Output::Table(path) => write_text(path, &map.csv()?, progress),
-    })?;
-    Ok(exit::put_text(&map.text())?)
+impl Job for MapJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { comparison: ComparisonJob { convention, materials, .. }, axes, output, path } = *self;
+        let opened = materials.open::<f32>()?;
+        check_output(&path)?;
+        let predictions: Vec<_> = opened.predictions.iter().collect();
+        let comparison = Comparison::new(&opened.ground_truth, &predictions, convention)?.without_pilot();
+        let map = watched("rendering", |progress| match axes {
+            Axes::Texels(request) => {
+                let scenes = request.scenes(&convention)?.unwrap_or_default();
+                MapReport::over_texels(&comparison, &scenes, progress)
+            }
+            Axes::Directions { moved, fixed, side } => {
+                MapReport::over_directions(&comparison, moved, fixed, side, progress)
+            }
+        })?;
+        let pixels = map.images.iter().flat_map(|pane| pane.pixels.as_flattened());
+        let largest = pixels.copied().fold(0.0, f32::max);
+        let sources: Vec<_> =
+            [comparison.ground_truth()].into_iter().chain(predictions).map(|m| m.name()).collect();
+        let entries = [
+            ("svbrdf:shows", format!("{}; the last colour is {largest}", map.shows)),
+            ("svbrdf:sources", sources.join(" | ")),
+            ("svbrdf:convention", convention.name.to_owned()),
+            ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
+        ];
+        stoppable(|progress| match &output {
+            Output::Picture(destination) => {
+                destination.write_maps(&map.images, largest.max(f32::MIN_POSITIVE), &entries, progress)
+            }
+            Output::Table => write_text(&path, &map.csv()?, progress),
+        })?;
+        Ok(exit::put_text(&map.text())?)
+    }
 }
 
-/// Where the map goes.
-enum Output<'a> {
+/// The format of the map.
+#[derive(Debug)]
+enum Output {
     Picture(Destination<PictureFormat>),
-    Table(&'a Path),
+    Table,
 }
 
-impl<'a> Output<'a> {
-    fn new(path: &'a Path) -> Result<Self, Error> {
+impl Output {
+    fn new(path: &Path) -> Result<Self, Error> {
         if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv")) {
             check_place(path)?;
-            return Ok(Self::Table(path));
+            return Ok(Self::Table);
         }
         Destination::<PictureFormat>::new(path).map(Self::Picture)
     }

@@ -1,6 +1,7 @@
 //! `svbrdf metrics`: metrics beside the loss.
 
 use svbrdf_core::error::Error;
+use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
@@ -8,8 +9,8 @@ use svbrdf_evaluate::report::{Compared, MetricsReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::values::stops;
-use super::args::{ComparisonArgs, Given, modes};
-use super::job::ComparisonJob;
+use super::args::{ComparisonArgs, Given, refuse};
+use super::job::{ComparisonJob, Job, NewJob};
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
 use super::protocol::{self, ProtocolArgs};
@@ -28,9 +29,9 @@ pub struct MetricsArgs {
     #[command(flatten)]
     protocol: ProtocolArgs,
 
-    /// Exposure of renderings in stops, before they are clipped
-    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true, default_value_t = 0.0)]
-    exposure: f32,
+    /// Exposure of renderings in stops, before they are clipped [default: 0]
+    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true)]
+    exposure: Option<f32>,
 
     /// Output format
     #[arg(long, value_enum, default_value_t)]
@@ -40,34 +41,70 @@ pub struct MetricsArgs {
     comparison: ComparisonArgs,
 }
 
-/// Prints the metrics to stdout.
-///
-/// # Errors
-/// Where a material or the scenes cannot be read or used.
-pub fn run(args: &MetricsArgs, given: &Given) -> Result<(), CommandError> {
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    job.materials.check_predictions()?;
-    if args.protocol.is_given() {
-        given.check(&modes::PROTOCOL)?;
-        return protocol::run(&args.protocol, &job, args.format);
+#[derive(Debug)]
+struct MetricsJob {
+    comparison: ComparisonJob,
+    metrics: Metrics,
+    format: ReportFormat,
+}
+
+/// The metrics, with what they take.
+#[derive(Debug)]
+enum Metrics {
+    Ours { request: Request, exposure_ev: f32 },
+    OfProtocol(ProtocolArgs),
+}
+
+impl MetricsArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let Self { scenes, protocol, exposure, format, comparison: args } = self;
+        let comparison = ComparisonJob::with_predictions(&args, given)?;
+        let metrics = if protocol.protocol.is_some() {
+            let reason = "a protocol has its own scenes, convention and exposure";
+            given.refuse::<SceneArgs>(reason)?;
+            refuse(args.convention.is_some(), "convention", reason)?;
+            refuse(exposure.is_some(), "exposure", reason)?;
+            let resizes = args.materials.reading.resize_to.is_some();
+            refuse(resizes, "resize-to", "a protocol compares materials as they are")?;
+            if comparison.session.is_some() {
+                let problem = "a protocol takes the files of materials; name them instead of a session";
+                return Err(CommandError::usage(problem));
+            }
+            Metrics::OfProtocol(protocol)
+        } else {
+            refuse(protocol.renderings.is_some(), "renderings", "only a --protocol writes renderings")?;
+            Metrics::Ours { request: scenes.options()?.listed()?, exposure_ev: exposure.unwrap_or(0.0) }
+        };
+        Ok(Box::new(MetricsJob { comparison, metrics, format }))
     }
-    given.check(&modes::NO_PROTOCOL)?;
-    let (sampling, scenes) = args.scenes.scenes(&job.convention, given)?;
-    let rendered = RenderedScenes {
-        scenes: &scenes,
-        sampler: sampling.map_or(Sampler::Random, |sampling| sampling.sampler),
-        convention: &job.convention,
-        exposure_ev: args.exposure,
-    };
-    let opened = job.materials.open::<f32>()?;
-    let truth = &opened.ground_truth;
-    let one = |prediction: &Material<f32>| -> Result<(String, Vec<Metric>), Error> {
-        let renderings =
-            watched("rendering", |progress| of_renderings(truth, prediction, &rendered, progress))?;
-        Ok((prediction.name().to_owned(), [of_maps(truth, prediction)?, renderings].concat()))
-    };
-    let results = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let compared = Compared::new(truth, &job.convention);
-    let report = MetricsReport::new(&compared, sampling.as_ref(), &rendered, results);
-    Ok(exit::put(&args.format.write(&report)?)?)
+}
+
+/// Prints the metrics to stdout.
+impl Job for MetricsJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let ComparisonJob { convention, materials, .. } = &self.comparison;
+        let (request, exposure_ev) = match &self.metrics {
+            Metrics::Ours { request, exposure_ev } => (request, *exposure_ev),
+            Metrics::OfProtocol(protocol) => return protocol::run(protocol, materials, self.format),
+        };
+        let scenes = request.scenes(convention)?.unwrap_or_default();
+        let sampling = request.sampling();
+        let rendered = RenderedScenes {
+            scenes: &scenes,
+            sampler: sampling.map_or(Sampler::Random, |sampling| sampling.sampler),
+            convention,
+            exposure_ev,
+        };
+        let opened = materials.open::<f32>()?;
+        let truth = &opened.ground_truth;
+        let one = |prediction: &Material<f32>| -> Result<(String, Vec<Metric>), Error> {
+            let renderings =
+                watched("rendering", |progress| of_renderings(truth, prediction, &rendered, progress))?;
+            Ok((prediction.name().to_owned(), [of_maps(truth, prediction)?, renderings].concat()))
+        };
+        let results = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+        let compared = Compared::new(truth, convention);
+        let report = MetricsReport::new(&compared, sampling.as_ref(), &rendered, results);
+        Ok(exit::put(&self.format.write(&report)?)?)
+    }
 }

@@ -4,6 +4,8 @@ mod args;
 mod blame;
 mod convert;
 mod diagnose;
+#[cfg(test)]
+mod every_option;
 mod generate;
 mod info;
 mod job;
@@ -29,8 +31,11 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{ArgAction, ArgMatches, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use svbrdf_core::error::Error;
+
 use args::reading::former;
 use args::{Given, TrustArgs};
+use job::NewJob;
 use output::CommandError;
 use output::exit::{exit_code, explain, put, tell};
 
@@ -122,14 +127,10 @@ pub fn main() -> ExitCode {
     if std::env::var_os("RUST_LOG").is_some() {
         env_logger::init();
     }
-    let command = Cli::command();
-    match command
-        .clone()
-        .try_get_matches()
-        .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
+    match Cli::command().try_get_matches().and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
     {
         Ok((cli, matches)) => {
-            exit_code(note_former_options(&matches).and_then(|()| cli.run(&Given::of(&command, &matches))))
+            exit_code(note_former_options(&matches).and_then(|()| cli.run(&Given::of(&matches))))
         }
         Err(version) if version.kind() == ErrorKind::DisplayVersion => exit_code(print_version()),
         Err(unusual) => explain(&unusual),
@@ -149,6 +150,7 @@ fn print_version() -> Result<(), CommandError> {
 }
 
 impl Cli {
+    /// Prints what is asked of the program itself, or runs a command.
     fn run(self, given: &Given) -> Result<(), CommandError> {
         if self.licenses {
             return Ok(put(THIRD_PARTY)?);
@@ -159,25 +161,41 @@ impl Cli {
             svbrdf_files::disk::inputs::protect_all();
         }
         match command {
-            Subcommands::View(args) => view::run(args, given),
-            Subcommands::Loss(args) => loss::run(args, given),
-            Subcommands::Render(args) => render::run(&args, given),
-            Subcommands::Strip(args) => strip::run(&args, given),
-            Subcommands::Report(args) => report::run(&args, given),
-            Subcommands::Rank(args) => rank::run(args, given),
-            Subcommands::Blame(args) => blame::run(&args, given),
-            Subcommands::Diagnose(args) => diagnose::run(&args, given),
-            Subcommands::Scenes(args) => scenes::run(&args, given),
-            Subcommands::Worst(args) => worst::run(&args, given),
-            Subcommands::Map(args) => map::run(&args, given),
-            Subcommands::Metrics(args) => metrics::run(&args, given),
-            Subcommands::Photo(args) => photo::run(args, given),
-            Subcommands::Study(args) => study::run(&args, given),
             Subcommands::Schema(args) => schema::run(&args),
-            Subcommands::Info(args) => info::run(&args, given),
-            Subcommands::Convert(args) => convert::run(&args),
             Subcommands::Completions(args) => generate::completions(&args, Self::command()),
             Subcommands::Man(args) => generate::man(&args, Self::command()),
+            command => command.job(given)?.run(),
+        }
+    }
+}
+
+impl Subcommands {
+    /// What a command does.
+    ///
+    /// # Errors
+    /// Where the arguments contradict each other, or what they name cannot be read; [`CommandError::Usage`] for options that the mode
+    /// of the command does not use.
+    fn job(self, given: &Given) -> NewJob {
+        match self {
+            Self::View(args) => args.job(given),
+            Self::Loss(args) => args.job(given),
+            Self::Render(args) => args.job(given),
+            Self::Strip(args) => args.job(given),
+            Self::Report(args) => args.job(given),
+            Self::Rank(args) => args.job(given),
+            Self::Blame(args) => args.job(given),
+            Self::Diagnose(args) => args.job(given),
+            Self::Scenes(args) => args.job(given),
+            Self::Worst(args) => args.job(given),
+            Self::Map(args) => args.job(given),
+            Self::Metrics(args) => args.job(given),
+            Self::Photo(args) => args.job(given),
+            Self::Study(args) => args.job(given),
+            Self::Info(args) => args.job(),
+            Self::Convert(args) => args.job(),
+            Self::Schema(_) | Self::Completions(_) | Self::Man(_) => {
+                Err(Error::Internal("a command about the program has no job".to_owned()).into())
+            }
         }
     }
 }

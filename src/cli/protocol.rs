@@ -12,7 +12,7 @@ use svbrdf_files::export::write_npy;
 use svbrdf_files::read;
 use svbrdf_files::source::{MaterialSource, Place};
 
-use super::job::{ComparisonJob, MaterialJob};
+use super::job::MaterialJob;
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
 
@@ -20,23 +20,16 @@ use super::output::{CommandError, exit, watched};
 pub struct ProtocolArgs {
     /// Computes what the released code of a publication computes, without neural networks
     #[arg(long, value_name = "NAME")]
-    #[arg(conflicts_with_all = ["near", "distant", "seed", "sampler", "scenes", "lights", "fov", "convention", "exposure"])]
-    protocol: Option<Protocol>,
+    pub protocol: Option<Protocol>,
 
     /// Writes the renderings of the protocol, a file of NumPy for each material, into a folder: for LPIPS and the like
-    #[arg(long, value_name = "FOLDER", requires = "protocol")]
-    renderings: Option<PathBuf>,
-}
-
-impl ProtocolArgs {
-    pub fn is_given(&self) -> bool {
-        self.protocol.is_some()
-    }
+    #[arg(long, value_name = "FOLDER")]
+    pub renderings: Option<PathBuf>,
 }
 
 /// A published evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Protocol {
+pub enum Protocol {
     /// Sartor and Peers 2023, score.py: RMSE of the four maps, L1 of a rendering with the flash at the camera
     Matfusion,
 }
@@ -53,13 +46,8 @@ struct ProtocolMaterial {
 ///
 /// # Errors
 /// Where a material cannot be read or used, or renderings cannot be written.
-pub fn run(args: &ProtocolArgs, job: &ComparisonJob, format: ReportFormat) -> Result<(), CommandError> {
-    if job.session.is_some() {
-        return Err(CommandError::usage(
-            "a protocol takes the files of materials; name them instead of a session",
-        ));
-    }
-    let all = opened(&job.materials)?;
+pub fn run(args: &ProtocolArgs, job: &MaterialJob, format: ReportFormat) -> Result<(), CommandError> {
+    let all = opened(job)?;
     let (truth, predictions) = (&all[0], &all[1..]);
     if let Some(folder) = &args.renderings {
         write_renderings(folder, &all)?;

@@ -14,10 +14,10 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat, Provenance};
 
-use super::args::scenes::OneSceneArgs;
-use super::args::values::{Range, stops};
-use super::args::{ComparisonArgs, Given, modes};
-use super::job::{ComparisonJob, SessionSettings, check_heights};
+use super::args::scenes::RenderingArgs;
+use super::args::values::Range;
+use super::args::{ComparisonArgs, Given, refuse};
+use super::job::{ComparisonJob, Job, NewJob, SessionSettings, check_heights};
 use super::output::stop::stoppable;
 use super::output::{CommandError, watched};
 
@@ -26,6 +26,8 @@ use super::output::{CommandError, watched};
 /// The material spans x in [-1, 1] in the plane z = 0; y points up, z towards the viewer. Without GT and PRED: the built-in
 /// materials.
 #[derive(Debug, clap::Args)]
+#[command(mut_arg("exposure", |arg| arg.help(
+    "Exposure of renderings in a PNG, in stops; an EXR keeps the radiance, and differences have none [default: 0, or that of the session]")))]
 #[command(after_help = "Example:\n  svbrdf render gt.png a.png --light 0.4,0.5,1.2 -o pair.png")]
 pub struct RenderArgs {
     /// Output file: .exr for linear floats, .png for exposed, sRGB-encoded 8 bits
@@ -33,12 +35,7 @@ pub struct RenderArgs {
     output: PathBuf,
 
     #[command(flatten)]
-    scene: OneSceneArgs,
-
-    /// Exposure of renderings in a PNG, in stops; an EXR keeps the radiance, and differences have none [default: 0, or that
-    /// of the session]
-    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true)]
-    exposure: Option<f32>,
+    rendering: RenderingArgs,
 
     /// What is written: rendering, normal, diffuse, specular or roughness [default: rendering; of a session what its window
     /// showed, value or difference]
@@ -63,9 +60,11 @@ pub struct RenderArgs {
     comparison: ComparisonArgs,
 }
 
-/// A picture to write: the arguments, resolved.
+/// A picture to write.
+#[derive(Debug)]
 struct RenderJob {
     comparison: ComparisonJob,
+    output: PathBuf,
     destination: Destination<PictureFormat>,
     scene: Scene,
     content: PictureContent,
@@ -73,46 +72,64 @@ struct RenderJob {
     on_adapter: bool,
 }
 
-/// Renders and writes the file.
-///
-/// # Errors
-/// Where the output cannot be written, or a material cannot be read or rendered.
-pub fn run(args: &RenderArgs, given: &Given) -> Result<(), CommandError> {
-    let job = RenderJob::new(args, given)?;
-    let opened = job.comparison.materials.open::<f32>()?;
-    check_output(&args.output)?;
-    let materials = opened.into_all();
-    if let ([ground_truth, predictions @ ..], Some(_)) = (materials.as_slice(), job.content.difference) {
-        predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
-    }
-    check_heights(&materials)?;
-    let (values, renderer) = job.values(&materials)?;
-    let RenderJob { comparison: ComparisonJob { convention, .. }, destination, scene, exposure_ev, .. } = job;
-    let Pictures { images, content } = job.content.of_values(values, &convention, exposure_ev);
-    let sources = materials.iter().map(|m| m.name().to_owned()).collect();
-    let provenance = Provenance { content, scene, convention, exposure_ev, sources, renderer };
-    Ok(stoppable(|progress| destination.write(&images, &provenance, progress))?)
-}
-
-impl RenderJob {
-    fn new(args: &RenderArgs, given: &Given) -> Result<Self, CommandError> {
-        let destination = Destination::new(&args.output)?;
-        let comparison = ComparisonJob::new(&args.comparison, given)?;
+impl RenderArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let destination = Destination::new(&self.output)?;
+        let comparison = ComparisonJob::new(&self.comparison, given)?;
         let session = comparison.session.as_ref();
-        let scene = args.scene.scene(session.map(|session| session.scene))?;
-        let content = content(args, session)?;
+        let content = content(&self, session)?;
         if content.quantity != Quantity::Rendering {
-            given.check(&modes::RENDER_MAPS)?;
+            let reason = "a map has no light, no view, no exposure and no convention, and is not rendered";
+            self.refuse_of_renderings(given, reason)?;
         }
         if content.difference.is_some() && comparison.materials.predictions() == 0 {
             let problem = "--difference compares predictions with a ground truth; give both";
             return Err(CommandError::usage(problem));
         }
-        check_difference(&content, destination.format(), given)?;
-        let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
-        Ok(Self { comparison, destination, scene, content, exposure_ev, on_adapter: args.gpu })
+        let Self { output, rendering: RenderingArgs { scene, exposure }, range, gpu, .. } = self;
+        if let Some(difference) = content.difference {
+            let (is_exposed, is_exr) =
+                (difference.kind == Difference::Flip, destination.format() == PictureFormat::Exr);
+            let reason = "only --difference=flip compares exposed renderings";
+            refuse(exposure.is_some() && !is_exposed, "exposure", reason)?;
+            let reason = "an EXR holds differences as numbers, without colours";
+            refuse(range.is_some() && is_exr, "range", reason)?;
+        }
+        let scene = scene.scene(session.map(|session| session.scene))?;
+        let exposure_ev = exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
+        let on_adapter = gpu;
+        Ok(Box::new(RenderJob { comparison, output, destination, scene, content, exposure_ev, on_adapter }))
     }
 
+    /// Refuses the options that maps do not use.
+    fn refuse_of_renderings(&self, given: &Given, reason: &str) -> Result<(), CommandError> {
+        given.refuse::<RenderingArgs>(reason)?;
+        refuse(self.comparison.convention.is_some(), "convention", reason)?;
+        refuse(self.gpu, "gpu", reason)
+    }
+}
+
+/// Renders and writes the file.
+impl Job for RenderJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let opened = self.comparison.materials.open::<f32>()?;
+        check_output(&self.output)?;
+        let materials = opened.into_all();
+        if let ([ground_truth, predictions @ ..], Some(_)) = (materials.as_slice(), self.content.difference) {
+            predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
+        }
+        check_heights(&materials)?;
+        let (values, renderer) = self.values(&materials)?;
+        let Self { comparison: ComparisonJob { convention, .. }, destination, scene, exposure_ev, .. } =
+            *self;
+        let Pictures { images, content } = self.content.of_values(values, &convention, exposure_ev);
+        let sources = materials.iter().map(|m| m.name().to_owned()).collect();
+        let provenance = Provenance { content, scene, convention, exposure_ev, sources, renderer };
+        Ok(stoppable(|progress| destination.write(&images, &provenance, progress))?)
+    }
+}
+
+impl RenderJob {
     /// The renderings or maps, and the name of the device that rendered them.
     fn values(&self, materials: &[Material<f32>]) -> Result<(Vec<Image<f32>>, String), Error> {
         let Self { comparison: ComparisonJob { convention, .. }, scene, content, .. } = self;
@@ -124,22 +141,6 @@ impl RenderJob {
         };
         let images = materials.iter().map(one).collect::<Result<_, _>>()?;
         Ok((images, "CPU, f32".to_owned()))
-    }
-}
-
-/// Refuses the options that a difference does not use.
-fn check_difference(
-    content: &PictureContent,
-    format: PictureFormat,
-    given: &Given,
-) -> Result<(), CommandError> {
-    let Some(difference) = content.difference else { return Ok(()) };
-    if difference.kind != Difference::Flip {
-        given.check(&modes::RENDER_DIFFERENCE)?;
-    }
-    match format {
-        PictureFormat::Exr => given.check(&modes::RENDER_NUMBERS),
-        PictureFormat::Png => Ok(()),
     }
 }
 

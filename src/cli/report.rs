@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
-use svbrdf_core::progress::Progress;
+use svbrdf_core::model::scene::Scene;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::session::window::Layout;
+use svbrdf_files::session::window::{Display, Layout};
 use svbrdf_page::{Findings, Page, Repetition, Report, View, check_destination, exposure};
 
-use super::args::scenes::OneSceneArgs;
-use super::args::{ComparisonArgs, Given, modes, values};
-use super::job::{ComparisonJob, SessionSettings};
+use super::args::scenes::{AccuracyArgs, RenderingArgs};
+use super::args::{ComparisonArgs, Given, refuse, values};
+use super::job::{ComparisonJob, Job, NewJob, SessionSettings};
 use super::output::stop::stoppable;
 use super::output::{CommandError, command_line, exit, target, watched};
 
@@ -24,6 +24,11 @@ use super::output::{CommandError, command_line, exit, target, watched};
 /// Below the figure, without script: losses with intervals, the share of each map, the worst scenes, the loss over directions of
 /// the light, the assumptions in reading, and the command that makes the file. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
+#[command(mut_arg("target_error", |arg| arg.help(
+    "Samples as many scenes as this relative error of the loss needs at 95% confidence [default: 1%, or the scenes of the session]")))]
+#[command(mut_arg("seed", |arg| arg.help("Seed of the sampled scenes [default: 0, or as in the session]")))]
+#[command(mut_arg("exposure", |arg| arg.help(
+    "Exposure of the figure in stops [default: the brightest 1% of the ground truth just clip, or as in the session]")))]
 #[command(after_help = "Example:\n  svbrdf report gt.png a.png b.png -o report.html")]
 pub struct ReportArgs {
     /// Output file, .html
@@ -42,101 +47,93 @@ pub struct ReportArgs {
     #[arg(long, value_name = "LAYOUT")]
     layout: Option<Layout>,
 
-    /// Samples as many scenes as this relative error of the loss needs at 95% confidence [default: 1%, or the scenes of the
-    /// session]
-    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true)]
-    target_error: Option<f64>,
-
-    /// Seed of the sampled scenes [default: 0, or as in the session]
-    #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = values::whole::<u64>, allow_negative_numbers = true)]
-    seed: Option<u64>,
+    #[command(flatten)]
+    accuracy: AccuracyArgs,
 
     #[command(flatten)]
-    scene: OneSceneArgs,
-
-    /// Exposure of the figure in stops [default: the brightest 1% of the ground truth just clip, or as in the
-    /// session]
-    #[arg(long, value_name = "EV", value_parser = values::stops, allow_hyphen_values = true)]
-    exposure: Option<f32>,
+    rendering: RenderingArgs,
 
     #[command(flatten)]
     comparison: ComparisonArgs,
 }
 
-/// Computes the findings and writes the page.
-///
-/// # Errors
-/// Where a material cannot be read or compared, the page is larger than asked for, or the file cannot be written; with `--strict` where the target error is not reached,
-/// after the file is written.
-pub fn run(args: &ReportArgs, given: &Given) -> Result<(), CommandError> {
-    check_destination(&args.output)?;
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    check_options(args, &job, given)?;
-    let request = request(args, job.session.as_ref(), given)?;
-    let opened = job.materials.open::<f32>()?;
-    check_output(&args.output)?;
-    let view = view(args, &job, &opened.ground_truth)?;
-    let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect::<Vec<_>>());
-    let findings =
-        |progress: &Progress| Findings::new(ground_truth, &predictions, job.convention, &request, progress);
-    let has_findings = !args.figure && !predictions.is_empty();
-    let findings = has_findings.then(|| watched("rendering", findings)).transpose()?;
-    let missed = findings.as_ref().map_or(Vec::new(), |findings| findings.loss.missed());
-    let materials: Vec<&Material<f32>> = std::iter::once(ground_truth).chain(predictions).collect();
-    let whole = !args.figure;
-    let report = Report {
-        materials: &materials,
-        convention: job.convention,
-        view,
-        findings,
-        readings: if whole { opened.readings.clone() } else { Vec::new() },
-        repetition: whole.then(|| Repetition { command: command_line(), session: None }),
-        max_bytes: args.max_size,
-    };
-    let page = watched("writing", |progress| report.page(progress))?;
-    check_size(&page, args.max_size)?;
-    stoppable(|progress| write_text(&args.output, &page.html, progress))?;
-    tell_reduction(&page, args.max_size);
-    target::warn_of(missed, job.materials.strict)
+#[derive(Debug)]
+struct ReportJob {
+    comparison: ComparisonJob,
+    output: PathBuf,
+    max_size: usize,
+    scene: Scene,
+    /// `None`: fitted to the ground truth.
+    exposure_ev: Option<f32>,
+    display: Display,
+    /// `None`: the figure alone.
+    whole: Option<WholePage>,
 }
 
-/// Refuses the options that the mode does not use.
-fn check_options(args: &ReportArgs, job: &ComparisonJob, given: &Given) -> Result<(), CommandError> {
-    if args.figure {
-        given.check(&modes::REPORT_FIGURE)?;
-    }
-    if job.materials.predictions() == 0 {
-        given.check(&modes::REPORT_ALONE)?;
-    }
-    Ok(())
+/// What a page has beside its figure.
+#[derive(Debug)]
+struct WholePage {
+    /// The request of the findings; `None` without predictions.
+    request: Option<Request>,
 }
 
-/// What the figure begins with.
-fn view(args: &ReportArgs, job: &ComparisonJob, ground_truth: &Material<f32>) -> Result<View, CommandError> {
-    let session = job.session.as_ref();
-    let scene = args.scene.scene(session.map(|session| session.scene))?;
-    let exposure_ev = args
-        .exposure
-        .or(session.map(|session| session.exposure_ev))
-        .unwrap_or_else(|| exposure(ground_truth, &scene, &job.convention));
-    let mut display = session.map(|session| session.display().clone()).unwrap_or_default();
-    display.layout = args.layout.unwrap_or(display.layout);
-    Ok(View { scene, exposure_ev, display })
+impl ReportArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let Self { output, max_size, figure, layout, accuracy, rendering, comparison } = self;
+        check_destination(&output)?;
+        let comparison = ComparisonJob::new(&comparison, given)?;
+        let (session, is_alone) = (comparison.session.as_ref(), comparison.materials.predictions() == 0);
+        if figure {
+            given.refuse::<AccuracyArgs>("the figure alone has no loss")?;
+        }
+        if is_alone {
+            let reason = "there is no prediction, and no loss";
+            given.refuse::<AccuracyArgs>(reason)?;
+            refuse(layout.is_some(), "layout", reason)?;
+        }
+        let question = || SessionSettings::question(session, &accuracy.options());
+        let request = (!is_alone && !figure).then(question).transpose()?.map(|question| question.request);
+        let mut display = session.map(|session| session.display().clone()).unwrap_or_default();
+        display.layout = layout.unwrap_or(display.layout);
+        let scene = rendering.scene.scene(session.map(|session| session.scene))?;
+        let exposure_ev = rendering.exposure.or(session.map(|session| session.exposure_ev));
+        let whole = (!figure).then_some(WholePage { request });
+        Ok(Box::new(ReportJob { comparison, output, max_size, scene, exposure_ev, display, whole }))
+    }
 }
 
-/// The scenes of the losses: those of the session, unless an accuracy is specified.
-fn request(
-    args: &ReportArgs,
-    session: Option<&SessionSettings>,
-    given: &Given,
-) -> Result<Request, CommandError> {
-    let saved =
-        session.filter(|_| args.target_error.is_none()).and_then(|session| session.request(args.seed));
-    if let Some(Request::Listed(_)) = saved {
-        given.check(&modes::SESSION_SCENES)?;
+/// Computes the findings and writes the page; with `--strict` fails where the target error is not reached, after the file is written.
+impl Job for ReportJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { comparison, output, max_size, scene, exposure_ev, display, whole } = *self;
+        let ComparisonJob { convention, materials, .. } = comparison;
+        let opened = materials.open::<f32>()?;
+        check_output(&output)?;
+        let ground_truth = &opened.ground_truth;
+        let exposure_ev = exposure_ev.unwrap_or_else(|| exposure(ground_truth, &scene, &convention));
+        let predictions: Vec<_> = opened.predictions.iter().collect();
+        let findings = |request: &Request| {
+            watched("rendering", |p| Findings::new(ground_truth, &predictions, convention, request, p))
+        };
+        let request = whole.as_ref().and_then(|page| page.request.as_ref());
+        let findings = request.map(findings).transpose()?;
+        let missed = findings.as_ref().map_or(Vec::new(), |findings| findings.loss.missed());
+        let all: Vec<&Material<f32>> = std::iter::once(ground_truth).chain(predictions).collect();
+        let report = Report {
+            materials: &all,
+            convention,
+            view: View { scene, exposure_ev, display },
+            findings,
+            readings: whole.as_ref().map_or(Vec::new(), |_| opened.readings.clone()),
+            repetition: whole.map(|_| Repetition { command: command_line(), session: None }),
+            max_bytes: max_size,
+        };
+        let page = watched("writing", |progress| report.page(progress))?;
+        check_size(&page, max_size)?;
+        stoppable(|progress| write_text(&output, &page.html, progress))?;
+        tell_reduction(&page, max_size);
+        target::warn_of(missed, materials.strict)
     }
-    let (target, seed) = (args.target_error.unwrap_or(0.01), args.seed.unwrap_or(0));
-    Ok(saved.unwrap_or(Request::Accuracy { target, seed }))
 }
 
 /// Refuses a page of more than `limit` bytes, which smaller maps do not help.

@@ -1,12 +1,12 @@
 //! `svbrdf scenes`: the scenes with the largest losses.
 
-use svbrdf_core::loss::Comparison;
+use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_evaluate::report::{Compared, ScenesReport};
 
 use super::args::scenes::SceneArgs;
 use super::args::values::whole;
 use super::args::{ComparisonArgs, Given};
-use super::job::ComparisonJob;
+use super::job::{ComparisonJob, Job, NewJob};
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, watched};
 
@@ -32,18 +32,31 @@ pub struct ScenesArgs {
     comparison: ComparisonArgs,
 }
 
+#[derive(Debug)]
+struct ScenesJob {
+    comparison: ComparisonJob,
+    request: Request,
+    top: usize,
+    format: ReportFormat,
+}
+
+impl ScenesArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let Self { top, scenes, format, comparison } = self;
+        let comparison = ComparisonJob::with_predictions(&comparison, given)?;
+        Ok(Box::new(ScenesJob { comparison, request: scenes.options()?.listed()?, top, format }))
+    }
+}
+
 /// Prints the scenes to stdout.
-///
-/// # Errors
-/// Where a material or the scenes cannot be read or used.
-pub fn run(args: &ScenesArgs, given: &Given) -> Result<(), CommandError> {
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    job.materials.check_predictions()?;
-    let request = args.scenes.request(given)?;
-    let opened = job.materials.open::<f32>()?;
-    let predictions: Vec<_> = opened.predictions.iter().collect();
-    let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?.without_pilot();
-    let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
-    let compared = Compared::new(&opened.ground_truth, &job.convention);
-    Ok(exit::put(&args.format.write(&ScenesReport::new(compared, &outcome, args.top))?)?)
+impl Job for ScenesJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { comparison: ComparisonJob { convention, materials, .. }, request, top, format } = *self;
+        let opened = materials.open::<f32>()?;
+        let predictions: Vec<_> = opened.predictions.iter().collect();
+        let comparison = Comparison::new(&opened.ground_truth, &predictions, convention)?.without_pilot();
+        let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
+        let compared = Compared::new(&opened.ground_truth, &convention);
+        Ok(exit::put(&format.write(&ScenesReport::new(compared, &outcome, top))?)?)
+    }
 }

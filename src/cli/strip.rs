@@ -9,13 +9,11 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::PngDestination;
 use svbrdf_files::export::strip::{Column, Crop, Strip};
-use svbrdf_files::scene_file;
 
-use super::args::lights::LightsArgs;
-use super::args::scenes::OneSceneArgs;
-use super::args::values::{Range, stops};
-use super::args::{ComparisonArgs, Given, modes};
-use super::job::{ComparisonJob, SessionSettings};
+use super::args::scenes::{Lights, ListArgs, RenderingArgs};
+use super::args::values::Range;
+use super::args::{ComparisonArgs, Given, refuse};
+use super::job::{ComparisonJob, Job, MaterialJob, NewJob, SessionSettings};
 use super::output::stop::stoppable;
 use super::output::{CommandError, watched};
 use super::render::difference_of;
@@ -25,7 +23,9 @@ use super::render::difference_of;
 /// Every cell has the pixels that `svbrdf render` writes, one per texel, but for the frames of crops. The row of GT has the
 /// scale bars of differences.
 #[derive(Debug, clap::Args)]
-#[command(mut_arg("lights", |arg| arg.conflicts_with_all(["scenes", "view", "light", "distant"]).help(
+#[command(mut_arg("scenes", |arg| arg.conflicts_with_all(["view", "light", "distant"]).help(
+    "Scene file; renderings and their differences have a column for each of its scenes")))]
+#[command(mut_arg("lights", |arg| arg.conflicts_with_all(["view", "light", "distant"]).help(
     "Lights and views of a publication: flash, flash-9 or hemisphere; renderings and their differences have a column for each")))]
 #[command(
     after_help = "Example:\n  svbrdf strip gt.png a.png --columns normal,roughness:,rendering -o figure.png"
@@ -45,19 +45,11 @@ pub struct StripArgs {
     )]
     columns: Vec<String>,
 
-    /// Scene file; renderings and their differences have a column for each of its scenes
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["view", "light", "distant"])]
-    scenes: Option<PathBuf>,
+    #[command(flatten)]
+    list: ListArgs,
 
     #[command(flatten)]
-    lights: LightsArgs,
-
-    #[command(flatten)]
-    scene: OneSceneArgs,
-
-    /// Exposure of renderings in stops [default: 0, or as in the session]
-    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true)]
-    exposure: Option<f32>,
+    rendering: RenderingArgs,
 
     /// The difference with the last colour: a number, or auto for the 99th percentile of the largest in a column
     /// [default: 2 for logarithms, 45 degrees, else 1]
@@ -73,53 +65,60 @@ pub struct StripArgs {
     comparison: ComparisonArgs,
 }
 
+#[derive(Debug)]
+struct StripJob {
+    materials: MaterialJob,
+    output: PathBuf,
+    destination: PngDestination,
+    strip: Strip,
+}
+
+impl StripArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let destination = PngDestination::new(&self.output)?;
+        let comparison = ComparisonJob::new(&self.comparison, given)?;
+        let session = comparison.session.as_ref();
+        let columns = columns(&self, session)?;
+        if columns.iter().all(|column| column.content.quantity != Quantity::Rendering) {
+            let reason =
+                "maps have no light, no view, no exposure and no convention, and no column is a rendering";
+            given.refuse::<RenderingArgs>(reason)?;
+            given.refuse::<ListArgs>(reason)?;
+            refuse(self.comparison.convention.is_some(), "convention", reason)?;
+        }
+        let has_difference = columns.iter().any(|column| column.content.difference.is_some());
+        refuse(self.range.is_some() && !has_difference, "range", "no column is a difference")?;
+        let saved = session.map(|session| session.exposure_ev);
+        let exposure_ev = self.rendering.exposure.or(saved).unwrap_or(0.0);
+        let strip = Strip { columns, convention: comparison.convention, exposure_ev, crops: self.crops };
+        Ok(Box::new(StripJob { materials: comparison.materials, output: self.output, destination, strip }))
+    }
+}
+
 /// Renders and writes the figure.
-///
-/// # Errors
-/// Where the output cannot be written, or a material cannot be read or rendered.
-pub fn run(args: &StripArgs, given: &Given) -> Result<(), CommandError> {
-    let destination = PngDestination::new(&args.output)?;
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    let session = job.session.as_ref();
-    let columns = columns(args, session, given)?;
-    check_options(&columns, given)?;
-    let exposure_ev = args.exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
-    let strip = Strip { columns, convention: job.convention, exposure_ev, crops: args.crops.clone() };
-    let opened = job.materials.open::<f32>()?;
-    check_output(&args.output)?;
-    let materials = opened.into_all();
-    if let [ground_truth, predictions @ ..] = materials.as_slice() {
-        predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
+impl Job for StripJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { materials, output, destination, strip } = *self;
+        let opened = materials.open::<f32>()?;
+        check_output(&output)?;
+        let materials = opened.into_all();
+        if let [ground_truth, predictions @ ..] = materials.as_slice() {
+            predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
+        }
+        let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
+        let all: Vec<&Material<f32>> = materials.iter().collect();
+        let picture = watched("rendering", |progress| strip.picture(&all, &names, progress))?;
+        Ok(stoppable(|progress| destination.write(&picture, &strip.entries(&names), progress))?)
     }
-    let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
-    let all: Vec<&Material<f32>> = materials.iter().collect();
-    let picture = watched("rendering", |progress| strip.picture(&all, &names, progress))?;
-    Ok(stoppable(|progress| destination.write(&picture, &strip.entries(&names), progress))?)
 }
 
-/// Refuses options that no column uses.
-fn check_options(columns: &[Column], given: &Given) -> Result<(), CommandError> {
-    if columns.iter().all(|column| column.content.quantity != Quantity::Rendering) {
-        given.check(&modes::STRIP_MAPS)?;
-    }
-    if columns.iter().all(|column| column.content.difference.is_none()) {
-        given.check(&modes::STRIP_VALUES)?;
-    }
-    Ok(())
-}
-
-fn columns(
-    args: &StripArgs,
-    session: Option<&SessionSettings>,
-    given: &Given,
-) -> Result<Vec<Column>, CommandError> {
-    if !args.lights.is_named() {
-        given.check(&modes::STRIP_SAMPLED)?;
-    }
-    let scenes = match (args.lights.scenes(given)?, &args.scenes) {
-        (Some(scenes), _) => scenes,
-        (None, Some(path)) => scene_file::read(path)?,
-        (None, None) => vec![args.scene.scene(session.map(|session| session.scene))?],
+fn columns(args: &StripArgs, session: Option<&SessionSettings>) -> Result<Vec<Column>, CommandError> {
+    let reason =
+        "a strip has no sampled scenes: use flash, flash-9 or hemisphere, or a file of `svbrdf scenes`";
+    refuse(args.list.lights == Some(Lights::Papers), "lights", reason)?;
+    let scenes = match args.list.file()? {
+        Some(file) => file.scenes,
+        None => vec![args.rendering.scene.scene(session.map(|session| session.scene))?],
     };
     let mut columns = Vec::new();
     for text in &args.columns {

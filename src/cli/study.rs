@@ -11,7 +11,7 @@ use svbrdf_files::disk::inputs::check_output;
 
 use super::args::{ComparisonArgs, Given};
 use super::job::materials::Opened;
-use super::job::{ComparisonJob, MaterialJob};
+use super::job::{ComparisonJob, Job, MaterialJob, NewJob};
 use super::output::stop::stoppable;
 use super::output::{CommandError, exit, watched};
 
@@ -35,25 +35,36 @@ pub struct StudyArgs {
     comparison: ComparisonArgs,
 }
 
-/// Measures, prints the summary to stdout and writes the files.
-///
-/// # Errors
-/// Where a material cannot be read, the two are of different sizes or look the same, or a file cannot be written.
-pub fn run(args: &StudyArgs, given: &Given) -> Result<(), CommandError> {
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    check_predictions(&job.materials)?;
-    let plot = args.plot.as_deref().map(plot::destination).transpose()?;
-    let table = args.output.as_deref().map(study_csv::destination).transpose()?;
-    let opened = job.materials.open::<f32>()?;
-    for output in args.output.iter().chain(&args.plot) {
-        check_output(output)?;
+#[derive(Debug)]
+struct StudyJob {
+    comparison: ComparisonJob,
+    output: Option<PathBuf>,
+    plot: Option<PathBuf>,
+}
+
+impl StudyArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let comparison = ComparisonJob::new(&self.comparison, given)?;
+        check_predictions(&comparison.materials)?;
+        Ok(Box::new(StudyJob { comparison, output: self.output, plot: self.plot }))
     }
-    let study = measured(&opened, job.convention)?;
-    stoppable(|progress| {
-        table.map_or(Ok(()), |table| study_csv::write(&study, &table, progress))?;
-        plot.map_or(Ok(()), |plot| plot::write(&study, &plot, progress))
-    })?;
-    Ok(exit::put_text(&study.summary())?)
+}
+
+/// Measures, prints the summary to stdout and writes the files.
+impl Job for StudyJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { comparison, output, plot: picture } = *self;
+        let plot = picture.as_deref().map(plot::destination).transpose()?;
+        let table = output.as_deref().map(study_csv::destination).transpose()?;
+        let opened = comparison.materials.open::<f32>()?;
+        output.iter().chain(&picture).try_for_each(|output| check_output(output))?;
+        let study = measured(&opened, comparison.convention)?;
+        stoppable(|progress| {
+            table.map_or(Ok(()), |table| study_csv::write(&study, &table, progress))?;
+            plot.map_or(Ok(()), |plot| plot::write(&study, &plot, progress))
+        })?;
+        Ok(exit::put_text(&study.summary())?)
+    }
 }
 
 fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {

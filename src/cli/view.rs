@@ -14,7 +14,8 @@ use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 
 use super::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
-use super::args::{Given, MaterialArgs, modes};
+use super::args::{Given, MaterialArgs, refuse};
+use super::job::{Job, NewJob};
 use super::output::CommandError;
 use super::output::exit::tell;
 
@@ -38,58 +39,83 @@ pub struct ViewArgs {
     materials: MaterialArgs,
 }
 
+impl ViewArgs {
+    #[cfg_attr(not(feature = "viewer"), allow(unused_mut, reason = "there is no window to open"))]
+    pub fn job(mut self, given: &Given) -> NewJob {
+        let materials = &self.materials;
+        refuse(materials.reading.both.verbose, "verbose", "the window lists what is noticed and assumed")?;
+        match materials.paths().find(|path| !scene_file::is_named(path)) {
+            None => materials.refuse_of_built_in(given)?,
+            Some(path) if Session::is_named(path) => materials.refuse_of_session(given)?,
+            Some(_) => (),
+        }
+        if self.photo.as_deref().is_some_and(Capture::is_named) {
+            let reason = "a capture lists the lights and views of its photographs, and how they are read";
+            given.refuse::<PhotoSceneArgs>(reason)?;
+            given.refuse::<PhotoReadingArgs>(reason)?;
+        }
+        Ok(Box::new(ViewJob {
+            #[cfg(feature = "viewer")]
+            options: self.options()?,
+        }))
+    }
+}
+
+#[derive(Debug)]
+struct ViewJob {
+    #[cfg(feature = "viewer")]
+    options: svbrdf::ViewerOptions,
+}
+
 /// Opens the window and returns when it is closed.
-///
-/// # Errors
-/// [`Error::NoWindow`] without a display, [`Error::NoAdapter`] without a graphics adapter.
-pub fn run(args: ViewArgs, given: &Given) -> Result<(), CommandError> {
-    given.check(&modes::VIEW)?;
-    match args.materials.paths().find(|path| !scene_file::is_named(path)) {
-        None => given.check(&modes::BUILT_IN)?,
-        Some(path) if Session::is_named(path) => given.check(&modes::SESSION)?,
-        Some(_) => (),
+impl Job for ViewJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        #[cfg(feature = "viewer")]
+        let closed = svbrdf::open_viewer(self.options);
+        #[cfg(not(feature = "viewer"))]
+        let closed = Err(Error::NoWindow {
+            problem: "this program was built without the window".to_owned(),
+            remedy: "build with the default features",
+        });
+        if let Err(Error::NoWindow { .. } | Error::NoAdapter { .. }) = closed {
+            tell("note: `svbrdf loss` and `svbrdf render` work without a window");
+        }
+        Ok(closed?)
     }
-    if args.photo.as_deref().is_some_and(Capture::is_named) {
-        given.check(&modes::VIEW_CAPTURE)?;
-    }
-    let closed = open_window(args);
-    if let Err(CommandError::Library(Error::NoWindow { .. } | Error::NoAdapter { .. })) = closed {
-        tell("note: `svbrdf loss` and `svbrdf render` work without a window");
-    }
-    closed
 }
 
 #[cfg(feature = "viewer")]
-fn open_window(args: ViewArgs) -> Result<(), CommandError> {
-    use super::args::reading::ResizeTo;
-    use super::job::session;
+impl ViewArgs {
+    fn options(&mut self) -> Result<svbrdf::ViewerOptions, CommandError> {
+        use super::args::reading::ResizeTo;
+        use super::job::session;
 
-    let fit = match args.materials.reading.resize_to {
-        None => false,
-        Some(ResizeTo::GroundTruth) => true,
-        Some(_) => {
-            return Err(CommandError::usage(
-                "the window brings predictions to the size of the ground truth only (--resize-to gt); \
-                 `svbrdf convert` writes a material of any size",
-            ));
-        }
-    };
-    let photograph = photograph_of(&args)?;
-    let mut materials = args.materials;
-    let scenes = take_scenes(&mut materials)?;
-    let session = session::given(&materials)?;
-    let sources =
-        if session.is_none() && materials.ground_truth.is_some() { materials.sources()? } else { Vec::new() };
-    let mut sources = sources.into_iter();
-    Ok(svbrdf::open_viewer(svbrdf::ViewerOptions {
-        session,
-        photograph,
-        scenes,
-        strict: materials.reading.both.strict,
-        fit,
-        ground_truth: sources.next(),
-        predictions: sources.collect(),
-    })?)
+        let fit = match self.materials.reading.resize_to {
+            None => false,
+            Some(ResizeTo::GroundTruth) => true,
+            Some(_) => {
+                return Err(CommandError::usage(
+                    "the window brings predictions to the size of the ground truth only (--resize-to gt); \
+                     `svbrdf convert` writes a material of any size",
+                ));
+            }
+        };
+        let photograph = photograph_of(self)?;
+        let materials = &mut self.materials;
+        let scenes = take_scenes(materials)?;
+        let session = session::given(materials)?;
+        let has_sources = session.is_none() && materials.ground_truth.is_some();
+        let mut sources = if has_sources { materials.sources()? } else { Vec::new() }.into_iter();
+        Ok(svbrdf::ViewerOptions {
+            session,
+            photograph,
+            scenes,
+            strict: materials.reading.both.strict,
+            fit,
+            ground_truth: sources.next(),
+            predictions: sources.collect(),
+        })
+    }
 }
 
 /// The photograph, and its light and view where they are specified.
@@ -111,12 +137,4 @@ fn take_scenes(materials: &mut MaterialArgs) -> Result<Option<FileScenes>, Error
     materials.predictions = others.collect();
     let files: Vec<_> = files.into_iter().map(|given| given.path).collect();
     scene_file::read_one(&files)
-}
-
-#[cfg(not(feature = "viewer"))]
-fn open_window(_: ViewArgs) -> Result<(), CommandError> {
-    Err(CommandError::Library(Error::NoWindow {
-        problem: "this program was built without the window".to_owned(),
-        remedy: "build with the default features",
-    }))
 }

@@ -4,8 +4,9 @@ use svbrdf_core::material::Material;
 use svbrdf_evaluate::report::{Compared, Report as _, WorstReport};
 use svbrdf_evaluate::why::worst;
 
-use super::args::{ComparisonArgs, Given, SeedArgs, values};
-use super::job::ComparisonJob;
+use super::args::scenes::SeedArgs;
+use super::args::{ComparisonArgs, Given, values};
+use super::job::{ComparisonJob, Job, NewJob};
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
 
@@ -33,23 +34,37 @@ pub struct WorstArgs {
     comparison: ComparisonArgs,
 }
 
-/// Prints the worst scenes to stdout.
-///
-/// # Errors
-/// Where a material cannot be read or used; with `--strict` where a mean is known less well, after the results are printed.
-pub fn run(args: &WorstArgs, given: &Given) -> Result<(), CommandError> {
-    let job = ComparisonJob::new(&args.comparison, given)?;
-    job.materials.check_predictions()?;
-    let opened = job.materials.open::<f32>()?;
-    let truth = &opened.ground_truth;
-    let one = |prediction: &Material<f32>| {
-        watched("searching", |progress| {
-            worst(truth, prediction, &job.convention, args.seed.seed, args.distance_tail, progress)
-        })
-    };
-    let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let compared = Compared::new(&opened.ground_truth, &job.convention);
-    let report = WorstReport::new(compared, args.distance_tail, found);
-    exit::put(&args.format.write(&report)?)?;
-    target::warn_of(report.missed(), job.materials.strict)
+#[derive(Debug)]
+struct WorstJob {
+    comparison: ComparisonJob,
+    seed: u64,
+    distance_tail: f64,
+    format: ReportFormat,
+}
+
+impl WorstArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let Self { seed, distance_tail, format, comparison } = self;
+        let comparison = ComparisonJob::with_predictions(&comparison, given)?;
+        Ok(Box::new(WorstJob { comparison, seed: seed.seed.unwrap_or(0), distance_tail, format }))
+    }
+}
+
+/// Prints the worst scenes to stdout; with `--strict` fails where a mean is known less well, after the results are printed.
+impl Job for WorstJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { comparison: ComparisonJob { convention, materials, .. }, seed, distance_tail, format } =
+            *self;
+        let opened = materials.open::<f32>()?;
+        let truth = &opened.ground_truth;
+        let one = |prediction: &Material<f32>| {
+            watched("searching", |progress| {
+                worst(truth, prediction, &convention, seed, distance_tail, progress)
+            })
+        };
+        let found = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+        let report = WorstReport::new(Compared::new(truth, &convention), distance_tail, found);
+        exit::put(&format.write(&report)?)?;
+        target::warn_of(report.missed(), materials.strict)
+    }
 }

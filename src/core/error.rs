@@ -155,6 +155,14 @@ pub enum Error {
     )]
     NoSceneCount { found: String },
 
+    /// An option that is not used beside others.
+    #[error("{option} is not used: {reason}; leave out {option}")]
+    UnusedOption {
+        /// Its name in Python; on the command line with hyphens in place of underscores.
+        option: &'static str,
+        reason: &'static str,
+    },
+
     /// Two values of one option.
     #[error("{option} is specified twice; leave out one")]
     SpecifiedTwice { option: String },

@@ -1,5 +1,5 @@
-//! A source of a material: where it comes from and how it is read. The command line opens everything through it: files, built-in
-//! materials and the entries of a session.
+//! A source of a material: where it comes from and how it is read. The command line and the window open everything through it: files,
+//! built-in materials and the entries of a session.
 //!
 //! ```
 //! use svbrdf_core::progress::Progress;
@@ -21,6 +21,7 @@ use svbrdf_core::progress::Progress;
 use crate::read::{self, Read, ReadOptions};
 use crate::samples;
 use crate::session::SessionMaterial;
+use crate::steps::RunId;
 
 /// Where a material is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,38 +38,38 @@ pub struct MaterialSource {
     /// The name that it is given; `None` for that of its files.
     pub name: Option<String>,
     pub place: Place,
-    /// What is specified; a built-in material is read in its own way.
+    /// What is specified, which a sidecar file completes; a built-in material is read in its own way.
     pub options: ReadOptions,
-    /// Whether a sidecar file completes the options.
-    pub uses_sidecar: bool,
+    /// The options of a session, or chosen in the window, which alone count.
+    pub chosen: Option<ReadOptions>,
     /// Whether the material is resized to the ground truth.
     pub fit: bool,
+    /// The training run that it is a step of, where all steps of the run are at hand. The folder of the run in place of the path of a
+    /// step is the newest step.
+    pub run: Option<RunId>,
 }
 
 impl MaterialSource {
     /// The material at `path`, whose sidecar file completes `options`.
     pub fn path(path: PathBuf, options: ReadOptions) -> Self {
-        Self { name: None, place: Place::Path(path), options, uses_sidecar: true, fit: false }
+        Self { options, ..Self::at(Place::Path(path)) }
     }
 
     /// The built-in material of this number, 0 for the ground truth.
     pub fn built_in(number: usize) -> Self {
-        Self {
-            name: None,
-            place: Place::BuiltIn(number),
-            options: ReadOptions::AUTO,
-            uses_sidecar: false,
-            fit: false,
-        }
+        Self::at(Place::BuiltIn(number))
+    }
+
+    fn at(place: Place) -> Self {
+        Self { name: None, place, options: ReadOptions::AUTO, chosen: None, fit: false, run: None }
     }
 
     /// An entry of a session, which alone specifies how the material is read.
     pub fn of_session(entry: &SessionMaterial) -> Self {
-        let place = match (&entry.path, entry.built_in) {
-            (Some(path), _) => Place::Path(path.clone()),
-            (None, number) => Place::BuiltIn(number.unwrap_or(0)),
-        };
-        Self { name: entry.name.clone(), place, options: entry.read, uses_sidecar: false, fit: entry.fit }
+        let SessionMaterial { name, path, built_in, read: options, fit, steps } = entry.clone();
+        let Some(path) = path else { return Self { name, fit, ..Self::built_in(built_in.unwrap_or(0)) } };
+        let run = RunId::of_step(&path).filter(|_| steps).map(|(run, _)| run);
+        Self { name, place: Place::Path(path), options, chosen: Some(options), fit, run }
     }
 
     /// Its path; empty for a built-in material.
@@ -86,13 +87,30 @@ impl MaterialSource {
     pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
         let read: Read<T> = match &self.place {
             Place::BuiltIn(number) => samples::load_one(*number),
-            Place::Path(path) if self.uses_sidecar => read::read(path, &self.options, progress),
-            Place::Path(path) => read::read_as(path, &self.options, progress),
+            Place::Path(path) => match &self.chosen {
+                Some(options) => read::read_as(path, options, progress),
+                None => read::read(path, &self.options, progress),
+            },
         }?;
         Ok(match &self.name {
             Some(name) => Read { material: read.material.renamed(name.clone()), ..read },
             None => read,
         })
+    }
+
+    /// The source in a set of materials, which has a training run and not one of its steps.
+    pub fn of_set(&self) -> Self {
+        let whole = self.run.as_ref().map(|run| Place::Path(run.folder.clone()));
+        Self { place: whole.unwrap_or_else(|| self.place.clone()), ..self.clone() }
+    }
+
+    /// The name of its material, which was read from `path`; `None` for that of its files.
+    pub fn material_name(&self, path: &Path) -> Option<String> {
+        let (Some(run), Some((_, number))) = (&self.run, RunId::of_step(path)) else {
+            return self.name.clone();
+        };
+        let name = self.name.as_ref().unwrap_or(&run.name).clone();
+        Some(RunId { name, ..run.clone() }.step_name(number))
     }
 
     /// The names that it may have once it is read, found without its pixels; at least one.

@@ -27,7 +27,7 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
         ("loss gt.png a.png --backend gpu --precision f64", 64, "leave out --backend gpu"),
         ("loss gt.png a.png --near -1", 64, "--near"),
         ("loss gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
-        ("loss gt.png a.png --scenes one.json --seed 1", 64, "cannot be used with"),
+        ("loss gt.png a.png --scenes one.json --seed 1", 64, "leave out --seed"),
         ("loss gt.png", 64, "no prediction"),
         ("loss gt.png a.png --colour", 64, "--colour"),
         ("loss --read albedo=srgb", 64, "leave out --read"),

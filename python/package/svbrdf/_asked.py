@@ -1,6 +1,9 @@
 """The arguments that the comparisons have in common."""
 
+import json
+import math
 import numbers
+import operator
 import os
 from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
@@ -27,19 +30,16 @@ class Asked:
         predictions: Predictions,
         *,
         convention: str,
-        seed: int = 0,
         precision: Precision = "f32",
-        scenes: Scenes | None = None,
         alone: bool = False,
-        **choice: Any,
+        **options: Any,
     ) -> None:
-        """`alone` says whether a ground truth without predictions is enough."""
+        """`alone`: a ground truth without predictions is enough. `options`: of the question; None is left open."""
+        question = _question(**options)
         self.ground_truth = opened(ground_truth, precision)
         is_none = alone and isinstance(predictions, tuple | list) and not predictions
         given = () if is_none else listed(predictions, "predictions")
         self.predictions = [opened(prediction, precision) for prediction in given]
-        if isinstance(scenes, str | os.PathLike):
-            scenes = read_scenes(scenes)
         materials = [self.ground_truth, *self.predictions]
         self.options = [material._options for material in materials]
         """Those that each material was read with; None for one of arrays."""
@@ -48,20 +48,39 @@ class Asked:
             "paths": [material.path for material in materials],
             "convention": convention,
             "precision": precision,
-            "seed": seed,
-            "scenes": None if scenes is None else [tuple(scene) for scene in scenes],
+            "question": json.dumps(question),
         }
-        for name in ("near", "distant", "sampler", "texels", "target_error", "time_budget"):
-            self._options[name] = choice.pop(name, None)
-        for name in ("near", "distant", "seed"):
-            check_whole(name, self._options[name])
-        if choice:
-            raise TypeError(f"unexpected arguments: {', '.join(choice)}")
 
     @property
     def core(self) -> tuple[_core.CoreMaterial, list[_core.CoreMaterial], dict[str, Any]]:
         """The first arguments of the function."""
         return self.ground_truth._core, [prediction._core for prediction in self.predictions], self._options
+
+
+def _question(scenes: Scenes | None = None, **options: Any) -> dict[str, Any]:
+    """The options of a question that are specified, for the core.
+
+    Raises:
+        TypeError, ValueError: One has a wrong type or makes no sense.
+    """
+    given = {name: value for name, value in options.items() if value is not None}
+    for name in {"near", "distant", "seed"}.intersection(given):
+        check_whole(name, given[name])
+        given[name] = operator.index(given[name])
+    check_goals(**given)
+    for name in {"target_error", "time_budget"}.intersection(given):
+        given[name] = float(given[name])
+    if scenes is not None:
+        listed = read_scenes(scenes) if isinstance(scenes, str | os.PathLike) else scenes
+        given["file"] = {"scenes": [_scene(*scene) for scene in listed]}
+    return given
+
+
+def _scene(kind: str, view: Sequence[float], light: Sequence[float]) -> dict[str, Any]:
+    ends = [[float(x) for x in end] for end in (view, light)]
+    if not all(math.isfinite(x) for end in ends for x in end):
+        raise ValueError(f"scenes: expected finite numbers, found view {view} and light {light}")
+    return {"kind": kind, "view": ends[0], "light": ends[1]}
 
 
 def answered(
@@ -121,18 +140,16 @@ def distinct(materials: Sequence[Material], words: Sequence[str]) -> list[str]:
 
 
 def check_goals(**given: object) -> None:
-    """Whether at most one argument decides the scenes, and makes sense.
+    """Whether the arguments that decide the scenes make sense.
 
     Raises:
         TypeError: One is no number.
-        ValueError: Several are given, or one is out of its range.
+        ValueError: One is out of its range.
     """
     named = [name for name, value in given.items() if value is not None]
     for name in {"target_error", "time_budget"}.intersection(named):
         if isinstance(given[name], bool) or not isinstance(given[name], numbers.Real):
             raise TypeError(f"{name}: expected a number, such as 0.01, found {given[name]!r}")
-    if len(named) > 1:
-        raise ValueError(f"{' and '.join(named)}: expected one of them; each decides the scenes")
     target_error, time_budget = given.get("target_error"), given.get("time_budget")
     if isinstance(target_error, int | float) and not 0 < target_error < 1:
         raise ValueError(f"target_error: expected a number above 0, such as 0.01, found {target_error}")

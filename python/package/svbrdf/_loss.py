@@ -5,7 +5,7 @@ from typing import Literal
 
 from . import _core
 from ._arrays import Precision
-from ._asked import Asked, Predictions, Scenes, answered, check_goals, check_unused, repeated
+from ._asked import Asked, Predictions, Scenes, answered, repeated
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._reports import LossReport, RankReport
@@ -19,7 +19,7 @@ def loss(
     time_budget: float | None = None,
     near: int | None = None,
     distant: int | None = None,
-    seed: int = 0,
+    seed: int | None = None,
     sampler: Literal["random", "sobol"] | None = None,
     texels: int | Literal["all"] | None = None,
     convention: str = "printed",
@@ -53,7 +53,7 @@ def loss(
         time_budget: As many scenes as fit into this time, in seconds.
         near: The number of sampled near-field scenes; two for each distant one where only `distant` is given.
         distant: The number of sampled distant scenes; one for two near-field ones where only `near` is given.
-        seed: Names the sampled scenes.
+        seed: Names the sampled scenes; 0 where not given.
         sampler: "random", or "sobol", which gives less error with as many scenes. The default is "random" with `near`
             or `distant`, else "sobol": an accuracy has no other.
         texels: "all", or the number of random texels that are compared in each scene. The default is "all" with `near`
@@ -68,10 +68,6 @@ def loss(
         svbrdf.Error: A material or a scene cannot be used, the sizes differ, or an option has no such value.
         TypeError, ValueError: An argument has a wrong type, a number that makes no sense, or is not used.
     """
-    goals = {"target_error": target_error, "time_budget": time_budget, "scenes": scenes}
-    check_goals(**goals)
-    deciding = next((name for name, value in goals.items() if value is not None), None)
-    check_unused(deciding, near=near, distant=distant, sampler=sampler, texels=texels)
     asked = Asked(
         ground_truth,
         predictions,
@@ -109,6 +105,5 @@ def rank(
     Args and errors are those of `svbrdf.loss`, `repeats` those of `svbrdf.diagnose`. At most 786,432 /
     (predictions + 1) scenes are sampled.
     """
-    check_goals(target_error=target_error)
-    asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
-    return answered(RankReport, _core.rank, asked, "rendering", progress, target_error, repeated(repeats))
+    asked = Asked(ground_truth, predictions, convention=convention, seed=seed, target_error=target_error)
+    return answered(RankReport, _core.rank, asked, "rendering", progress, repeated(repeats))

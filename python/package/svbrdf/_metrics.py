@@ -1,14 +1,13 @@
 """Metrics beside the loss."""
 
 import math
-from typing import Literal
+from typing import Any, Literal
 
 from . import _core
 from ._asked import Asked, Predictions, Scenes, answered, check_unused
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._reports import MetricsReport
-from ._why import scene_choice
 
 
 def metrics(
@@ -40,23 +39,14 @@ def metrics(
     scenes nor a convention or an exposure. Scenes are those of `svbrdf.scenes`, the other args and errors those of
     `svbrdf.loss`.
     """
+    choice: dict[str, Any] = {"near": near, "distant": distant, "seed": seed, "sampler": sampler, "scenes": scenes}
     if protocol is not None:
         if protocol != "matfusion":
             raise ValueError(f"protocol: expected 'matfusion', found {protocol!r}")
-        check_unused(
-            "protocol",
-            near=near,
-            distant=distant,
-            seed=seed,
-            sampler=sampler,
-            scenes=scenes,
-            convention=convention,
-            exposure=exposure,
-        )
+        check_unused("protocol", **choice, convention=convention, exposure=exposure)
         asked = Asked(ground_truth, predictions, convention="printed", precision="f64")
         return answered(MetricsReport, _core.matfusion, asked, "rendering", progress, asked.options)
     if exposure is not None and not math.isfinite(exposure):
         raise ValueError(f"exposure: expected a finite number of stops, found {exposure}")
-    choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
     asked = Asked(ground_truth, predictions, convention=convention or "printed", **choice)
     return answered(MetricsReport, _core.metrics, asked, "rendering", progress, exposure or 0.0)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from . import _core
-from ._asked import Asked, Predictions, check_goals
+from ._asked import Asked, Predictions
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
@@ -115,7 +115,6 @@ def report(
         svbrdf.Error: A material or the scene cannot be used, the sizes differ, or `path` is not named like HTML.
         ValueError: `target_error` is no share, or `exposure` or `max_size` is out of its range.
     """
-    check_goals(target_error=target_error)
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed, target_error=target_error)
     materials = [asked.ground_truth, *asked.predictions]
     named = f"{target_error=}, {seed=}, {exposure=}, {layout=}, {convention=}, {max_size=}, scene=svbrdf.{scene!r}"

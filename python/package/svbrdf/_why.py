@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from . import _core, _reports
 from ._arrays import from_bytes
-from ._asked import Asked, Predictions, Scenes, answered, check_goals, check_unused, repeated
+from ._asked import Asked, Predictions, Scenes, answered, check_unused, repeated
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
@@ -61,7 +61,7 @@ def blame(
     predictions: Predictions,
     *,
     target_error: float | None = None,
-    seed: int = 0,
+    seed: int | None = None,
     scenes: Scenes | None = None,
     convention: str = "printed",
     progress: bool | Progress = False,
@@ -77,9 +77,6 @@ def blame(
     `target_error` samples at most 49,152 scenes; it is 0.01 where `scenes` are not given. Args and errors are those of
     `svbrdf.loss`.
     """
-    check_goals(target_error=target_error, scenes=scenes)
-    if scenes is None and target_error is None:
-        target_error = 0.01
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed, scenes=scenes, target_error=target_error)
     return answered(BlameReport, _core.blame, asked, "rendering", progress)
 
@@ -158,7 +155,7 @@ def scenes(
     `top` is the number of scenes that are listed. Where neither `near` nor `distant` is given, they are of 128
     near-field and 64 distant ones, sampled by "sobol". The other args and errors are those of `svbrdf.loss`.
     """
-    choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
+    choice: dict[str, Any] = {"near": near, "distant": distant, "seed": seed, "sampler": sampler, "scenes": scenes}
     asked = Asked(ground_truth, predictions, convention=convention, **choice)
     check_whole("top", top)
     return answered(ScenesReport, _core.scenes, asked, "rendering", progress, top)
@@ -195,13 +192,12 @@ def map(
     not given, and `fixed` is the direction of its view or light, (0, 0, 1) where not given. The scenes of a map over
     texels are those of `svbrdf.scenes`. The other args and errors are those of `svbrdf.loss`.
     """
+    choice: dict[str, Any] = {"near": near, "distant": distant, "seed": seed, "sampler": sampler, "scenes": scenes}
     if over == "texels":
         check_unused("over='texels'", fixed=fixed, side=side)
-        choice = scene_choice(near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
         axes = None
     else:
-        check_unused(f"over={over!r}", near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
-        choice = {}
+        check_unused(f"over={over!r}", **choice)
         side = 64 if side is None else side
         if not 1 <= side <= 1024:
             raise ValueError(f"side: expected 1 to 1024, found {side}")
@@ -221,17 +217,3 @@ def map(
         standard_errors=tuple(from_bytes(data, size, 1, "f64") for data in errors),
         directions=from_bytes(directions, size, 3, "f64"),
     )
-
-
-def scene_choice(*, scenes: Scenes | None, **sampling: Any) -> dict[str, Any]:
-    """The listed scenes, or the 128 + 64 sampled ones with what is given in place of the defaults.
-
-    Raises:
-        ValueError: Both are given.
-    """
-    if scenes is not None:
-        check_unused("scenes", **sampling)
-        return {"scenes": scenes}
-    near, distant = _core.scene_counts(sampling.get("near"), sampling.get("distant"), (128, 64))
-    given = {name: value for name, value in sampling.items() if value is not None}
-    return {"seed": 0, "sampler": "sobol", **given, "near": near, "distant": distant}

@@ -7,8 +7,9 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_files::source::MaterialSource;
 use svbrdf_files::steps::{RunId, runs_in};
 
-use super::NamedPath;
-use super::reading::{PairReadingArgs, Side};
+use super::floor::FloorArgs;
+use super::reading::{FormerSideArgs, PairReadingArgs, Side, StatementArgs};
+use super::{Given, NamedPath, refuse};
 use crate::cli::output::CommandError;
 
 #[derive(Debug, clap::Args)]
@@ -37,6 +38,35 @@ pub struct MaterialArgs {
 }
 
 impl MaterialArgs {
+    /// Refuses what is specified of files that are not read in this way.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    fn refuse(&self, given: &Given, reason: &str) -> Result<(), CommandError> {
+        given.refuse::<StatementArgs>(reason)?;
+        given.refuse::<FormerSideArgs>(reason)?;
+        refuse(self.reading.resize_to.is_some(), "resize-to", reason)
+    }
+
+    /// Refuses what is specified of files where the built-in materials are taken.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn refuse_of_built_in(&self, given: &Given) -> Result<(), CommandError> {
+        let reason = "the built-in materials are not read from files";
+        self.refuse(given, reason)?;
+        refuse(self.reading.both.strict, "strict", reason)?;
+        given.refuse::<FloorArgs>(reason)
+    }
+
+    /// Refuses what is specified of files where a session names them.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn refuse_of_session(&self, given: &Given) -> Result<(), CommandError> {
+        self.refuse(given, "a session specifies how its materials are read")
+    }
+
     /// The ground truth, then the predictions, each with the options that it is read with.
     ///
     /// # Errors

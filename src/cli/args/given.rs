@@ -3,41 +3,38 @@
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command};
 
-use super::modes::Mode;
 use super::reading::former;
 use crate::cli::output::CommandError;
 
-/// The names of the specified options of a subcommand, without dashes.
+/// The names of the specified arguments of a subcommand.
 #[derive(Debug)]
 pub struct Given(Vec<String>);
 
 impl Given {
-    /// Those of the subcommand of `matches`, or of `command` itself where there is none; for a former option the one that replaces it.
-    pub fn of(command: &Command, matches: &ArgMatches) -> Self {
-        if let Some((name, matches)) = matches.subcommand()
-            && let Some(command) = command.find_subcommand(name)
-        {
-            return Self::of(command, matches);
-        }
-        let is_given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
-        let given = command.get_arguments().filter(|argument| is_given(argument.get_id().as_str()));
-        Self(
-            given
-                .filter_map(|argument| argument.get_long())
-                .map(former::current)
-                .map(str::to_owned)
-                .collect(),
-        )
+    /// Those of the subcommand of `matches`, or of `matches` itself where there is none.
+    pub fn of(matches: &ArgMatches) -> Self {
+        let matches = matches.subcommand().map_or(matches, |(_, matches)| matches);
+        let is_given = |id: &&clap::Id| matches.value_source(id.as_str()) == Some(ValueSource::CommandLine);
+        Self(matches.ids().filter(is_given).map(|id| id.as_str().to_owned()).collect())
     }
 
-    /// Refuses the options that a mode does not use.
+    /// Refuses the options of `A`, which the mode of a command does not use.
     ///
     /// # Errors
     /// [`CommandError::Usage`].
-    pub fn check(&self, mode: &Mode) -> Result<(), CommandError> {
-        match self.0.iter().find(|option| mode.ignores(option)) {
-            Some(option) => Err(CommandError::Usage(format!("{}; leave out --{option}", mode.reason))),
-            None => Ok(()),
-        }
+    pub fn refuse<A: clap::Args>(&self, reason: &str) -> Result<(), CommandError> {
+        let unused = A::augment_args(Command::new("unused"));
+        let mut unused =
+            unused.get_arguments().filter(|unused| self.0.iter().any(|id| unused.get_id() == id));
+        let option = unused.find_map(|unused| unused.get_long());
+        refuse(option.is_some(), former::current(option.unwrap_or_default()), reason)
     }
+}
+
+/// Refuses an option that the mode of a command does not use, where it is specified.
+///
+/// # Errors
+/// [`CommandError::Usage`].
+pub fn refuse(is_specified: bool, option: &str, reason: &str) -> Result<(), CommandError> {
+    if is_specified { Err(CommandError::Usage(format!("{reason}; leave out --{option}"))) } else { Ok(()) }
 }

@@ -1,10 +1,8 @@
-//! Arguments that several subcommands share, their values, and the options that a mode of a subcommand does not use.
+//! Arguments that several subcommands share, their values, and the refusal of options that a mode of a subcommand does not use.
 
 pub mod comparison;
 pub mod floor;
 pub mod given;
-pub mod lights;
-pub mod modes;
 pub mod named_path;
 pub mod photograph;
 pub mod reading;
@@ -14,7 +12,6 @@ pub mod values;
 pub mod wildcards;
 
 pub use comparison::{ComparisonArgs, MaterialArgs};
-pub use given::Given;
+pub use given::{Given, refuse};
 pub use named_path::NamedPath;
-pub use scenes::SeedArgs;
 pub use trust::TrustArgs;

@@ -1,96 +1,144 @@
-//! The scenes of a subcommand, as arguments.
+//! The question of a command, as arguments: the scenes of the loss, or what decides their number.
 
 use std::path::PathBuf;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::loss::{Request, Sampling, SceneChoice, Texels};
-use svbrdf_core::model::convention::Convention;
+use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes, LossOptions};
+use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_files::scene_file;
 
-use super::Given;
-use super::lights::LightsArgs;
-use super::values::{triple, whole};
+use super::given::refuse;
+use super::values::{degrees, percent, stops, triple, whole};
 use crate::cli::output::CommandError;
 
+/// Sampled scenes, or those of a list.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Scenes")]
 pub struct SceneArgs {
     /// Number of near-field scenes [default: 128; with --distant two for each distant one]
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
-    near: Option<usize>,
+    pub near: Option<usize>,
 
     /// Number of distant scenes [default: 64; with --near one for two near-field ones]
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
-    distant: Option<usize>,
-
-    /// Seed of the sampled scenes
-    #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true, default_value_t = 0)]
-    seed: u64,
-
-    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes
-    #[arg(long, value_name = "random|sobol", default_value = "sobol")]
-    sampler: Sampler,
-
-    /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["near", "distant", "seed", "sampler", "lights", "fov"])]
-    scenes: Option<PathBuf>,
+    pub distant: Option<usize>,
 
     #[command(flatten)]
-    lights: LightsArgs,
+    pub seed: SeedArgs,
+
+    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: sobol]
+    #[arg(long, value_name = "random|sobol")]
+    pub sampler: Option<Sampler>,
+
+    #[command(flatten)]
+    pub list: ListArgs,
+}
+
+/// The seed of a command that samples its scenes.
+#[derive(Debug, clap::Args)]
+pub struct SeedArgs {
+    /// Seed of the sampled scenes [default: 0]
+    #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
+    pub seed: Option<u64>,
+}
+
+/// A loss to an accuracy.
+#[derive(Debug, clap::Args)]
+pub struct AccuracyArgs {
+    /// Samples as many scenes as this relative error of every loss needs at 95% confidence [default: 1%]
+    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true)]
+    pub target_error: Option<f64>,
+
+    #[command(flatten)]
+    pub seed: SeedArgs,
+}
+
+/// The scenes of a file, or those of a publication.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Scenes")]
+pub struct ListArgs {
+    /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["lights", "fov"])]
+    pub scenes: Option<PathBuf>,
+
+    /// Lights and views: sampled, or the fixed set of a publication [default: papers]
+    #[arg(long, value_name = "NAME", value_enum)]
+    pub lights: Option<Lights>,
+
+    /// Angle that the width of the material spans at the camera of --lights flash [default: 45]
+    #[arg(long, value_name = "DEGREES", value_parser = degrees, allow_negative_numbers = true)]
+    fov: Option<f64>,
+}
+
+/// Scenes by name. `docs/conventions.md` has their sources.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub enum Lights {
+    /// Sampled near-field and distant scenes (Algorithms 1 and 2)
+    #[default]
+    Papers,
+    /// One flash at the camera, straight above the centre, at the distance of --fov
+    Flash,
+    /// Nine flashes at the camera (Guo et al. 2020, MaterialGAN)
+    #[value(name = "flash-9")]
+    Flash9,
+    /// 128 lights on the hemisphere, the camera above the centre (Sartor and Peers 2023)
+    Hemisphere,
 }
 
 impl SceneArgs {
-    /// The scenes, and how they were sampled where they were.
-    ///
     /// # Errors
-    /// As [`SceneArgs::request`].
-    pub fn scenes(
-        &self,
-        convention: &Convention,
-        given: &Given,
-    ) -> Result<(Option<Sampling>, Vec<Scene>), CommandError> {
-        match self.request(given)? {
-            Request::Listed(scenes) => Ok((None, scenes)),
-            Request::Scenes(sampling) => Ok((Some(sampling), sampling.scenes(convention)?)),
-            _ => Err(Error::Internal("scenes without a list".to_owned()).into()),
-        }
-    }
-
-    /// The request for these scenes on all texels.
-    ///
-    /// # Errors
-    /// Where a scene file cannot be read, or there are no scenes; [`CommandError::Usage`] for options that the scenes do not use.
-    pub fn request(&self, given: &Given) -> Result<Request, CommandError> {
-        if let Some(scenes) = self.lights.scenes(given)? {
-            return Ok(Request::Listed(scenes));
-        }
-        if let Some(path) = &self.scenes {
-            return Ok(Request::Listed(scene_file::read(path)?));
-        }
-        let Self { near, distant, seed, sampler, .. } = *self;
-        let choice = SceneChoice { near, distant, ..SceneChoice::default() };
-        let [near, distant] = choice.counts([128, 64]);
-        let sampling = Sampling { near, distant, seed, sampler, texels: Texels::All };
-        sampling.check()?;
-        Ok(Request::Scenes(sampling))
+    /// As [`ListArgs::file`].
+    pub fn options(&self) -> Result<LossOptions, CommandError> {
+        let Self { near, distant, seed: SeedArgs { seed }, sampler, ref list } = *self;
+        Ok(LossOptions { near, distant, seed, sampler, file: list.file()?, ..LossOptions::default() })
     }
 }
 
-/// The seed of a command that samples its scenes itself.
-#[derive(Clone, Copy, Debug, clap::Args)]
-pub struct SeedArgs {
-    /// Seed of the sampled scenes
-    #[arg(
-        help_heading = "Scenes",
-        long,
-        value_name = "N",
-        value_parser = whole::<u64>,
-        allow_negative_numbers = true,
-        default_value_t = 0
-    )]
-    pub seed: u64,
+impl AccuracyArgs {
+    /// The target error, 1% where it is not specified, and the seed.
+    pub fn target_and_seed(&self) -> (f64, u64) {
+        (self.target_error.unwrap_or(ALL_SCENES_TARGET), self.seed.seed.unwrap_or(0))
+    }
+
+    pub fn options(&self) -> LossOptions {
+        let Self { target_error, seed: SeedArgs { seed } } = *self;
+        LossOptions { target_error, seed, ..LossOptions::default() }
+    }
+}
+
+impl ListArgs {
+    /// The scenes of the list; `None` where scenes are sampled.
+    ///
+    /// # Errors
+    /// Where a scene file cannot be read; [`CommandError::Usage`] for a field of view that the scenes do not use.
+    pub fn file(&self) -> Result<Option<FileScenes>, CommandError> {
+        let is_flash = self.lights == Some(Lights::Flash);
+        refuse(self.fov.is_some() && !is_flash, "fov", "a field of view belongs to `--lights flash`")?;
+        if let Some(path) = &self.scenes {
+            return Ok(Some(scene_file::read_named(path)?));
+        }
+        let named = match self.lights.unwrap_or_default() {
+            Lights::Papers => return Ok(None),
+            Lights::Flash => NamedScenes::Flash { fov_degrees: self.fov.unwrap_or(NamedScenes::FOV_DEGREES) },
+            Lights::Flash9 => NamedScenes::Flash9,
+            Lights::Hemisphere => NamedScenes::Hemisphere,
+        };
+        let (name, scenes) = (named.name().to_owned(), named.scenes()?);
+        Ok(Some(FileScenes { name, path: PathBuf::new(), scenes }))
+    }
+}
+
+/// The light, view and exposure of pictures.
+#[derive(Debug, clap::Args)]
+pub struct RenderingArgs {
+    #[command(flatten)]
+    pub scene: OneSceneArgs,
+
+    /// Exposure of renderings in stops [default: 0, or as in the session]
+    #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true)]
+    pub exposure: Option<f32>,
 }
 
 #[derive(Debug, clap::Args)]

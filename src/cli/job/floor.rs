@@ -1,11 +1,12 @@
 //! The floor of a ground truth: that of rounding, or that of repeated captures.
 
+use std::path::PathBuf;
+
 use svbrdf_core::loss::Estimate;
 use svbrdf_evaluate::diagnose::{floor, floor_of_captures};
 
 use super::ComparisonJob;
 use super::materials::Opened;
-use crate::cli::args::floor::FloorArgs;
 use crate::cli::output::{CommandError, watched};
 
 /// The loss that the ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of
@@ -14,18 +15,18 @@ use crate::cli::output::{CommandError, watched};
 /// # Errors
 /// Where a capture cannot be read, or has another size.
 pub fn floor_of(
-    args: &FloorArgs,
+    repeats: &[PathBuf],
     job: &ComparisonJob,
     opened: &Opened<f32>,
     seed: u64,
 ) -> Result<(Estimate, Option<usize>), CommandError> {
     let (truth, convention) = (&opened.ground_truth, &job.convention);
-    if args.repeats.is_empty() {
+    if repeats.is_empty() {
         let stored = &opened.storages[0];
         let floor = watched("dithering", |progress| floor(truth, stored, convention, seed, progress))?;
         return Ok((floor, None));
     }
-    let repeats = job.materials.repeats(&args.repeats, truth)?;
+    let repeats = job.materials.repeats(repeats, truth)?;
     let floor = watched("comparing captures", |progress| {
         floor_of_captures(truth, &repeats, convention, seed, progress)
     })?;

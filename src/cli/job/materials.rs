@@ -12,13 +12,13 @@ use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_evaluate::report::distinct_names;
 use svbrdf_files::disk::memory::Reserved;
 use svbrdf_files::disk::open::is_pipe_at;
-use svbrdf_files::read::{self, Assumption, Binding, Read};
+use svbrdf_files::read::{self, Assumption, Binding, Read, ReadOptions};
 use svbrdf_files::samples;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
-use crate::cli::args::{Given, MaterialArgs, NamedPath, modes};
+use crate::cli::args::{Given, MaterialArgs, NamedPath};
 use crate::cli::output::{CommandError, advice, exit, watched};
 
 /// Longest side of a material that is resized, as of one that is read.
@@ -47,12 +47,12 @@ impl MaterialJob {
     pub fn new(args: &MaterialArgs, session: Option<&Session>, given: &Given) -> Result<Self, CommandError> {
         let sources = match (session, &args.ground_truth) {
             (Some(session), _) => {
-                given.check(&modes::SESSION)?;
+                args.refuse_of_session(given)?;
                 session.materials.iter().map(MaterialSource::of_session).collect()
             }
             (None, Some(_)) => args.sources()?,
             (None, None) => {
-                given.check(&modes::BUILT_IN)?;
+                args.refuse_of_built_in(given)?;
                 (0..samples::COUNT).map(MaterialSource::built_in).collect()
             }
         };
@@ -209,26 +209,46 @@ fn check_names(sources: &[MaterialSource], named: &[(&str, &Path)]) -> Result<()
     }
 }
 
-/// Reads one material with the maps of `bindings` in place of its own, under its name where it is given one.
-///
-/// # Errors
-/// Those of the reader; [`Error::Guessed`] with `--strict`; [`CommandError::Usage`] for options of other materials.
-pub fn read_one<T: Real>(
-    material: &NamedPath,
-    bindings: &[Binding],
-    args: &ReadingArgs,
-) -> Result<Read<T>, CommandError> {
-    let NamedPath { name, path } = material;
-    note_pipe(path);
-    let options = args.of_one(&material.source())?;
-    let read: Read<T> = watched(&format!("reading {}", path.display()), |progress| {
-        read::read_bound(path, bindings, &options, progress)
-    })?;
-    if args.strict {
-        read.refuse_guesses(path)?;
+/// The only material of a command, to be read.
+#[derive(Debug)]
+pub struct OneMaterial {
+    pub material: NamedPath,
+    /// Maps that replace its own.
+    pub bindings: Vec<Binding>,
+    pub options: ReadOptions,
+    strict: bool,
+    pub verbose: bool,
+}
+
+impl OneMaterial {
+    /// # Errors
+    /// [`CommandError::Usage`] for options of other materials.
+    pub fn new(
+        material: NamedPath,
+        bindings: Vec<Binding>,
+        reading: &ReadingArgs,
+    ) -> Result<Self, CommandError> {
+        let options = reading.of_one(&material.source())?;
+        let ReadingArgs { strict, verbose, .. } = *reading;
+        Ok(Self { material, bindings, options, strict, verbose })
     }
-    let name = name.clone().unwrap_or_else(|| read.material.name().to_owned());
-    Ok(Read { material: read.material.renamed(name), ..read })
+
+    /// Reads it, under its name where it is given one.
+    ///
+    /// # Errors
+    /// Those of the reader; [`Error::Guessed`] with `--strict`.
+    pub fn read<T: Real>(&self) -> Result<Read<T>, Error> {
+        let NamedPath { name, path } = &self.material;
+        note_pipe(path);
+        let read: Read<T> = watched(&format!("reading {}", path.display()), |progress| {
+            read::read_bound(path, &self.bindings, &self.options, progress)
+        })?;
+        if self.strict {
+            read.refuse_guesses(path)?;
+        }
+        let name = name.clone().unwrap_or_else(|| read.material.name().to_owned());
+        Ok(Read { material: read.material.renamed(name), ..read })
+    }
 }
 
 /// The assumptions and notes of reading one material, as `svbrdf info` prints them.

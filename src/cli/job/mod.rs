@@ -4,6 +4,7 @@ pub mod floor;
 pub mod materials;
 pub mod session;
 
+use std::fmt;
 use std::path::PathBuf;
 
 use svbrdf_core::model::convention::Convention;
@@ -12,6 +13,18 @@ use super::args::{ComparisonArgs, Given};
 use super::output::CommandError;
 pub use materials::{MaterialJob, Opened, check_heights};
 pub use session::SessionSettings;
+
+/// What a command does: its arguments, resolved. Each argument that the mode of the command uses is in it, and no other.
+pub trait Job: fmt::Debug {
+    /// Computes, prints and writes.
+    ///
+    /// # Errors
+    /// Those of the command.
+    fn run(self: Box<Self>) -> Result<(), CommandError>;
+}
+
+/// A job, or why the arguments of a command make none.
+pub type NewJob = Result<Box<dyn Job>, CommandError>;
 
 /// The materials and the convention of a comparison. A session file is read once, here.
 #[derive(Debug)]
@@ -24,6 +37,16 @@ pub struct ComparisonJob {
 }
 
 impl ComparisonJob {
+    /// As [`ComparisonJob::new`], of a ground truth with predictions.
+    ///
+    /// # Errors
+    /// As [`ComparisonJob::new`]; [`CommandError::Usage`] where there is no prediction.
+    pub fn with_predictions(args: &ComparisonArgs, given: &Given) -> Result<Self, CommandError> {
+        let job = Self::new(args, given)?;
+        job.materials.check_predictions()?;
+        Ok(job)
+    }
+
     /// # Errors
     /// Where a session cannot be read or used; [`CommandError::Usage`] for options of reading that are not used.
     pub fn new(args: &ComparisonArgs, given: &Given) -> Result<Self, CommandError> {

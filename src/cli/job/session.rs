@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use svbrdf_core::error::Error;
-use svbrdf_core::loss::{LossSettings, Request};
+use svbrdf_core::loss::{LossOptions, LossSettings, Question, Request};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
@@ -84,9 +84,12 @@ impl SessionSettings {
         ColouredDifference { kind: differences.kind(quantity), range: differences.range(quantity) }
     }
 
-    /// The request for the loss, with this seed where one is specified.
-    pub fn request(&self, seed: Option<u64>) -> Option<Request> {
-        let settings = self.loss.clone()?;
-        Some(LossSettings { seed: seed.unwrap_or(settings.seed), ..settings }.request())
+    /// The question of `options`: over that of the session, where it has one.
+    ///
+    /// # Errors
+    /// Where the options contradict each other.
+    pub fn question(session: Option<&Self>, options: &LossOptions) -> Result<Question, Error> {
+        let saved = session.and_then(|session| session.loss.as_ref());
+        saved.map_or_else(|| options.question(), |saved| options.over(saved))
     }
 }

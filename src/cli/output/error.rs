@@ -9,7 +9,18 @@ pub enum CommandError {
     #[error("{0}")]
     Usage(String),
     #[error(transparent)]
-    Library(#[from] Error),
+    Library(Error),
+}
+
+impl From<Error> for CommandError {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::UnusedOption { option, reason } => {
+                Self::Usage(format!("{reason}; leave out --{}", option.replace('_', "-")))
+            }
+            error => Self::Library(error),
+        }
+    }
 }
 
 impl CommandError {

@@ -46,7 +46,7 @@ pub struct PhotoArgs {
     pub output: Option<PathBuf>,
 
     /// The difference that is written: log, absolute or relative
-    #[arg(long, value_name = "KIND", default_value = "log", requires = "output")]
+    #[arg(long, value_name = "KIND", default_value = "log", requires = "output", conflicts_with = "capture")]
     pub difference: Difference,
 
     /// Output format

@@ -9,7 +9,8 @@ use svbrdf_evaluate::report::Report;
 use svbrdf_page::Figures;
 
 use crate::cli::args::floor::FloorArgs;
-use crate::cli::args::{ComparisonArgs, SeedArgs, values};
+use crate::cli::args::scenes::AccuracyArgs;
+use crate::cli::args::{ComparisonArgs, values};
 use crate::cli::output::CommandError;
 
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
@@ -29,6 +30,33 @@ pub struct RankArgs {
     #[arg(long, requires = "ground_truth")]
     pub pairs: bool,
 
+    #[command(flatten)]
+    pub of_data_set: DataSetArgs,
+
+    /// Fails with exit code 1, after the result is printed, if a mean loss is larger than this
+    #[arg(long, value_name = "LOSS", value_parser = values::loss, allow_hyphen_values = true)]
+    pub fail_above: Option<f64>,
+
+    #[command(flatten)]
+    pub accuracy: AccuracyArgs,
+
+    /// Output format
+    #[arg(long, value_enum, default_value_t)]
+    pub format: RankFormat,
+
+    #[command(flatten)]
+    pub page: PageArgs,
+
+    #[command(flatten)]
+    pub floor: FloorArgs,
+
+    #[command(flatten)]
+    pub comparison: ComparisonArgs,
+}
+
+/// What the ranking of a data set has beside that of predictions.
+#[derive(Debug, clap::Args)]
+pub struct DataSetArgs {
     /// Uses the losses of a data set that are in this folder, and adds the others to it as they come
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
@@ -49,22 +77,11 @@ pub struct RankArgs {
     /// reading, and how many losses the ground truth does not resolve
     #[arg(long)]
     pub diagnose: bool,
+}
 
-    /// Fails with exit code 1, after the result is printed, if a mean loss is larger than this
-    #[arg(long, value_name = "LOSS", value_parser = values::loss, allow_hyphen_values = true)]
-    pub fail_above: Option<f64>,
-
-    /// Samples as many scenes as this relative error of every loss needs at 95% confidence
-    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = values::percent, allow_hyphen_values = true, default_value = "1%")]
-    pub target_error: f64,
-
-    #[command(flatten)]
-    pub seed: SeedArgs,
-
-    /// Output format
-    #[arg(long, value_enum, default_value_t)]
-    pub format: RankFormat,
-
+/// What the page of a data set has beside what is printed.
+#[derive(Debug, clap::Args)]
+pub struct PageArgs {
     /// Output file of --format html
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
@@ -72,12 +89,6 @@ pub struct RankArgs {
     /// Writes interactive figures of materials beside the page: all, or worst:N, those of the N largest mean losses
     #[arg(long, value_name = "all|worst:N")]
     pub figures: Option<Figures>,
-
-    #[command(flatten)]
-    pub floor: FloorArgs,
-
-    #[command(flatten)]
-    pub comparison: ComparisonArgs,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]

@@ -6,7 +6,7 @@ use svbrdf_evaluate::dataset::{DatasetReading, Method, Source};
 use svbrdf_evaluate::report::distinct_names;
 
 use super::args::RankArgs;
-use crate::cli::args::reading::Side;
+use crate::cli::args::reading::{PairReadingArgs, Side};
 use crate::cli::args::wildcards;
 use crate::cli::output::CommandError;
 
@@ -14,8 +14,7 @@ use crate::cli::output::CommandError;
 ///
 /// # Errors
 /// [`Error::SpecifiedTwice`](svbrdf_core::error::Error::SpecifiedTwice); [`CommandError::Usage`] for a name that no method has.
-pub fn reading(args: &RankArgs, methods: &[String]) -> Result<DatasetReading, CommandError> {
-    let given = &args.comparison.materials.reading;
+pub fn reading(given: &PairReadingArgs, methods: &[String]) -> Result<DatasetReading, CommandError> {
     let reading = given.reading()?;
     reading.check(None, methods)?;
     let predictions = reading.options_for(Side::Prediction, "");

@@ -1,61 +1,130 @@
 //! Methods over many materials.
 
+use std::path::{Path, PathBuf};
+
 use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
-    self, Case, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Shard, Source,
+    self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Pick, Shard,
 };
 use svbrdf_evaluate::report::Report as _;
+use svbrdf_files::disk::atomic::write_text;
+use svbrdf_files::disk::inputs::check_output_of;
+use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
-use super::args::{RankArgs, RankFormat, check_limit};
+use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat, check_limit};
 use super::cases::{reading, source};
-use super::html;
-use crate::cli::args::{Given, modes};
+use crate::cli::args::floor::FloorArgs;
+use crate::cli::args::{Given, refuse};
+use crate::cli::job::{Job, NewJob};
 use crate::cli::output::stop::stoppable;
 use crate::cli::output::{CommandError, exit, target, watched_on};
 
-pub fn run(args: &RankArgs, given: &Given) -> Result<(), CommandError> {
-    given.check(&modes::RANK_DATA_SET)?;
-    let source = source(args)?;
-    let cases = source.cases()?;
-    html::check(args, given, &cases)?;
-    let evaluate = |progress: &Progress| evaluate(args, source, cases, progress);
-    let writes = args.results.is_some() || args.format == RankFormat::Html;
-    if writes { stoppable(evaluate) } else { evaluate(&Progress::default()) }
+/// A ranking of methods over a data set.
+#[derive(Debug)]
+struct ManyJob {
+    settings: DatasetSettings,
+    reading: DatasetReading,
+    cases: Vec<Case>,
+    shard: Option<Shard>,
+    results: Option<PathBuf>,
+    pick: Pick,
+    verbose: bool,
+    fail_above: Option<f64>,
+    output: Output,
 }
 
-fn evaluate(
-    args: &RankArgs,
-    source: Source,
-    cases: Vec<Case>,
+/// Where the ranking goes.
+#[derive(Debug)]
+enum Output {
+    Stdout(RankFormat),
+    Page { path: PathBuf, figures: Option<Figures> },
+}
+
+pub fn job(args: RankArgs, given: &Given) -> NewJob {
+    let reason = "materials of a data set are not resized and have one capture each";
+    refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", reason)?;
+    given.refuse::<FloorArgs>(reason)?;
+    let source = source(&args)?;
+    let cases = source.cases()?;
+    let output = output(&args, given, &cases)?;
+    let convention = args.comparison.convention.unwrap_or_default();
+    let (target_error, seed) = args.accuracy.target_and_seed();
+    let DataSetArgs { results, shard, pick, metrics, diagnose } = args.of_data_set;
+    let settings = DatasetSettings {
+        metrics,
+        diagnose,
+        ..DatasetSettings::new(source, convention.name, target_error, seed, &cases)
+    };
+    let given = &args.comparison.materials.reading;
+    let reading = reading(given, &settings.methods)?;
+    let (verbose, fail_above) = (given.both.verbose, args.fail_above);
+    let job = ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, output };
+    Ok(Box::new(job))
+}
+
+/// Where the ranking goes, before anything is computed: to a page that replaces no material and no list, or to stdout.
+fn output(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<Output, CommandError> {
+    if args.format != RankFormat::Html {
+        given.refuse::<PageArgs>("only --format html writes a file, and figures beside it")?;
+        return Ok(Output::Stdout(args.format));
+    }
+    let PageArgs { output, figures } = &args.page;
+    let missing = || CommandError::usage("--format html writes a file; give --output NAME.html");
+    let path = output.clone().ok_or_else(missing)?;
+    check_destination(&path)?;
+    let predictions = cases.iter().flat_map(|case| case.candidates.iter().map(|one| &one.path));
+    let materials = cases.iter().map(|case| &case.ground_truth).chain(predictions);
+    check_output_of(&path, materials.chain(args.comparison.materials.paths()))?;
+    Ok(Output::Page { path, figures: *figures })
+}
+
+/// Prints the ranking, or writes the page; fails where a loss is above a limit, after that.
+impl Job for ManyJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let writes = self.results.is_some() || matches!(self.output, Output::Page { .. });
+        let evaluate = |progress: &Progress| self.evaluate(progress);
+        if writes { stoppable(evaluate) } else { evaluate(&Progress::default()) }
+    }
+}
+
+impl ManyJob {
+    fn evaluate(self, progress: &Progress) -> Result<(), CommandError> {
+        let Self { settings, reading, cases, shard, results, pick, verbose, fail_above, output } = self;
+        let strict = reading.strict;
+        let cases = part(shard, cases);
+        let DatasetResults { results, notes } = watched_on(progress, "comparing materials", |progress| {
+            dataset::run(&cases, &settings, &reading, results.as_deref(), progress)
+        })?;
+        notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
+        for (material, prediction, problem) in failures(&results) {
+            exit::tell(&format!("note: {material}, {prediction}: {problem}"));
+        }
+        let report = DatasetReport::new(settings, reading, results, pick);
+        tell_reading(verbose, &output, &report);
+        match output {
+            Output::Page { path, figures } => write_page(&path, figures, &report, &cases, progress)?,
+            Output::Stdout(format) => exit::put(&format.write(&report, DatasetReport::latex)?)?,
+        }
+        check_any(&report)?;
+        target::warn_of(report.missed(), strict)?;
+        let means = report.ranking.methods.into_iter().filter(|summary| summary.materials > 0);
+        check_limit(fail_above, means.map(|summary| (summary.method, summary.mean)))
+    }
+}
+
+/// Writes the page, with thumbnails and figures of the materials `cases`.
+fn write_page(
+    path: &Path,
+    figures: Option<Figures>,
+    report: &DatasetReport,
+    cases: &[Case],
     progress: &Progress,
 ) -> Result<(), CommandError> {
-    let convention = args.comparison.convention.unwrap_or_default();
-    let settings = DatasetSettings {
-        metrics: args.metrics,
-        diagnose: args.diagnose,
-        ..DatasetSettings::new(source, convention.name, args.target_error, args.seed.seed, &cases)
-    };
-    let reading = reading(args, &settings.methods)?;
-    let cases = part(args.shard, cases);
-    let results = args.results.as_deref();
-    let DatasetResults { results, notes } = watched_on(progress, "comparing materials", |progress| {
-        dataset::run(&cases, &settings, &reading, results, progress)
+    let views = watched_on(progress, "rendering materials", |progress| {
+        material_views(report, cases, figures, path, progress)
     })?;
-    notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
-    for (material, prediction, problem) in failures(&results) {
-        exit::tell(&format!("note: {material}, {prediction}: {problem}"));
-    }
-    let report = DatasetReport::new(settings, reading, results, args.pick);
-    tell_reading(args, &report);
-    match args.format {
-        RankFormat::Html => html::write(args, &report, &cases, progress)?,
-        format => exit::put(&format.write(&report, DatasetReport::latex)?)?,
-    }
-    check_any(&report)?;
-    target::warn_of(report.missed(), args.comparison.materials.reading.both.strict)?;
-    let means = report.ranking.methods.into_iter().filter(|summary| summary.materials > 0);
-    check_limit(args.fail_above, means.map(|summary| (summary.method, summary.mean)))
+    Ok(write_text(path, &ranking(report, &views), progress)?)
 }
 
 /// The cases of a shard, which is reported.
@@ -69,10 +138,10 @@ fn part(shard: Option<Shard>, cases: Vec<Case>) -> Vec<Case> {
 }
 
 /// Reports how the files were read: with `--verbose` every remark; otherwise the doubts, where the format does not print them.
-fn tell_reading(args: &RankArgs, report: &DatasetReport) {
-    if args.comparison.materials.reading.both.verbose {
+fn tell_reading(verbose: bool, output: &Output, report: &DatasetReport) {
+    if verbose {
         report.remarks().for_each(|(name, remark)| exit::tell(&format!("note: {name}: {}", remark.text)));
-    } else if args.format != RankFormat::Text {
+    } else if !matches!(output, Output::Stdout(RankFormat::Text)) {
         report.conditions().iter().for_each(|condition| exit::tell(&format!("note: {condition}")));
     }
 }

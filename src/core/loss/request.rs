@@ -55,6 +55,14 @@ impl Request {
         }
     }
 
+    /// The scenes and texels, where they are sampled and neither an accuracy nor a time decides them.
+    pub fn sampling(&self) -> Option<Sampling> {
+        match self {
+            Self::Scenes(sampling) => Some(*sampling),
+            _ => None,
+        }
+    }
+
     /// What names the scenes; `None` where they are listed.
     pub fn seed(&self) -> Option<u64> {
         match self {
@@ -94,6 +102,10 @@ impl Default for Sampling {
 impl Sampling {
     /// Most scenes of a loss, of both kinds together.
     pub const MAX_SCENES: usize = 10_000_000;
+
+    /// The scenes that are listed one by one where no others are asked for.
+    pub const LISTED: Self =
+        Self { near: 128, distant: 64, seed: 0, sampler: Sampler::Sobol, texels: Texels::All };
 
     /// Whether there are scenes, and no more than [`Sampling::MAX_SCENES`].
     ///

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::question::{Question, SceneChoice};
+use super::question::{Question, counts};
 use super::request::{Request, Sampling, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Scene;
@@ -27,7 +27,8 @@ pub enum Ask {
 /// The scenes of a file, or of a set with a name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FileScenes {
-    /// The name of the file or of the set.
+    /// The name of the file or of the set; empty where they have none.
+    #[serde(default)]
     pub name: String,
     /// The file itself, where it has been read; empty for a set, and in a session, which holds its scenes.
     #[serde(skip)]
@@ -97,8 +98,7 @@ fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Res
 impl From<SavedSettings> for LossSettings {
     fn from(saved: SavedSettings) -> Self {
         let usual = Self::default();
-        let choice = SceneChoice { near: saved.near, distant: saved.distant, ..SceneChoice::default() };
-        let [near, distant] = choice.counts([usual.near, usual.distant]);
+        let [near, distant] = counts([saved.near, saved.distant], [usual.near, usual.distant]);
         Self {
             ask: saved.ask.unwrap_or(usual.ask),
             near,
@@ -182,10 +182,7 @@ impl LossSettings {
 impl LossSettings {
     /// The scenes and texels; `None` where an accuracy or a time decides them.
     pub fn sampling(&self) -> Option<Sampling> {
-        match self.request() {
-            Request::Scenes(sampling) => Some(sampling),
-            _ => None,
-        }
+        self.request().sampling()
     }
 
     /// The request for the scenes that are listed one by one, on all texels: those of the loss where it has few or they are of a
@@ -197,13 +194,7 @@ impl LossSettings {
             return Request::Listed(file.scenes.clone());
         }
         let few = self.sampling().filter(|sampling| (1..=MOST).contains(&(sampling.near + sampling.distant)));
-        let default = Sampling {
-            near: 128,
-            distant: 64,
-            seed: self.seed,
-            sampler: Sampler::Sobol,
-            texels: Texels::All,
-        };
+        let default = Sampling { seed: self.seed, ..Sampling::LISTED };
         Request::Scenes(Sampling { texels: Texels::All, ..few.unwrap_or(default) })
     }
 

@@ -11,8 +11,8 @@ use super::parts::Parts;
 use crate::jobs::training::{RunLossesKey, RunNews, WantedRun};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::request::{ReadRequest, Target};
-use crate::model::material::source::{Origin, Source};
 use crate::model::settings::Tab;
+use svbrdf_files::source::{MaterialSource, Place};
 
 /// Follows the folders of the training runs in the window.
 pub(super) fn follow(parts: &mut Parts) {
@@ -47,8 +47,8 @@ fn open_new_runs(parts: &mut Parts, open: &[RunId], news: &RunNews) {
         let is_new = parts.model.training.known.insert(run.clone()) && !open.contains(&run);
         let opens = is_new && news.before.is_some() && parts.model.settings.watch;
         if let (true, Some(like)) = (opens, &like) {
-            let origin = Origin::Path(run.folder.clone());
-            let source = Source { name: None, origin, run: Some(run), chosen: None, ..like.clone() };
+            let place = Place::Path(run.folder.clone());
+            let source = MaterialSource { name: None, place, run: Some(run), chosen: None, ..like.clone() };
             parts.jobs.read(&parts.model, ReadRequest::new(vec![source], Target::Predictions));
         }
     }

@@ -2,7 +2,7 @@
 
 use svbrdf_core::model::scene::Scene;
 
-use super::material::source::Origin;
+use svbrdf_files::source::Place;
 
 /// What the exposure was last computed for.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,7 +13,7 @@ pub enum Exposed {
     /// It was saved with a session or a moment of the history, and holds for the materials of that.
     Restored,
     For {
-        ground_truth: Origin,
+        ground_truth: Place,
         scene: Scene,
         convention: String,
     },

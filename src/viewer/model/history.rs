@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::photograph::SessionPhotograph;
 
-use super::material::source::Source;
 use super::view::state::{AutoExposure, ViewState};
+use svbrdf_files::source::MaterialSource;
 
 /// How long nothing changes, in seconds, before it becomes a moment to return to.
 const STABLE: f64 = 0.4;
@@ -19,7 +19,7 @@ const MOST: usize = 100;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
     pub view: ViewState,
-    pub materials: Vec<Source>,
+    pub materials: Vec<MaterialSource>,
     /// The scenes of a file, where the loss is over them.
     pub scenes: Option<FileScenes>,
     /// The photograph that renderings are compared with, and its corners.
@@ -70,7 +70,7 @@ impl Parts for Moment {
 pub struct History {
     pub undo: UndoStack<Moment>,
     /// The set of materials in the window, or the one that is being opened.
-    pub materials: Vec<Source>,
+    pub materials: Vec<MaterialSource>,
 }
 
 /// Values to return to. A value counts once it has stood still, or another part of it changes: all of a drag is one step, and

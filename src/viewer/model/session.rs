@@ -17,11 +17,12 @@ use super::command::effect::Effect;
 use super::exposed::Exposed;
 use super::material::read::Rules;
 use super::material::request::{ReadRequest, Target};
-use super::material::source::{Origin, Source, sources};
 use super::message::Message;
 use super::ranges::bring_into_range;
 use super::view::state::ViewState;
+use crate::model::material::source::sources;
 use crate::model::settings::options::ViewerOptions;
+use svbrdf_files::source::{MaterialSource, Place};
 
 /// Number of comparisons that are remembered.
 const RECENT: usize = 12;
@@ -35,7 +36,7 @@ impl Model {
             (None, None) => ReadRequest::built_in(),
             (None, Some(ground_truth)) => {
                 let predictions = sources(options.predictions);
-                let all = std::iter::once(Source::from(ground_truth)).chain(predictions).collect();
+                let all = std::iter::once(ground_truth).chain(predictions).collect();
                 ReadRequest::new(all, Target::Everything)
             }
         };
@@ -51,11 +52,9 @@ impl Model {
     /// The current session.
     pub fn session(&self) -> Session {
         let materials = self.materials.all.iter().map(|one| {
-            let (path, built_in) = match &one.read.origin {
-                Origin::Path(path) => {
-                    (Some(std::path::absolute(path).unwrap_or_else(|_| path.clone())), None)
-                }
-                Origin::BuiltIn(number) => (None, Some(*number)),
+            let (path, built_in) = match &one.read.place {
+                Place::Path(path) => (Some(std::path::absolute(path).unwrap_or_else(|_| path.clone())), None),
+                Place::BuiltIn(number) => (None, Some(*number)),
             };
             let read = if built_in.is_some() { ReadOptions::AUTO } else { one.read.options };
             let steps = one.read.run.is_some();
@@ -91,7 +90,7 @@ impl Model {
         self.report(out_of_range);
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
         self.photograph.set(session.photograph.clone(), stamp);
-        let sources: Vec<_> = session.materials.iter().filter_map(source).collect();
+        let sources: Vec<_> = session.materials.iter().map(MaterialSource::of_session).collect();
         // They show the step that was saved, whatever has come since.
         self.training.pinned.extend(sources.iter().filter_map(|source| source.run.clone()));
         self.materials.restore(&sources)
@@ -138,16 +137,4 @@ fn compared_files(session: &Session) -> Vec<PathBuf> {
         Some(run.map_or(path, |(run, _)| run.folder))
     };
     session.materials.iter().filter_map(file).collect()
-}
-
-fn source(material: &SessionMaterial) -> Option<Source> {
-    let (origin, run) = match (&material.path, material.built_in) {
-        (Some(path), _) => {
-            let run = RunId::of_step(path).filter(|_| material.steps);
-            (Origin::Path(path.clone()), run.map(|(run, _)| run))
-        }
-        (None, number) => return number.map(Source::built_in),
-    };
-    let (name, read, fit) = (material.name.clone(), material.read, material.fit);
-    Some(Source { name, origin, specified: read, chosen: Some(read), fit, run })
 }

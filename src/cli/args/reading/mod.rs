@@ -12,7 +12,8 @@ use svbrdf_files::source::MaterialSource;
 
 use crate::cli::output::CommandError;
 pub use decision::{Reading, Side};
-use former::{FormerArgs, FormerSideArgs};
+use former::FormerArgs;
+pub use former::FormerSideArgs;
 use statement::Statement;
 
 #[derive(Debug, clap::Args)]
@@ -33,6 +34,22 @@ pub struct PairReadingArgs {
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Reading materials")]
 pub struct ReadingArgs {
+    #[command(flatten)]
+    statements: StatementArgs,
+
+    /// Fails where something in the files can only be guessed, or where an accuracy is not reached
+    #[arg(long)]
+    pub strict: bool,
+
+    /// Reports everything noticed and assumed in reading, not only what is unsure or was changed
+    #[arg(short, long)]
+    pub verbose: bool,
+}
+
+/// What is specified of the files of materials.
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "Reading materials")]
+pub struct StatementArgs {
     /// How files are read, such as albedo=srgb,normal-y=down; after gt:, pred: or NAME: for these materials only. May be given
     /// several times
     #[arg(long, value_name = "[WHOSE:]KEY=VALUE,...", long_help = read_help())]
@@ -44,19 +61,12 @@ pub struct ReadingArgs {
 
     #[command(flatten)]
     former: FormerArgs,
-
-    /// Fails where something in the files can only be guessed, or where an accuracy is not reached
-    #[arg(long)]
-    pub strict: bool,
-
-    /// Reports everything noticed and assumed in reading, not only what is unsure or was changed
-    #[arg(short, long)]
-    pub verbose: bool,
 }
 
 impl ReadingArgs {
     fn statements(&self) -> impl Iterator<Item = &Statement> {
-        self.read.iter().chain(&self.preset).chain(&self.former.0)
+        let StatementArgs { read, preset, former } = &self.statements;
+        read.iter().chain(preset).chain(&former.0)
     }
 
     /// How the only `material` of a command is read.

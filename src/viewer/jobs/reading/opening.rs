@@ -18,7 +18,8 @@ use crate::jobs::work::priority;
 use crate::jobs::work::waker::Waker;
 use crate::model::material::read::{MaterialId, ReadMaterial};
 use crate::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
-use crate::model::material::source::Source;
+use crate::model::material::source::label;
+use svbrdf_files::source::MaterialSource;
 
 /// The openings that are going on.
 #[derive(Debug, Default)]
@@ -125,7 +126,7 @@ impl Opening {
     ) -> Self {
         let name = |item: &Item| match item {
             Item::Loaded(_) => String::new(),
-            Item::Read(source) => source.label(),
+            Item::Read(source) => label(source),
         };
         let names: Vec<String> = items.iter().map(name).collect();
         let id = |item: &Item| match item {
@@ -245,7 +246,7 @@ impl OpeningWork {
 
     fn read(
         &self,
-        source: Source,
+        source: MaterialSource,
         index: usize,
         reader: &mut Reader,
         Output { worker, rests }: &Output<'_>,
@@ -276,7 +277,7 @@ mod tests {
         let gpu = Gpu::headless().unwrap();
         let mut read = samples::load::<f32>().unwrap().ground_truth;
         read.material = read.material.resized([1024, 515]).unwrap();
-        let read = Arc::new(ReadMaterial::new(Source::built_in(0), read));
+        let read = Arc::new(ReadMaterial::new(MaterialSource::built_in(0), read));
         let uploaded = Arc::new(Uploaded::start(&gpu, &read.material));
         let (rests, rest) = mpsc::channel();
         rests.send((read, uploaded.clone())).unwrap();

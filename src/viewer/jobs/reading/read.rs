@@ -12,7 +12,7 @@ use svbrdf_files::samples;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep, runs_in};
 
 use crate::model::material::read::{ReadMaterial, Rules};
-use crate::model::material::source::{Origin, Source};
+use svbrdf_files::source::{MaterialSource, Place};
 
 /// A file that was written less than this ago may be incomplete.
 const INCOMPLETE: Duration = Duration::from_secs(5);
@@ -37,7 +37,7 @@ pub struct Reader {
 /// # Errors
 /// Those of [`read::read`], and [`Error::Cancelled`].
 pub fn read_with_retries(
-    source: &Source,
+    source: &MaterialSource,
     reader: &mut Reader,
     progress: &Progress,
 ) -> Result<ReadMaterial, Error> {
@@ -54,8 +54,8 @@ pub fn read_with_retries(
 }
 
 /// Whether a file of the material was written a moment ago.
-fn is_being_written(source: &Source) -> bool {
-    let Origin::Path(path) = &source.origin else { return false };
+fn is_being_written(source: &MaterialSource) -> bool {
+    let Place::Path(path) = &source.place else { return false };
     let of_step = |run: &RunId| {
         let step = newest_first(run).into_iter().find(|step| step.path == *path || run.folder == *path)?;
         Some(step.stamp)
@@ -72,15 +72,15 @@ fn newest_first(run: &RunId) -> Vec<TrainingStep> {
 }
 
 /// A source for each training run in a folder; `source` itself where it is none.
-pub fn runs_of(source: Source) -> Vec<Source> {
-    let Origin::Path(path) = &source.origin else { return vec![source] };
+pub fn runs_of(source: MaterialSource) -> Vec<MaterialSource> {
+    let Place::Path(path) = &source.place else { return vec![source] };
     let runs =
         if source.run.is_none() && path.is_dir() { runs_in(path).unwrap_or_default() } else { Vec::new() };
     if runs.is_empty() {
         return vec![source];
     }
-    let one = |run: TrainingRun| Source {
-        origin: Origin::Path(run.id.folder.clone()),
+    let one = |run: TrainingRun| MaterialSource {
+        place: Place::Path(run.id.folder.clone()),
         run: Some(run.id),
         ..source.clone()
     };
@@ -88,9 +88,9 @@ pub fn runs_of(source: Source) -> Vec<Source> {
 }
 
 /// Reads one material.
-fn read(source: Source, reader: &mut Reader, progress: &Progress) -> Result<ReadMaterial, Error> {
-    match &source.origin {
-        Origin::BuiltIn(number) => {
+fn read(source: MaterialSource, reader: &mut Reader, progress: &Progress) -> Result<ReadMaterial, Error> {
+    match &source.place {
+        Place::BuiltIn(number) => {
             let samples = samples::load::<f32>()?;
             let mut all = std::iter::once(samples.ground_truth).chain(samples.predictions);
             let read = all
@@ -99,7 +99,7 @@ fn read(source: Source, reader: &mut Reader, progress: &Progress) -> Result<Read
             reader.size.get_or_insert(read.material.size());
             Ok(ReadMaterial::new(source, read))
         }
-        Origin::Path(path) => {
+        Place::Path(path) => {
             let path = path.clone();
             match source.run.as_ref().filter(|run| run.folder == path) {
                 Some(run) => read_newest(run, &source, reader, progress),
@@ -111,22 +111,22 @@ fn read(source: Source, reader: &mut Reader, progress: &Progress) -> Result<Read
 
 fn read_path(
     path: PathBuf,
-    source: Source,
+    source: MaterialSource,
     reader: &mut Reader,
     progress: &Progress,
 ) -> Result<ReadMaterial, Error> {
     let read = match &source.chosen {
         Some(options) => read::read_as::<f32>(&path, options, progress)?,
-        None => read::read::<f32>(&path, &source.specified, progress)?,
+        None => read::read::<f32>(&path, &source.options, progress)?,
     };
-    let source = Source { origin: Origin::Path(path.clone()), ..source };
+    let source = MaterialSource { place: Place::Path(path.clone()), ..source };
     reader.rules.take(&path, source, read, &mut reader.size)
 }
 
 /// Reads the newest step of a run that can be read. Steps that were written a moment ago come last: the window moves on to them.
 fn read_newest(
     run: &RunId,
-    source: &Source,
+    source: &MaterialSource,
     reader: &mut Reader,
     progress: &Progress,
 ) -> Result<ReadMaterial, Error> {

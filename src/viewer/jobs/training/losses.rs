@@ -14,8 +14,8 @@ use crate::jobs::reading::read::{Reader, read_with_retries};
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
 use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
-use crate::model::material::source::{Origin, Source};
 use crate::model::settings::loss_query::LossQuery;
+use svbrdf_files::source::{MaterialSource, Place};
 
 /// The loss of a step, or why there is none.
 pub type StepLoss = Result<Estimate, String>;
@@ -35,7 +35,7 @@ pub struct RunLossesKey {
 pub struct WantedRun<'a> {
     pub run: &'a TrainingRun,
     /// How its steps are read.
-    pub source: Source,
+    pub source: MaterialSource,
 }
 
 /// The losses of all steps that have one, and the work on the others.
@@ -54,7 +54,7 @@ type Computed = (RunId, StepKey, StepLoss);
 
 #[derive(Debug)]
 struct KnownLosses {
-    source: Source,
+    source: MaterialSource,
     losses: HashMap<StepKey, StepLoss>,
 }
 
@@ -62,7 +62,7 @@ struct KnownLosses {
 #[derive(Debug)]
 struct StepTask {
     run: RunId,
-    source: Source,
+    source: MaterialSource,
     key: StepKey,
 }
 
@@ -75,7 +75,7 @@ impl RunLosses {
         }
         self.take();
         let is_wanted =
-            |id: &RunId, source: &Source| runs.iter().any(|w| w.run.id == *id && w.source == *source);
+            |id: &RunId, source: &MaterialSource| runs.iter().any(|w| w.run.id == *id && w.source == *source);
         self.runs.retain(|id, known| is_wanted(id, &known.source));
         if !wanted {
             self.running = None;
@@ -119,7 +119,7 @@ impl RunLosses {
             for step in run.steps.iter().rev() {
                 let key = (step.path.clone(), step.stamp);
                 if !known.losses.contains_key(&key) {
-                    let source = Source { origin: Origin::Path(step.path.clone()), ..source.clone() };
+                    let source = MaterialSource { place: Place::Path(step.path.clone()), ..source.clone() };
                     tasks.push(StepTask { run: run.id.clone(), source, key });
                 }
             }
@@ -143,7 +143,7 @@ fn start(waker: &Waker, of: RunLossesKey, tasks: Vec<StepTask>) -> Job<(), Compu
     })
 }
 
-fn loss(of: &RunLossesKey, source: &Source, progress: &Progress) -> Result<Estimate, Error> {
+fn loss(of: &RunLossesKey, source: &MaterialSource, progress: &Progress) -> Result<Estimate, Error> {
     let truth = &of.ground_truth.material;
     let mut reader = Reader { rules: of.rules, size: Some(truth.size()), retries: true };
     let prediction = read_with_retries(source, &mut reader, &progress.part())?;

@@ -4,16 +4,16 @@ use svbrdf_core::picture::exposure;
 
 use crate::model::Model;
 use crate::model::exposed::Exposed;
-use crate::model::material::source::Origin;
 use crate::model::ranges::STOPS;
 use crate::model::view::state::AutoExposure;
+use svbrdf_files::source::Place;
 
 /// Computes the exposure where its state asks for it. Called in every frame.
 pub fn follow(model: &mut Model) {
     let Some(ground_truth) = model.materials.ground_truth() else { return };
-    let is_here = |origin: &Origin| model.materials.all.iter().any(|one| one.read.origin == *origin);
+    let is_here = |place: &Place| model.materials.all.iter().any(|one| one.read.place == *place);
     let now = Exposed::For {
-        ground_truth: ground_truth.read.origin.clone(),
+        ground_truth: ground_truth.read.place.clone(),
         scene: model.view.scene,
         convention: model.view.convention.clone(),
     };

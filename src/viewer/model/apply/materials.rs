@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::model::command::MaterialsCommand;
 use crate::model::command::effect::{DialogEffect, Effect};
 use crate::model::material::request::{ReadRequest, Target};
-use crate::model::material::source::{Source, sources};
+use crate::model::material::source::sources;
 use crate::model::message::Message;
 
 pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect> {
@@ -73,7 +73,7 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     let (first, predictions) = paths.split_at(usize::from(replace).min(paths.len()));
     let material = |path: &PathBuf| MaterialSource::path(path.clone(), read);
     let predictions = sources(predictions.iter().map(material).collect());
-    let sources = first.iter().map(material).map(Source::from).chain(predictions).collect();
+    let sources = first.iter().map(material).chain(predictions).collect();
     vec![Effect::ReadForDialog(ReadRequest::new(sources, target))]
 }
 

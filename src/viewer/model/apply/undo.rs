@@ -68,14 +68,14 @@ mod tests {
     use crate::model::command::{DisplayCommand, SceneCommand};
     use crate::model::material::loaded::LoadedMaterial;
     use crate::model::material::read::ReadMaterial;
-    use crate::model::material::source::Source;
+    use svbrdf_files::source::MaterialSource;
 
     /// A model with the built-in materials.
     fn model() -> Model {
         let samples = svbrdf_files::samples::load::<f32>().unwrap();
         let all = std::iter::once(samples.ground_truth).chain(samples.predictions).enumerate();
         let loaded = |(number, read)| {
-            let read = ReadMaterial::new(Source::built_in(number), read);
+            let read = ReadMaterial::new(MaterialSource::built_in(number), read);
             LoadedMaterial::new(std::sync::Arc::new(read))
         };
         let mut model = Model::default();

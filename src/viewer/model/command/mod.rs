@@ -18,13 +18,13 @@ use svbrdf_evaluate::diagnose::Change;
 use svbrdf_files::read::ReadOptions;
 
 use super::inspection::Region;
-use super::material::source::Source;
 use super::settings::Tab;
 use super::settings::save_kind::SaveRequest;
 use super::settings::why::WhySection;
 use super::view::animation::{Animation, Preset};
 use super::view::state::{AutoExposure, Layout};
 use svbrdf_core::model::scene::Endpoint;
+use svbrdf_files::source::MaterialSource;
 
 /// One act. Nothing else changes the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub enum MaterialsCommand {
         read: ReadOptions,
     },
     /// Opens a prediction that was refused or closed.
-    OpenAgain(Box<Source>),
+    OpenAgain(Box<MaterialSource>),
     /// Lets files name others by absolute paths from now on, and opens these, which were refused for that.
     AllowOutside {
         paths: Vec<PathBuf>,

@@ -11,7 +11,7 @@ use super::loaded::{LoadedMaterial, mismatch, rename};
 use super::problem::MaterialProblem;
 use super::read::{MaterialId, ReadMaterial, Rules};
 use super::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
-use super::source::{Origin, Source};
+use svbrdf_files::source::{MaterialSource, Place};
 
 /// The materials in the window.
 #[derive(Debug, Default)]
@@ -34,12 +34,12 @@ impl MaterialList {
 
     /// Whether there are only built-in materials, which the first opened material replaces.
     pub fn only_built_in(&self) -> bool {
-        self.all.iter().all(|one| matches!(one.read.origin, Origin::BuiltIn(_)))
+        self.all.iter().all(|one| matches!(one.read.place, Place::BuiltIn(_)))
     }
 
     /// How materials are read that are added to those in the window: as the last of them that comes from a file.
     pub fn read_of_added(&self) -> ReadOptions {
-        let from_files = self.all.iter().rev().find(|one| matches!(one.read.origin, Origin::Path(_)));
+        let from_files = self.all.iter().rev().find(|one| matches!(one.read.place, Place::Path(_)));
         from_files.map_or(ReadOptions::AUTO, |one| ReadOptions { exemplar: None, ..one.read.options })
     }
 
@@ -55,18 +55,18 @@ impl MaterialList {
     }
 
     /// What it takes to open this set of materials again.
-    pub fn sources(&self) -> Vec<Source> {
+    pub fn sources(&self) -> Vec<MaterialSource> {
         self.all.iter().map(|one| one.read.source().of_set()).collect()
     }
 
     /// The request that makes these the materials in the window. Those that are there already are not read again.
-    pub fn restore(&self, sources: &[Source]) -> ReadRequest {
+    pub fn restore(&self, sources: &[MaterialSource]) -> ReadRequest {
         let mut there = self.all.clone();
-        let is = |material: &LoadedMaterial, source: &Source| {
+        let is = |material: &LoadedMaterial, source: &MaterialSource| {
             let there = material.read.source();
             there == *source || there.of_set() == *source
         };
-        let item = |source: &Source| match there.iter().position(|one| is(one, source)) {
+        let item = |source: &MaterialSource| match there.iter().position(|one| is(one, source)) {
             Some(index) => Item::Loaded(there.remove(index)),
             None => Item::Read(Box::new(source.clone())),
         };
@@ -131,7 +131,7 @@ impl MaterialList {
         if let Some(sizes) = self.ground_truth().and_then(|ground_truth| mismatch(ground_truth, &read)) {
             return problems.push(MaterialProblem::Refused(Box::new(sizes)));
         }
-        if let Origin::Path(path) = &read.origin {
+        if let Place::Path(path) = &read.place {
             self.read.push(path.clone());
         }
         self.all.push(LoadedMaterial::new(read));
@@ -162,7 +162,7 @@ impl MaterialList {
 
     /// The request that reads the step at `path` of the training run at `index`.
     pub fn read_step(&self, index: usize, path: PathBuf) -> Option<ReadRequest> {
-        self.again(index, |source| source.origin = Origin::Path(path))
+        self.again(index, |source| source.place = Place::Path(path))
     }
 
     /// The request that reads the material at `index` again with these options alone.
@@ -171,9 +171,9 @@ impl MaterialList {
     }
 
     /// The request that reads the material at `index` again, with changes of its source; `None` for a built-in one.
-    fn again(&self, index: usize, change: impl FnOnce(&mut Source)) -> Option<ReadRequest> {
+    fn again(&self, index: usize, change: impl FnOnce(&mut MaterialSource)) -> Option<ReadRequest> {
         let material = self.all.get(index)?;
-        if matches!(material.read.origin, Origin::BuiltIn(_)) {
+        if matches!(material.read.place, Place::BuiltIn(_)) {
             return None;
         }
         let (mut source, target) = (material.read.source(), Target::Again(material.id()));
@@ -187,10 +187,10 @@ impl MaterialList {
     /// Those of [`Sidecar`].
     pub fn save_assumptions(&self, index: usize) -> Result<Option<ReadRequest>, Error> {
         let Some(material) = self.all.get(index) else { return Ok(None) };
-        let Origin::Path(path) = &material.read.origin else { return Ok(None) };
+        let Place::Path(path) = &material.read.place else { return Ok(None) };
         Sidecar { options: material.read.options, ..Sidecar::load(path)? }
             .save(path, &Progress::default())?;
-        Ok(self.again(index, |source| (source.specified, source.chosen) = (ReadOptions::AUTO, None)))
+        Ok(self.again(index, |source| (source.options, source.chosen) = (ReadOptions::AUTO, None)))
     }
 
     /// Closes the prediction at `index`.

@@ -85,7 +85,7 @@ pub fn mismatch(ground_truth: &LoadedMaterial, prediction: &ReadMaterial) -> Opt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::material::source::Source;
+    use svbrdf_files::source::MaterialSource;
 
     #[test]
     fn names_that_steer_the_text_after_them_or_fill_the_window_are_shown_and_do_neither() {
@@ -93,7 +93,7 @@ mod tests {
         let material = |name: String| {
             let mut read = read.clone();
             read.material = read.material.renamed(name);
-            LoadedMaterial::new(Arc::new(ReadMaterial::new(Source::built_in(0), read)))
+            LoadedMaterial::new(Arc::new(ReadMaterial::new(MaterialSource::built_in(0), read)))
         };
         let hostile = ["a\u{202e}gnp.b".to_owned(), "\u{1b}[2J".to_owned(), "long ".repeat(100_000)];
         let mut all: Vec<_> = hostile.into_iter().map(material).collect();

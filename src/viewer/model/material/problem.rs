@@ -5,7 +5,7 @@ use std::path::Path;
 
 use svbrdf_core::error::Error;
 
-use super::source::{Origin, Source};
+use svbrdf_files::source::{MaterialSource, Place};
 
 /// Why a material is not in the window, or not any more.
 #[derive(Debug)]
@@ -15,7 +15,7 @@ pub enum MaterialProblem {
     /// A prediction was closed: the new ground truth has another size.
     Closed(Box<SizeMismatch>),
     /// A material could not be read, in the opening of this number.
-    NotRead { source: Box<Source>, error: Error, opening: u64 },
+    NotRead { source: Box<MaterialSource>, error: Error, opening: u64 },
     /// These predictions were not opened: their ground truth could not be read.
     NotOpened(Vec<String>),
 }
@@ -28,7 +28,7 @@ pub struct SizeMismatch {
     pub ground_truth: String,
     pub ground_truth_size: [usize; 2],
     /// The prediction.
-    pub source: Source,
+    pub source: MaterialSource,
 }
 
 impl MaterialProblem {
@@ -39,9 +39,9 @@ impl MaterialProblem {
             Self::Refused(sizes) | Self::Closed(sizes) => &sizes.source,
             Self::NotOpened(_) => return None,
         };
-        match &source.origin {
-            Origin::Path(path) => Some(path),
-            Origin::BuiltIn(_) => None,
+        match &source.place {
+            Place::Path(path) => Some(path),
+            Place::BuiltIn(_) => None,
         }
     }
 }

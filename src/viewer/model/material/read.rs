@@ -12,7 +12,7 @@ use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read::{Assumption, MapReport, Note, Read, ReadOptions};
 use svbrdf_files::steps::RunId;
 
-use super::source::{Origin, Source};
+use svbrdf_files::source::{MaterialSource, Place};
 
 /// What identifies the maps of a material: the reading that brought them, and the stamp of the files that were read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -43,7 +43,7 @@ pub struct ReadMaterial {
     pub id: MaterialId,
     /// The name that it is given; `None` for that of its files.
     pub name: Option<String>,
-    pub origin: Origin,
+    pub place: Place,
     /// The options specified when it was opened.
     pub specified: ReadOptions,
     /// The options it was read with: those specified or saved, and those chosen since.
@@ -70,17 +70,17 @@ pub struct ReadMaterial {
 
 impl ReadMaterial {
     /// The material of what was read from `source`.
-    pub fn new(source: Source, read: Read<f32>) -> Self {
+    pub fn new(source: MaterialSource, read: Read<f32>) -> Self {
         let storage = read.storage();
         let files: Vec<_> =
             read.files.into_iter().map(|path| (Stamp::of(&path), path)).map(|(s, p)| (p, s)).collect();
         let Read { material, assumptions, notes, maps, options, saved, memory, .. } = read;
-        let Source { name, origin, specified, fit, run, .. } = source;
+        let MaterialSource { name, place, options: specified, fit, run, .. } = source;
         let id = MaterialId::new(&files);
         Self {
             id,
             name,
-            origin,
+            place,
             specified,
             options,
             saved,
@@ -98,19 +98,19 @@ impl ReadMaterial {
 
     /// The path it was read from; empty for a built-in one.
     pub fn path(&self) -> &Path {
-        match &self.origin {
-            Origin::BuiltIn(_) => Path::new(""),
-            Origin::Path(path) => path,
+        match &self.place {
+            Place::BuiltIn(_) => Path::new(""),
+            Place::Path(path) => path,
         }
     }
 
     /// This material with other maps, which no file holds.
     pub fn with_material(&self, material: Material<f32>) -> Self {
-        let Self { name, origin, specified, options, saved, fit, run, .. } = self;
+        let Self { name, place, specified, options, saved, fit, run, .. } = self;
         Self {
             id: MaterialId::new(&[]),
             name: name.clone(),
-            origin: origin.clone(),
+            place: place.clone(),
             specified: *specified,
             options: *options,
             saved: *saved,
@@ -133,12 +133,13 @@ impl ReadMaterial {
     }
 
     /// What it takes to open it again.
-    pub fn source(&self) -> Source {
+    pub fn source(&self) -> MaterialSource {
         let is_chosen =
-            matches!(self.origin, Origin::Path(_)) && self.options != self.specified.over(self.saved);
+            matches!(self.place, Place::Path(_)) && self.options != self.specified.over(self.saved);
         let chosen = is_chosen.then_some(self.options);
-        let (origin, run) = (self.origin.clone(), self.run.clone());
-        Source { name: self.name.clone(), origin, specified: self.specified, chosen, fit: self.fit, run }
+        let (place, run) = (self.place.clone(), self.run.clone());
+        let (name, options, fit) = (self.name.clone(), self.specified, self.fit);
+        MaterialSource { name, place, options, chosen, fit, run }
     }
 }
 
@@ -159,7 +160,7 @@ impl Rules {
     pub fn take(
         self,
         path: &Path,
-        mut source: Source,
+        mut source: MaterialSource,
         mut read: Read<f32>,
         size: &mut Option<[usize; 2]>,
     ) -> Result<ReadMaterial, Error> {

@@ -7,7 +7,7 @@ use svbrdf_files::samples;
 
 use super::loaded::LoadedMaterial;
 use super::read::{MaterialId, ReadMaterial};
-use super::source::Source;
+use svbrdf_files::source::MaterialSource;
 
 /// Where materials go once they have been read.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub enum Target {
 #[derive(Clone, Debug)]
 pub enum Item {
     Loaded(LoadedMaterial),
-    Read(Box<Source>),
+    Read(Box<MaterialSource>),
 }
 
 /// Materials to be read one after the other, and where they go.
@@ -35,13 +35,13 @@ pub struct ReadRequest {
 }
 
 impl ReadRequest {
-    pub fn new(sources: Vec<Source>, target: Target) -> Self {
+    pub fn new(sources: Vec<MaterialSource>, target: Target) -> Self {
         Self { items: sources.into_iter().map(Box::new).map(Item::Read).collect(), target }
     }
 
     /// The built-in materials, in the place of all others.
     pub fn built_in() -> Self {
-        Self::new((0..samples::COUNT).map(Source::built_in).collect(), Target::Everything)
+        Self::new((0..samples::COUNT).map(MaterialSource::built_in).collect(), Target::Everything)
     }
 }
 
@@ -50,7 +50,7 @@ impl ReadRequest {
 pub enum Arrival {
     Loaded(LoadedMaterial),
     Read(Arc<ReadMaterial>),
-    Failed(Box<Source>, Error),
+    Failed(Box<MaterialSource>, Error),
 }
 
 /// Which opening an arrival belongs to.

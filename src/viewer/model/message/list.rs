@@ -71,13 +71,12 @@ impl MessageList {
 mod tests {
     use super::*;
     use crate::model::material::problem::MaterialProblem;
-    use crate::model::material::source::Source;
     use std::path::PathBuf;
     use svbrdf_core::error::Error;
     use svbrdf_files::source::MaterialSource;
 
     fn not_read(path: &str) -> Message {
-        let source = Box::new(Source::from(MaterialSource::from(PathBuf::from(path))));
+        let source = Box::new(MaterialSource::from(PathBuf::from(path)));
         MaterialProblem::NotRead { source, error: Error::Internal(format!("{path} is broken")), opening: 1 }
             .into()
     }

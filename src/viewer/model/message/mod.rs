@@ -11,7 +11,7 @@ use svbrdf_files::read::ReadOptions;
 
 use super::command::{Command, MaterialsCommand};
 use super::material::problem::MaterialProblem;
-use super::material::source::Source;
+use svbrdf_files::source::MaterialSource;
 
 /// How much a message matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,12 +80,12 @@ impl Message {
     pub fn remedy(&self) -> Option<(&'static str, Command)> {
         match self {
             Self::Material(MaterialProblem::Refused(sizes) | MaterialProblem::Closed(sizes)) => {
-                let source = Source { fit: true, ..sizes.source.clone() };
+                let source = MaterialSource { fit: true, ..sizes.source.clone() };
                 Some(("Fit and open", MaterialsCommand::OpenAgain(Box::new(source)).into()))
             }
             Self::Material(MaterialProblem::NotRead { source, error: Error::Outside { .. }, .. }) => {
                 let path = self.path()?.to_owned();
-                Some(allow_outside(path, source.specified))
+                Some(allow_outside(path, source.options))
             }
             Self::Failed(Error::Outside { by, .. }) => Some(allow_outside(by.clone(), ReadOptions::AUTO)),
             _ => None,
@@ -147,7 +147,6 @@ impl fmt::Display for Message {
 mod tests {
     use super::*;
     use crate::model::material::problem::SizeMismatch;
-    use svbrdf_files::source::MaterialSource;
 
     #[test]
     fn only_what_went_wrong_is_an_error() {
@@ -156,7 +155,7 @@ mod tests {
             prediction_size: [128, 64],
             ground_truth: "large".to_owned(),
             ground_truth_size: [256, 256],
-            source: Source::from(MaterialSource::from(PathBuf::from("small.png"))),
+            source: MaterialSource::from(PathBuf::from("small.png")),
         };
         let sizes = Box::new(sizes);
         let saved = Error::AboveLimit { name: "Saved".to_owned(), loss: 2.0, limit: 1.0 };
@@ -181,7 +180,7 @@ mod tests {
     #[test]
     fn the_limit_of_memory_comes_with_its_option() {
         let error = || Error::Memory { what: "a.png".to_owned(), bytes: 4 << 30, limit: 1 << 30 };
-        let source = Box::new(Source::from(MaterialSource::from(PathBuf::from("a.png"))));
+        let source = Box::new(MaterialSource::from(PathBuf::from("a.png")));
         let not_read = MaterialProblem::NotRead { source, error: error(), opening: 1 };
         for message in [Message::Failed(error()), not_read.into()] {
             let text = message.to_string();

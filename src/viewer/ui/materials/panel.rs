@@ -11,10 +11,10 @@ use crate::jobs::reading::opening::Openings;
 use crate::model::command::{Command, MaterialsCommand};
 use crate::model::material::list::MaterialList;
 use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::source::Origin;
 use crate::ui::widgets::read_options::read_options;
 use crate::ui::widgets::remedy::{is_offered, remedy_button};
 use crate::ui::widgets::theme;
+use svbrdf_files::source::Place;
 
 /// What the section shows.
 #[derive(Debug)]
@@ -69,7 +69,7 @@ impl MaterialsPanel<'_> {
 
 /// The button that saves the chosen assumptions, where they are not the saved ones.
 fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands: &mut Vec<Command>) {
-    let (Origin::Path(path), loaded) = (&material.read.origin, &material.read) else { return };
+    let (Place::Path(path), loaded) = (&material.read.place, &material.read) else { return };
     if loaded.options == loaded.saved {
         return;
     }
@@ -167,13 +167,11 @@ fn section(
     });
     let [width, height] = loaded.material.size();
     ui.add(egui::Label::new(RichText::new(material.name()).strong()).truncate());
-    let origin = match &loaded.origin {
-        Origin::BuiltIn(_) => "built in".to_owned(),
-        Origin::Path(path) => path.display().to_string(),
+    let place = match &loaded.place {
+        Place::BuiltIn(_) => "built in".to_owned(),
+        Place::Path(path) => path.display().to_string(),
     };
-    ui.add(
-        egui::Label::new(RichText::new(format!("{width} x {height}, {origin}")).small().weak()).truncate(),
-    );
+    ui.add(egui::Label::new(RichText::new(format!("{width} x {height}, {place}")).small().weak()).truncate());
     if let Some(problem) = &material.problem {
         ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
     }
@@ -186,7 +184,7 @@ fn section(
         let text = RichText::new(note.to_string()).small();
         ui.label(if note.changes_look() { text.color(ui.visuals().warn_fg_color) } else { text });
     }
-    if matches!(loaded.origin, Origin::Path(_)) {
+    if matches!(loaded.place, Place::Path(_)) {
         let mut read = loaded.options;
         chooser(ui, material, &mut read);
         let change = ui.collapsing("Change...", |ui| {

@@ -6,13 +6,13 @@ use svbrdf_evaluate::diagnose::Remedy;
 
 use crate::model::command::{Command, DisplayCommand, MaterialsCommand};
 use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::source::Origin;
+use svbrdf_files::source::Place;
 
 /// Whether a material can be read again with the option: one of a file that does not have it yet.
 pub fn is_offered(material: &LoadedMaterial, remedy: Remedy) -> bool {
     let read = &material.read;
     let with = read.options.with_remedy(remedy);
-    matches!(read.origin, Origin::Path(_)) && with.is_ok_and(|with| with != read.options)
+    matches!(read.place, Place::Path(_)) && with.is_ok_and(|with| with != read.options)
 }
 
 /// The button for the material at `index`; a click reads it again, and shows it as it is read.

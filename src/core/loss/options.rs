@@ -1,0 +1,281 @@
+//! Options of a loss: what the command line, Python and sessions specify of its question.
+
+use std::str::FromStr;
+use std::time::Duration;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+use super::adaptive::TEXELS;
+use super::question::{Question, counts};
+use super::request::{Request, Sampling, Texels};
+use super::settings::{FileScenes, LossSettings};
+use crate::error::Error;
+use crate::model::sampler::Sampler;
+
+/// The options of sampled scenes.
+const SAMPLED: [&str; 4] = ["near", "distant", "sampler", "texels"];
+
+/// What is specified of a question; `None` is left open. The command line parses into it, Python passes it as JSON, and it is laid over
+/// the settings of a session.
+///
+/// The number of scenes follows from `near` and `distant`, `target_error`, `time_budget` or `file`. These exclude each other, and
+/// options that the one does not use are refused.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LossOptions {
+    /// The number of near-field scenes.
+    pub near: Option<usize>,
+    /// The number of distant scenes.
+    pub distant: Option<usize>,
+    /// Names the sampled scenes; 0 where left open.
+    pub seed: Option<u64>,
+    #[serde(deserialize_with = "by_name")]
+    pub sampler: Option<Sampler>,
+    #[serde(deserialize_with = "by_name")]
+    pub texels: Option<Texels>,
+    /// Half of the 95% interval, as a share of the loss.
+    pub target_error: Option<f64>,
+    /// In JSON seconds.
+    #[serde(deserialize_with = "seconds")]
+    pub time_budget: Option<Duration>,
+    /// The scenes themselves.
+    pub file: Option<FileScenes>,
+}
+
+fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err = Error>>(
+    deserializer: D,
+) -> Result<Option<T>, D::Error> {
+    let name: Option<String> = Option::deserialize(deserializer)?;
+    name.map(|name| name.parse()).transpose().map_err(D::Error::custom)
+}
+
+fn seconds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Duration>, D::Error> {
+    let seconds: Option<f64> = Option::deserialize(deserializer)?;
+    seconds.map(Duration::try_from_secs_f64).transpose().map_err(D::Error::custom)
+}
+
+impl LossOptions {
+    /// The question that is asked with these. Where nothing decides the number of scenes it is [`Question::of_seed`], whose scenes are
+    /// Sobol with random texels; with a number of them, the rest is random and all texels.
+    ///
+    /// # Errors
+    /// [`Error::SceneCount`]; [`Error::UnusedOption`]; [`Error::NoSceneCount`] where a sampler or texels are specified that an accuracy
+    /// does not have.
+    pub fn question(&self) -> Result<Question, Error> {
+        self.check()?;
+        let seed = self.seed.unwrap_or(0);
+        let request = match (&self.file, self.target_error, self.time_budget) {
+            (Some(file), ..) => Request::Listed(file.scenes.clone()),
+            (_, Some(target), _) => Request::Accuracy { target, seed },
+            (.., Some(budget)) => Request::Time { budget, seed },
+            _ if self.near.or(self.distant).is_some() => self.sampled(Sampling::default())?,
+            _ => return self.check_open().map(|()| Question::of_seed(seed)),
+        };
+        Ok(request.into())
+    }
+
+    /// The request for scenes that are listed one by one, on all texels: [`Sampling::LISTED`] where nothing else is specified.
+    ///
+    /// # Errors
+    /// As [`LossOptions::question`].
+    pub fn listed(&self) -> Result<Request, Error> {
+        self.check()?;
+        match &self.file {
+            Some(file) => Ok(Request::Listed(file.scenes.clone())),
+            None => self.sampled(Sampling::LISTED),
+        }
+    }
+
+    /// The question that is asked with these in place of `saved` settings, which count where the number of scenes is left open.
+    ///
+    /// # Errors
+    /// As [`LossOptions::question`].
+    pub fn over(&self, saved: &LossSettings) -> Result<Question, Error> {
+        let seed = self.seed.unwrap_or(saved.seed);
+        if self.file.is_some() {
+            return self.question();
+        }
+        if self.near.or(self.distant).is_some() || self.target_error.is_some() || self.time_budget.is_some() {
+            return Self { seed: Some(seed), ..self.clone() }.question();
+        }
+        let request = LossSettings { seed, ..saved.clone() }.request();
+        Ok(match request {
+            Request::Listed(_) => {
+                self.refuse(&["seed", "sampler", "texels"], "the session lists its scenes")?;
+                request
+            }
+            Request::Scenes(Sampling { near, distant, sampler, texels, .. }) => {
+                self.sampled(Sampling { near, distant, seed, sampler, texels })?
+            }
+            Request::Accuracy { .. } | Request::Time { .. } => self.check_open().map(|()| request)?,
+        }
+        .into())
+    }
+
+    /// Sampled scenes, where left open as of `usual`.
+    fn sampled(&self, usual: Sampling) -> Result<Request, Error> {
+        let [near, distant] = counts([self.near, self.distant], [usual.near, usual.distant]);
+        let (sampler, texels) = (self.sampler.unwrap_or(usual.sampler), self.texels.unwrap_or(usual.texels));
+        let sampling = Sampling { near, distant, seed: self.seed.unwrap_or(usual.seed), sampler, texels };
+        sampling.check()?;
+        Ok(Request::Scenes(sampling))
+    }
+
+    /// Refuses options that what decides the scenes does not use.
+    fn check(&self) -> Result<(), Error> {
+        if self.file.is_some() {
+            self.refuse(&["target_error", "time_budget", "seed"], "the scenes are a fixed list")?;
+            self.refuse(&SAMPLED, "the scenes are a fixed list")
+        } else if self.target_error.is_some() {
+            self.refuse(&["time_budget"], "the target error decides the scenes")?;
+            self.refuse(&SAMPLED, "the target error decides the scenes")
+        } else if self.time_budget.is_some() {
+            self.refuse(&SAMPLED, "the time budget decides the scenes")
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Refuses these options.
+    fn refuse(&self, unused: &[&'static str], reason: &'static str) -> Result<(), Error> {
+        let Self { near, distant, seed, sampler, texels, target_error, time_budget, file: _ } = self;
+        let specified = [
+            ("near", near.is_some()),
+            ("distant", distant.is_some()),
+            ("seed", seed.is_some()),
+            ("sampler", sampler.is_some()),
+            ("texels", texels.is_some()),
+            ("target_error", target_error.is_some()),
+            ("time_budget", time_budget.is_some()),
+        ];
+        match specified.into_iter().find(|(option, is_specified)| *is_specified && unused.contains(option)) {
+            Some((option, _)) => Err(Error::UnusedOption { option, reason }),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether a run to an accuracy has this sampler and these texels.
+    fn check_open(&self) -> Result<(), Error> {
+        let sampler =
+            self.sampler.filter(|sampler| *sampler != Sampler::Sobol).map(|one| format!("sampler {one}"));
+        let texels = self
+            .texels
+            .filter(|texels| *texels != Texels::Sampled(TEXELS))
+            .map(|one| format!("texels {one}"));
+        match sampler.or(texels) {
+            Some(found) => Err(Error::NoSceneCount { found }),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::loss::Ask;
+
+    #[test]
+    fn a_choice_without_a_number_of_scenes_leaves_the_accuracy() {
+        for (sampler, texels) in [
+            (None, None),
+            (Some(Sampler::Sobol), None),
+            (None, Some(Texels::Sampled(TEXELS))),
+            (Some(Sampler::Sobol), Some(Texels::Sampled(TEXELS))),
+        ] {
+            let choice = LossOptions { sampler, texels, seed: Some(7), ..LossOptions::default() };
+            assert_eq!(choice.question().unwrap(), Question::of_seed(7));
+        }
+        for (sampler, texels, found) in [
+            (Some(Sampler::Random), None, "sampler random"),
+            (None, Some(Texels::Sampled(64)), "texels 64"),
+            (Some(Sampler::Sobol), Some(Texels::All), "texels all"),
+        ] {
+            let error = LossOptions { sampler, texels, ..LossOptions::default() }.question().unwrap_err();
+            assert!(error.to_string().contains(found), "{error}");
+        }
+    }
+
+    #[test]
+    fn what_is_saved_counts_where_a_number_of_scenes_is_left_open() {
+        let accuracy = LossSettings { target_percent: 0.3, seed: 5, ..LossSettings::default() };
+        let sobol = LossOptions { sampler: Some(Sampler::Sobol), ..LossOptions::default() };
+        assert_eq!(sobol.over(&accuracy).unwrap().request, accuracy.request());
+        let saved = LossSettings { ask: Ask::Scenes, near: 40, distant: 9, ..accuracy.clone() };
+        let expected = LossSettings { sampler: Sampler::Sobol, ..saved.clone() };
+        assert_eq!(sobol.over(&saved).unwrap().request, expected.request());
+        let near = LossOptions { near: Some(8), ..sobol.clone() };
+        let seeded = LossOptions { seed: Some(5), ..near.clone() };
+        assert_eq!(near.over(&accuracy).unwrap(), seeded.question().unwrap());
+        let seed = LossOptions { seed: Some(7), ..LossOptions::default() };
+        assert_eq!(seed.over(&saved).unwrap().request.seed(), Some(7));
+        let scenes = Sampler::Random.scenes(1, 2, 1, &crate::model::convention::PRINTED);
+        let listed = saved.with_file(Some(FileScenes { name: String::new(), path: "".into(), scenes }));
+        assert_eq!(LossOptions::default().over(&listed).unwrap().request, listed.request());
+        for options in [seed, sobol] {
+            let refused = options.over(&listed).unwrap_err().to_string();
+            assert!(refused.contains("the session lists its scenes"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn options_that_the_scenes_do_not_use_are_refused() {
+        let scenes = r#""file": {"scenes": [{"kind": "near", "view": [0, 0, 2], "light": [0, 1, 1]}]}"#;
+        let sampled = [r#""near": 3"#, r#""distant": 3"#, r#""sampler": "sobol""#, r#""texels": "9""#];
+        let [seed, target, time] = [r#""seed": 3"#, r#""target_error": 0.1"#, r#""time_budget": 0.5"#];
+        let question = |fields: &[&str]| {
+            let text = format!("{{{}}}", fields.join(", "));
+            serde_json::from_str::<LossOptions>(&text).unwrap().question()
+        };
+        for (deciding, unused) in [
+            (scenes, [&sampled[..], &[seed, target, time]].concat()),
+            (target, [&sampled[..], &[time]].concat()),
+            (time, sampled.to_vec()),
+        ] {
+            assert!(question(&[deciding]).is_ok(), "{deciding}");
+            for option in unused {
+                let name = option[1..].split('"').next().unwrap();
+                let refused = question(&[deciding, option]).unwrap_err().to_string();
+                assert!(refused.ends_with(&format!("leave out {name}")), "{deciding}, {option}: {refused}");
+            }
+        }
+        assert_eq!(
+            question(&[time, seed]).unwrap().request,
+            Request::Time { budget: Duration::from_millis(500), seed: 3 }
+        );
+        for wrong in [
+            r#""near": -1"#,
+            r#""sampler": "halton""#,
+            r#""texels": "0""#,
+            r#""time_budget": -1"#,
+            r#""what": 1"#,
+        ] {
+            assert!(serde_json::from_str::<LossOptions>(&format!("{{{wrong}}}")).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn one_number_of_scenes_keeps_the_proportion_of_two_to_one() {
+        let counts = |near, distant| {
+            let choice = LossOptions { near, distant, seed: Some(3), ..LossOptions::default() };
+            match choice.question().unwrap().request {
+                Request::Scenes(Sampling {
+                    near,
+                    distant,
+                    seed: 3,
+                    sampler: Sampler::Random,
+                    texels: Texels::All,
+                }) => [near, distant],
+                other => panic!("{other:?}"),
+            }
+        };
+        for n in 1..200 {
+            assert_eq!(counts(Some(2 * n), None), [2 * n, n]);
+            assert_eq!(counts(Some(2 * n - 1), None), [2 * n - 1, n]);
+            assert_eq!(counts(None, Some(n)), [2 * n, n]);
+            assert_eq!(counts(Some(n), Some(0)), [n, 0]);
+        }
+        assert!(LossOptions { near: Some(0), ..LossOptions::default() }.question().is_err());
+        assert!(LossOptions { distant: Some(usize::MAX), ..LossOptions::default() }.question().is_err());
+    }
+}
