@@ -17,7 +17,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::Read;
-use svbrdf_files::session::window::Display;
+use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_files::source::MaterialSource;
 use svbrdf_page::{Report, View};
 
@@ -72,7 +72,7 @@ fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report
         view: View {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
             exposure_ev: 0.0,
-            display: Display::default(),
+            display: SessionDisplay::default(),
         },
         findings: None,
         readings: Vec::new(),

@@ -1,12 +1,12 @@
 //! Pickles: how the files of a material store it, as text.
 
 use pyo3::prelude::*;
-use svbrdf_evaluate::diagnose::{Storage, Transfer};
+use svbrdf_evaluate::diagnose::{Storage, StoredEncoding};
 
 use crate::errors::Error;
 
 /// The fields of [`Storage`] in their order.
-type Fields = (Transfer, Transfer, bool, bool, Option<String>, bool, [f64; 4]);
+type Fields = (StoredEncoding, StoredEncoding, bool, bool, Option<String>, bool, [f64; 4]);
 
 /// The text of a storage.
 ///

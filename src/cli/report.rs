@@ -9,7 +9,7 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::session::window::{Display, Layout};
+use svbrdf_files::session::window::{Layout, SessionDisplay};
 use svbrdf_page::{Findings, Page, Repetition, Report, View, check_destination, exposure};
 
 use super::args::scenes::{AccuracyArgs, RenderingArgs};
@@ -65,7 +65,7 @@ struct ReportJob {
     scene: Scene,
     /// `None`: fitted to the ground truth.
     exposure_ev: Option<f32>,
-    display: Display,
+    display: SessionDisplay,
     /// `None`: the figure alone.
     whole: Option<WholePage>,
 }

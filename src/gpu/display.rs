@@ -17,7 +17,7 @@ use super::{Gpu, Shaded};
 
 /// The pipelines of pass 2.
 #[derive(Debug)]
-pub struct Display {
+pub struct DisplayPass {
     pipelines: Fullscreen,
 }
 
@@ -37,7 +37,7 @@ pub struct Pane {
     group: BindGroup,
 }
 
-impl Display {
+impl DisplayPass {
     /// Compiles the shader for a target that does not encode by itself, as egui's.
     ///
     /// # Errors

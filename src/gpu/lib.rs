@@ -1,7 +1,7 @@
 //! Algorithm 3 on the graphics adapter, offscreen and in a window. Knows the core and wgpu, and no egui.
 //!
 //! Two passes. `Shading` runs one fragment per texel of the map and writes linear floats: Algorithm 3 under a
-//! scene, or one of the maps. `Display` runs one fragment per pixel of the screen: from the camera's ray to the
+//! scene, or one of the maps. `DisplayPass` runs one fragment per pixel of the screen: from the camera's ray to the
 //! texels that are seen, averaged where they are smaller than a pixel, exposed and encoded. So shading is never
 //! computed on filtered maps, and moving the camera costs no shading.
 //!
@@ -28,7 +28,7 @@ pub mod uniforms;
 
 pub use adapter::AdapterReport;
 pub use context::Gpu;
-pub use display::{Display, Pane, PanePlace};
+pub use display::{DisplayPass, Pane, PanePlace};
 pub use loss::GpuLosses;
 pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams};
 pub use read_back::read_rgba;

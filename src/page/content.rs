@@ -11,7 +11,7 @@ use svbrdf_evaluate::why::{
     Attribution, Hemisphere, RankedScene, attribute, hemisphere, worst_on_all_texels,
 };
 
-use svbrdf_files::session::window::Display;
+use svbrdf_files::session::window::SessionDisplay;
 
 /// Worst scenes of the page.
 const SCENES: usize = 6;
@@ -25,7 +25,7 @@ pub struct View {
     pub scene: Scene,
     /// In stops.
     pub exposure_ev: f32,
-    pub display: Display,
+    pub display: SessionDisplay,
 }
 
 /// The results of a comparison.

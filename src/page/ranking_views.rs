@@ -23,7 +23,7 @@ use svbrdf_files::disk::atomic::replace_own;
 use svbrdf_files::disk::own;
 use svbrdf_files::disk::paths::plain;
 use svbrdf_files::read::{self, ReadOptions};
-use svbrdf_files::session::window::Display;
+use svbrdf_files::session::window::SessionDisplay;
 
 /// Light and view of thumbnails and figures.
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
@@ -157,7 +157,7 @@ fn view(
         let report = Report {
             materials: &materials,
             convention: *convention,
-            view: View { scene: SCENE, exposure_ev, display: Display::default() },
+            view: View { scene: SCENE, exposure_ev, display: SessionDisplay::default() },
             findings: None,
             readings: Vec::new(),
             repetition: None,

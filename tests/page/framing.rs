@@ -5,7 +5,7 @@ use serde_json::json;
 
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::camera::Camera;
-use svbrdf_files::session::window::{Display, Framing, Layout, Projection};
+use svbrdf_files::session::window::{Framing, Layout, Projection, SessionDisplay};
 use svbrdf_needs::needs;
 use svbrdf_page::{MOST_BYTES, Report};
 
@@ -20,8 +20,12 @@ fn open(framing: Framing, projection: Projection, max_bytes: usize) -> Page {
     let materials = [&material];
     let mut report = Report { max_bytes, ..report(&materials, PRINTED) };
     report.view.scene.view = [0.5, -0.3, 2.0];
-    report.view.display =
-        Display { layout: Layout::Single, projection, framing: Some(framing), ..Display::default() };
+    report.view.display = SessionDisplay {
+        layout: Layout::Single,
+        projection,
+        framing: Some(framing),
+        ..SessionDisplay::default()
+    };
     Page::open(&html(&report), [800, 600])
 }
 

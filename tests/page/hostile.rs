@@ -8,7 +8,7 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
-use svbrdf_files::session::window::Display;
+use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_needs::needs;
 use svbrdf_page::{Findings, Repetition, Report, View};
 
@@ -38,7 +38,7 @@ pub fn report_of(names: [&str; 2]) -> String {
         view: View {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
             exposure_ev: 0.0,
-            display: Display::default(),
+            display: SessionDisplay::default(),
         },
         findings: Some(findings),
         readings: names.map(|name| vec![name.to_owned()]).to_vec(),

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use svbrdf_core::material::{Material, Planes};
-use svbrdf_gpu::{Display, DisplayParams, Gpu, Pane, PanePlace, Shaded};
+use svbrdf_gpu::{DisplayParams, DisplayPass, Gpu, Pane, PanePlace, Shaded};
 
 /// What to do where the tests and the build disagree on what is there.
 pub const STALE_BUILD: &str =
@@ -97,7 +97,7 @@ impl Screen {
         params: &DisplayParams,
     ) -> Self {
         let format = wgpu::TextureFormat::Rgba8Unorm;
-        let display = Display::new(gpu, format).expect("the display pass compiles");
+        let display = DisplayPass::new(gpu, format).expect("the display pass compiles");
         let place = PanePlace { corner: [0; 2], size: [width, height] };
         let pane = display.pane(gpu, shown, reference, params, place);
         let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {

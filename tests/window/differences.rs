@@ -237,20 +237,20 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
 #[needs(adapter)]
 #[test]
 fn every_pane_in_false_colours_has_a_scale_and_no_other() {
-    use svbrdf_viewer::ui::pane::scale::Scale;
+    use svbrdf_viewer::ui::pane::scale::PaneScale;
     let mut window = built_in();
     let scales = |window: &Window<'_>| {
         let parts = &window.state().parts;
         let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
         let scenery = svbrdf_viewer::ui::content::scenery(&window.ctx, displayed, &parts.model.view);
         let contents = scenery.contents();
-        contents.into_iter().map(|content| Scale::of(&scenery, content)).collect::<Vec<_>>()
+        contents.into_iter().map(|content| PaneScale::of(&scenery, content)).collect::<Vec<_>>()
     };
     assert_eq!(scales(&window), [None, None, None], "values have their own colours");
     press(&mut window, egui::Key::D);
     statistics(&mut window);
     let range = window.state().difference_range();
-    let log = Scale { is_signed: false, range, unit: "" };
+    let log = PaneScale { is_signed: false, range, unit: "" };
     assert_eq!(scales(&window), [None, Some(log.clone()), Some(log.clone())]);
     press(&mut window, egui::Key::C);
     assert_eq!(scales(&window), [Some(log)], "a wipe");
@@ -258,13 +258,13 @@ fn every_pane_in_false_colours_has_a_scale_and_no_other() {
     press(&mut window, egui::Key::C);
     press(&mut window, egui::Key::M);
     statistics(&mut window);
-    let angle = Scale { is_signed: false, range: window.state().difference_range(), unit: "\u{b0}" };
+    let angle = PaneScale { is_signed: false, range: window.state().difference_range(), unit: "\u{b0}" };
     assert_eq!(scales(&window)[1], Some(angle));
     // The roughness itself, in false colours.
     press(&mut window, egui::Key::D);
     for key in [egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::V] {
         press(&mut window, key);
     }
-    let roughness = Scale { is_signed: false, range: 1.0, unit: "" };
+    let roughness = PaneScale { is_signed: false, range: 1.0, unit: "" };
     assert_eq!(scales(&window), vec![Some(roughness); 3]);
 }

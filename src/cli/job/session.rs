@@ -9,7 +9,7 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session::Session;
-use svbrdf_files::session::window::Display;
+use svbrdf_files::session::window::SessionDisplay;
 
 use crate::cli::args::MaterialArgs;
 use crate::cli::output::{CommandError, exit};
@@ -20,7 +20,7 @@ pub struct SessionSettings {
     pub scene: Scene,
     pub convention: Convention,
     pub exposure_ev: f32,
-    display: Display,
+    display: SessionDisplay,
     loss: Option<LossSettings>,
 }
 
@@ -74,7 +74,7 @@ impl SessionSettings {
     }
 
     /// What the window displays, and how.
-    pub fn display(&self) -> &Display {
+    pub fn display(&self) -> &SessionDisplay {
         &self.display
     }
 

@@ -5,7 +5,7 @@ use rand::{RngExt as _, SeedableRng as _};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Map, Material, Planes};
-use svbrdf_files::changes::{Storage, Transfer};
+use svbrdf_files::changes::{Storage, StoredEncoding};
 
 /// The material with every stored value moved by up to half a step of its map, uniformly; normals are normalized again. A map without
 /// steps stays as it is, to the bit.
@@ -19,7 +19,8 @@ pub fn dithered(material: &Material<f32>, storage: &Storage, seed: u64) -> Resul
     let mut generator = ChaCha8Rng::seed_from_u64(seed);
     let Planes { normal, diffuse, specular, roughness } = material.planes();
     let [of_normal, of_diffuse, of_specular, of_roughness] = storage.steps;
-    let transfer = |transfer: Transfer| (move |x: f32| transfer.encode(x), move |x: f32| transfer.decode(x));
+    let transfer =
+        |transfer: StoredEncoding| (move |x: f32| transfer.encode(x), move |x: f32| transfer.decode(x));
     let mut moved = |plane: &[f32], step: f64, (encode, decode): Code<'_>| -> Vec<f32> {
         let step = step as f32;
         let one = |x: &f32| decode((encode(*x) + step * (generator.random::<f32>() - 0.5)).clamp(0.0, 1.0));
@@ -70,7 +71,7 @@ mod tests {
         let material = generated(1, 32);
         for roughness in [None, Some("alpha"), Some("axay"), Some("gamma2.2")] {
             let storage = Storage {
-                colours: Transfer::Srgb,
+                colours: StoredEncoding::Srgb,
                 roughness: roughness.map(str::to_owned),
                 ..Storage::exact()
             };

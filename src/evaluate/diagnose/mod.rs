@@ -53,4 +53,4 @@ pub use seams::{Seam, seams};
 pub use search::{SCENES, diagnose};
 pub use sentence::{sentence, sentence_of};
 pub use shift::MOST_SHIFT;
-pub use svbrdf_files::changes::{Change, Reading, Remedy, Storage, Symmetry, Transfer, shifted};
+pub use svbrdf_files::changes::{Change, Reading, Remedy, Storage, StoredEncoding, Symmetry, shifted};

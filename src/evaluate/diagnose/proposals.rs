@@ -8,7 +8,7 @@ use svbrdf_files::changes::Change;
 use svbrdf_files::changes::Reading;
 use svbrdf_files::changes::Remedy;
 use svbrdf_files::changes::Symmetry;
-use svbrdf_files::changes::{Storage, Transfer};
+use svbrdf_files::changes::{Storage, StoredEncoding};
 
 /// A hypothesis with the value that was fitted.
 #[derive(Clone, Debug)]
@@ -86,7 +86,7 @@ fn symmetry(pilot: &Trials<'_>) -> Result<Proposal, Error> {
 
 /// The readings that are tried, by hypothesis.
 fn readings(storage: &Storage) -> Vec<(Hypothesis, Vec<Reading>)> {
-    let encodings = |of: Transfer, reading: fn(Transfer) -> Reading| {
+    let encodings = |of: StoredEncoding, reading: fn(StoredEncoding) -> Reading| {
         Storage::encodings(of).iter().map(|&to| reading(to)).collect::<Vec<_>>()
     };
     let energy = if storage.unscaled { Reading::Scaled } else { Reading::Unscaled };

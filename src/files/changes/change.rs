@@ -84,7 +84,7 @@ fn texels(count: f64, [positive, negative]: [&str; 2]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Transfer;
+    use super::super::StoredEncoding;
     use super::*;
     use crate::samples;
 
@@ -96,7 +96,7 @@ mod tests {
             Change::Exposure([0.5, 0.0, -1.0]),
             Change::Shift([i32::MIN, i32::MAX]),
             Change::Reading(Reading::Gloss),
-            Change::Reading(Reading::Colours(Transfer::Srgb)),
+            Change::Reading(Reading::Colours(StoredEncoding::Srgb)),
         ]);
         for change in changes {
             let text = serde_json::to_string(&change).unwrap();

@@ -11,5 +11,5 @@ pub use change::{Change, displacement};
 pub use reading::Reading;
 pub use remedy::Remedy;
 pub use shift::shifted;
-pub use storage::{Storage, Transfer};
+pub use storage::{Storage, StoredEncoding};
 pub use symmetry::Symmetry;

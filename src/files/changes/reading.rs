@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::storage::{Storage, Transfer};
+use super::storage::{Storage, StoredEncoding};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 
@@ -20,11 +20,11 @@ pub enum Reading {
     /// The x axis of normals in the other direction.
     NormalX,
     /// Diffuse and specular in this encoding instead.
-    Colours(Transfer),
+    Colours(StoredEncoding),
     /// Diffuse alone in this encoding instead.
-    Diffuse(Transfer),
+    Diffuse(StoredEncoding),
     /// Specular alone in this encoding instead.
-    Specular(Transfer),
+    Specular(StoredEncoding),
     /// r = 1 - c.
     Gloss,
     /// r = sqrt(c): the values are alpha.
@@ -59,14 +59,14 @@ impl Reading {
         match self {
             Self::NormalY => "Y of normals flipped",
             Self::NormalX => "X of normals flipped",
-            Self::Colours(Transfer::Linear) => "colours read as linear",
-            Self::Colours(Transfer::Gamma22) => "colours read as gamma 2.2",
+            Self::Colours(StoredEncoding::Linear) => "colours read as linear",
+            Self::Colours(StoredEncoding::Gamma22) => "colours read as gamma 2.2",
             Self::Colours(_) => "colours read as sRGB",
-            Self::Diffuse(Transfer::Linear) => "diffuse read as linear",
-            Self::Diffuse(Transfer::Gamma22) => "diffuse read as gamma 2.2",
+            Self::Diffuse(StoredEncoding::Linear) => "diffuse read as linear",
+            Self::Diffuse(StoredEncoding::Gamma22) => "diffuse read as gamma 2.2",
             Self::Diffuse(_) => "diffuse read as sRGB",
-            Self::Specular(Transfer::Linear) => "specular read as linear",
-            Self::Specular(Transfer::Gamma22) => "specular read as gamma 2.2",
+            Self::Specular(StoredEncoding::Linear) => "specular read as linear",
+            Self::Specular(StoredEncoding::Gamma22) => "specular read as gamma 2.2",
             Self::Specular(_) => "specular read as sRGB",
             Self::Gloss => "1 - roughness",
             Self::RootOfRoughness => "root of roughness",
@@ -121,9 +121,9 @@ fn negate(plane: &mut [f32]) {
 }
 
 /// Values that were decoded from `from`, decoded from `to` instead. Values of an unknown encoding were decoded from the other one.
-fn reencode(plane: &mut [f32], from: Transfer, to: Transfer) {
+fn reencode(plane: &mut [f32], from: StoredEncoding, to: StoredEncoding) {
     let from = match (from, to) {
-        (Transfer::Unknown, Transfer::Linear) => Transfer::Srgb,
+        (StoredEncoding::Unknown, StoredEncoding::Linear) => StoredEncoding::Srgb,
         (from, _) => from,
     };
     plane.iter_mut().for_each(|x| *x = to.decode(from.encode(*x)).clamp(0.0, 1.0));
@@ -131,7 +131,7 @@ fn reencode(plane: &mut [f32], from: Transfer, to: Transfer) {
 
 /// The same for a base colour b and metallic m, from which d = b (1 - m) and s = f (1 - m) + b m follow. The means of d and s over the
 /// channels give m: f m^2 + (d + s - 2 f) m = s - f.
-fn reencode_base(planes: &mut Planes<f32>, from: Transfer, to: Transfer) {
+fn reencode_base(planes: &mut Planes<f32>, from: StoredEncoding, to: StoredEncoding) {
     let Planes { diffuse, specular, .. } = planes;
     for index in 0..diffuse[0].len() {
         let mean = |map: &[Vec<f32>; 3]| map.iter().map(|plane| plane[index]).sum::<f32>() / 3.0;
@@ -178,8 +178,8 @@ mod tests {
             };
             Material::new("metal", 4, 1, planes).unwrap()
         };
-        let storage = Storage { colours: Transfer::Linear, base_colour: true, ..Storage::default() };
-        let found = Reading::Colours(Transfer::Srgb).applied(&material(&|b| b), &storage).unwrap();
+        let storage = Storage { colours: StoredEncoding::Linear, base_colour: true, ..Storage::default() };
+        let found = Reading::Colours(StoredEncoding::Srgb).applied(&material(&|b| b), &storage).unwrap();
         let expected = material(&svbrdf_core::math::srgb::decode);
         for (found, expected) in [(found.planes(), expected.planes())] {
             let of = |planes: &Planes<f32>| {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::reading::Reading;
-use super::storage::{Storage, Transfer};
+use super::storage::{Storage, StoredEncoding};
 use svbrdf_core::text::quoted;
 
 /// An option of reading with the name of the value that corrects a material.
@@ -22,11 +22,11 @@ impl Remedy {
     /// The option that reads a material, which was read from `storage`, in this reading; `None`: there is none.
     pub fn of(storage: &Storage, reading: Reading) -> Option<Self> {
         let present = storage.roughness.as_deref().unwrap_or("r");
-        let specular = |to: Transfer| (!storage.base_colour).then_some(to.name());
+        let specular = |to: StoredEncoding| (!storage.base_colour).then_some(to.name());
         match reading {
             Reading::NormalY => Some(Self::NormalY(if storage.normal_down { "up" } else { "down" })),
             Reading::Colours(to) => Some(Self::Albedo(to.name(), specular(to))),
-            Reading::Diffuse(_) if storage.specular == Transfer::Unknown => None,
+            Reading::Diffuse(_) if storage.specular == StoredEncoding::Unknown => None,
             Reading::Diffuse(to) => Some(Self::Albedo(to.name(), specular(storage.specular))),
             Reading::Specular(to) => Some(Self::SpecularAlbedo(to.name())),
             Reading::Gloss if present == "gloss" => Some(Self::Roughness("r")),

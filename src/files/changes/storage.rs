@@ -7,7 +7,7 @@ use svbrdf_core::math::srgb;
 /// The encoding of a stored colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Transfer {
+pub enum StoredEncoding {
     /// Not known, as for arrays.
     #[default]
     Unknown,
@@ -19,7 +19,7 @@ pub enum Transfer {
     Other,
 }
 
-impl Transfer {
+impl StoredEncoding {
     /// Its name as a value of an option of reading.
     pub fn name(self) -> &'static str {
         match self {
@@ -39,7 +39,7 @@ impl Transfer {
         }
     }
 
-    /// The inverse of [`Transfer::encode`].
+    /// The inverse of [`StoredEncoding::encode`].
     pub fn decode(self, value: f32) -> f32 {
         match self {
             Self::Srgb => srgb::decode(value),
@@ -53,9 +53,9 @@ impl Transfer {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Storage {
     /// The encoding of diffuse or base colour.
-    pub colours: Transfer,
+    pub colours: StoredEncoding,
     /// The encoding of specular.
-    pub specular: Transfer,
+    pub specular: StoredEncoding,
     /// Whether diffuse and specular follow from a base colour and metallic, so that there is no map of specular.
     pub base_colour: bool,
     /// Whether y of normals was read as pointing down.
@@ -84,8 +84,8 @@ impl Default for Storage {
     /// Unknown readings of 8 bits.
     fn default() -> Self {
         Self {
-            colours: Transfer::Unknown,
-            specular: Transfer::Unknown,
+            colours: StoredEncoding::Unknown,
+            specular: StoredEncoding::Unknown,
             base_colour: false,
             normal_down: false,
             roughness: None,
@@ -97,13 +97,13 @@ impl Default for Storage {
 
 impl Storage {
     /// The other encodings in which colours may be stored; none where values of the present one cannot be encoded again.
-    pub fn encodings(transfer: Transfer) -> &'static [Transfer] {
+    pub fn encodings(transfer: StoredEncoding) -> &'static [StoredEncoding] {
         match transfer {
-            Transfer::Unknown => &[Transfer::Linear, Transfer::Srgb],
-            Transfer::Linear => &[Transfer::Srgb, Transfer::Gamma22],
-            Transfer::Srgb => &[Transfer::Linear, Transfer::Gamma22],
-            Transfer::Gamma22 => &[Transfer::Linear, Transfer::Srgb],
-            Transfer::Other => &[],
+            StoredEncoding::Unknown => &[StoredEncoding::Linear, StoredEncoding::Srgb],
+            StoredEncoding::Linear => &[StoredEncoding::Srgb, StoredEncoding::Gamma22],
+            StoredEncoding::Srgb => &[StoredEncoding::Linear, StoredEncoding::Gamma22],
+            StoredEncoding::Gamma22 => &[StoredEncoding::Linear, StoredEncoding::Srgb],
+            StoredEncoding::Other => &[],
         }
     }
 }

@@ -45,7 +45,7 @@ impl<F> Destination<F> {
     pub fn replace(
         &self,
         progress: &Progress,
-        write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+        write: impl FnOnce(&mut BufWriter<CancelledWriter<'_>>) -> io::Result<()>,
     ) -> Result<(), Error> {
         replace(&self.path, progress, write)
     }
@@ -53,18 +53,18 @@ impl<F> Destination<F> {
 
 /// A file that takes no more once the work is cancelled.
 #[derive(Debug)]
-pub struct Watched<'a> {
+pub struct CancelledWriter<'a> {
     file: &'a mut File,
     progress: &'a Progress,
 }
 
-impl<'a> Watched<'a> {
+impl<'a> CancelledWriter<'a> {
     pub fn new(file: &'a mut File, progress: &'a Progress) -> Self {
         Self { file, progress }
     }
 }
 
-impl Write for Watched<'_> {
+impl Write for CancelledWriter<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         check(self.progress)?;
         self.file.write(bytes)
@@ -75,7 +75,7 @@ impl Write for Watched<'_> {
     }
 }
 
-impl Seek for Watched<'_> {
+impl Seek for CancelledWriter<'_> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         self.file.seek(to)
     }
@@ -122,7 +122,7 @@ pub fn write_text(path: &Path, text: &str, progress: &Progress) -> Result<(), Er
 pub fn replace(
     path: &Path,
     progress: &Progress,
-    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+    write: impl FnOnce(&mut BufWriter<CancelledWriter<'_>>) -> io::Result<()>,
 ) -> Result<(), Error> {
     inputs::check_output(path)?;
     written(path, progress, write)
@@ -136,7 +136,7 @@ pub fn replace(
 pub fn replace_own(
     path: &Path,
     progress: &Progress,
-    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+    write: impl FnOnce(&mut BufWriter<CancelledWriter<'_>>) -> io::Result<()>,
 ) -> Result<(), Error> {
     own::check(path)?;
     replace(path, progress, write)
@@ -149,7 +149,7 @@ pub fn replace_own(
 pub fn update(
     path: &Path,
     progress: &Progress,
-    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+    write: impl FnOnce(&mut BufWriter<CancelledWriter<'_>>) -> io::Result<()>,
 ) -> Result<(), Error> {
     written(path, progress, write)?;
     inputs::protect(path);
@@ -159,10 +159,10 @@ pub fn update(
 fn written(
     path: &Path,
     progress: &Progress,
-    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+    write: impl FnOnce(&mut BufWriter<CancelledWriter<'_>>) -> io::Result<()>,
 ) -> Result<(), Error> {
     let fill = |file: &mut File| -> io::Result<()> {
-        let mut buffer = BufWriter::new(Watched::new(file, progress));
+        let mut buffer = BufWriter::new(CancelledWriter::new(file, progress));
         write(&mut buffer)?;
         buffer.flush()?;
         drop(buffer);
@@ -260,7 +260,7 @@ mod tests {
         symlink("deep/none", of("dangling")).unwrap();
         symlink("circle", of("circle")).unwrap();
         let write = |name| {
-            replace(&of(name), &Progress::default(), |file: &mut BufWriter<Watched<'_>>| {
+            replace(&of(name), &Progress::default(), |file: &mut BufWriter<CancelledWriter<'_>>| {
                 file.write_all(name.as_bytes())
             })
         };

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use svbrdf_core::progress::Progress;
 
-use crate::disk::atomic::{Watched, check, folder_of};
+use crate::disk::atomic::{CancelledWriter, check, folder_of};
 
 /// Fills a temporary folder beside `path` by `fill`, and renames it. Only an empty folder gives way to it.
 ///
@@ -38,10 +38,10 @@ pub(crate) fn new_folder(
 pub(crate) fn new_file(
     path: &Path,
     progress: &Progress,
-    write: impl FnOnce(&mut BufWriter<Watched<'_>>) -> io::Result<()>,
+    write: impl FnOnce(&mut BufWriter<CancelledWriter<'_>>) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut file = File::create(path)?;
-    let mut buffer = BufWriter::new(Watched::new(&mut file, progress));
+    let mut buffer = BufWriter::new(CancelledWriter::new(&mut file, progress));
     write(&mut buffer)?;
     buffer.flush()?;
     drop(buffer);

@@ -15,7 +15,7 @@ use crate::read::{PhotographOptions, Transfer};
 /// The content of the file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Listed {
+pub struct ListedCapture {
     photographs: Vec<Entry>,
     /// Of photographs without their own, as the three below.
     transfer: Option<Transfer>,
@@ -37,7 +37,7 @@ struct Entry {
     corners: Option<Corners>,
 }
 
-impl Listed {
+impl ListedCapture {
     /// The photographs that the file `by` lists.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::{Kind, Scene};
 
 use super::capture::{Capture, CapturedPhotograph, is_json};
-use super::listed::Listed;
+use super::listed::ListedCapture;
 use super::materialgan::{Calibration, LightPower, POSITIONS, TEXTS};
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
@@ -54,7 +54,7 @@ impl Capture {
         Ok(capture)
     }
 
-    fn of_list(path: &Path, listed: &Listed) -> Result<Self, String> {
+    fn of_list(path: &Path, listed: &ListedCapture) -> Result<Self, String> {
         let photographs = listed.photographs(path)?;
         Ok(Self::listed_by(path, photographs, listed.falloff, None))
     }

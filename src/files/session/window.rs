@@ -17,7 +17,7 @@ use svbrdf_core::picture::quantity::Quantity;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Map<String, Value>", into = "Map<String, Value>")]
 pub struct SessionWindow {
-    pub display: Option<Display>,
+    pub display: Option<SessionDisplay>,
     pub loss: Option<LossSettings>,
 }
 
@@ -122,7 +122,7 @@ impl AutoExposure {
 /// What the panes show of the materials, and how. Every field has a default, so that the sessions of older versions open.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Display {
+pub struct SessionDisplay {
     pub quantity: Quantity,
     /// Whether panes of predictions show their difference from the ground truth, in place of the value.
     pub difference: bool,
@@ -145,21 +145,21 @@ pub struct Display {
     pub prediction: usize,
     /// The map that is shown as the only wrong one, or the only right one, of the chosen prediction.
     pub isolated: Option<MaterialMap>,
-    /// Whether [`Display::isolated`] is the only right one, and not the only wrong one.
+    /// Whether [`SessionDisplay::isolated`] is the only right one, and not the only wrong one.
     pub only_right: bool,
     /// The change with which the chosen prediction is shown: one that a diagnosis found.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub corrected: Option<Change>,
 }
 
-impl Display {
+impl SessionDisplay {
     /// Whether another material is shown in the place of the chosen prediction.
     pub fn is_replaced(&self) -> bool {
         self.isolated.is_some() || self.corrected.is_some()
     }
 }
 
-impl Default for Display {
+impl Default for SessionDisplay {
     fn default() -> Self {
         Self {
             quantity: Quantity::Rendering,
@@ -252,7 +252,8 @@ mod tests {
             read(r#"{"view": {"wipe": 0.25}, "loss": {"seed": 7}, "of a newer version": 1}"#).unwrap();
         let loss = LossSettings { seed: 7, ..LossSettings::default() };
         // A session that does not say how it was exposed has an exposure that was set.
-        let expected = Display { wipe: 0.25, auto_exposure: AutoExposure::Off, ..Display::default() };
+        let expected =
+            SessionDisplay { wipe: 0.25, auto_exposure: AutoExposure::Off, ..SessionDisplay::default() };
         assert_eq!((window.display.clone(), window.loss.clone()), (Some(expected), Some(loss)));
         assert_eq!(read(&serde_json::to_string(&window).unwrap()), Ok(window));
     }

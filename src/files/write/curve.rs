@@ -9,11 +9,11 @@ const STEPS: usize = 1 << 12;
 pub(super) struct Curve {
     encoded: Box<dyn Fn(f64) -> f64 + Sync>,
     top: f64,
-    table: Option<Table>,
+    table: Option<NearestTable>,
 }
 
 /// The values from which on each integer is the nearest, and the integer of the start of each step.
-struct Table {
+struct NearestTable {
     from: Vec<f64>,
     first: Vec<u16>,
 }
@@ -40,14 +40,14 @@ impl Curve {
             }
             code
         });
-        let table = Table { first: first.collect(), from };
+        let table = NearestTable { first: first.collect(), from };
         Self { encoded: Box::new(encoded), top: most, table: Some(table) }
     }
 
     /// The integer of `value`, which lies in [0, 1].
     pub(super) fn code(&self, value: f64) -> u16 {
         match &self.table {
-            Some(Table { from, first }) => {
+            Some(NearestTable { from, first }) => {
                 let mut code = first[(value * STEPS as f64) as usize];
                 while value >= from[usize::from(code)] {
                     code += 1;

@@ -65,12 +65,12 @@ struct MaterialChannels<'a> {
 fn named_channels<'a>(
     names: [&'static str; 3],
     planes: &'a [Vec<f32>; 3],
-) -> impl Iterator<Item = Channel<'a>> {
-    names.into_iter().zip(planes).map(|(name, plane)| Channel { name, plane, normal: None })
+) -> impl Iterator<Item = ExrChannel<'a>> {
+    names.into_iter().zip(planes).map(|(name, plane)| ExrChannel { name, plane, normal: None })
 }
 
 /// A channel of the file.
-struct Channel<'a> {
+struct ExrChannel<'a> {
     name: &'static str,
     plane: &'a [f32],
     /// Which component of the normals it is.
@@ -79,14 +79,14 @@ struct Channel<'a> {
 
 impl MaterialChannels<'_> {
     /// All channels in the order of their names, as they are in a file.
-    fn channels(&self) -> Vec<Channel<'_>> {
+    fn channels(&self) -> Vec<ExrChannel<'_>> {
         let Planes { normal, diffuse, specular, roughness } = self.material.planes();
         let preview = self.rendering.iter().flat_map(|planes| named_channels(["R", "G", "B"], planes));
         let diffuse = named_channels(["diffuse.R", "diffuse.G", "diffuse.B"], diffuse);
         let specular = named_channels(["specular.R", "specular.G", "specular.B"], specular);
         let normal = named_channels(["normal.X", "normal.Y", "normal.Z"], normal);
-        let normal = normal.enumerate().map(|(c, channel)| Channel { normal: Some(c), ..channel });
-        let roughness = Channel { name: "roughness.Y", plane: roughness, normal: None };
+        let normal = normal.enumerate().map(|(c, channel)| ExrChannel { normal: Some(c), ..channel });
+        let roughness = ExrChannel { name: "roughness.Y", plane: roughness, normal: None };
         let mut all: Vec<_> =
             preview.chain(diffuse).chain(specular).chain(normal).chain([roughness]).collect();
         all.sort_by_key(|channel| channel.name);
@@ -114,7 +114,7 @@ impl<'a> WritableChannels<'a> for MaterialChannels<'_> {
 
 /// The channels of a file while it is written.
 struct ChannelRows<'a> {
-    channels: Vec<Channel<'a>>,
+    channels: Vec<ExrChannel<'a>>,
     material: &'a Material<f32>,
     half: bool,
 }
@@ -127,7 +127,7 @@ impl ChannelsWriter for ChannelRows<'_> {
             let first = row * self.material.width() + left;
             let texels = first..first + width;
             let normals = if self.half { self.half_normals(texels.clone()) } else { Vec::new() };
-            for Channel { plane, normal, .. } in &self.channels {
+            for ExrChannel { plane, normal, .. } in &self.channels {
                 let plane = &plane[texels.clone()];
                 match normal {
                     Some(c) if self.half => bytes.extend(normals.iter().flat_map(|n| n[*c].to_ne_bytes())),

@@ -12,7 +12,7 @@ use svbrdf_core::material::{Depth, Material};
 use svbrdf_core::progress::Progress;
 
 use super::maps::{MapEncoding, WrittenMap};
-use super::png::{self, Picture, picture};
+use super::png::{self, FolderPicture, picture};
 use super::surface::{Surface, SurfaceForm, USUAL_IOR};
 use crate::disk::atomic::SOFTWARE;
 
@@ -31,7 +31,7 @@ pub(super) fn write(
     progress: &Progress,
 ) -> io::Result<()> {
     let pictures = pictures(surface, depth);
-    let encoded = |picture: &Picture<'_>| {
+    let encoded = |picture: &FolderPicture<'_>| {
         let mut bytes = Vec::new();
         png::one(&mut bytes, material, picture, depth == Depth::Sixteen, progress).map(|()| bytes)
     };
@@ -79,7 +79,7 @@ fn write_parts(file: impl Write, document: &Value, binary: &[u8]) -> io::Result<
 }
 
 /// The pictures in the order of the textures in [`material_of`].
-fn pictures(surface: &Surface, depth: Depth) -> Vec<Picture<'static>> {
+fn pictures(surface: &Surface, depth: Depth) -> Vec<FolderPicture<'static>> {
     let of = |name, map| picture(name, map, MapEncoding::SRGB);
     let normal = of("normal", WrittenMap::Normal);
     match surface.form {

@@ -11,7 +11,7 @@ mod surface;
 
 use std::path::Path;
 
-pub use surface::{Change, Surface, SurfaceChanges, SurfaceForm, SurfaceTarget};
+pub use surface::{Surface, SurfaceChanges, SurfaceForm, SurfaceTarget, WrittenChange};
 pub use svbrdf_core::material::Depth;
 
 use svbrdf_core::error::{Error, OutputProblem};
@@ -122,7 +122,7 @@ pub fn write_watched(
     kind: FileKind,
     progress: &Progress,
 ) -> Result<Option<Surface>, Error> {
-    let folder = |files: &[png::Picture<'_>], sixteen| {
+    let folder = |files: &[png::FolderPicture<'_>], sixteen| {
         png::folder(path, material, files, sixteen, progress).map_err(|source| {
             match progress.is_cancelled() {
                 true => Error::Cancelled,

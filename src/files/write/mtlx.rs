@@ -13,7 +13,7 @@ use svbrdf_core::progress::Progress;
 
 use super::maps::{MapEncoding, WrittenMap};
 use super::picture_exr;
-use super::png::{self, Picture, picture};
+use super::png::{self, FolderPicture, picture};
 use super::surface::{Surface, SurfaceForm};
 use crate::disk::{atomic, new_folder};
 
@@ -76,19 +76,19 @@ fn file_name(picture: &str, depth: Depth) -> String {
 }
 
 /// A picture, and the input of the surface that it is for.
-struct Input {
+struct TextureInput {
     name: &'static str,
     kind: &'static str,
-    picture: Picture<'static>,
+    picture: FolderPicture<'static>,
 }
 
 /// The inputs in the order of the document.
-fn inputs(surface: &Surface, depth: Depth) -> Vec<Input> {
+fn inputs(surface: &Surface, depth: Depth) -> Vec<TextureInput> {
     let encoding = match depth {
         Depth::Half | Depth::Float => MapEncoding::LINEAR,
         Depth::Eight | Depth::Sixteen => MapEncoding::SRGB,
     };
-    let input = |name, kind, file, map| Input { name, kind, picture: picture(file, map, encoding) };
+    let input = |name, kind, file, map| TextureInput { name, kind, picture: picture(file, map, encoding) };
     let scale = surface.scale(depth);
     let (base, weight, tint) =
         (WrittenMap::Base, WrittenMap::SpecularWeight(scale), WrittenMap::SpecularTint(scale));
@@ -122,11 +122,11 @@ fn reference<'a>(path: &Path, folder: &'a Path) -> Result<&'a str, Error> {
 }
 
 /// The text of a document whose pictures are in `folder`.
-fn document(folder: &str, name: &str, surface: &Surface, inputs: &[Input], depth: Depth) -> String {
+fn document(folder: &str, name: &str, surface: &Surface, inputs: &[TextureInput], depth: Depth) -> String {
     let name = identifier(name);
     let nodes: String = inputs.iter().map(|input| nodes(folder, input, depth)).collect();
     let mut bound = String::new();
-    for Input { name: input, kind, .. } in inputs {
+    for TextureInput { name: input, kind, .. } in inputs {
         bound += &format!(
             "    <input name=\"{input}\" type=\"{kind}\" nodegraph=\"{name}_maps\" output=\"{input}\" />\n"
         );
@@ -150,7 +150,7 @@ fn document(folder: &str, name: &str, surface: &Surface, inputs: &[Input], depth
 }
 
 /// The nodes of an input: its picture, of normals their decoding, and the output of the graph.
-fn nodes(folder: &str, Input { name, kind, picture }: &Input, depth: Depth) -> String {
+fn nodes(folder: &str, TextureInput { name, kind, picture }: &TextureInput, depth: Depth) -> String {
     let file = escaped(&format!("{folder}/{}", file_name(picture.name, depth)));
     let is_encoded = *kind == "color3" && matches!(depth, Depth::Eight | Depth::Sixteen);
     let space = if is_encoded { r#" colorspace="srgb_texture""# } else { "" };

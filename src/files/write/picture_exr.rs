@@ -9,19 +9,19 @@ use exr::prelude::{
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 
-use super::png::Picture;
+use super::png::FolderPicture;
 use crate::disk::atomic::{self, SOFTWARE};
 
 /// Writes one layer of the channels R, G and B.
 pub(super) fn write(
     file: impl Write + Seek,
     material: &Material<f32>,
-    picture: &Picture<'_>,
+    picture: &FolderPicture<'_>,
     half: bool,
     progress: &Progress,
 ) -> io::Result<()> {
     atomic::check(progress)?;
-    let Picture { map, encoding, .. } = *picture;
+    let FolderPicture { map, encoding, .. } = *picture;
     let texel = |Vec2(x, y): Vec2<usize>| {
         let [r, g, b] = encoding.values(material, map, y * material.width() + x).map(|value| value as f32);
         (r, g, b)

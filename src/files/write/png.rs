@@ -19,29 +19,29 @@ const BAND_BYTES: usize = 1 << 20;
 
 /// A file of a folder.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Picture<'a> {
+pub(super) struct FolderPicture<'a> {
     pub name: &'a str,
     pub map: WrittenMap,
     pub encoding: MapEncoding,
 }
 
-pub(super) const fn picture(name: &str, map: WrittenMap, encoding: MapEncoding) -> Picture<'_> {
-    Picture { name, map, encoding }
+pub(super) const fn picture(name: &str, map: WrittenMap, encoding: MapEncoding) -> FolderPicture<'_> {
+    FolderPicture { name, map, encoding }
 }
 
-pub(super) const PLAIN: [Picture<'_>; 4] = [
+pub(super) const PLAIN: [FolderPicture<'_>; 4] = [
     picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
     picture("diffuse", WrittenMap::Diffuse, MapEncoding::SRGB),
     picture("roughness", WrittenMap::Roughness, MapEncoding::SRGB),
     picture("specular", WrittenMap::Specular, MapEncoding::SRGB),
 ];
-pub(super) const MATERIAL_GAN: [Picture<'_>; 4] = [
+pub(super) const MATERIAL_GAN: [FolderPicture<'_>; 4] = [
     picture("nom", WrittenMap::Normal, MapEncoding::MATERIAL_GAN),
     picture("dif", WrittenMap::Diffuse, MapEncoding::MATERIAL_GAN),
     picture("rgh", WrittenMap::Roughness, MapEncoding::MATERIAL_GAN),
     picture("spe", WrittenMap::Specular, MapEncoding::MATERIAL_GAN),
 ];
-pub(super) const GLTF: [Picture<'_>; 3] = [
+pub(super) const GLTF: [FolderPicture<'_>; 3] = [
     picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
     picture("basecolor", WrittenMap::Base, MapEncoding::SRGB),
     picture("occlusion_roughness_metallic", WrittenMap::Orm, MapEncoding::SRGB),
@@ -64,7 +64,8 @@ pub(super) fn packed(
         _ => WrittenMap::Specular,
     };
     let maps: Vec<WrittenMap> = tiles.chars().map(map).collect();
-    let rows = Rows { material, tiles: &maps, encoding, curves: encoding.curves(sixteen), sixteen, progress };
+    let rows =
+        TileRows { material, tiles: &maps, encoding, curves: encoding.curves(sixteen), sixteen, progress };
     let meaning = format!("packed {order}, {}", encoding.text());
     // One picture: the other cores compute its rows.
     rows.write(file, &meaning, |first, band| {
@@ -77,7 +78,7 @@ pub(super) fn packed(
 pub(super) fn folder(
     path: &Path,
     material: &Material<f32>,
-    files: &[Picture<'_>],
+    files: &[FolderPicture<'_>],
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
@@ -94,12 +95,12 @@ pub(super) fn folder(
 pub(super) fn one(
     file: impl Write,
     material: &Material<f32>,
-    Picture { map, encoding, .. }: &Picture<'_>,
+    FolderPicture { map, encoding, .. }: &FolderPicture<'_>,
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
     let (tiles, curves) = (&[*map][..], encoding.curves(sixteen));
-    let rows = Rows { material, tiles, encoding: *encoding, curves, sixteen, progress };
+    let rows = TileRows { material, tiles, encoding: *encoding, curves, sixteen, progress };
     rows.write(file, &encoding.text(), |first, band| {
         band.chunks_mut(rows.row_bytes())
             .enumerate()
@@ -108,7 +109,7 @@ pub(super) fn one(
 }
 
 /// The rows of a picture; in each row one tile beside the other.
-struct Rows<'a> {
+struct TileRows<'a> {
     material: &'a Material<f32>,
     tiles: &'a [WrittenMap],
     encoding: MapEncoding,
@@ -117,7 +118,7 @@ struct Rows<'a> {
     progress: &'a Progress,
 }
 
-impl Rows<'_> {
+impl TileRows<'_> {
     fn pixel_bytes(&self) -> usize {
         if self.sixteen { 6 } else { 3 }
     }

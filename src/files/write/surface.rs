@@ -53,15 +53,15 @@ pub enum SurfaceTarget {
 /// What a form changes of a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SurfaceChanges {
-    pub diffuse: Change,
-    pub specular: Change,
+    pub diffuse: WrittenChange,
+    pub specular: WrittenChange,
     /// The largest change of diffuse and specular encoded in sRGB, in steps of 8 bits.
     pub steps: f64,
 }
 
 /// Absolute differences of linear values over all texels and channels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Change {
+pub struct WrittenChange {
     pub mean: f64,
     pub largest: f64,
 }
@@ -176,7 +176,8 @@ impl SurfaceChanges {
         // In the order of the chunks: the number of threads does not change a sum.
         let chunks: Vec<Self> = (0..count.div_ceil(CHUNK)).into_par_iter().map(chunk).collect();
         let Self { diffuse, specular, steps } = chunks.into_iter().fold(Self::default(), Self::joined);
-        let per_value = |change: Change| Change { mean: change.mean / (3 * count) as f64, ..change };
+        let per_value =
+            |change: WrittenChange| WrittenChange { mean: change.mean / (3 * count) as f64, ..change };
         Self { diffuse: per_value(diffuse), specular: per_value(specular), steps }
     }
 
@@ -196,7 +197,10 @@ impl SurfaceChanges {
     }
 
     fn joined(self, other: Self) -> Self {
-        let both = |a: Change, b: Change| Change { mean: a.mean + b.mean, largest: a.largest.max(b.largest) };
+        let both = |a: WrittenChange, b: WrittenChange| WrittenChange {
+            mean: a.mean + b.mean,
+            largest: a.largest.max(b.largest),
+        };
         Self {
             diffuse: both(self.diffuse, other.diffuse),
             specular: both(self.specular, other.specular),
@@ -248,7 +252,7 @@ impl Rounding {
     }
 }
 
-impl fmt::Display for Change {
+impl fmt::Display for WrittenChange {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:.4} (mean {:.4})", self.largest, self.mean)
     }

@@ -6,7 +6,7 @@ use svbrdf_core::error::Error;
 
 use super::parts::Parts;
 use super::training;
-use crate::jobs::reading::watch::Change;
+use crate::jobs::reading::watch::FileChange;
 use crate::model::material::problem::MaterialProblem;
 use crate::model::message::Message;
 
@@ -70,16 +70,16 @@ fn follow_files(parts: &mut Parts) {
     for (index, change) in parts.jobs.watch.poll(&parts.jobs.waker, &parts.model.materials) {
         let material = &mut parts.model.materials.all[index];
         match change {
-            Change::Changed => {
+            FileChange::Changed => {
                 for request in parts.model.materials.reload(Some(&[index])) {
                     parts.jobs.read(&parts.model, request);
                 }
             }
-            Change::Gone(path) => {
+            FileChange::Gone(path) => {
                 let problem = format!("{} is gone; the material is as it was read before", path.display());
                 material.problem = Some(problem);
             }
-            Change::Back => material.problem = None,
+            FileChange::Back => material.problem = None,
         }
     }
 }

@@ -24,7 +24,7 @@ pub struct DisplayedParts {
 
 /// What the jobs have found since the last frame.
 #[derive(Debug, Default)]
-pub struct Findings {
+pub struct JobFindings {
     pub errors: Vec<Error>,
     /// Why the open photograph cannot be read.
     pub photograph_error: Option<Error>,
@@ -34,8 +34,8 @@ pub struct Findings {
 
 impl Jobs {
     /// Takes over results, and computes what `model` needs now.
-    pub fn follow(&mut self, model: &Model, parts: DisplayedParts) -> Findings {
-        let mut findings = Findings::default();
+    pub fn follow(&mut self, model: &Model, parts: DisplayedParts) -> JobFindings {
+        let mut findings = JobFindings::default();
         self.follow_losses(model);
         self.follow_replacement(model, &mut findings);
         if let Some(gpu) = &self.gpu {
@@ -66,7 +66,7 @@ impl Jobs {
         self.few.poll(waker);
     }
 
-    fn follow_replacement(&mut self, model: &Model, findings: &mut Findings) {
+    fn follow_replacement(&mut self, model: &Model, findings: &mut JobFindings) {
         let Self { waker, gpu, uploads, panes, .. } = self;
         let (materials, view) = (&model.materials.all[..], &model.view);
         let work = JobContext { waker, gpu: gpu.as_ref(), materials, view };
@@ -75,7 +75,7 @@ impl Jobs {
     }
 
     /// The jobs of the tab *Why*, where it is open. The search for the worst scene goes on in other tabs, too.
-    fn follow_why(&mut self, model: &Model, findings: &mut Findings) {
+    fn follow_why(&mut self, model: &Model, findings: &mut JobFindings) {
         let is_open = model.settings.tab == Tab::Why && model.side_panel();
         let loss = &model.settings.loss;
         let query = WhyQuery {
@@ -94,7 +94,7 @@ impl Jobs {
         findings.worst = why.poll_search(&work);
     }
 
-    fn follow_panes(&mut self, model: &Model, parts: DisplayedParts, findings: &mut Findings) {
+    fn follow_panes(&mut self, model: &Model, parts: DisplayedParts, findings: &mut JobFindings) {
         let (settings, view) = (&model.settings, &model.view);
         let has_photograph = Displayed::of(model, self).photograph().is_some();
         let differences = view.display.difference || parts.extra_pane;

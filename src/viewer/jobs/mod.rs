@@ -36,9 +36,9 @@ use panes::error_map::ErrorMapJob;
 use panes::replacement::ReplacementJob;
 use photograph::PhotographJobs;
 use reading::opening::Openings;
-use reading::read::Reader;
+use reading::read::MaterialReader;
 use reading::upload::Uploads;
-use reading::watch::Watch;
+use reading::watch::FileWatch;
 use training::TrainingJobs;
 use why::WhyJobs;
 use work::job::Job;
@@ -52,7 +52,7 @@ pub struct Jobs {
     pub gpu: Option<Gpu>,
     pub uploads: Uploads,
     pub openings: Openings,
-    pub watch: Watch,
+    pub watch: FileWatch,
     pub training: TrainingJobs,
     pub loss: LossJob,
     /// The loss over the few scenes of the papers, beside a more accurate one.
@@ -88,7 +88,7 @@ impl Jobs {
         // A file that is opened by hand and cannot be read is reported at once.
         let retries = model.settings.watch && matches!(request.target, Target::Again(_));
         let size = model.materials.size_for(&request.target);
-        let reader = Reader { rules: model.materials.rules, size, retries };
+        let reader = MaterialReader { rules: model.materials.rules, size, retries };
         self.openings.start(&self.waker, self.gpu.as_ref(), request, reader)
     }
 

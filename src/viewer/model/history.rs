@@ -79,12 +79,12 @@ pub struct History {
 pub struct UndoStack<T> {
     earlier: VecDeque<T>,
     later: Vec<T>,
-    change: Option<Change<T>>,
+    change: Option<UnsettledValue<T>>,
 }
 
 /// A value that has changed and has not stood still yet.
 #[derive(Debug)]
-struct Change<T> {
+struct UnsettledValue<T> {
     began: f64,
     latest: f64,
     value: T,
@@ -105,14 +105,14 @@ impl<T: Clone + PartialEq + Parts> UndoStack<T> {
             return;
         }
         self.later.clear();
-        if let Some(Change { value: before, .. }) = &self.change
+        if let Some(UnsettledValue { value: before, .. }) = &self.change
             && value.changed(before) & !before.changed(last) != 0
         {
             let before = before.clone();
             self.keep(&before);
         }
         match &mut self.change {
-            None => self.change = Some(Change { began: time, latest: time, value: value.clone() }),
+            None => self.change = Some(UnsettledValue { began: time, latest: time, value: value.clone() }),
             Some(change) if change.value == *value => {
                 if time - change.latest >= STABLE {
                     self.keep(value);

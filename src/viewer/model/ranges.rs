@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::ops::RangeInclusive;
 
 use svbrdf_core::loss::{LossSettings, Sampling, Texels};
-use svbrdf_files::session::window::Display as PaneDisplay;
+use svbrdf_files::session::window::SessionDisplay as PaneDisplay;
 
 use super::Model;
 use super::settings::Settings;
@@ -29,9 +29,9 @@ const PREDICTIONS: RangeInclusive<usize> = 0..=100_000;
 
 /// The numbers that were out of range.
 #[derive(Debug, Default)]
-struct OutOfRange(Vec<String>);
+struct RangeProblems(Vec<String>);
 
-impl OutOfRange {
+impl RangeProblems {
     /// Brings `value` into `range`; what is no number becomes `default`.
     fn number<T: PartialOrd + Copy + Display>(
         &mut self,
@@ -101,7 +101,7 @@ impl OutOfRange {
 
 /// Brings every number of settings and view into its range; what they were and are, if there were others.
 pub fn bring_into_range(model: &mut Model) -> Option<String> {
-    let mut found = OutOfRange::default();
+    let mut found = RangeProblems::default();
     found.settings(&mut model.settings);
     found.view(&mut model.view);
     (!found.0.is_empty()).then(|| found.0.join(", "))

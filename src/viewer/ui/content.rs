@@ -5,7 +5,7 @@ use eframe::egui;
 use super::legend::histograms::ValueStrip;
 use super::legend::strip::LegendStrip;
 use super::pane::scenery::Scenery;
-use super::pane::viewport::{PaneDrawing, Viewport};
+use super::pane::viewport::{PaneTools, Viewport};
 use super::shading::gpu_view::GpuView;
 use super::widgets::bare;
 use super::widgets::texture::PanelTextures;
@@ -18,7 +18,7 @@ const STRIP: f32 = 92.0;
 
 /// The panes and what is below them.
 #[derive(Debug)]
-pub struct Content<'a> {
+pub struct CentralArea<'a> {
     pub displayed: Displayed<'a>,
     pub viewport: &'a mut Viewport,
     pub textures: &'a mut PanelTextures,
@@ -26,22 +26,22 @@ pub struct Content<'a> {
     pub view: &'a ViewState,
 }
 
-impl Content<'_> {
+impl CentralArea<'_> {
     pub fn ui(&mut self, ui: &mut egui::Ui, gpu: Option<&mut GpuView>) -> Vec<Command> {
         let displayed = self.displayed;
         let mut commands = Vec::new();
-        if let Some(strip) = Strip::of(displayed, self.viewport.has_extra) {
+        if let Some(strip) = BelowPanes::of(displayed, self.viewport.has_extra) {
             let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
             panel.show(ui, |ui| match strip {
-                Strip::Legend { enabled } => {
+                BelowPanes::Legend { enabled } => {
                     ui.add_enabled_ui(enabled, |ui| commands.extend(LegendStrip::new(displayed).ui(ui)));
                 }
-                Strip::Values => ValueStrip::new(displayed).ui(ui),
+                BelowPanes::Values => ValueStrip::new(displayed).ui(ui),
             });
         }
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let scenery = scenery(ui.ctx(), displayed, self.view);
-            let drawing = PaneDrawing { gpu, uploads: &displayed.jobs.uploads, textures: self.textures };
+            let drawing = PaneTools { gpu, uploads: &displayed.jobs.uploads, textures: self.textures };
             commands.extend(self.viewport.ui(ui, &scenery, drawing));
         });
         commands
@@ -49,12 +49,12 @@ impl Content<'_> {
 }
 
 /// What is below the panes. It has the same height in every mode: the panes stay where they are.
-enum Strip {
+enum BelowPanes {
     Legend { enabled: bool },
     Values,
 }
 
-impl Strip {
+impl BelowPanes {
     fn of(displayed: Displayed<'_>, has_extra: bool) -> Option<Self> {
         let model = displayed.model;
         let difference = model.view.display.difference;

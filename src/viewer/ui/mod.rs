@@ -19,9 +19,9 @@ pub mod widgets;
 
 use eframe::egui;
 
-use content::Content;
+use content::CentralArea;
 use dialogs::Dialogs;
-use input::Input;
+use input::KeyInput;
 use pane::viewport::Viewport;
 use panels::inspection::Drawer;
 use panels::status::StatusBar;
@@ -43,7 +43,7 @@ const NARROW: f32 = 900.0;
 #[derive(Debug, Default)]
 pub struct WindowUi {
     pub dialogs: Dialogs,
-    input: Input,
+    input: KeyInput,
     viewport: Viewport,
     textures: PanelTextures,
     /// Size of the panes and the legend, in pixels.
@@ -108,7 +108,7 @@ impl WindowUi {
         }
         let area = ui.available_rect_before_wrap();
         self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
-        let mut content = Content {
+        let mut content = CentralArea {
             displayed,
             viewport: &mut self.viewport,
             textures: &mut self.textures,

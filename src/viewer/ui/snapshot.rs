@@ -5,7 +5,7 @@ use eframe::egui;
 use svbrdf_core::error::Error;
 
 use super::WindowUi;
-use super::content::Content;
+use super::content::CentralArea;
 use super::pane::viewport::Viewport;
 use super::shading::gpu_view::GpuView;
 use super::shading::snapshot::{Size, snapshot};
@@ -47,7 +47,7 @@ impl WindowUi {
         }
         snapshot(&state, &gpu, Size { pixels, scale }, dark, |ui| {
             let (viewport, textures) = (&mut viewport, &mut self.textures);
-            let mut content = Content { displayed, viewport, textures, view: &magnified };
+            let mut content = CentralArea { displayed, viewport, textures, view: &magnified };
             drop(content.ui(ui, Some(view)));
         })
     }

@@ -1,6 +1,8 @@
 //! Following the advice of diagnoses until it ends, for one error, and for two or three at once.
 
-use super::super::{Change, Hypothesis, Reading, Storage, Symmetry, Transfer, diagnose, floor, sentence_of};
+use super::super::{
+    Change, Hypothesis, Reading, Storage, StoredEncoding, Symmetry, diagnose, floor, sentence_of,
+};
 use super::materials::{generated, golden, with};
 use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::Material;
@@ -9,8 +11,8 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
 
 const SIDE: usize = 64;
-const LINEAR: Transfer = Transfer::Linear;
-const SRGB: Transfer = Transfer::Srgb;
+const LINEAR: StoredEncoding = StoredEncoding::Linear;
+const SRGB: StoredEncoding = StoredEncoding::Srgb;
 const ENCODED: [Reading; 3] = [Reading::Colours(SRGB), Reading::Diffuse(SRGB), Reading::Specular(SRGB)];
 
 /// An error that is planted.

@@ -3,7 +3,7 @@
 use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
 
-use super::super::{Storage, Transfer, filtered_roughness, floor, floor_of_captures, ladder};
+use super::super::{Storage, StoredEncoding, filtered_roughness, floor, floor_of_captures, ladder};
 use super::materials::{field, generated, with};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Request, Sampling};
@@ -84,7 +84,8 @@ fn the_ladder_of_misplaced_stripes_has_the_closed_form_and_a_darker_material_kee
 #[test]
 fn the_floor_is_the_loss_of_brute_force_dithering() {
     let truth = generated(0, 32);
-    let storage = Storage { colours: Transfer::Srgb, specular: Transfer::Linear, ..Storage::default() };
+    let storage =
+        Storage { colours: StoredEncoding::Srgb, specular: StoredEncoding::Linear, ..Storage::default() };
     let floor = floor(&truth, &storage, &PRINTED, 3, &Progress::default()).unwrap();
     // Written down once more, with a plain generator and 16 other copies.
     let mut state = 1_u64;

@@ -2,7 +2,7 @@
 
 use super::super::shift::{candidates, fits, interior};
 use super::super::{
-    Diagnosis, Hypothesis, Reading, Storage, Symmetry, Transfer, Value, diagnose, sentence, shifted,
+    Diagnosis, Hypothesis, Reading, Storage, StoredEncoding, Symmetry, Value, diagnose, sentence, shifted,
 };
 use super::materials::{generated, unexplained, with};
 use svbrdf_core::loss::{Comparison, Compute as _};
@@ -92,7 +92,8 @@ fn symmetries() {
 
 #[test]
 fn readings() {
-    let linear = Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
+    let linear =
+        Storage { colours: StoredEncoding::Linear, specular: StoredEncoding::Linear, ..Storage::default() };
     let planted = [
         (Reading::NormalY, Reading::NormalY, Hypothesis::NormalY, Some("normal-y=down")),
         (Reading::NormalX, Reading::NormalX, Hypothesis::NormalX, None),
@@ -119,7 +120,7 @@ fn readings() {
 
 #[test]
 fn encodings_of_colours() {
-    let [linear, encoded] = [Transfer::Linear, Transfer::Srgb].map(|transfer| Storage {
+    let [linear, encoded] = [StoredEncoding::Linear, StoredEncoding::Srgb].map(|transfer| Storage {
         colours: transfer,
         specular: transfer,
         ..Storage::default()
@@ -127,10 +128,10 @@ fn encodings_of_colours() {
     for seed in 0..3 {
         let truth = generated(seed, SIDE);
         for (read_as, error, name) in
-            [(&linear, Transfer::Linear, "srgb"), (&encoded, Transfer::Srgb, "linear")]
+            [(&linear, StoredEncoding::Linear, "srgb"), (&encoded, StoredEncoding::Srgb, "linear")]
         {
             // What was stored in the other encoding and read as this one.
-            let other = if error == Transfer::Linear { &encoded } else { &linear };
+            let other = if error == StoredEncoding::Linear { &encoded } else { &linear };
             let wrong = Reading::Colours(error).applied(&truth, other).unwrap();
             let found = found(&truth, &wrong, read_as);
             assert_eq!(only(&found), (Hypothesis::AlbedoEncoding, Value::Name(name)), "material {seed}");
@@ -180,11 +181,12 @@ fn nothing_is_marked_without_an_error_or_with_others() {
 #[test]
 fn two_errors_are_found_at_once() {
     let truth = generated(0, SIDE);
-    let encoded = Storage { colours: Transfer::Srgb, specular: Transfer::Srgb, ..Storage::default() };
+    let encoded =
+        Storage { colours: StoredEncoding::Srgb, specular: StoredEncoding::Srgb, ..Storage::default() };
     let read_as_linear =
-        Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
+        Storage { colours: StoredEncoding::Linear, specular: StoredEncoding::Linear, ..Storage::default() };
     let flipped = Reading::NormalY.applied(&truth, &encoded).unwrap();
-    let both = Reading::Colours(Transfer::Linear).applied(&flipped, &encoded).unwrap();
+    let both = Reading::Colours(StoredEncoding::Linear).applied(&flipped, &encoded).unwrap();
     let found = found(&truth, &both, &read_as_linear);
     let marked: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
     assert_eq!(marked, [Hypothesis::AlbedoEncoding, Hypothesis::NormalY]);
@@ -214,10 +216,12 @@ fn a_shift_is_that_of_most_rows() {
 /// Diffuse and specular are stored in sRGB; one of them, or one of those of the ground truth, is read as linear.
 #[test]
 fn a_map_in_another_encoding_is_found_alone_and_on_either_side() {
-    let encoded = Storage { colours: Transfer::Srgb, specular: Transfer::Srgb, ..Storage::default() };
-    let [diffuse, specular] = [Reading::Diffuse(Transfer::Linear), Reading::Specular(Transfer::Linear)];
-    let wrong_diffuse = Storage { colours: Transfer::Linear, ..encoded.clone() };
-    let wrong_specular = Storage { specular: Transfer::Linear, ..encoded.clone() };
+    let encoded =
+        Storage { colours: StoredEncoding::Srgb, specular: StoredEncoding::Srgb, ..Storage::default() };
+    let [diffuse, specular] =
+        [Reading::Diffuse(StoredEncoding::Linear), Reading::Specular(StoredEncoding::Linear)];
+    let wrong_diffuse = Storage { colours: StoredEncoding::Linear, ..encoded.clone() };
+    let wrong_specular = Storage { specular: StoredEncoding::Linear, ..encoded.clone() };
     for (seed, error, read_as, hypothesis, remedy) in [
         (0, diffuse, &wrong_diffuse, Hypothesis::DiffuseEncoding, "albedo=srgb,specular-albedo=srgb"),
         (2, diffuse, &wrong_diffuse, Hypothesis::DiffuseEncoding, "albedo=srgb,specular-albedo=srgb"),
@@ -261,7 +265,8 @@ fn nothing_is_marked_below_the_floor() {
 #[test]
 fn a_cause_is_certain_only_where_nothing_else_explains_as_much() {
     let truth = generated(0, SIDE);
-    let linear = Storage { colours: Transfer::Linear, specular: Transfer::Linear, ..Storage::default() };
+    let linear =
+        Storage { colours: StoredEncoding::Linear, specular: StoredEncoding::Linear, ..Storage::default() };
     let text =
         |error: Reading| sentence(&found(&truth, &error.applied(&truth, &linear).unwrap(), &linear), None);
     let gloss = text(Reading::Gloss);

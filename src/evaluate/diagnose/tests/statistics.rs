@@ -7,7 +7,7 @@ use super::super::pair::Pair;
 use super::super::search::EVALUATION;
 use super::super::trials::{Trials, mean};
 use super::super::{
-    Change, Diagnosis, Finding, Hypothesis, Reading, Storage, Transfer, Value, diagnose, shifted,
+    Change, Diagnosis, Finding, Hypothesis, Reading, Storage, StoredEncoding, Value, diagnose, shifted,
 };
 use super::materials::{generated, golden, unexplained, with};
 use svbrdf_core::loss::{Comparison, Estimate, Request, Sampling};
@@ -199,9 +199,10 @@ fn intervals_of_an_evaluation_cover_95_percent() {
         let side = if names[0] == "foam64" { 64 } else { 256 };
         Some([golden(names[0], side)?, golden(names[1], side)?])
     });
-    let changes =
-        [Reading::Diffuse(Transfer::Linear), Reading::Gloss].map(|reading| vec![Change::Reading(reading)]);
-    let storage = Storage { colours: Transfer::Gamma22, specular: Transfer::Gamma22, ..Storage::default() };
+    let changes = [Reading::Diffuse(StoredEncoding::Linear), Reading::Gloss]
+        .map(|reading| vec![Change::Reading(reading)]);
+    let storage =
+        Storage { colours: StoredEncoding::Gamma22, specular: StoredEncoding::Gamma22, ..Storage::default() };
     let mut all = [0; 3];
     let mut count = 0;
     for [truth, prediction] in generated.chain(packed) {

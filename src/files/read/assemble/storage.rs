@@ -1,6 +1,6 @@
 //! How a material that was read is stored, for its diagnosis.
 
-use crate::changes::{Storage, Transfer};
+use crate::changes::{Storage, StoredEncoding};
 
 use super::read::Read;
 use crate::read::options::{Albedo, NormalY, Role, Roughness};
@@ -10,7 +10,7 @@ impl<T> Read<T> {
     /// The readings of its values and the steps of its maps. A map that comes from several files has the largest step of these.
     pub fn storage(&self) -> Storage {
         let chosen = |what| self.assumptions.iter().find(|a| a.what == what).map(|a| a.chosen.as_str());
-        let transfer = |what| chosen(what).map_or(Transfer::Unknown, transfer);
+        let transfer = |what| chosen(what).map_or(StoredEncoding::Unknown, transfer);
         let step = |of: &dyn Fn(Role) -> bool| {
             self.maps.iter().filter(|map| of(map.map)).map(|map| step(map.depth)).fold(0.0, f64::max)
         };
@@ -35,13 +35,13 @@ impl<T> Read<T> {
     }
 }
 
-fn transfer(name: &str) -> Transfer {
+fn transfer(name: &str) -> StoredEncoding {
     match name.parse() {
-        Ok(Albedo::Linear) => Transfer::Linear,
-        Ok(Albedo::Srgb) => Transfer::Srgb,
-        Ok(Albedo::Gamma22) => Transfer::Gamma22,
-        Ok(Albedo::Log) => Transfer::Other,
-        Err(_) => Transfer::Unknown,
+        Ok(Albedo::Linear) => StoredEncoding::Linear,
+        Ok(Albedo::Srgb) => StoredEncoding::Srgb,
+        Ok(Albedo::Gamma22) => StoredEncoding::Gamma22,
+        Ok(Albedo::Log) => StoredEncoding::Other,
+        Err(_) => StoredEncoding::Unknown,
     }
 }
 

@@ -6,12 +6,12 @@ use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision}
 
 use svbrdf_core::error::Error;
 
-use super::place::Place;
+use super::place::DecodedFile;
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::read::raster::{Buffer, Raster, Samples};
 
-pub(crate) fn decode(reader: Reader<'_>, place: Place<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
     let contradiction = |_| place.invalid("DDS", "a contradiction in it");
     let mut decoder =
         caught(|| dds::Decoder::new(reader)).map_err(contradiction)?.map_err(|e| explain(&e, place))?;
@@ -84,7 +84,7 @@ fn pixels<S: Sample>(
     decoder: &mut dds::Decoder<Reader<'_>>,
     mut samples: Vec<S>,
     channels: Channels,
-    place: Place<'_>,
+    place: DecodedFile<'_>,
 ) -> Result<Buffer, Error>
 where
     Buffer: From<Vec<S>>,
@@ -96,7 +96,7 @@ where
     Ok(samples.into())
 }
 
-fn explain(error: &DecodingError, place: Place<'_>) -> Error {
+fn explain(error: &DecodingError, place: DecodedFile<'_>) -> Error {
     match error {
         DecodingError::Io(io) if io.kind() == ErrorKind::UnexpectedEof => place.truncated(),
         other => place.invalid("DDS", other),

@@ -11,7 +11,7 @@ use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 use svbrdf_core::error::Error;
 
 use super::dwa;
-use super::place::{Decoded, Layer, MAX_SIDE, Place};
+use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE};
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::read::raster::{Raster, Samples};
@@ -25,7 +25,7 @@ const SMALL: u64 = 1 << 20;
 /// The channels of one layer: name in capitals, samples.
 type NamedSamples = Vec<(String, Samples)>;
 
-pub(crate) fn decode(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |e: exr::error::Error| match e {
         exr::error::Error::Io(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
         other => place.invalid("EXR", other),
@@ -50,7 +50,7 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded
 }
 
 /// Refuses what cannot be read; returns how many bytes all samples take, in 32 bits each.
-fn check(meta: &MetaData, place: Place<'_>) -> Result<u64, Error> {
+fn check(meta: &MetaData, place: DecodedFile<'_>) -> Result<u64, Error> {
     let mut bytes = 0_u64;
     for header in &meta.headers {
         if header.deep {
@@ -68,7 +68,7 @@ fn check(meta: &MetaData, place: Place<'_>) -> Result<u64, Error> {
     Ok(bytes)
 }
 
-fn layers(image: FlatImage, place: Place<'_>) -> Result<Decoded, Error> {
+fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let mut decoded = Decoded::default();
     let display = image.attributes.display_window;
     if image.attributes.chromaticities.is_some_and(|c| (c.red.0 - 0.64).abs() + (c.red.1 - 0.33).abs() > 0.01)

@@ -6,7 +6,7 @@ use basisu::{DecodeFlags, TargetFormat, Transcoder};
 
 use svbrdf_core::error::Error;
 
-use super::place::{MAX_BYTES, Place};
+use super::place::{DecodedFile, MAX_BYTES};
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::read::raster::{Raster, Samples};
@@ -16,7 +16,7 @@ pub(crate) const MAGIC: &[u8] = b"\xabKTX 20\xbb\r\n\x1a\n";
 /// Bytes of the header up to the index of its levels.
 const HEADER: usize = 80;
 
-pub(crate) fn decode(reader: Reader<'_>, place: Place<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
     let mut bytes = Vec::new();
     let unreadable = |source| Error::unreadable(place.path, source);
     reader.take(MAX_BYTES).read_to_end(&mut bytes).map_err(unreadable)?;
@@ -49,7 +49,7 @@ pub(crate) fn decode(reader: Reader<'_>, place: Place<'_>) -> Result<Raster, Err
     Ok(Raster::with_alpha(width, height, "8-bit", Samples::interleaved(pixels, 4)))
 }
 
-fn explain(error: &basisu::Error, place: Place<'_>) -> Error {
+fn explain(error: &basisu::Error, place: DecodedFile<'_>) -> Error {
     match error {
         basisu::Error::Truncated => place.truncated(),
         basisu::Error::Unsupported { source, .. } => {

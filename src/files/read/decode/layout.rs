@@ -11,7 +11,7 @@ const MOST: u64 = 4;
 
 /// An array as a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Axes {
+pub(super) struct ArrayAxes {
     pub height: u64,
     pub width: u64,
     /// Channels of a texel.
@@ -22,7 +22,7 @@ pub(super) struct Axes {
     pub is_ambiguous: bool,
 }
 
-impl Axes {
+impl ArrayAxes {
     fn new(size: [u64; 2], count: u64, planar: bool) -> Self {
         Self { height: size[0], width: size[1], count, planar, is_ambiguous: false }
     }
@@ -33,16 +33,16 @@ impl Axes {
 }
 
 /// The readings of a shape, channels last before channels first; none where it is that of no picture.
-fn readings(shape: &[u64]) -> Vec<Axes> {
+fn readings(shape: &[u64]) -> Vec<ArrayAxes> {
     let are_channels = |count: u64| (1..=MOST).contains(&count);
     match *shape {
-        [h, w] => vec![Axes::new([h, w], 1, false)],
-        [1, c, h, w] if are_channels(c) => vec![Axes::new([h, w], c, true)],
+        [h, w] => vec![ArrayAxes::new([h, w], 1, false)],
+        [1, c, h, w] if are_channels(c) => vec![ArrayAxes::new([h, w], c, true)],
         // The same picture either way.
-        [1, 1, 1] => vec![Axes::new([1, 1], 1, false)],
+        [1, 1, 1] => vec![ArrayAxes::new([1, 1], 1, false)],
         [a, b, c] => {
-            let last = are_channels(c).then(|| Axes::new([a, b], c, false));
-            let first = are_channels(a).then(|| Axes::new([b, c], a, true));
+            let last = are_channels(c).then(|| ArrayAxes::new([a, b], c, false));
+            let first = are_channels(a).then(|| ArrayAxes::new([b, c], a, true));
             last.into_iter().chain(first).collect()
         }
         _ => Vec::new(),
@@ -50,7 +50,7 @@ fn readings(shape: &[u64]) -> Vec<Axes> {
 }
 
 /// The reading of each shape of a file, decided from all of them together.
-pub(super) fn chosen(shapes: &[Vec<u64>]) -> impl Iterator<Item = Option<Axes>> {
+pub(super) fn chosen(shapes: &[Vec<u64>]) -> impl Iterator<Item = Option<ArrayAxes>> {
     let all: Vec<_> = shapes.iter().map(|shape| readings(shape)).collect();
     let sizes: Vec<_> = all.iter().filter(|one| one.len() == 1).map(|one| one[0].size()).collect();
     let several: Vec<_> = all.iter().filter(|one| one.len() > 1).collect();
@@ -62,14 +62,14 @@ pub(super) fn chosen(shapes: &[Vec<u64>]) -> impl Iterator<Item = Option<Axes>> 
         [true, false] => Some(0),
         _ => None,
     };
-    let choose = move |readings: Vec<Axes>| {
+    let choose = move |readings: Vec<ArrayAxes>| {
         let [last, first] = readings.as_slice() else { return readings.first().copied() };
         match [last, first].map(|axes| sizes.contains(&axes.size())) {
             [true, false] => Some(*last),
             [false, true] => Some(*first),
             _ => {
                 // Two channels, or four, usually come last.
-                let default = Axes { is_ambiguous: matches!(first.count, 1 | 3), ..*last };
+                let default = ArrayAxes { is_ambiguous: matches!(first.count, 1 | 3), ..*last };
                 Some(together.map_or(default, |number| [*last, *first][number]))
             }
         }
@@ -78,7 +78,7 @@ pub(super) fn chosen(shapes: &[Vec<u64>]) -> impl Iterator<Item = Option<Axes>> 
 }
 
 /// The note where nothing but the default told the axes of the array `name`.
-pub(super) fn note(name: &str, shape: &[u64], axes: Option<Axes>) -> Option<Note> {
+pub(super) fn note(name: &str, shape: &[u64], axes: Option<ArrayAxes>) -> Option<Note> {
     let is_ambiguous = axes.is_some_and(|axes| axes.is_ambiguous);
     is_ambiguous.then(|| Note::ChannelsLast { array: name.to_owned(), shape: shape.to_vec() })
 }

@@ -27,7 +27,7 @@ use crate::read::record::{Note, Subject};
 pub(super) use place::{Decoded, Layer};
 use svbrdf_core::error::Error;
 
-use place::{Place, alone};
+use place::{DecodedFile, alone};
 use reader::Reader;
 
 /// Decodes `file`, which is expected to be `what`.
@@ -43,7 +43,7 @@ pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
 
 /// As [`whole`], from what `reader` gives; `path` is the name for messages.
 pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) -> Result<Decoded, Error> {
-    let place = Place { path, what };
+    let place = DecodedFile { path, what };
     let head = reader.fill_buf().map_err(|source| Error::unreadable(path, source))?;
     lfs::refuse_pointer(path, head)?;
     let begins = |magic: &[u8]| head.starts_with(magic);
@@ -72,7 +72,7 @@ pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Raster, Vec<Note>)
     let Decoded { mut layers, notes, .. } = whole(file, what)?;
     match layers.pop() {
         Some(only) if layers.is_empty() => Ok((only.raster, notes)),
-        _ => Err(Place { path: file.path(), what }
+        _ => Err(DecodedFile { path: file.path(), what }
             .bad("expected one picture, found several layers", "open the file itself")),
     }
 }
@@ -82,7 +82,7 @@ pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Raster, Vec<Note>)
 /// # Errors
 /// As [`whole`]; [`Error::BadImage`] where no layer or several could be meant.
 pub(super) fn photograph(file: &NamedFile) -> Result<(Raster, Vec<Note>), Error> {
-    let place = Place { path: file.path(), what: Subject::Photograph };
+    let place = DecodedFile { path: file.path(), what: Subject::Photograph };
     let Decoded { mut layers, notes, .. } = whole(file, place.what)?;
     let unnamed = layers.iter().position(|layer| layer.name.is_empty());
     let chosen = if layers.len() == 1 { Some(0) } else { unnamed };

@@ -6,8 +6,8 @@ use exr::prelude::f16;
 
 use svbrdf_core::error::Error;
 
-use super::layout::{self, Axes};
-use super::place::{Decoded, Layer, MAX_BYTES, Place, alone};
+use super::layout::{self, ArrayAxes};
+use super::place::{Decoded, DecodedFile, Layer, MAX_BYTES, alone};
 use super::reader::Reader;
 use crate::npy::Header;
 use crate::read::raster::{Buffer, Raster, Samples};
@@ -19,7 +19,7 @@ const MOST_ARRAYS: usize = 64;
 const VALUES_AT_A_TIME: usize = 1 << 13;
 
 /// Every array of an archive, by its name.
-pub(crate) fn decode_archive(reader: Reader<'_>, place: Place<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |e: zip::result::ZipError| place.invalid("npz", e);
     let mut archive = zip::ZipArchive::new(reader).map_err(invalid)?;
     let names: Vec<String> = {
@@ -74,7 +74,7 @@ fn stem(file: &str) -> &str {
 }
 
 /// A file of one array.
-pub(crate) fn decode_array(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode_array(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let shape = Header::read(&mut reader).map_err(|e| broken(&e, "", place))?.shape;
     reader.rewind().map_err(|source| Error::unreadable(place.path, source))?;
     let axes = layout::chosen(std::slice::from_ref(&shape)).next().flatten();
@@ -87,7 +87,7 @@ fn whose(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!("array {name}: ") }
 }
 
-fn broken(error: &io::Error, name: &str, place: Place<'_>) -> Error {
+fn broken(error: &io::Error, name: &str, place: DecodedFile<'_>) -> Error {
     match error.kind() {
         ErrorKind::UnexpectedEof => place.truncated(),
         _ => place.invalid("npy", format!("{}{error}", whose(name))),
@@ -95,10 +95,15 @@ fn broken(error: &io::Error, name: &str, place: Place<'_>) -> Error {
 }
 
 /// The array `name`, its axes read as `axes`; `None` where its shape is that of no picture.
-fn decode(mut reader: impl Read, name: &str, axes: Option<Axes>, place: Place<'_>) -> Result<Layer, Error> {
+fn decode(
+    mut reader: impl Read,
+    name: &str,
+    axes: Option<ArrayAxes>,
+    place: DecodedFile<'_>,
+) -> Result<Layer, Error> {
     let whose = whose(name);
     let header = Header::read(&mut reader).map_err(|e| broken(&e, name, place))?;
-    let Axes { height, width, count, planar, .. } = axes.ok_or_else(|| {
+    let ArrayAxes { height, width, count, planar, .. } = axes.ok_or_else(|| {
         place.bad(
             format!("{whose}expected the shape (h, w) or (h, w, 1 to 4), found {:?}", header.shape),
             "save each map as an array of rows, columns and channels",

@@ -16,7 +16,7 @@ use svbrdf_core::error::Error;
 
 use super::head::{self, PngHead};
 use super::known;
-use super::place::{Decoded, FORMATS, MAX_BYTES, MAX_WIDTH, Place, alone};
+use super::place::{Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone};
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::read::raster::{Raster, Samples};
@@ -25,7 +25,7 @@ use crate::read::record::Note;
 /// Most bytes of the metadata of a PNG: an ICC profile of a printer has some megabytes.
 const MAX_METADATA: u64 = 64 << 20;
 
-pub(crate) fn decode(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
     let head = reader.fill_buf().map_err(unreadable)?;
     match image::guess_format(head) {
@@ -88,14 +88,14 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: Place<'_>) -> Result<Decoded
 }
 
 /// By its name: a TGA begins with nothing of its own.
-fn is_tga(place: Place<'_>) -> bool {
+fn is_tga(place: DecodedFile<'_>) -> bool {
     place.path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("tga"))
 }
 
 fn decode_with(
     mut decoder: Box<dyn ImageDecoder + '_>,
     format: &str,
-    place: Place<'_>,
+    place: DecodedFile<'_>,
 ) -> Result<Decoded, Error> {
     let broken = |error: ImageError| explain(&error, format, place);
     decoder.set_limits(limits()).map_err(broken)?;
@@ -114,7 +114,7 @@ fn decode_with(
 }
 
 /// Metadata of the file that is ignored.
-fn ignored(decoder: &mut dyn ImageDecoder, orientation: Orientation, place: Place<'_>) -> Vec<Note> {
+fn ignored(decoder: &mut dyn ImageDecoder, orientation: Orientation, place: DecodedFile<'_>) -> Vec<Note> {
     let mut notes = Vec::new();
     let what = place.what;
     if orientation != Orientation::NoTransforms && !place.is_photograph() {
@@ -148,7 +148,7 @@ fn metadata_limits() -> Limits {
 }
 
 /// The error of a PNG whose head cannot be read.
-fn of_metadata(error: &ImageError, is_too_wide: bool, place: Place<'_>) -> Error {
+fn of_metadata(error: &ImageError, is_too_wide: bool, place: DecodedFile<'_>) -> Error {
     match error {
         ImageError::Limits(_) if !is_too_wide => {
             let problem =
@@ -159,7 +159,7 @@ fn of_metadata(error: &ImageError, is_too_wide: bool, place: Place<'_>) -> Error
     }
 }
 
-fn explain(error: &ImageError, format: &str, place: Place<'_>) -> Error {
+fn explain(error: &ImageError, format: &str, place: DecodedFile<'_>) -> Error {
     match error {
         ImageError::IoError(io) if io.kind() == ErrorKind::UnexpectedEof => place.truncated(),
         ImageError::Limits(limit) if matches!(limit.kind(), LimitErrorKind::InsufficientMemory) => {

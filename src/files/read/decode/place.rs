@@ -41,12 +41,12 @@ pub(crate) struct Decoded {
 
 /// The file that is being decoded, and its subject: for messages.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place<'a> {
+pub(crate) struct DecodedFile<'a> {
     pub path: &'a Path,
     pub what: Subject,
 }
 
-impl Place<'_> {
+impl DecodedFile<'_> {
     pub(super) fn bad(self, problem: impl AsRef<str>, remedy: &str) -> Error {
         Error::BadImage {
             path: self.path.to_owned(),

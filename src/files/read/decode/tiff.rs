@@ -6,11 +6,11 @@ use tiff::tags::Tag;
 
 use svbrdf_core::error::Error;
 
-use super::place::{MAX_BYTES, Place};
+use super::place::{DecodedFile, MAX_BYTES};
 use super::reader::Reader;
 use crate::read::raster::{Buffer, Raster, Samples};
 
-pub(crate) fn decode(reader: Reader<'_>, place: Place<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
     let invalid = |error: tiff::TiffError| match error {
         tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
         other => place.invalid("TIFF", other),

@@ -3,27 +3,27 @@
 use crate::read::options::Role;
 
 /// An input and its default, linear.
-pub(crate) type Input = (&'static str, f32);
+pub(crate) type SurfaceInput = (&'static str, f32);
 
 /// A surface of MaterialX.
 #[derive(Debug)]
 pub(crate) struct SurfaceModel {
     pub tag: &'static str,
-    pub base: Input,
+    pub base: SurfaceInput,
     /// A factor on the base colour.
-    pub weight: Option<Input>,
-    pub metallic: Input,
-    pub roughness: Input,
+    pub weight: Option<SurfaceInput>,
+    pub metallic: SurfaceInput,
+    pub roughness: SurfaceInput,
     pub normal: &'static str,
     /// Factors on the reflectance of the dielectric.
-    pub specular: &'static [Input],
-    pub ior: Input,
+    pub specular: &'static [SurfaceInput],
+    pub ior: SurfaceInput,
     /// The share of light that the dielectric transmits, which leaves the rest to diffuse.
-    pub transmission: Option<Input>,
+    pub transmission: Option<SurfaceInput>,
     /// Weight and colour of subsurface scattering, which counts as diffuse.
-    pub subsurface: Option<[Input; 2]>,
+    pub subsurface: Option<[SurfaceInput; 2]>,
     /// Inputs that change the look and are not modelled, with the value that turns each off.
-    pub not_modelled: &'static [Input],
+    pub not_modelled: &'static [SurfaceInput],
 }
 
 pub(crate) static MODELS: [SurfaceModel; 4] = [
@@ -110,7 +110,7 @@ pub(crate) static MODELS: [SurfaceModel; 4] = [
 ];
 
 /// The specular of `UsdPreviewSurface` in its specular workflow.
-pub(crate) const USD_SPECULAR: Input = ("specularColor", 0.0);
+pub(crate) const USD_SPECULAR: SurfaceInput = ("specularColor", 0.0);
 /// The input of `UsdPreviewSurface` that chooses its specular workflow.
 pub(crate) const USE_SPECULAR: &str = "useSpecularWorkflow";
 

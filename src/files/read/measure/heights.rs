@@ -23,12 +23,12 @@ pub(crate) fn slope_correlations(normals: &Raster, heights: &Raster) -> Option<[
     let is_signed = normals.is_float() && normals.sampled().any(is_negative);
     let cells = [width.min(across).min(MOST), height.min(down).min(MOST)];
     let slope = |axis: usize| {
-        Grid::of(normals, cells, |rgb| {
+        CellMeans::of(normals, cells, |rgb| {
             let [x, y] = [rgb[0], rgb[1]].map(|c| if is_signed { c } else { 2.0 * c - 1.0 });
             -[x, y][axis] / (1.0 - x * x - y * y).max(0.01).sqrt()
         })
     };
-    let mut grids = [slope(0), slope(1), Grid::of(heights, cells, |rgb| rgb[0])];
+    let mut grids = [slope(0), slope(1), CellMeans::of(heights, cells, |rgb| rgb[0])];
     let mut clearest = None;
     while grids[0].size.iter().all(|side| *side >= LEAST) {
         let [x, y, h] = &grids;
@@ -46,12 +46,12 @@ pub(crate) fn slope_correlations(normals: &Raster, heights: &Raster) -> Option<[
 }
 
 /// Means of a quantity over equal cells of a picture.
-struct Grid {
+struct CellMeans {
     size: [usize; 2],
     means: Vec<f64>,
 }
 
-impl Grid {
+impl CellMeans {
     /// The means of `of` the channels of a few texels of each of `size` (columns, rows) cells.
     fn of(raster: &Raster, size: [usize; 2], of: impl Fn([f64; 3]) -> f64) -> Self {
         let places = |axis: usize, cell: usize| {

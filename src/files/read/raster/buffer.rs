@@ -53,7 +53,7 @@ impl Buffer {
 
 /// Where the samples of a channel lie in a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct View {
+pub(super) struct ChannelView {
     /// The place of sample 0.
     pub first: usize,
     /// From one sample of a row to the next.
@@ -65,7 +65,7 @@ pub(super) struct View {
     pub count: usize,
 }
 
-impl View {
+impl ChannelView {
     /// Whether a row follows the one above it like any sample the one before it.
     pub(super) fn is_whole(&self) -> bool {
         self.stride == self.width * self.step

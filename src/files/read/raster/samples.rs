@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use svbrdf_core::math::real::Real;
 
-use super::buffer::{Buffer, View};
+use super::buffer::{Buffer, ChannelView};
 use super::out_of_range::OutOfRange;
 
 /// Samples that one task converts.
@@ -16,7 +16,7 @@ const CHUNK: usize = 1 << 16;
 #[derive(Clone, Debug)]
 pub(crate) struct Samples {
     buffer: Buffer,
-    view: View,
+    view: ChannelView,
 }
 
 impl PartialEq for Samples {
@@ -33,7 +33,8 @@ impl Samples {
         let buffer = samples.into();
         let texels = buffer.len() / count;
         let channel = |first| {
-            let view = View { first, step: count, stride: texels * count, width: texels, count: texels };
+            let view =
+                ChannelView { first, step: count, stride: texels * count, width: texels, count: texels };
             Self { buffer: buffer.clone(), view }
         };
         (0..count).map(channel).collect()
@@ -44,7 +45,8 @@ impl Samples {
         let buffer = samples.into();
         let texels = buffer.len() / count;
         let channel = |index| {
-            let view = View { first: index * texels, step: 1, stride: texels, width: texels, count: texels };
+            let view =
+                ChannelView { first: index * texels, step: 1, stride: texels, width: texels, count: texels };
             Self { buffer: buffer.clone(), view }
         };
         (0..count).map(channel).collect()
@@ -53,7 +55,7 @@ impl Samples {
     /// A channel of numbers that stand for themselves.
     pub(crate) fn floats(values: Vec<f32>) -> Self {
         let count = values.len();
-        let view = View { first: 0, step: 1, stride: count, width: count, count };
+        let view = ChannelView { first: 0, step: 1, stride: count, width: count, count };
         Self { buffer: values.into(), view }
     }
 
@@ -176,7 +178,7 @@ impl Samples {
     fn are_one_picture(channels: [&Self; 3]) -> bool {
         let [first, others @ ..] = channels;
         let follows = |(number, other): (usize, &&Self)| {
-            let place = View { first: first.view.first + number + 1, ..first.view };
+            let place = ChannelView { first: first.view.first + number + 1, ..first.view };
             first.buffer.is(&other.buffer) && other.view == place
         };
         first.view.step >= 3 && others.iter().enumerate().all(follows)
@@ -258,7 +260,7 @@ impl Samples {
             Buffer::Words(all) => pick(all, places).into(),
             Buffer::Floats(all) => pick(all, places).into(),
         };
-        Self { buffer, view: View { first: 0, step: 1, stride: count, width: count, count } }
+        Self { buffer, view: ChannelView { first: 0, step: 1, stride: count, width: count, count } }
     }
 
     /// The part of `size` whose top left corner is at `corner`, of a channel of rows of `width` samples.
@@ -266,7 +268,10 @@ impl Samples {
         let Self { buffer, view } = self;
         let stride = if view.is_whole() { width * view.step } else { view.stride };
         let first = view.place(top * width + left);
-        Self { buffer: buffer.clone(), view: View { first, step: view.step, stride, width: w, count: w * h } }
+        Self {
+            buffer: buffer.clone(),
+            view: ChannelView { first, step: view.step, stride, width: w, count: w * h },
+        }
     }
 }
 

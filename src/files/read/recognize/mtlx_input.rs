@@ -7,7 +7,7 @@ use super::scaled_normals::scaled;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::mtlx::{Affine, Bound, BoundPicture, LocatedMtlx, Obstacle};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
-use crate::read::located::surface_model::Input;
+use crate::read::located::surface_model::SurfaceInput;
 use crate::read::options::colour_space::ColourSpace;
 use crate::read::options::{Albedo, Role};
 use crate::read::record::{Certainty, Reason, SpaceKnown, Subject};
@@ -92,7 +92,7 @@ impl MtlxInputs<'_> {
     }
 
     /// The input, or its default by the specification.
-    pub(super) fn input_or_default(&self, input: Input, role: Role) -> Result<LoadedInput, Error> {
+    pub(super) fn input_or_default(&self, input: SurfaceInput, role: Role) -> Result<LoadedInput, Error> {
         let usual = || {
             let source = StoredMap::constant(&self.located.path, &[input.1]);
             LoadedInput::linear(source, encoding("lin_rec709"))

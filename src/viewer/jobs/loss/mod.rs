@@ -17,7 +17,7 @@ use crate::model::material::list::MaterialList;
 use crate::model::material::loaded::{LoadedMaterial, ids};
 use crate::model::settings::loss_query::LossQuery;
 
-pub use phase::Losses;
+pub use phase::KeyedLosses;
 use phase::{LossKey, Phase, RunningLoss, Settled, Step, stopped};
 
 /// Progress and staleness are shown after this time: what takes less would only flicker.
@@ -39,7 +39,7 @@ impl Default for LossJob {
 
 impl LossJob {
     /// The latest losses.
-    pub fn losses(&self) -> Option<&Losses> {
+    pub fn losses(&self) -> Option<&KeyedLosses> {
         self.phase.losses()
     }
 
@@ -190,7 +190,7 @@ fn start(waker: &Waker, materials: &MaterialList, query: &LossQuery) -> RunningL
         let update = |outcome: &Outcome| {
             let elapsed = start.elapsed();
             let report = LossReport::new(&comparison, &request, outcome.clone());
-            let losses = Losses { key: of.clone(), differences: differences(&report), report, elapsed };
+            let losses = KeyedLosses { key: of.clone(), differences: differences(&report), report, elapsed };
             // Where the window has dropped this job, its progress ends the work.
             let _ = worker.replace(losses);
         };

@@ -18,7 +18,7 @@ pub struct LossKey {
 
 /// Losses for a key, complete or so far.
 #[derive(Debug)]
-pub struct Losses {
+pub struct KeyedLosses {
     pub key: LossKey,
     pub report: LossReport,
     /// `differences[a][b]`: the loss of prediction b minus that of a, on the same scenes.
@@ -27,7 +27,7 @@ pub struct Losses {
     pub elapsed: Duration,
 }
 
-impl Losses {
+impl KeyedLosses {
     /// The request they answer.
     pub fn request(&self) -> &Request {
         &self.key.query.request
@@ -43,20 +43,20 @@ impl Losses {
 #[derive(Debug)]
 pub struct RunningLoss {
     pub key: LossKey,
-    pub job: Job<(), Losses>,
+    pub job: Job<(), KeyedLosses>,
 }
 
 /// Losses that no longer change.
 #[derive(Debug)]
 pub enum Settled {
     Nothing,
-    Finished(Losses),
+    Finished(KeyedLosses),
     /// Of a run that was cancelled or failed: the losses it had reached.
-    Partial(Losses),
+    Partial(KeyedLosses),
 }
 
 impl Settled {
-    fn losses(&self) -> Option<&Losses> {
+    fn losses(&self) -> Option<&KeyedLosses> {
         match self {
             Self::Nothing => None,
             Self::Finished(losses) | Self::Partial(losses) => Some(losses),
@@ -72,7 +72,7 @@ pub enum Phase {
     /// A run without losses yet; the losses of an earlier one.
     Starting(RunningLoss, Settled),
     /// A run with losses so far.
-    Refining(RunningLoss, Losses),
+    Refining(RunningLoss, KeyedLosses),
     /// No run: this key was cancelled, or failed for this reason. It is not computed again by itself.
     Stopped { key: LossKey, problem: Option<String>, settled: Settled },
 }
@@ -112,7 +112,7 @@ impl Phase {
         }
     }
 
-    pub fn losses(&self) -> Option<&Losses> {
+    pub fn losses(&self) -> Option<&KeyedLosses> {
         match self {
             Self::Settled(settled) | Self::Starting(_, settled) | Self::Stopped { settled, .. } => {
                 settled.losses()
@@ -158,7 +158,7 @@ mod tests {
         RunningLoss { key: key(seed), job }
     }
 
-    fn losses(seed: u64) -> Losses {
+    fn losses(seed: u64) -> KeyedLosses {
         let normal = glam::Vec3::Z;
         let texel = Texel::<f32> { normal, diffuse: [0.5; 3], specular: [0.04; 3], roughness: 0.5 };
         let material = Material::uniform("gray", 1, 1, &texel).unwrap();
@@ -169,7 +169,7 @@ mod tests {
             report = Some(LossReport::new(&comparison, &key.query.request, outcome.clone()))
         };
         comparison.stream(&key.query.request, &svbrdf_core::progress::Progress::default(), update).unwrap();
-        Losses { key, report: report.unwrap(), differences: Vec::new(), elapsed: Duration::ZERO }
+        KeyedLosses { key, report: report.unwrap(), differences: Vec::new(), elapsed: Duration::ZERO }
     }
 
     /// Every phase for the losses of seed 1, and of an earlier seed where it has some.

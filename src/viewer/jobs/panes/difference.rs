@@ -33,13 +33,13 @@ struct DifferenceKey {
 
 /// What is computed of a difference.
 #[derive(Debug)]
-enum Compared {
+enum ComputedDifference {
     /// Shaders compute the difference itself.
     Texels(Distributions),
     Maps(Arc<ComputedMaps>),
 }
 
-impl Compared {
+impl ComputedDifference {
     fn distributions(&self) -> &Distributions {
         match self {
             Self::Texels(distributions) => distributions,
@@ -50,23 +50,23 @@ impl Compared {
 
 /// The statistics of the difference in the panes, and the computation of new ones.
 #[derive(Debug, Default)]
-pub struct DifferenceJob(Latest<DifferenceKey, Compared>);
+pub struct DifferenceJob(Latest<DifferenceKey, ComputedDifference>);
 
 impl DifferenceJob {
     /// The distributions for the current materials and difference, perhaps of an earlier scene; one for each prediction.
     pub fn distributions(&self, materials: &[LoadedMaterial], state: &ViewState) -> Option<&Distributions> {
-        self.latest(materials, state).map(Compared::distributions)
+        self.latest(materials, state).map(ComputedDifference::distributions)
     }
 
     /// The difference of each prediction, perhaps of an earlier scene or exposure; `None` where shaders compute it.
     pub fn maps(&self, materials: &[LoadedMaterial], state: &ViewState) -> Option<&Arc<ComputedMaps>> {
         match self.latest(materials, state)? {
-            Compared::Maps(maps) => Some(maps),
-            Compared::Texels(_) => None,
+            ComputedDifference::Maps(maps) => Some(maps),
+            ComputedDifference::Texels(_) => None,
         }
     }
 
-    fn latest(&self, materials: &[LoadedMaterial], state: &ViewState) -> Option<&Compared> {
+    fn latest(&self, materials: &[LoadedMaterial], state: &ViewState) -> Option<&ComputedDifference> {
         let (latest, compared) = self.0.get()?;
         let now = key(materials, state);
         let same = (&latest.ids, latest.quantity, latest.kind) == (&now.ids, now.quantity, now.kind);
@@ -97,7 +97,7 @@ fn key(materials: &[LoadedMaterial], state: &ViewState) -> DifferenceKey {
     }
 }
 
-fn start(work: &JobContext<'_>) -> Job<Compared> {
+fn start(work: &JobContext<'_>) -> Job<ComputedDifference> {
     let (materials, gpu, state) = (work.materials(), work.gpu.cloned(), work.view);
     let (quantity, kind) = (state.display.quantity, state.difference_kind());
     let (scene, convention) = (state.scene, state.convention());
@@ -110,10 +110,10 @@ fn start(work: &JobContext<'_>) -> Job<Compared> {
         if kind == Difference::Flip {
             let map = |prediction: Result<_, Error>| Ok(kind.picture(&ground_truth, &prediction?, params));
             let maps = predictions.map(map).collect::<Result<Vec<_>, Error>>()?;
-            return ComputedMaps::new(maps, gpu.as_ref()).map(Arc::new).map(Compared::Maps);
+            return ComputedMaps::new(maps, gpu.as_ref()).map(Arc::new).map(ComputedDifference::Maps);
         }
         let values = |prediction: Result<_, Error>| Ok(kind.of_images(&ground_truth, &prediction?, params));
         let values = predictions.map(values).collect::<Result<Vec<_>, Error>>()?;
-        Ok(Compared::Texels(Distributions::of(&values, kind.is_signed())))
+        Ok(ComputedDifference::Texels(Distributions::of(&values, kind.is_signed())))
     })
 }

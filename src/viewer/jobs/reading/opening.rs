@@ -11,7 +11,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_gpu::Gpu;
 
-use super::read::{Reader, read_with_retries, runs_of};
+use super::read::{MaterialReader, read_with_retries, runs_of};
 use super::upload::{Uploaded, Uploads};
 use crate::jobs::work::job::{Job, Worker};
 use crate::jobs::work::priority;
@@ -49,7 +49,13 @@ type Uploading = (Arrival, Option<(MaterialId, Arc<Uploaded>)>);
 impl Openings {
     /// Starts to read materials; the number of the opening. One for everything cancels all others, and one that reads a material
     /// again cancels the others of this material.
-    pub fn start(&mut self, waker: &Waker, gpu: Option<&Gpu>, request: ReadRequest, reader: Reader) -> u64 {
+    pub fn start(
+        &mut self,
+        waker: &Waker,
+        gpu: Option<&Gpu>,
+        request: ReadRequest,
+        reader: MaterialReader,
+    ) -> u64 {
         match &request.target {
             Target::Everything => self.all.clear(),
             Target::Predictions => {}
@@ -122,7 +128,7 @@ impl Opening {
         gpu: Option<&Gpu>,
         number: u64,
         ReadRequest { items, target }: ReadRequest,
-        reader: Reader,
+        reader: MaterialReader,
     ) -> Self {
         let name = |item: &Item| match item {
             Item::Loaded(_) => String::new(),
@@ -201,7 +207,7 @@ struct OpeningWork {
 }
 
 /// Where the materials of an opening go.
-struct Output<'a> {
+struct OpeningTarget<'a> {
     worker: &'a Worker<Uploading>,
     /// Materials that are not sent whole yet.
     rests: Sender<(Arc<ReadMaterial>, Arc<Uploaded>)>,
@@ -209,11 +215,11 @@ struct Output<'a> {
 
 impl OpeningWork {
     /// Reads the items one after the other. What is left to send of one is sent while the next is read.
-    fn run(&self, items: Vec<Item>, reader: Reader, worker: &Worker<Uploading>) -> Result<(), Error> {
+    fn run(&self, items: Vec<Item>, reader: MaterialReader, worker: &Worker<Uploading>) -> Result<(), Error> {
         let (rests, rest) = mpsc::channel();
         std::thread::scope(|scope| {
             scope.spawn(|| self.send_rests(rest, worker));
-            self.read_all(items, reader, &Output { worker, rests })
+            self.read_all(items, reader, &OpeningTarget { worker, rests })
         })
     }
 
@@ -228,7 +234,12 @@ impl OpeningWork {
         }
     }
 
-    fn read_all(&self, items: Vec<Item>, mut reader: Reader, output: &Output<'_>) -> Result<(), Error> {
+    fn read_all(
+        &self,
+        items: Vec<Item>,
+        mut reader: MaterialReader,
+        output: &OpeningTarget<'_>,
+    ) -> Result<(), Error> {
         for (index, item) in items.into_iter().enumerate() {
             self.current.store(index, Ordering::Relaxed);
             match item {
@@ -248,8 +259,8 @@ impl OpeningWork {
         &self,
         source: MaterialSource,
         index: usize,
-        reader: &mut Reader,
-        Output { worker, rests }: &Output<'_>,
+        reader: &mut MaterialReader,
+        OpeningTarget { worker, rests }: &OpeningTarget<'_>,
     ) -> Result<(), Error> {
         let read = match read_with_retries(&source, reader, &self.parts[index]) {
             Ok(read) => Arc::new(read),

@@ -23,7 +23,7 @@ const RETRY: Duration = Duration::from_millis(300);
 
 /// How materials are read one after the other.
 #[derive(Clone, Copy, Debug)]
-pub struct Reader {
+pub struct MaterialReader {
     pub rules: Rules,
     /// The size of the ground truth, once it is known.
     pub size: Option<[usize; 2]>,
@@ -38,7 +38,7 @@ pub struct Reader {
 /// Those of [`read::read`], and [`Error::Cancelled`].
 pub fn read_with_retries(
     source: &MaterialSource,
-    reader: &mut Reader,
+    reader: &mut MaterialReader,
     progress: &Progress,
 ) -> Result<ReadMaterial, Error> {
     loop {
@@ -88,7 +88,11 @@ pub fn runs_of(source: MaterialSource) -> Vec<MaterialSource> {
 }
 
 /// Reads one material.
-fn read(source: MaterialSource, reader: &mut Reader, progress: &Progress) -> Result<ReadMaterial, Error> {
+fn read(
+    source: MaterialSource,
+    reader: &mut MaterialReader,
+    progress: &Progress,
+) -> Result<ReadMaterial, Error> {
     match &source.place {
         Place::BuiltIn(number) => {
             let samples = samples::load::<f32>()?;
@@ -112,7 +116,7 @@ fn read(source: MaterialSource, reader: &mut Reader, progress: &Progress) -> Res
 fn read_path(
     path: PathBuf,
     source: MaterialSource,
-    reader: &mut Reader,
+    reader: &mut MaterialReader,
     progress: &Progress,
 ) -> Result<ReadMaterial, Error> {
     let read = match &source.chosen {
@@ -127,7 +131,7 @@ fn read_path(
 fn read_newest(
     run: &RunId,
     source: &MaterialSource,
-    reader: &mut Reader,
+    reader: &mut MaterialReader,
     progress: &Progress,
 ) -> Result<ReadMaterial, Error> {
     let now = SystemTime::now();

@@ -25,7 +25,7 @@ type Files = Vec<(MaterialId, Vec<(PathBuf, Option<Stamp>)>)>;
 
 /// What has happened to the files of a material.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Change {
+pub enum FileChange {
     /// They have changed.
     Changed,
     /// This one is gone.
@@ -36,14 +36,14 @@ pub enum Change {
 
 /// Checks the files of all materials once a second.
 #[derive(Debug, Default)]
-pub struct Watch {
+pub struct FileWatch {
     watcher: Option<Watcher>,
     ids: Vec<MaterialId>,
 }
 
-impl Watch {
+impl FileWatch {
     /// What has happened since the last call, each with the index of the material.
-    pub fn poll(&mut self, waker: &Waker, materials: &MaterialList) -> Vec<(usize, Change)> {
+    pub fn poll(&mut self, waker: &Waker, materials: &MaterialList) -> Vec<(usize, FileChange)> {
         let ids: Vec<MaterialId> = materials.all.iter().map(LoadedMaterial::id).collect();
         if self.watcher.is_none() || self.ids != ids {
             let watcher = self.watcher.get_or_insert_with(|| Watcher::start(waker, INTERVAL));
@@ -65,7 +65,7 @@ impl Watch {
 #[derive(Debug)]
 struct Watcher {
     files: Sender<Files>,
-    job: Job<(), (MaterialId, Change)>,
+    job: Job<(), (MaterialId, FileChange)>,
 }
 
 impl Watcher {
@@ -92,7 +92,7 @@ impl Watcher {
     }
 
     /// What has happened since the last call, each with the id of the material.
-    fn changes(&self) -> Vec<(MaterialId, Change)> {
+    fn changes(&self) -> Vec<(MaterialId, FileChange)> {
         self.job.updates()
     }
 }
@@ -113,7 +113,7 @@ struct Check {
 impl Check {
     /// What has happened to each material since the last call: a file has changed since it was read and since it was last
     /// reported, is gone for two checks, or is back. A material with a file that is being written has not changed yet.
-    fn changes(&mut self) -> Vec<(MaterialId, Change)> {
+    fn changes(&mut self) -> Vec<(MaterialId, FileChange)> {
         let now = SystemTime::now();
         let (mut latest, mut missing) = (HashMap::new(), HashSet::new());
         let mut changes = Vec::new();
@@ -135,11 +135,11 @@ impl Check {
                 }
             }
             let change = match gone {
-                Some(path) => Some(Change::Gone(path)),
-                None if changed.is_empty() => is_back.then_some(Change::Back),
+                Some(path) => Some(FileChange::Gone(path)),
+                None if changed.is_empty() => is_back.then_some(FileChange::Back),
                 None if is_still => {
                     self.reported.extend(changed);
-                    Some(Change::Changed)
+                    Some(FileChange::Changed)
                 }
                 None => None,
             };
@@ -183,10 +183,10 @@ mod tests {
         let mut check = Check { files, ..Check::default() };
         assert!(check.changes().is_empty());
         set_time(&path, 2000);
-        assert_eq!(check.changes(), [(id(), Change::Changed)]);
+        assert_eq!(check.changes(), [(id(), FileChange::Changed)]);
         assert!(check.changes().is_empty(), "it is reported already");
         set_time(&path, 3000);
-        assert_eq!(check.changes(), [(id(), Change::Changed)]);
+        assert_eq!(check.changes(), [(id(), FileChange::Changed)]);
     }
 
     #[test]
@@ -196,17 +196,17 @@ mod tests {
         let mut check = Check { files, ..Check::default() };
         std::fs::remove_file(&path).unwrap();
         assert!(check.changes().is_empty(), "it may be replaced");
-        assert_eq!(check.changes(), [(id(), Change::Gone(path.clone()))]);
+        assert_eq!(check.changes(), [(id(), FileChange::Gone(path.clone()))]);
         assert!(check.changes().is_empty(), "it is reported already");
         std::fs::write(&path, "a").unwrap();
         set_time(&path, 1000);
-        assert_eq!(check.changes(), [(id(), Change::Back)], "it is as it was read");
+        assert_eq!(check.changes(), [(id(), FileChange::Back)], "it is as it was read");
         std::fs::remove_file(&path).unwrap();
         assert!(check.changes().is_empty());
-        assert_eq!(check.changes(), [(id(), Change::Gone(path.clone()))]);
+        assert_eq!(check.changes(), [(id(), FileChange::Gone(path.clone()))]);
         std::fs::write(&path, "b").unwrap();
         assert!(check.changes().is_empty(), "it may still be written");
-        assert_eq!(check.changes(), [(id(), Change::Changed)], "it is there again, and another");
+        assert_eq!(check.changes(), [(id(), FileChange::Changed)], "it is there again, and another");
     }
 
     #[test]
@@ -218,12 +218,12 @@ mod tests {
             std::fs::write(&path, "a".repeat(size)).unwrap();
             assert!(check.changes().is_empty(), "it grows: {size} bytes");
         }
-        assert_eq!(check.changes(), [(id(), Change::Changed)]);
+        assert_eq!(check.changes(), [(id(), FileChange::Changed)]);
         assert!(check.changes().is_empty(), "it is reported already");
         // Of the same size, a moment ago.
         std::fs::write(&path, "bbbbb").unwrap();
         assert!(check.changes().is_empty());
-        assert_eq!(check.changes(), [(id(), Change::Changed)]);
+        assert_eq!(check.changes(), [(id(), FileChange::Changed)]);
     }
 
     #[test]
@@ -248,6 +248,6 @@ mod tests {
             }
             std::thread::sleep(Duration::from_millis(5));
         }
-        assert_eq!((repaints.load(Ordering::SeqCst), stale), (1, vec![(id(), Change::Changed)]));
+        assert_eq!((repaints.load(Ordering::SeqCst), stale), (1, vec![(id(), FileChange::Changed)]));
     }
 }

@@ -10,7 +10,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep};
 
-use crate::jobs::reading::read::{Reader, read_with_retries};
+use crate::jobs::reading::read::{MaterialReader, read_with_retries};
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
 use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
@@ -145,7 +145,7 @@ fn start(waker: &Waker, of: RunLossesKey, tasks: Vec<StepTask>) -> Job<(), Compu
 
 fn loss(of: &RunLossesKey, source: &MaterialSource, progress: &Progress) -> Result<Estimate, Error> {
     let truth = &of.ground_truth.material;
-    let mut reader = Reader { rules: of.rules, size: Some(truth.size()), retries: true };
+    let mut reader = MaterialReader { rules: of.rules, size: Some(truth.size()), retries: true };
     let prediction = read_with_retries(source, &mut reader, &progress.part())?;
     let comparison = Comparison::new(truth, &[&prediction.material], of.query.convention)?;
     let outcome = comparison.run(&of.query.request, &progress.part())?;

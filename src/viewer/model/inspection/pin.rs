@@ -7,7 +7,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::model::terms::Terms;
 
-/// The columns of [`Row::cells`]: a name, and what it means.
+/// The columns of [`PinnedTexel::cells`]: a name, and what it means.
 pub const HEADS: [(&str, &str); 14] = [
     ("normal", "The unit normal: x, y, z"),
     ("diffuse", "Diffuse albedo, linear RGB"),
@@ -30,14 +30,14 @@ pub const HEADS: [(&str, &str); 14] = [
 
 /// A texel of one material.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct PinnedTexel {
     pub texel: Texel<f64>,
     pub terms: Terms<f64>,
     /// The angle to the ground truth's normal in degrees, and the loss term; `None` for the ground truth.
     pub errors: Option<[f64; 2]>,
 }
 
-impl Row {
+impl PinnedTexel {
     /// The numbers in the order of [`HEADS`].
     pub fn cells(&self) -> [Vec<f64>; 14] {
         let Self { texel, terms, errors } = self;
@@ -67,9 +67,9 @@ pub fn rows<'a>(
     [column, row]: [usize; 2],
     scene: &Scene,
     convention: &Convention,
-) -> Vec<Row> {
+) -> Vec<PinnedTexel> {
     let (model, rays) = (Model::<f64>::from(convention), scene.rays::<f64>());
-    let mut rows: Vec<Row> = Vec::new();
+    let mut rows: Vec<PinnedTexel> = Vec::new();
     for material in materials {
         let texel = in_f64(&material.texel(row * material.width() + column));
         let at: Vec3<f64> = material.grid().position(column, row);
@@ -82,7 +82,7 @@ pub fn rows<'a>(
             let [g, p] = [ground_truth.texel.normal, texel.normal];
             [g.cross(p).length().atan2(g.dot(p)).to_degrees(), loss]
         });
-        rows.push(Row { texel, terms, errors });
+        rows.push(PinnedTexel { texel, terms, errors });
     }
     rows
 }
@@ -98,7 +98,7 @@ fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
 }
 
 /// All pins as CSV, one line for each pin and material, every number in full.
-pub fn csv<'a>(all: impl IntoIterator<Item = ([usize; 2], Vec<(&'a str, Row)>)>) -> String {
+pub fn csv<'a>(all: impl IntoIterator<Item = ([usize; 2], Vec<(&'a str, PinnedTexel)>)>) -> String {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut heads = vec!["column".to_owned(), "row".to_owned(), "material".to_owned()];
     for (name, _) in HEADS {

@@ -168,7 +168,7 @@ fn size(grid: Grid) -> [f32; 2] {
 mod tests {
     use super::*;
     use crate::model::view::state::Projection;
-    use svbrdf_files::session::window::Display;
+    use svbrdf_files::session::window::SessionDisplay;
 
     const GRID: Grid = Grid { width: 64, height: 48 };
     const PANE: [f32; 2] = [640.0, 500.0];
@@ -177,7 +177,7 @@ mod tests {
     fn state(projection: Projection, framing: Option<Framing>) -> ViewState {
         let mut state = ViewState::default();
         state.scene.view = [0.5, -0.3, 2.0];
-        state.display = Display { projection, framing, ..Display::default() };
+        state.display = SessionDisplay { projection, framing, ..SessionDisplay::default() };
         state
     }
 

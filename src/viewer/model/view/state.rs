@@ -5,7 +5,7 @@ use svbrdf_core::model::convention::{self, Convention};
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
-use svbrdf_files::session::window::Display;
+use svbrdf_files::session::window::SessionDisplay;
 
 use super::texel_plane::TexelPlane;
 
@@ -19,7 +19,7 @@ pub struct ViewState {
     pub convention: String,
     /// Exposure in stops: radiance is multiplied by 2^exposure_ev.
     pub exposure_ev: f32,
-    pub display: Display,
+    pub display: SessionDisplay,
 }
 
 impl Default for ViewState {
@@ -28,7 +28,7 @@ impl Default for ViewState {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
             convention: convention::PRINTED.name.to_owned(),
             exposure_ev: 0.0,
-            display: Display::default(),
+            display: SessionDisplay::default(),
         }
     }
 }
@@ -75,8 +75,8 @@ impl ViewState {
     /// The default light, view and display, with the current prediction, layout and convention.
     #[must_use]
     pub fn reset(&self) -> Self {
-        let Display { wipe, framing, show_clipping, auto_exposure, .. } = Display::default();
-        let display = Display { wipe, framing, show_clipping, auto_exposure, ..self.display.clone() };
+        let SessionDisplay { wipe, framing, show_clipping, auto_exposure, .. } = SessionDisplay::default();
+        let display = SessionDisplay { wipe, framing, show_clipping, auto_exposure, ..self.display.clone() };
         Self { convention: self.convention.clone(), display, ..Self::default() }
     }
 }

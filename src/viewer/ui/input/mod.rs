@@ -16,12 +16,12 @@ use crate::model::command::{
 
 /// The state of the keys between frames.
 #[derive(Debug, Default)]
-pub struct Input {
+pub struct KeyInput {
     /// Whether something was dragged since Space was pressed: then Space pans and does not pause.
     space_dragged: bool,
 }
 
-impl Input {
+impl KeyInput {
     /// The commands of the keys and of dropped files.
     pub fn commands(
         &mut self,

@@ -10,7 +10,7 @@ use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::report::SampledScenes;
 
-use crate::jobs::loss::{LossJob, Losses};
+use crate::jobs::loss::{KeyedLosses, LossJob};
 use crate::model::command::{Command, LossCommand, WindowCommand};
 use crate::model::material::list::MaterialList;
 use crate::ui::loss::results::Results;
@@ -64,7 +64,7 @@ impl LossPanel<'_> {
                 }
                 let few = self.few.losses().filter(|_| self.few.is_complete());
                 // Those of other materials or of another convention belong to no row.
-                let of_these = |few: &&Losses| {
+                let of_these = |few: &&KeyedLosses| {
                     few.key.ids == losses.key.ids && few.key.query.convention == losses.key.query.convention
                 };
                 let results = Results {
@@ -138,7 +138,7 @@ impl LossPanel<'_> {
     }
 
     /// The accuracy reached, what it took, and whether that meets the request.
-    fn outcome(&self, losses: &Losses, visuals: &egui::Visuals) -> RichText {
+    fn outcome(&self, losses: &KeyedLosses, visuals: &egui::Visuals) -> RichText {
         let SampledScenes { near, distant, .. } = losses.report.sampled;
         let (error, elapsed) = (losses.relative_error(), losses.elapsed);
         let took =

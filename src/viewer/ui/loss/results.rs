@@ -6,7 +6,7 @@ use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::report::SampledScenes;
 
-use crate::jobs::loss::Losses;
+use crate::jobs::loss::KeyedLosses;
 use crate::model::command::{Command, DisplayCommand, LossCommand};
 use crate::ui::widgets::names::{FEWEST, Names, fitted};
 use crate::ui::widgets::numbers::{half_width, signed, significant};
@@ -32,9 +32,9 @@ const STALE_MARK: &str = " (stale)";
 /// What the rows show.
 #[derive(Debug)]
 pub struct Results<'a> {
-    pub latest: &'a Losses,
+    pub latest: &'a KeyedLosses,
     /// The losses over the 6 + 3 scenes of the papers; `None` where they are not known, or are what `latest` is.
-    pub few: Option<&'a Losses>,
+    pub few: Option<&'a KeyedLosses>,
     /// Whether those losses are on their way where they are not known: their line keeps its place, so that what is below stays.
     pub few_are_coming: bool,
     pub chosen: usize,
@@ -188,7 +188,7 @@ impl Results<'_> {
     /// Below the chosen prediction: its interval, and its loss over the few scenes of the papers.
     fn details(&self, ui: &mut egui::Ui, index: usize, loss: &Loss) {
         let [_, interval] = significant(&loss.estimate);
-        let known = |few: &Losses| {
+        let known = |few: &KeyedLosses| {
             let [mean, interval] = significant(&few.report.outcome.losses.get(index)?.estimate);
             Some(format!("6 + 3 scenes: {mean} {interval}"))
         };
@@ -291,7 +291,7 @@ impl Verdict {
     }
 }
 
-fn summary(latest: &Losses) -> String {
+fn summary(latest: &KeyedLosses) -> String {
     let report = &latest.report;
     let sampler = match report.sampled.sampler {
         Some(Sampler::Sobol) => "scrambled Sobol",

@@ -4,7 +4,7 @@ use eframe::egui;
 
 use crate::ui::pane::handles::ndc_from_pos;
 use crate::ui::pane::placed::Placed;
-use crate::ui::pane::scenery::{Content, Scenery};
+use crate::ui::pane::scenery::{PaneContent, Scenery};
 use crate::ui::pane::texels::index_at;
 
 /// What is under the pointer.
@@ -18,7 +18,12 @@ pub struct Hovered {
 
 impl Hovered {
     /// What is under the pointer, if it is over this pane and nothing lies in between.
-    pub fn in_pane(ui: &egui::Ui, scenery: &Scenery<'_>, content: Content, placed: &Placed) -> Option<Self> {
+    pub fn in_pane(
+        ui: &egui::Ui,
+        scenery: &Scenery<'_>,
+        content: PaneContent,
+        placed: &Placed,
+    ) -> Option<Self> {
         let pos = ui.input(|i| i.pointer.latest_pos()).filter(|pos| placed.rect.contains(*pos))?;
         let covered = ui.ctx().layer_id_at(pos).is_some_and(|layer| layer != ui.layer_id());
         if covered {

@@ -5,7 +5,7 @@ use eframe::egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::ui::pane::scenery::{Content, Scenery};
+use crate::ui::pane::scenery::{PaneContent, Scenery};
 use crate::ui::widgets::colour_bar::colour_bar;
 use crate::ui::widgets::numbers::digits;
 
@@ -19,16 +19,16 @@ const BEHIND: Color32 = Color32::from_black_alpha(170);
 
 /// The scale of a pane.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scale {
+pub struct PaneScale {
     pub is_signed: bool,
     /// The amount that has the last colour.
     pub range: f64,
     pub unit: &'static str,
 }
 
-impl Scale {
+impl PaneScale {
     /// The scale of this content; `None` where it is not in false colours.
-    pub fn of(scenery: &Scenery<'_>, content: Content) -> Option<Self> {
+    pub fn of(scenery: &Scenery<'_>, content: PaneContent) -> Option<Self> {
         let (state, display) = (scenery.state, &scenery.state.display);
         if content.difference {
             let kind = state.difference_kind();

@@ -42,7 +42,7 @@ pub struct Scenery<'a> {
 
 /// The content of a pane: the index of the material that it displays, that of the material it is compared with, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Content {
+pub struct PaneContent {
     pub index: usize,
     pub reference: usize,
     pub mode: DisplayMode,
@@ -79,11 +79,11 @@ impl Scenery<'_> {
     }
 
     /// The content of every pane. The ground truth is never compared with itself: its pane shows its value.
-    pub fn contents(&self) -> Vec<Content> {
+    pub fn contents(&self) -> Vec<PaneContent> {
         let content = |index, reference, mode| {
             let difference = self.state.display.difference && index != 0;
             let reference = if difference { 0 } else { reference };
-            Content { index, reference, mode, difference, photograph: PhotographUse::Absent }
+            PaneContent { index, reference, mode, difference, photograph: PhotographUse::Absent }
         };
         if self.photograph.is_some() {
             return self.photograph_contents();
@@ -101,9 +101,9 @@ impl Scenery<'_> {
     }
 
     /// The content of every pane beside a photograph: the photograph at the exposure of the chosen material, then every material.
-    fn photograph_contents(&self) -> Vec<Content> {
+    fn photograph_contents(&self) -> Vec<PaneContent> {
         let difference = self.state.display.difference;
-        let material = |index| Content {
+        let material = |index| PaneContent {
             index,
             reference: index,
             mode: DisplayMode::Value,
@@ -111,15 +111,15 @@ impl Scenery<'_> {
             photograph: PhotographUse::Reference,
         };
         let chosen = material(self.chosen());
-        let photograph = Content { difference: false, photograph: PhotographUse::Displayed, ..chosen };
-        let mut panes: Vec<Content> = match self.state.display.layout {
+        let photograph = PaneContent { difference: false, photograph: PhotographUse::Displayed, ..chosen };
+        let mut panes: Vec<PaneContent> = match self.state.display.layout {
             Layout::SideBySide => {
                 std::iter::once(photograph).chain((0..self.materials.len()).map(material)).collect()
             }
             Layout::Single | Layout::Wipe if self.corner_editor(photograph).is_some() => vec![photograph],
             Layout::Single => vec![if self.swapped { photograph } else { chosen }],
             Layout::Wipe => {
-                vec![Content { mode: DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0), ..chosen }]
+                vec![PaneContent { mode: DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0), ..chosen }]
             }
         };
         if self.peek {
@@ -131,14 +131,14 @@ impl Scenery<'_> {
     }
 
     /// Where a pane shows the whole photograph, to edit the corners of the material in it.
-    pub fn corner_editor(&self, content: Content) -> Option<CornerEditor<'_>> {
+    pub fn corner_editor(&self, content: PaneContent) -> Option<CornerEditor<'_>> {
         let corners = self.photograph?.corners.filter(|_| content.photograph == PhotographUse::Displayed);
         corners.map(CornerEditor)
     }
 
     /// What fills an empty place beside the panes: of the chosen prediction, the difference where the others show values,
     /// and the value where they show differences.
-    pub fn extra(&self) -> Option<Content> {
+    pub fn extra(&self) -> Option<PaneContent> {
         let panes = self.materials.len() + usize::from(self.photograph.is_some());
         let grid = self.state.display.layout == Layout::SideBySide && panes > 2;
         let difference = !self.state.display.difference;
@@ -147,12 +147,12 @@ impl Scenery<'_> {
             None => PhotographUse::Absent,
         };
         let mode = DisplayMode::Value;
-        let content = Content { index: self.chosen(), reference: 0, mode, difference, photograph };
+        let content = PaneContent { index: self.chosen(), reference: 0, mode, difference, photograph };
         grid.then_some(content)
     }
 
     /// The name of what a pane shows, without its difference, in about `most` characters.
-    pub fn name_of(&self, content: Content, most: usize) -> String {
+    pub fn name_of(&self, content: PaneContent, most: usize) -> String {
         match (self.photograph, content.photograph) {
             (Some(photograph), PhotographUse::Displayed) => photograph.title(content.index),
             _ => self.title(content.index, most),
@@ -160,7 +160,7 @@ impl Scenery<'_> {
     }
 
     /// The name of what a pane compares with, in about `most` characters.
-    pub fn name_of_reference(&self, content: Content, most: usize) -> String {
+    pub fn name_of_reference(&self, content: PaneContent, most: usize) -> String {
         match (self.photograph, content.photograph) {
             (Some(photograph), PhotographUse::Reference) => photograph.title(content.index),
             _ => self.title(content.reference, most),

@@ -2,14 +2,14 @@
 
 use svbrdf_gpu::DisplayMode;
 
-use crate::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::ui::pane::scenery::{PaneContent, PhotographUse, Scenery};
 use crate::ui::shading::gpu_view::{GpuView, PaneTexels};
 
 /// What a pane draws and what it compares that with; a hint in its place where that is not there yet.
 pub fn texels(
     gpu: &mut GpuView,
     scenery: &Scenery<'_>,
-    content: Content,
+    content: PaneContent,
 ) -> Result<[PaneTexels; 2], &'static str> {
     let [material_id, reference] = [content.index, content.reference].map(|i| scenery.materials[i].id());
     let material = PaneTexels::Shaded(material_id);
@@ -34,7 +34,7 @@ pub fn texels(
 }
 
 /// The index of the material whose value is displayed at this x of a pane, from -1 to 1; the number of materials for a photograph.
-pub fn index_at(scenery: &Scenery<'_>, content: Content, x: f32) -> usize {
+pub fn index_at(scenery: &Scenery<'_>, content: PaneContent, x: f32) -> usize {
     let photograph = scenery.materials.len();
     match (content.mode, content.photograph) {
         (_, PhotographUse::Displayed) => photograph,

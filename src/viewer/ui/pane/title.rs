@@ -6,7 +6,7 @@ use svbrdf_gpu::DisplayMode;
 
 use crate::model::command::{Command, DisplayCommand};
 use crate::model::view::state::Layout;
-use crate::ui::pane::scenery::{Content, PhotographUse, Scenery};
+use crate::ui::pane::scenery::{PaneContent, PhotographUse, Scenery};
 use crate::ui::widgets::bounds::inset;
 use crate::ui::widgets::names::{FEWEST, fitted};
 use crate::ui::widgets::numbers::significant;
@@ -22,7 +22,7 @@ pub fn title_bar(
     ui: &mut egui::Ui,
     scenery: &Scenery<'_>,
     number: usize,
-    content: Content,
+    content: PaneContent,
     rect: Rect,
 ) -> Option<Command> {
     let is_material = content.photograph != PhotographUse::Displayed;
@@ -86,7 +86,7 @@ pub fn title_bar(
 }
 
 /// The names, of at most `most` characters each, and the quantity of differences where there is room for it.
-fn text(scenery: &Scenery<'_>, content: Content, most: usize, has_quantity: bool) -> String {
+fn text(scenery: &Scenery<'_>, content: PaneContent, most: usize, has_quantity: bool) -> String {
     let name = scenery.name_of(content, most);
     let names = match content.mode {
         DisplayMode::Value => name,

@@ -13,8 +13,8 @@ use super::gestures::{self, Gesture, PaneTarget};
 use super::handles;
 use super::hovered::Hovered;
 use super::placed::Placed;
-use super::scale::Scale;
-use super::scenery::{Content, PhotographUse, Scenery};
+use super::scale::PaneScale;
+use super::scenery::{PaneContent, PhotographUse, Scenery};
 use super::texels::texels;
 use super::title::title_bar;
 use crate::jobs::reading::upload::{BAND, Uploads};
@@ -35,7 +35,7 @@ const STEEP: f64 = 0.999;
 
 /// What panes are drawn with.
 #[derive(Debug)]
-pub struct PaneDrawing<'a> {
+pub struct PaneTools<'a> {
     /// `None` where there is no adapter.
     pub gpu: Option<&'a mut GpuView>,
     pub uploads: &'a Uploads,
@@ -115,12 +115,12 @@ impl Viewport {
     }
 
     /// Draws the panes and returns the commands of their titles and of the corner editor.
-    pub fn ui(&mut self, ui: &mut egui::Ui, scenery: &Scenery<'_>, drawing: PaneDrawing<'_>) -> Vec<Command> {
+    pub fn ui(&mut self, ui: &mut egui::Ui, scenery: &Scenery<'_>, drawing: PaneTools<'_>) -> Vec<Command> {
         let area = ui.available_rect_before_wrap();
         self.area = area;
         self.hovered = None;
         self.drawn.clear();
-        let PaneDrawing { gpu: Some(gpu), uploads, textures } = drawing else {
+        let PaneTools { gpu: Some(gpu), uploads, textures } = drawing else {
             note(ui, area, "No graphics adapter: materials cannot be drawn. The loss can be computed.");
             return Vec::new();
         };
@@ -144,7 +144,7 @@ impl Viewport {
             return Vec::new();
         }
         let free = free_cell(area, &cells);
-        let mut panes: Vec<(Content, Rect)> = contents.into_iter().zip(cells).collect();
+        let mut panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
         let extra = scenery.extra().zip(free);
         self.has_extra = extra.is_some();
         panes.extend(extra);
@@ -175,7 +175,7 @@ impl Viewport {
         scenery: &Scenery<'_>,
         gpu: &mut GpuView,
         number: usize,
-        content: Content,
+        content: PaneContent,
         rect: Rect,
     ) {
         let id = ui.scope_id().with(("pane", number));
@@ -197,7 +197,7 @@ impl Viewport {
         ui: &egui::Ui,
         scenery: &Scenery<'_>,
         gpu: &mut GpuView,
-        (number, content): (usize, Content),
+        (number, content): (usize, PaneContent),
         placed: &Placed,
     ) {
         let (rect, camera) = (placed.rect, placed.camera);
@@ -236,7 +236,7 @@ impl Viewport {
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
         }
-        if let Some(scale) = Scale::of(scenery, content) {
+        if let Some(scale) = PaneScale::of(scenery, content) {
             scale.paint(&painter, rect);
         }
         if gpu.reduction() > 1 {
@@ -254,7 +254,7 @@ impl Viewport {
         gpu: &mut GpuView,
         uploads: &Uploads,
         scenery: &Scenery<'_>,
-        contents: &[Content],
+        contents: &[PaneContent],
     ) -> Result<(), String> {
         let state = scenery.state;
         let params = ShadeParams {
@@ -292,7 +292,13 @@ impl Viewport {
     }
 
     /// What is drawn over a pane about texels.
-    fn paint_marks(&self, painter: &egui::Painter, scenery: &Scenery<'_>, content: Content, placed: &Placed) {
+    fn paint_marks(
+        &self,
+        painter: &egui::Painter,
+        scenery: &Scenery<'_>,
+        content: PaneContent,
+        placed: &Placed,
+    ) {
         let state = scenery.state;
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);

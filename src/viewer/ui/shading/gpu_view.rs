@@ -6,7 +6,7 @@ use std::sync::Arc;
 use eframe::{egui, egui_wgpu, wgpu};
 
 use svbrdf_core::error::Error;
-use svbrdf_gpu::{Blit, Display, DisplayParams, Gpu, Pane, PanePlace, Shaded, Shading, Still};
+use svbrdf_gpu::{Blit, DisplayParams, DisplayPass, Gpu, Pane, PanePlace, Shaded, Shading, Still};
 
 use super::shaded::{ShadedMaterial, ShadedPart, ShadingDevice, ShadingRequest};
 use crate::jobs::reading::upload::{Uploaded, Uploads};
@@ -60,7 +60,7 @@ pub struct GpuView {
     /// The device of the window, for pictures of it.
     pub state: egui_wgpu::RenderState,
     shading: Shading,
-    display: Display,
+    display: DisplayPass,
     blit: Arc<Blit>,
     shaded: HashMap<MaterialId, ShadedMaterial>,
     /// The smallest stride of pictures for which the adapter has room, and the materials for which that was found.
@@ -81,7 +81,7 @@ impl GpuView {
     pub fn new(state: &egui_wgpu::RenderState) -> Result<Self, Error> {
         let gpu = Gpu::from_eframe_parts(&state.adapter, &state.device, &state.queue)?;
         let shading = Shading::new(&gpu)?;
-        let display = Display::new(&gpu, state.target_format)?;
+        let display = DisplayPass::new(&gpu, state.target_format)?;
         let blit = Arc::new(Blit::new(&gpu, state.target_format)?);
         Ok(Self {
             gpu,

@@ -201,14 +201,14 @@ mod tests {
     /// More than two bands.
     const SIZE: [usize; 2] = [1024, 1030];
 
-    struct Bench {
+    struct ShadingBench {
         gpu: Gpu,
         shading: Shading,
         textures: MaterialTextures,
         versions: u64,
     }
 
-    impl Bench {
+    impl ShadingBench {
         fn new() -> Self {
             let gpu = Gpu::headless().unwrap();
             let material: Material<f32> =
@@ -241,7 +241,7 @@ mod tests {
     #[needs(adapter)]
     #[test]
     fn what_sharpens_in_bands_is_what_is_shaded_at_once_also_where_the_light_moves_in_between() {
-        let mut bench = Bench::new();
+        let mut bench = ShadingBench::new();
         let mut at_once = ShadedMaterial::default();
         bench.frame(&mut at_once, 0.5, ShadedPart::Whole);
         let expected = bench.pixels(&at_once);

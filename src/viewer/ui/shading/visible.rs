@@ -45,7 +45,7 @@ fn visible(camera: &Camera, grid: Grid) -> Option<Region> {
 mod tests {
     use super::*;
     use crate::model::view::state::Projection;
-    use svbrdf_files::session::window::{Display, Framing};
+    use svbrdf_files::session::window::{Framing, SessionDisplay};
 
     const GRID: Grid = Grid { width: 256, height: 128 };
     const PANE: [f32; 2] = [600.0, 400.0];
@@ -65,7 +65,7 @@ mod tests {
                 // Fitted, a texel covers about 2.3 pixels.
                 let framing = centre.map(|centre| Framing { pixels_per_texel: 2.3 * zoom, centre });
                 let mut state = ViewState {
-                    display: Display { projection, framing, ..Display::default() },
+                    display: SessionDisplay { projection, framing, ..SessionDisplay::default() },
                     ..ViewState::default()
                 };
                 state.scene.view = [0.7, -0.4, 2.0];
