@@ -1,13 +1,15 @@
-//! Marks of diagnoses over all materials.
+//! Marks of diagnoses over all materials, and their table beside that of the losses.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::report::{Shown, aligned};
+
 use super::pick::{counted, counted_loss};
-use super::ranking::{DatasetReport, MethodSummary};
 use super::record::PredictionResult;
+use super::report::DatasetReport;
 
 /// The marks of a method over the materials that were diagnosed.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
@@ -24,12 +26,15 @@ pub struct MarkSummary {
     pub to_best_not_resolvable: Option<usize>,
 }
 
-/// The marks of a method of a report over all materials that it has; `None` where no prediction was diagnosed. Of several predictions of
-/// a material, those count that count for the loss; the material has the marks of all of them.
-pub fn summarize_marks(report: &DatasetReport, summary: &MethodSummary) -> Option<MarkSummary> {
-    let DatasetReport { ranking, results, pick, .. } = report;
-    let method = summary.method.as_str();
-    let best = ranking.best().map(|best| best.method.as_str()).filter(|best| *best != method);
+/// The marks of a method of a report over all materials that it has, beside the `best` method; `None` where no prediction was diagnosed.
+/// Of several predictions of a material, those count that count for the loss; the material has the marks of all of them.
+pub(super) fn summarize_marks(
+    report: &DatasetReport,
+    method: &str,
+    best: Option<&str>,
+) -> Option<MarkSummary> {
+    let DatasetReport { results, pick, .. } = report;
+    let best = best.filter(|best| *best != method);
     let mut summary = MarkSummary {
         materials: 0,
         marked: 0,
@@ -56,4 +61,44 @@ pub fn summarize_marks(report: &DatasetReport, summary: &MethodSummary) -> Optio
         }
     }
     (summary.materials > 0).then_some(summary)
+}
+
+/// The heading of the first column of [`mark_rows`].
+pub const MARKS_HEADING: &str = "number of materials";
+
+/// Names, each with its number of materials for each method; no rows without diagnoses.
+pub fn mark_rows(report: &DatasetReport) -> Vec<(String, Vec<Shown>)> {
+    let columns = || report.methods.iter().map(|summary| summary.marks.as_ref());
+    if columns().all(|marks| marks.is_none()) {
+        return Vec::new();
+    }
+    let row = |name: &str, number: &dyn Fn(&MarkSummary) -> Option<usize>| {
+        let cell =
+            |marks: Option<&MarkSummary>| marks.and_then(number).map_or(Shown::Missing("-"), Shown::Count);
+        (name.to_owned(), columns().map(cell).collect())
+    };
+    let names: BTreeSet<&String> = columns().flatten().flat_map(|marks| marks.by.keys()).collect();
+    let by =
+        |name: &String| row(&format!("by {name}"), &|marks| Some(marks.by.get(name).copied().unwrap_or(0)));
+    let start =
+        [row("diagnosed", &|marks| Some(marks.materials)), row("marked", &|marks| Some(marks.marked))];
+    let end = [
+        row("loss not resolvable", &|marks| Some(marks.not_resolvable)),
+        row("- best not resolvable", &|marks| marks.to_best_not_resolvable),
+    ];
+    start.into_iter().chain(names.into_iter().map(by)).chain(end).collect()
+}
+
+/// The table of [`mark_rows`] as text; empty without diagnoses.
+pub(super) fn text(report: &DatasetReport) -> String {
+    let rows = mark_rows(report);
+    if rows.is_empty() {
+        return String::new();
+    }
+    let methods = report.methods.iter().map(|summary| summary.method.clone());
+    let heading = [MARKS_HEADING.to_owned()].into_iter().chain(methods).collect();
+    let line = |(name, cells): (String, Vec<Shown>)| {
+        [name].into_iter().chain(cells.iter().map(Shown::to_string)).collect()
+    };
+    format!("\n{}", aligned(&[heading].into_iter().chain(rows.into_iter().map(line)).collect::<Vec<_>>()))
 }

@@ -9,7 +9,9 @@ use svbrdf_core::statistics::median;
 
 use super::bootstrap::{interval_of_mean, interval_of_positive_mean};
 use super::pick::counted;
-use super::ranking::{DatasetReport, MethodSummary};
+use super::ranking::MethodSummary;
+use super::record::MaterialResult;
+use super::report::DatasetReport;
 
 /// A metric of a method over the materials that its mean loss is over.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
@@ -67,7 +69,10 @@ impl Scale {
 }
 
 /// The metrics of a method of a report by name. Of several predictions of a material, those count that count for the loss.
-pub fn summarize_metrics(report: &DatasetReport, method: &MethodSummary) -> BTreeMap<String, MetricSummary> {
+pub(super) fn summarize_metrics(
+    report: &DatasetReport,
+    method: &MethodSummary,
+) -> BTreeMap<String, MetricSummary> {
     let summary = |(name, errors): (&str, BTreeMap<usize, f64>)| {
         let scale = Scale::of(name);
         let mut errors: Vec<f64> = errors.into_values().collect();
@@ -90,14 +95,12 @@ pub fn is_better_larger(metric: &str) -> bool {
 /// For each metric by name: which methods of the ranking are the best one, or cannot be separated from it. Only methods that are compared
 /// are; a method ties with the best one where the 95% interval of the mean of their differences includes 0 or is unknown.
 pub fn best_by_metric(report: &DatasetReport) -> BTreeMap<String, Vec<bool>> {
-    let methods = &report.ranking.methods;
+    let methods = &report.methods;
     let errors: Vec<_> = methods.iter().map(|method| errors_of(report, method)).collect();
     let names: BTreeSet<&str> = errors.iter().flat_map(|errors| errors.keys().copied()).collect();
     let best_of = |name: &str| -> Vec<bool> {
-        let compared = methods
-            .iter()
-            .zip(&errors)
-            .map(|(method, errors)| errors.get(name).filter(|_| method.is_compared));
+        let compared =
+            methods.iter().zip(&errors).map(|(method, errors)| errors.get(name).filter(|_| method.compared));
         let mean = |errors: &BTreeMap<usize, f64>| mean(&errors.values().copied().collect::<Vec<_>>());
         let best = compared.clone().flatten().min_by(|a, b| mean(a).total_cmp(&mean(b)));
         compared.map(|errors| errors.zip(best).is_some_and(|(errors, best)| ties(errors, best))).collect()
@@ -120,7 +123,8 @@ type Errors<'a> = BTreeMap<&'a str, BTreeMap<usize, f64>>;
 
 fn errors_of<'a>(report: &'a DatasetReport, method: &MethodSummary) -> Errors<'a> {
     let mut errors: Errors<'a> = BTreeMap::new();
-    for result in report.ranking.results_of(method, &report.results) {
+    let is_over = |result: &&MaterialResult| !method.compared || report.common.contains(&result.index);
+    for result in report.results.iter().filter(is_over) {
         let counted = counted(result, &method.method, report.pick);
         for name in counted.first().map(|prediction| prediction.metrics.keys()).into_iter().flatten() {
             let scale = Scale::of(name);

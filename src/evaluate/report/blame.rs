@@ -6,13 +6,35 @@ use serde::Serialize;
 use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
-use super::table::{Cell, Column, Table, aligned};
+use super::table::{Cell, Column, Shown, Table, aligned_columns};
 use crate::why::{self, MapShare};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Request};
 
-const TITLES: [&str; 7] =
-    ["map", "share", "of the loss", "+- std. error", "95% interval", "only it wrong", "only it right"];
+/// A map, or all of them: its name, its part of the loss, the loss, and the losses where only it is wrong and where only it is right.
+pub type Part = (&'static str, Estimate, f64, Option<[f64; 2]>);
+
+/// The columns of parts for people.
+pub const PARTS: [Column<'static, Part, Shown>; 7] = [
+    ("map", |(name, ..)| Shown::Text((*name).to_owned())),
+    ("share", |(_, part, loss, _)| match *loss > 0.0 {
+        true => Shown::Share(part.mean / loss),
+        false => Shown::Missing("-"),
+    }),
+    ("of the loss", |(_, part, ..)| Shown::Number(part.mean)),
+    ("+- std. error", |(_, part, ..)| Shown::number(part.standard_error, "unknown")),
+    ("95% interval", |(_, part, ..)| Shown::interval(part.interval95, "unknown")),
+    ("only it wrong", |(.., only)| Shown::number(only.map(|[wrong, _]| wrong), "")),
+    ("only it right", |(.., only)| Shown::number(only.map(|[_, right]| right), "")),
+];
+
+/// The parts of the maps of a `loss`.
+pub fn parts<'a>(maps: &'a [MapShare], loss: &Estimate) -> impl Iterator<Item = Part> + use<'a> {
+    let loss = loss.mean;
+    maps.iter().map(move |share| {
+        (share.map.name(), share.shapley, loss, Some([share.only_wrong.mean, share.only_right.mean]))
+    })
+}
 
 /// The attribution of the loss of each prediction to its maps.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -68,22 +90,10 @@ impl BlameReport {
 
     fn text_of(&self, attribution: &Attribution) -> String {
         let Attribution { prediction, loss, maps, lines: [scenes, note], .. } = attribution;
-        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(maps.iter().map(|share| {
-            let [mean, error, interval] = share.shapley.texts();
-            let share_of_loss = percent(share.shapley.mean, loss.mean);
-            let [wrong, right] = [share.only_wrong, share.only_right].map(|e| format!("{:.6}", e.mean));
-            vec![share.map.name().to_owned(), share_of_loss, mean, error, interval, wrong, right]
-        }));
-        let [mean, error, interval] = loss.texts();
-        rows.push(vec!["all".to_owned(), percent(loss.mean, loss.mean), mean, error, interval]);
+        let rows = parts(maps, loss).chain([("all", *loss, loss.mean, None)]);
         let heading = self.compared.heading(&format!("blame of {prediction}"));
-        format!("{heading}{scenes}\n{}{note}", aligned(&rows))
+        format!("{heading}{scenes}\n{}{note}", aligned_columns(&PARTS, rows))
     }
-}
-
-fn percent(part: f64, whole: f64) -> String {
-    if whole > 0.0 { format!("{:.1}%", 100.0 * part / whole) } else { "-".to_owned() }
 }
 
 impl Report for BlameReport {

@@ -2,20 +2,22 @@
 
 use super::heading::scenes_line;
 use super::loss::{Difference, FewScenes, LossReport, PredictionLoss};
-use super::table::{Column, aligned_columns};
+use super::table::{Column, Shown, aligned_columns};
+use svbrdf_core::loss::Loss;
+
+/// The columns of losses for people.
+pub const LOSSES: [Column<'static, Loss, Shown>; 4] = [
+    ("prediction", |loss| Shown::Text(loss.prediction.clone())),
+    ("loss", |loss| Shown::Number(loss.estimate.mean)),
+    ("+- std. error", |loss| Shown::number(loss.estimate.standard_error, "unknown")),
+    ("95% interval", |loss| Shown::interval(loss.estimate.interval95, "unknown")),
+];
 
 impl LossReport {
     /// The table of the losses, then the difference of each further loss from the first, then a line per prediction for the few
     /// scenes of the papers. Ends with a line break.
     pub fn text(&self) -> String {
-        let columns: [Column<'_, (&PredictionLoss, [String; 3]), String>; 4] = [
-            ("prediction", |(result, _)| result.prediction.clone()),
-            ("loss", |(_, [mean, ..])| mean.clone()),
-            ("+- std. error", |(_, [_, error, _])| error.clone()),
-            ("95% interval", |(_, [.., interval])| interval.clone()),
-        ];
-        let rows = self.results.iter().map(|result| (result, result.estimate().texts()));
-        let table = aligned_columns(&columns, rows);
+        let table = aligned_columns(&LOSSES, &self.outcome.losses);
         let few_scenes = self.few_scenes.as_ref().map(|few| self.few_scenes_lines(few)).unwrap_or_default();
         format!("{}\n{table}{}{few_scenes}", self.header(), self.difference_lines())
     }

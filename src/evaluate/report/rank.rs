@@ -7,13 +7,25 @@ use super::Report;
 use super::heading::{Compared, floor_line, scenes_line};
 use super::latex::{bold, escaped, latex};
 use super::missed::missed_by_any;
-use super::table::{Cell, Column, Table, aligned};
+use super::repetition::Repetition;
+use super::table::{Cell, Column, Shown, Table, aligned_columns};
 use crate::rank::{Ranked, places};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Outcome};
 
-const TITLES: [&str; 7] =
-    ["prediction", "loss", "95% interval", "- best", "95% interval", "group", "not resolvable"];
+/// The columns of the table for people.
+const COLUMNS: [Column<'static, RankedPrediction, Shown>; 7] = [
+    ("prediction", |place| Shown::Text(place.prediction.clone())),
+    ("loss", |place| Shown::Number(place.loss.mean)),
+    ("95% interval", |place| Shown::interval(place.loss.interval95, "unknown")),
+    ("- best", |place| Shown::number(place.to_best.map(|one| one.mean), "")),
+    ("95% interval", |place| match place.to_best {
+        Some(to_best) => Shown::interval(to_best.interval95, "unknown"),
+        None => Shown::Missing(""),
+    }),
+    ("group", |place| Shown::Count(place.group)),
+    ("not resolvable", |place| Shown::Text(place.unresolvable())),
+];
 
 /// Predictions of one ground truth, smallest loss first, with what the data can separate.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -34,6 +46,9 @@ pub struct RankReport {
     /// How to repeat it; `None` for materials that no command names.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repetition: Option<Repetition>,
+    /// For each material, the ground truth first, what was noticed and assumed in reading it; `None` for materials of no files.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub readings: Vec<MaterialReading>,
     /// Best first.
     pub ranking: Vec<RankedPrediction>,
     /// The lines about the ground truth and the scenes.
@@ -56,17 +71,6 @@ pub struct RankedPrediction {
     resolvable: Option<bool>,
     /// Whether the difference to the best is above the floor.
     to_best_resolvable: Option<bool>,
-}
-
-/// What a ranking depends on beside its settings.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Repetition {
-    /// The program and its version.
-    pub software: &'static str,
-    /// The command line.
-    pub command: String,
-    /// For each material, the ground truth first, what was noticed and assumed in reading it.
-    pub readings: Vec<MaterialReading>,
 }
 
 /// How a material was read.
@@ -104,6 +108,7 @@ impl RankReport {
             floor: None,
             captures: None,
             repetition: None,
+            readings: Vec::new(),
             ranking: places(outcome).into_iter().map(place).collect(),
             heading,
         }
@@ -155,22 +160,11 @@ impl RankedPrediction {
 
 impl Report for RankReport {
     fn text(&self) -> String {
-        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(self.ranking.iter().map(|place| {
-            let [mean, _, interval] = place.loss.texts();
-            let [difference, _, of_difference] =
-                place.to_best.map_or_else(|| [const { String::new() }; 3], |estimate| estimate.texts());
-            let (group, unresolvable) = (place.group.to_string(), place.unresolvable());
-            vec![place.prediction.clone(), mean, interval, difference, of_difference, group, unresolvable]
-        }));
-        if rows[1..].iter().all(|row| row.last().is_some_and(String::is_empty)) {
-            rows.iter_mut().for_each(|row| row.truncate(TITLES.len() - 1));
-        }
-        let repetition = self
-            .repetition
-            .as_ref()
-            .map(|Repetition { software, command, .. }| format!("\nrepeat with {software}: {command}\n"));
-        format!("{}\n{}{}", self.heading, aligned(&rows), repetition.unwrap_or_default())
+        let all_resolvable = self.ranking.iter().all(|place| place.unresolvable().is_empty());
+        let columns = &COLUMNS[..COLUMNS.len() - usize::from(all_resolvable)];
+        let repetition = self.repetition.as_ref().map(|repetition| format!("\n{repetition}\n"));
+        let table = aligned_columns(columns, &self.ranking);
+        format!("{}\n{table}{}", self.heading, repetition.unwrap_or_default())
     }
 
     fn table(&self) -> Table {

@@ -10,6 +10,17 @@ use crate::why::{Distribution, worst_first};
 use svbrdf_core::loss::Outcome;
 use svbrdf_core::model::scene::Scene;
 
+/// The columns of a scene.
+pub(super) const SCENE: [Column<'static, Scene>; 7] = [
+    ("kind", |scene| scene.kind.to_string().into()),
+    ("view_x", |scene| scene.view[0].into()),
+    ("view_y", |scene| scene.view[1].into()),
+    ("view_z", |scene| scene.view[2].into()),
+    ("light_x", |scene| scene.light[0].into()),
+    ("light_y", |scene| scene.light[1].into()),
+    ("light_z", |scene| scene.light[2].into()),
+];
+
 /// The scenes with the largest losses, sorted by the mean of the losses of all predictions in them, worst first. Its JSON is a
 /// scene file, too.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -92,17 +103,8 @@ impl Report for ScenesReport {
     }
 
     fn table(&self) -> Table {
-        let columns: [Column<'_, (&usize, &Scene)>; 8] = [
-            ("scene", |(index, _)| (**index).into()),
-            ("kind", |(_, scene)| scene.kind.to_string().into()),
-            ("view_x", |(_, scene)| scene.view[0].into()),
-            ("view_y", |(_, scene)| scene.view[1].into()),
-            ("view_z", |(_, scene)| scene.view[2].into()),
-            ("light_x", |(_, scene)| scene.light[0].into()),
-            ("light_y", |(_, scene)| scene.light[1].into()),
-            ("light_z", |(_, scene)| scene.light[2].into()),
-        ];
-        let mut table = Table::of(&columns, self.indices.iter().zip(&self.scenes));
+        let index: [Column<'_, usize>; 1] = [("scene", |index| (*index).into())];
+        let mut table = Table::of(&index, &self.indices).beside(Table::of(&SCENE, &self.scenes));
         for result in &self.results {
             table.push(result.prediction.clone(), result.losses.iter().map(|&loss| Cell::from(loss)));
         }

@@ -1,5 +1,6 @@
 //! Tables: typed cells for CSV and data frames, and aligned columns for people.
 
+use std::borrow::Borrow;
 use std::fmt;
 
 use svbrdf_core::error::Error;
@@ -81,6 +82,44 @@ impl Cell {
     }
 }
 
+/// A value of a table for people: text has six decimals, a page fewer digits.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shown {
+    Text(String),
+    Count(usize),
+    Number(f64),
+    /// A part of a whole, from 0 to 1.
+    Share(f64),
+    Interval([f64; 2]),
+    /// No value, and what stands in its place.
+    Missing(&'static str),
+}
+
+impl Shown {
+    /// An interval, or what stands in its place.
+    pub fn interval(interval: Option<[f64; 2]>, missing: &'static str) -> Self {
+        interval.filter(|[low, _]| !low.is_nan()).map_or(Self::Missing(missing), Self::Interval)
+    }
+
+    /// A number, or what stands in its place.
+    pub fn number(number: Option<f64>, missing: &'static str) -> Self {
+        number.filter(|number| !number.is_nan()).map_or(Self::Missing(missing), Self::Number)
+    }
+}
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(text) => text.fmt(f),
+            Self::Count(count) => count.fmt(f),
+            Self::Number(number) => write!(f, "{number:.6}"),
+            Self::Share(share) => write!(f, "{:.1}%", 100.0 * share),
+            Self::Interval([low, high]) => write!(f, "{low:.6} to {high:.6}"),
+            Self::Missing(text) => text.fmt(f),
+        }
+    }
+}
+
 /// A column of a table: its name, and its value in a row.
 pub type Column<'a, R, V = Cell> = (&'a str, fn(&R) -> V);
 
@@ -102,9 +141,17 @@ impl Table {
     }
 
     /// The table of `rows`, each of which has a value in every one of `columns`.
-    pub fn of<R>(columns: &[Column<'_, R>], rows: impl IntoIterator<Item = R>) -> Self {
-        let cells = |row: R| columns.iter().map(|(_, value)| value(&row)).collect();
+    pub fn of<R>(columns: &[Column<'_, R>], rows: impl IntoIterator<Item = impl Borrow<R>>) -> Self {
+        let cells = |row| columns.iter().map(|(_, value)| value(Borrow::borrow(&row))).collect();
         Self::new(columns.iter().map(|(name, _)| *name), rows.into_iter().map(cells))
+    }
+
+    /// The columns of this table, then those of another one of as many rows.
+    #[must_use]
+    pub fn beside(mut self, other: Self) -> Self {
+        self.columns.extend(other.columns);
+        self.rows.iter_mut().zip(other.rows).for_each(|(row, cells)| row.extend(cells));
+        self
     }
 
     /// Adds a column with a cell for each row.
@@ -132,9 +179,12 @@ impl Table {
 }
 
 /// The [`aligned`] texts of `rows` in `columns`, below the names of the columns.
-pub fn aligned_columns<R>(columns: &[Column<'_, R, String>], rows: impl IntoIterator<Item = R>) -> String {
+pub fn aligned_columns<R, V: fmt::Display>(
+    columns: &[Column<'_, R, V>],
+    rows: impl IntoIterator<Item = impl Borrow<R>>,
+) -> String {
     let titles = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
-    let texts = |row: R| columns.iter().map(|(_, text)| text(&row)).collect();
+    let texts = |row| columns.iter().map(|(_, value)| value(Borrow::borrow(&row)).to_string()).collect();
     aligned(&std::iter::once(titles).chain(rows.into_iter().map(texts)).collect::<Vec<_>>())
 }
 

@@ -6,7 +6,8 @@ use serde::Serialize;
 use super::Report;
 use super::heading::{Compared, position};
 use super::missed::missed;
-use super::table::{Cell, Column, Table, aligned_columns};
+use super::scenes::SCENE;
+use super::table::{Column, Table, aligned_columns};
 use crate::why;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate};
@@ -95,21 +96,17 @@ impl Report for WorstReport {
     }
 
     fn table(&self) -> Table {
-        let columns: [Column<'_, (&Worst, Scene)>; 12] = [
-            ("prediction", |(worst, _)| worst.prediction.as_str().into()),
-            ("worst", |(worst, _)| worst.worst.into()),
-            ("mean", |(worst, _)| worst.mean.into()),
-            ("kind", |(_, scene)| scene.kind.to_string().into()),
-            ("view_x", |(_, scene)| scene.view[0].into()),
-            ("view_y", |(_, scene)| scene.view[1].into()),
-            ("view_z", |(_, scene)| scene.view[2].into()),
-            ("light_x", |(_, scene)| scene.light[0].into()),
-            ("light_y", |(_, scene)| scene.light[1].into()),
-            ("light_z", |(_, scene)| scene.light[2].into()),
-            ("evaluations", |(worst, _)| worst.evaluations.into()),
-            ("target_reached", |(worst, _)| Cell::from(worst.target_reached)),
+        let losses: [Column<'_, Worst>; 3] = [
+            ("prediction", |worst| worst.prediction.as_str().into()),
+            ("worst", |worst| worst.worst.into()),
+            ("mean", |worst| worst.mean.into()),
         ];
-        Table::of(&columns, self.rows())
+        let search: [Column<'_, Worst>; 2] = [
+            ("evaluations", |worst| worst.evaluations.into()),
+            ("target_reached", |worst| worst.target_reached.into()),
+        ];
+        let scenes = Table::of(&SCENE, &self.scenes);
+        Table::of(&losses, &self.results).beside(scenes).beside(Table::of(&search, &self.results))
     }
 
     fn missed(&self) -> Vec<Error> {
