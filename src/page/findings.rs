@@ -7,7 +7,7 @@ use svbrdf_core::loss::{Loss, Outcome};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::report::{LOSSES, PARTS, parts, scenes_line};
+use svbrdf_evaluate::report::{Reader, parts, scenes_line};
 use svbrdf_evaluate::why::{Attribution, Hemisphere};
 
 use super::content::{Findings, Repetition, Report};
@@ -66,7 +66,7 @@ fn losses(findings: &Findings) -> String {
     let loss = &findings.loss;
     let all = &loss.outcome.losses;
     let axis = plots::axis(all.iter().map(|loss| &loss.estimate));
-    let mut table = Table::of(&LOSSES, all, "name", false);
+    let mut table = Table::of(loss.table_for(Reader::Person), "name", false).titled();
     table.insert(3, "", all.iter().map(|loss| plots::bar(&loss.estimate, axis)));
     let verdicts = verdicts(&loss.outcome);
     format!(
@@ -115,7 +115,7 @@ fn shares(attributions: &[Attribution]) -> String {
     );
     let axis = plots::axis(attributions.iter().flat_map(|one| one.maps.iter().map(|share| &share.shapley)));
     for one in attributions {
-        let mut table = Table::of(&PARTS, parts(&one.maps, &one.loss), "", false);
+        let mut table = Table::of(parts(&one.maps, &one.loss), "", false).titled();
         table.insert(2, "", one.maps.iter().map(|share| plots::bar(&share.shapley, axis)));
         let note = one.note().map_or(String::new(), |note| format!("<p>{}</p>", escaped(&note)));
         let _ = write!(html, r#"<h3>{}</h3>{}{note}"#, escaped(&one.prediction), table.html());

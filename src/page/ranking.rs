@@ -7,10 +7,7 @@ use svbrdf_core::loss::Estimate;
 use super::markup::{Document, escaped, filled, number};
 use super::plots;
 use super::tables::{Table, cell, row_heading};
-use svbrdf_evaluate::dataset::{
-    DatasetReport, MARKS_HEADING, METHODS, MaterialResult, MethodSummary, counted_loss, mark_rows,
-};
-use svbrdf_evaluate::report::Shown;
+use svbrdf_evaluate::dataset::{DatasetReport, MaterialResult, MethodSummary, counted_loss, marks_table};
 
 const PAGE: &str = include_str!("ranking.html");
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("ranking.css"));
@@ -54,7 +51,7 @@ fn methods(report: &DatasetReport) -> String {
     let has_losses = |summary: &&MethodSummary| summary.materials > 0;
     let means: Vec<Estimate> = report.methods.iter().filter(has_losses).map(estimate).collect();
     let axis = plots::axis(means.iter());
-    let mut table = Table::of(&METHODS, &report.methods, "name", true);
+    let mut table = Table::of(report.methods_table(), "name", true).titled();
     let bar =
         |summary| has_losses(&summary).then(|| plots::bar(&estimate(summary), axis)).unwrap_or_default();
     table.insert(BAR, "", report.methods.iter().map(bar));
@@ -119,15 +116,8 @@ fn by_method(report: &DatasetReport, first: &str, rows: impl IntoIterator<Item =
 
 /// The marks of diagnoses, where there are any.
 fn marks(report: &DatasetReport) -> String {
-    let rows = mark_rows(report);
-    if rows.is_empty() {
-        return String::new();
-    }
-    let html = |(name, cells): (String, Vec<Shown>)| {
-        let cells = cells.iter().map(|shown| cell(shown, false));
-        [row_heading("", &escaped(&name))].into_iter().chain(cells).collect()
-    };
-    let table = by_method(report, MARKS_HEADING, rows.into_iter().map(html));
+    let Some(table) = marks_table(report) else { return String::new() };
+    let table = Table::of(table, "", false).html();
     format!(
         r#"<section aria-labelledby="marks"><h2 id="marks">What would explain a loss</h2>{table}<p class="weak">Numbers of materials. A mark that most materials of a method share is a convention of its files.</p></section>"#
     )
@@ -177,7 +167,7 @@ fn loss(report: &DatasetReport, result: &MaterialResult, method: &str) -> String
 /// A cell of a number above its interval, sorted by the number.
 fn with_interval(value: Option<f64>, interval: Option<[f64; 2]>) -> String {
     let (Some(value), Some([low, high])) = (value, interval) else {
-        return cell(&Shown::number(value.filter(|value| value.is_finite()), ""), true);
+        return cell(&value.filter(|value| value.is_finite()).into(), true);
     };
     let [text, low, high] = [value, low, high].map(number);
     format!(r#"<td data-sort="{value}">{text}<small>{low} to {high}</small></td>"#)

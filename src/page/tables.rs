@@ -1,8 +1,6 @@
-//! Tables of reports as HTML: the columns that the command line prints, with fewer digits.
+//! Tables of reports as HTML: those that the command line prints, with fewer digits.
 
-use std::borrow::Borrow;
-
-use svbrdf_evaluate::report::{Column, Shown};
+use svbrdf_evaluate::report::{self, Cell};
 
 use super::markup::{escaped, number, percent};
 
@@ -23,27 +21,30 @@ impl Table {
         Self { headings: headings.into_iter().map(escaped).collect(), rows: rows.into_iter().collect() }
     }
 
-    /// The `rows` of a report in `columns`, but those of standard errors: the page has intervals and bars. `class` is that of the headings
-    /// of rows. Where the table `sorts`, cells have the numbers that they are sorted by.
-    pub(super) fn of<R>(
-        columns: &[Column<'_, R, Shown>],
-        rows: impl IntoIterator<Item = impl Borrow<R>>,
-        class: &str,
-        sorts: bool,
-    ) -> Self {
-        let columns = || columns.iter().filter(|(name, _)| *name != "+- std. error");
-        let cells = |row| {
-            let mut all = columns().map(|(_, value)| value(Borrow::borrow(&row)));
-            let first = all.next().map(|name| row_heading(class, &escaped(&name.to_string())));
-            first.into_iter().chain(all.map(|shown| cell(&shown, sorts))).collect()
+    /// A table of a report for people without its standard errors: the page has intervals and bars. `class` is that of the headings of
+    /// rows. Where the table `sorts`, cells have the numbers that they are sorted by.
+    pub(super) fn of(table: report::Table, class: &str, sorts: bool) -> Self {
+        let has = |column: usize| table.columns[column] != "+- std. error";
+        let html = |(column, value): (usize, &Cell)| match column {
+            0 => row_heading(class, &escaped(&value.text())),
+            _ => cell(value, sorts),
         };
-        let rows: Vec<Vec<String>> = rows.into_iter().map(cells).collect();
-        Self { headings: columns().map(|(name, _)| heading(name)).collect(), rows }
+        let row =
+            |row: &Vec<Cell>| row.iter().enumerate().filter(|(column, _)| has(*column)).map(html).collect();
+        let rows = table.rows.iter().map(row).collect();
+        let headings = table.columns.iter().enumerate().filter(|(column, _)| has(*column));
+        Self { headings: headings.map(|(_, name)| escaped(name)).collect(), rows }
+    }
+
+    /// The same table with headings as the page writes titles: `- best` is `− best`, and the first letter is a capital.
+    pub(super) fn titled(mut self) -> Self {
+        self.headings.iter_mut().for_each(|name| *name = title(name));
+        self
     }
 
     /// Puts a column of HTML before that at `place`.
     pub(super) fn insert(&mut self, place: usize, name: &str, cells: impl IntoIterator<Item = String>) {
-        self.headings.insert(place, heading(name));
+        self.headings.insert(place, title(name));
         for (row, cell) in self.rows.iter_mut().zip(cells) {
             row.insert(place, format!("<td>{cell}</td>"));
         }
@@ -62,12 +63,11 @@ impl Table {
     }
 }
 
-/// The name of a column: `- best` is `− best`, and the first letter is a capital.
-fn heading(name: &str) -> String {
+fn title(name: &str) -> String {
     let name = name.strip_prefix("- ").map_or(name.to_owned(), |name| format!("\u{2212}\u{a0}{name}"));
     let mut rest = name.chars();
     let first = rest.next().map(|first| first.to_uppercase().to_string());
-    escaped(&(first.unwrap_or_default() + rest.as_str()))
+    first.unwrap_or_default() + rest.as_str()
 }
 
 /// The heading of a row; `html` is its content.
@@ -77,16 +77,15 @@ pub(super) fn row_heading(class: &str, html: &str) -> String {
 }
 
 /// The cell of a value, which may be sorted by its number.
-pub(super) fn cell(shown: &Shown, sorts: bool) -> String {
-    let (key, text) = match shown {
-        Shown::Text(text) => return format!("<td>{}</td>", escaped(text)),
-        Shown::Count(count) => (count.to_string(), count.to_string()),
-        Shown::Number(value) if value.is_finite() => (value.to_string(), number(*value)),
-        Shown::Number(value) => (String::new(), value.to_string()),
-        Shown::Share(share) => (share.to_string(), percent(*share)),
-        Shown::Interval([low, high]) => (low.to_string(), format!("{} to {}", number(*low), number(*high))),
-        Shown::Missing("-") => (String::new(), "&ndash;".to_owned()),
-        Shown::Missing(text) => (String::new(), escaped(text)),
+pub(super) fn cell(value: &Cell, sorts: bool) -> String {
+    let (key, text) = match value {
+        Cell::Text(_) | Cell::Truth(_) => return format!("<td>{}</td>", escaped(&value.text())),
+        Cell::Number(value) if value.is_finite() => (value.to_string(), number(*value)),
+        Cell::Share(share) => (share.to_string(), percent(*share)),
+        Cell::Interval([low, high]) => (low.to_string(), format!("{} to {}", number(*low), number(*high))),
+        Cell::Integer(count) => (count.to_string(), count.to_string()),
+        Cell::Missing("-") => (String::new(), "&ndash;".to_owned()),
+        other => (String::new(), escaped(&other.text())),
     };
     if sorts { format!(r#"<td data-sort="{key}">{text}</td>"#) } else { format!("<td>{text}</td>") }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::report::{Shown, aligned};
+use crate::report::{Cell, Table};
 
 use super::pick::{counted, counted_loss};
 use super::record::PredictionResult;
@@ -63,21 +63,14 @@ pub(super) fn summarize_marks(
     (summary.materials > 0).then_some(summary)
 }
 
-/// The heading of the first column of [`mark_rows`].
-pub const MARKS_HEADING: &str = "number of materials";
-
-/// Names, each with its number of materials for each method; no rows without diagnoses.
-pub fn mark_rows(report: &DatasetReport) -> Vec<(String, Vec<Shown>)> {
-    let columns = || report.methods.iter().map(|summary| summary.marks.as_ref());
-    if columns().all(|marks| marks.is_none()) {
-        return Vec::new();
-    }
+/// Numbers of materials, a column for each method; `None` without diagnoses.
+pub fn marks_table(report: &DatasetReport) -> Option<Table> {
+    let marks = || report.methods.iter().map(|summary| summary.marks.as_ref());
+    let names: BTreeSet<&String> = marks().flatten().flat_map(|marks| marks.by.keys()).collect();
     let row = |name: &str, number: &dyn Fn(&MarkSummary) -> Option<usize>| {
-        let cell =
-            |marks: Option<&MarkSummary>| marks.and_then(number).map_or(Shown::Missing("-"), Shown::Count);
-        (name.to_owned(), columns().map(cell).collect())
+        let cell = |marks: Option<&MarkSummary>| Cell::or(marks.and_then(number), "-");
+        [name.into()].into_iter().chain(marks().map(cell)).collect()
     };
-    let names: BTreeSet<&String> = columns().flatten().flat_map(|marks| marks.by.keys()).collect();
     let by =
         |name: &String| row(&format!("by {name}"), &|marks| Some(marks.by.get(name).copied().unwrap_or(0)));
     let start =
@@ -86,19 +79,9 @@ pub fn mark_rows(report: &DatasetReport) -> Vec<(String, Vec<Shown>)> {
         row("loss not resolvable", &|marks| Some(marks.not_resolvable)),
         row("- best not resolvable", &|marks| marks.to_best_not_resolvable),
     ];
-    start.into_iter().chain(names.into_iter().map(by)).chain(end).collect()
-}
-
-/// The table of [`mark_rows`] as text; empty without diagnoses.
-pub(super) fn text(report: &DatasetReport) -> String {
-    let rows = mark_rows(report);
-    if rows.is_empty() {
-        return String::new();
-    }
-    let methods = report.methods.iter().map(|summary| summary.method.clone());
-    let heading = [MARKS_HEADING.to_owned()].into_iter().chain(methods).collect();
-    let line = |(name, cells): (String, Vec<Shown>)| {
-        [name].into_iter().chain(cells.iter().map(Shown::to_string)).collect()
-    };
-    format!("\n{}", aligned(&[heading].into_iter().chain(rows.into_iter().map(line)).collect::<Vec<_>>()))
+    let rows = start.into_iter().chain(names.into_iter().map(by)).chain(end);
+    let methods = report.methods.iter().map(|summary| summary.method.as_str());
+    marks()
+        .any(|marks| marks.is_some())
+        .then(|| Table::new(["number of materials"].into_iter().chain(methods), rows))
 }

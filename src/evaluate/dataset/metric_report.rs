@@ -1,8 +1,8 @@
 //! Metrics of the maps of a data set beside the losses.
 
-use crate::report::{Shown, aligned, bold, escaped, latex};
+use crate::report::{Cell, Table, bold, escaped, latex};
 
-use super::metric_summary::{MetricSummary, best_by_metric, is_better_larger};
+use super::metric_summary::{best_by_metric, is_better_larger};
 use super::ranking::MethodSummary;
 use super::record::MaterialResult;
 use super::report::DatasetReport;
@@ -13,20 +13,21 @@ pub(super) fn names(results: &[MaterialResult]) -> Vec<&str> {
     first.into_iter().flat_map(|prediction| prediction.metrics.keys()).map(String::as_str).collect()
 }
 
-/// A table of the means over materials with their intervals, a column for each method; empty without metrics.
-pub(super) fn text(report: &DatasetReport) -> String {
-    let names = names(&report.results);
-    if names.is_empty() {
-        return String::new();
-    }
-    let mut heading = vec!["metric, mean over materials".to_owned()];
-    heading.extend(report.methods.iter().flat_map(|summary| [summary.method.clone(), "95%".to_owned()]));
+/// The means over materials with their intervals, two columns for each method; `None` without metrics.
+pub(super) fn table(report: &DatasetReport) -> Option<Table> {
+    let methods = report.methods.iter();
+    let titles = methods.flat_map(|summary| [summary.method.as_str(), "95%"]);
     let row = |name: &str| {
-        let cells = report.methods.iter().flat_map(|summary| cells(summary.metrics.get(name)));
-        [name.to_owned()].into_iter().chain(cells).collect()
+        let cells = report.methods.iter().flat_map(|summary| {
+            let metric = summary.metrics.get(name);
+            let interval = metric.and_then(|metric| metric.interval95_materials);
+            [Cell::or(metric.map(|metric| metric.mean), "-"), Cell::or(interval, "-")]
+        });
+        [name.into()].into_iter().chain(cells).collect()
     };
-    let rows: Vec<Vec<String>> = [heading].into_iter().chain(names.iter().map(|name| row(name))).collect();
-    format!("\n{}", aligned(&rows))
+    let rows: Vec<_> = names(&report.results).into_iter().map(row).collect();
+    let titles = ["metric, mean over materials"].into_iter().chain(titles);
+    (!rows.is_empty()).then(|| Table::new(titles, rows))
 }
 
 /// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
@@ -54,10 +55,4 @@ pub(super) fn latex_table(report: &DatasetReport) -> String {
 /// A number in LaTeX.
 fn number(value: f64) -> String {
     if value.is_infinite() { "$\\infty$".to_owned() } else { format!("{value:.4}") }
-}
-
-fn cells(metric: Option<&MetricSummary>) -> [String; 2] {
-    let mean = Shown::number(metric.map(|metric| metric.mean), "-");
-    let interval = Shown::interval(metric.and_then(|metric| metric.interval95_materials), "-");
-    [mean, interval].map(|shown| shown.to_string())
 }

@@ -23,7 +23,7 @@ pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
 pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{DatasetResults, run};
 pub use list::{Shard, cases_of_folders, cases_of_table};
-pub use mark_summary::{MARKS_HEADING, MarkSummary, mark_rows};
+pub use mark_summary::{MarkSummary, marks_table};
 pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger};
 pub use pick::{Pick, counted_loss, counted_sample};
 pub use ranking::MethodSummary;
@@ -32,4 +32,4 @@ pub use record::{
     PredictionResult, Source,
 };
 pub use remark::Remark;
-pub use report::{DatasetReport, METHODS};
+pub use report::DatasetReport;

@@ -238,9 +238,11 @@ fn with_infinities<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMa
 /// A loss that is known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct KnownLoss {
+    /// The loss.
     pub loss: f64,
     /// Due to the sampling of scenes and texels.
     pub standard_error: f64,
+    /// The 95% confidence interval of the loss over all scenes.
     pub interval95: [f64; 2],
     /// The number of scenes that its accuracy took: the first ones of the seed of its material, so that it does not depend on which
     /// other predictions there are.

@@ -5,21 +5,19 @@ use std::collections::{BTreeMap, BTreeSet};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::report::{
-    Cell, Column, Repetition, Report, Shown, Table, aligned_columns, bold, escaped, latex, missed,
-};
+use crate::report::{Cell, Field, Reader, Repetition, Report, Table, bold, escaped, latex, missed};
 use svbrdf_core::error::Error;
 use svbrdf_core::text::line;
 
 use super::bootstrap::FEWEST;
 use super::doubts::ReadingSummary;
-use super::mark_summary::summarize_marks;
+use super::mark_summary::{marks_table, summarize_marks};
 use super::metric_summary::summarize_metrics;
 use super::pick::{Pick, counted};
 use super::ranking::{MethodSummary, ranked};
 use super::record::{DatasetReading, DatasetSettings, MaterialResult, PredictionResult};
 use super::remark::Remark;
-use super::{mark_summary, metric_report, repetition};
+use super::{metric_report, repetition};
 
 /// The losses of methods over a data set.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -46,47 +44,51 @@ pub struct DatasetReport {
     pub(super) common: BTreeSet<usize>,
 }
 
-/// The columns of the methods for people.
-pub const METHODS: [Column<'static, MethodSummary, Shown>; 9] = [
-    ("method", |summary| Shown::Text(summary.method.clone())),
-    ("materials", |summary| Shown::Text(summary.count())),
-    ("failed", |summary| Shown::Count(summary.failures)),
-    ("mean loss", |summary| Shown::number(Some(summary.mean), "none")),
-    ("95% over materials", |summary| Shown::interval(summary.interval95_materials, "-")),
-    ("95% over scenes", |summary| Shown::interval(Some(summary.interval95_scenes), "-")),
-    ("median", |summary| Shown::number(Some(summary.median), "none")),
-    ("- best", |summary| Shown::number(summary.to_best, "")),
-    ("95% over materials", |summary| {
+/// The columns of the methods.
+const METHODS: [Field<MethodSummary>; 9] = [
+    ("", "method", |summary| summary.method.as_str().into()),
+    ("", "materials", |summary| summary.count().into()),
+    ("", "failed", |summary| summary.failures.into()),
+    ("", "mean loss", |summary| Cell::or(known(summary.mean), "none")),
+    ("", "95% over materials", |summary| Cell::or(summary.interval95_materials, "-")),
+    ("", "95% over scenes", |summary| Cell::or(known(summary.mean).map(|_| summary.interval95_scenes), "-")),
+    ("", "median", |summary| Cell::or(known(summary.median), "none")),
+    ("", "- best", |summary| summary.to_best.into()),
+    ("", "95% over materials", |summary| {
         let missing = if summary.to_best.is_some() { "-" } else { "" };
-        Shown::interval(summary.to_best_interval95_materials, missing)
+        Cell::or(summary.to_best_interval95_materials, missing)
     }),
 ];
+
+/// A number, unless it is that of a method without any loss.
+fn known(number: f64) -> Option<f64> {
+    Some(number).filter(|number| !number.is_nan())
+}
 
 /// A prediction with its material.
 type Row<'a> = (&'a DatasetReport, &'a MaterialResult, &'a PredictionResult);
 
 /// The columns of predictions; the last ones are those of diagnoses.
-fn columns<'a>() -> [Column<'static, Row<'a>>; 17] {
+fn predictions<'a>() -> [Field<Row<'a>>; 16] {
     [
-        ("material", |(_, result, _)| result.material.as_str().into()),
-        ("method", |(.., one)| one.method.as_str().into()),
-        ("sample", |(.., one)| one.sample.into()),
-        ("loss", |(.., one)| one.known.map(|known| known.loss).into()),
-        ("standard_error", |(.., one)| one.known.map(|known| known.standard_error).into()),
-        ("interval95_low", |(.., one)| Cell::low(one.known.map(|known| known.interval95))),
-        ("interval95_high", |(.., one)| Cell::high(one.known.map(|known| known.interval95))),
-        ("seed", |(_, result, _)| result.seed.into()),
-        ("scenes", |(.., one)| one.known.map(|known| known.scenes).into()),
-        ("path", |(.., one)| one.path.as_str().into()),
-        ("error", |(.., one)| one.error.clone().into()),
-        ("compared", |(report, result, one)| report.is_compared(result, one).into()),
-        ("doubts", |(.., one)| doubts(&one.reading)),
-        ("ground_truth_doubts", |(_, result, _)| doubts(&result.reading)),
-        ("floor", |(_, result, _)| result.floor.into()),
-        ("resolvable", |(_, result, one)| {
+        ("material", "", |(_, result, _)| result.material.as_str().into()),
+        ("method", "", |(.., one)| one.method.as_str().into()),
+        ("sample", "", |(.., one)| one.sample.into()),
+        ("loss", "", |(.., one)| one.known.map(|known| known.loss).into()),
+        ("standard_error", "", |(.., one)| one.known.map(|known| known.standard_error).into()),
+        ("interval95_low interval95_high", "", |(.., one)| one.known.map(|known| known.interval95).into()),
+        ("seed", "", |(_, result, _)| result.seed.into()),
+        ("scenes", "", |(.., one)| one.known.map(|known| known.scenes).into()),
+        ("path", "", |(.., one)| one.path.as_str().into()),
+        ("error", "", |(.., one)| one.error.clone().into()),
+        ("compared", "", |(report, result, one)| report.is_compared(result, one).into()),
+        ("doubts", "", |(.., one)| doubts(&one.reading)),
+        ("ground_truth_doubts", "", |(_, result, _)| doubts(&result.reading)),
+        ("floor", "", |(_, result, _)| result.floor.into()),
+        ("resolvable", "", |(_, result, one)| {
             result.floor.zip(one.known).map(|(floor, known)| known.loss > floor).into()
         }),
-        ("marked", |(.., one)| one.marked().into()),
+        ("marked", "", |(.., one)| one.marked().into()),
     ]
 }
 
@@ -133,6 +135,11 @@ impl DatasetReport {
     /// The best method, where methods are compared.
     pub fn best(&self) -> Option<&MethodSummary> {
         self.methods.first().filter(|summary| summary.compared)
+    }
+
+    /// The methods for people: a row for each.
+    pub fn methods_table(&self) -> Table {
+        Table::fields(&METHODS, &self.methods, Reader::Person)
     }
 
     /// The materials that the means are over, and how they were read: lines.
@@ -230,6 +237,7 @@ impl DatasetReport {
 impl Report for DatasetReport {
     fn text(&self) -> String {
         let DatasetSettings { convention, target_error, seed, materials, .. } = &self.settings;
+        let table = |table: Option<Table>| table.map_or(String::new(), |table| format!("\n{}", table.text()));
         let lines = |lines: Vec<String>| lines.into_iter().map(|line| line + "\n").collect::<String>();
         format!(
             "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n\n{}\n{}{}{}\n{}\n",
@@ -237,20 +245,20 @@ impl Report for DatasetReport {
             materials.len(),
             100.0 * target_error,
             self.pick,
-            aligned_columns(&METHODS, &self.methods),
+            self.methods_table().text(),
             lines(self.conditions()),
-            mark_summary::text(self),
-            metric_report::text(self),
+            table(marks_table(self)),
+            table(metric_report::table(self)),
             self.repetition,
         )
     }
 
     /// A row for each prediction.
     fn table(&self) -> Table {
-        let columns = columns();
-        let count = columns.len() - if self.settings.diagnose { 0 } else { OF_DIAGNOSES };
+        let fields = predictions();
+        let count = fields.len() - if self.settings.diagnose { 0 } else { OF_DIAGNOSES };
         let rows = self.predictions().map(|(result, prediction)| (self, result, prediction));
-        let mut table = Table::of(&columns[..count], rows);
+        let mut table = Table::fields(&fields[..count], rows, Reader::Program);
         for name in metric_report::names(&self.results) {
             let value = |(_, one): (_, &PredictionResult)| one.metrics.get(name).copied().into();
             table.push(name.to_owned(), self.predictions().map(value));

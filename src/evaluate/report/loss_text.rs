@@ -2,22 +2,13 @@
 
 use super::heading::scenes_line;
 use super::loss::{Difference, FewScenes, LossReport, PredictionLoss};
-use super::table::{Column, Shown, aligned_columns};
-use svbrdf_core::loss::Loss;
-
-/// The columns of losses for people.
-pub const LOSSES: [Column<'static, Loss, Shown>; 4] = [
-    ("prediction", |loss| Shown::Text(loss.prediction.clone())),
-    ("loss", |loss| Shown::Number(loss.estimate.mean)),
-    ("+- std. error", |loss| Shown::number(loss.estimate.standard_error, "unknown")),
-    ("95% interval", |loss| Shown::interval(loss.estimate.interval95, "unknown")),
-];
+use super::table::Reader;
 
 impl LossReport {
     /// The table of the losses, then the difference of each further loss from the first, then a line per prediction for the few
     /// scenes of the papers. Ends with a line break.
     pub fn text(&self) -> String {
-        let table = aligned_columns(&LOSSES, &self.outcome.losses);
+        let table = self.table_for(Reader::Person).text();
         let few_scenes = self.few_scenes.as_ref().map(|few| self.few_scenes_lines(few)).unwrap_or_default();
         format!("{}\n{table}{}{few_scenes}", self.header(), self.difference_lines())
     }

@@ -38,13 +38,12 @@ mod scenes;
 mod table;
 mod worst;
 
-pub use blame::{BlameReport, PARTS, parts};
+pub use blame::{BlameReport, parts};
 pub use diagnose::DiagnoseReport;
 pub use heading::{Compared, position, scenes_line};
 pub use info::InfoReport;
 pub use latex::{bold, escaped, latex};
 pub use loss::{LossReport, SampledScenes};
-pub use loss_text::LOSSES;
 pub use map::MapReport;
 pub use metrics::MetricsReport;
 pub use missed::missed;
@@ -52,7 +51,7 @@ pub use names::distinct_names;
 pub use rank::{MaterialReading, RankReport};
 pub use repetition::Repetition;
 pub use scenes::ScenesReport;
-pub use table::{Cell, Column, Shown, Table, aligned, aligned_columns};
+pub use table::{Cell, Column, Field, Reader, Table, aligned, aligned_columns};
 pub use worst::WorstReport;
 
 use serde::Serialize;

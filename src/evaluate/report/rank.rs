@@ -8,24 +8,34 @@ use super::heading::{Compared, floor_line, scenes_line};
 use super::latex::{bold, escaped, latex};
 use super::missed::missed_by_any;
 use super::repetition::Repetition;
-use super::table::{Cell, Column, Shown, Table, aligned_columns};
+use super::table::{Cell, Field, Reader, Table};
 use crate::rank::{Ranked, places};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Outcome};
 
-/// The columns of the table for people.
-const COLUMNS: [Column<'static, RankedPrediction, Shown>; 7] = [
-    ("prediction", |place| Shown::Text(place.prediction.clone())),
-    ("loss", |place| Shown::Number(place.loss.mean)),
-    ("95% interval", |place| Shown::interval(place.loss.interval95, "unknown")),
-    ("- best", |place| Shown::number(place.to_best.map(|one| one.mean), "")),
-    ("95% interval", |place| match place.to_best {
-        Some(to_best) => Shown::interval(to_best.interval95, "unknown"),
-        None => Shown::Missing(""),
-    }),
-    ("group", |place| Shown::Count(place.group)),
-    ("not resolvable", |place| Shown::Text(place.unresolvable())),
-];
+/// The place of a prediction from 0, the prediction, and the requested accuracy.
+type Row<'a> = (usize, &'a RankedPrediction, f64);
+
+fn fields<'a>() -> [Field<Row<'a>>; 12] {
+    [
+        ("place", "", |(index, ..)| (index + 1).into()),
+        ("prediction", "prediction", |(_, place, _)| place.prediction.as_str().into()),
+        ("loss", "loss", |(_, place, _)| place.loss.mean.into()),
+        ("standard_error", "", |(_, place, _)| place.loss.standard_error.into()),
+        ("interval95_low interval95_high", "95% interval", |(_, place, _)| {
+            Cell::or(place.loss.interval95, "unknown")
+        }),
+        ("to_best", "- best", |(_, place, _)| place.to_best.map(|estimate| estimate.mean).into()),
+        ("to_best_low to_best_high", "95% interval", |(_, place, _)| {
+            place.to_best.map_or(Cell::Missing(""), |estimate| Cell::or(estimate.interval95, "unknown"))
+        }),
+        ("group", "group", |(_, place, _)| place.group.into()),
+        ("target_reached", "", |(_, place, target)| (place.loss.relative_error95() <= *target).into()),
+        ("resolvable", "", |(_, place, _)| place.resolvable.into()),
+        ("to_best_resolvable", "", |(_, place, _)| place.to_best_resolvable.into()),
+        ("", "not resolvable", |(_, place, _)| place.unresolvable().into()),
+    ]
+}
 
 /// Predictions of one ground truth, smallest loss first, with what the data can separate.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -127,6 +137,10 @@ impl RankReport {
         Self { floor: Some(floor.mean), captures, ..self }
     }
 
+    fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.ranking.iter().enumerate().map(|(index, place)| (index, place, self.target_error))
+    }
+
     /// A table for a paper: the first group in bold.
     pub fn latex(&self) -> String {
         let row = |place: &RankedPrediction| {
@@ -161,30 +175,15 @@ impl RankedPrediction {
 impl Report for RankReport {
     fn text(&self) -> String {
         let all_resolvable = self.ranking.iter().all(|place| place.unresolvable().is_empty());
-        let columns = &COLUMNS[..COLUMNS.len() - usize::from(all_resolvable)];
+        let fields = fields();
+        let fields = &fields[..fields.len() - usize::from(all_resolvable)];
         let repetition = self.repetition.as_ref().map(|repetition| format!("\n{repetition}\n"));
-        let table = aligned_columns(columns, &self.ranking);
+        let table = Table::fields(fields, self.rows(), Reader::Person).text();
         format!("{}\n{table}{}", self.heading, repetition.unwrap_or_default())
     }
 
     fn table(&self) -> Table {
-        let columns: [Column<'_, (usize, &RankedPrediction, f64)>; 13] = [
-            ("place", |(index, ..)| (index + 1).into()),
-            ("prediction", |(_, place, _)| place.prediction.as_str().into()),
-            ("loss", |(_, place, _)| place.loss.mean.into()),
-            ("standard_error", |(_, place, _)| place.loss.standard_error.into()),
-            ("interval95_low", |(_, place, _)| Cell::low(place.loss.interval95)),
-            ("interval95_high", |(_, place, _)| Cell::high(place.loss.interval95)),
-            ("to_best", |(_, place, _)| place.to_best.map(|estimate| estimate.mean).into()),
-            ("to_best_low", |(_, place, _)| Cell::low(place.to_best.and_then(|e| e.interval95))),
-            ("to_best_high", |(_, place, _)| Cell::high(place.to_best.and_then(|e| e.interval95))),
-            ("group", |(_, place, _)| place.group.into()),
-            ("target_reached", |(_, place, target)| (place.loss.relative_error95() <= *target).into()),
-            ("resolvable", |(_, place, _)| place.resolvable.into()),
-            ("to_best_resolvable", |(_, place, _)| place.to_best_resolvable.into()),
-        ];
-        let rows = self.ranking.iter().enumerate().map(|(index, place)| (index, place, self.target_error));
-        Table::of(&columns, rows)
+        Table::fields(&fields(), self.rows(), Reader::Program)
     }
 
     fn missed(&self) -> Vec<Error> {
