@@ -52,8 +52,10 @@ fn methods(report: &DatasetReport) -> String {
     let means: Vec<Estimate> = report.methods.iter().filter(has_losses).map(estimate).collect();
     let axis = plots::axis(means.iter());
     let mut table = Table::of(report.methods_table(), "name", true).titled();
-    let bar =
-        |summary| has_losses(&summary).then(|| plots::bar(&estimate(summary), axis)).unwrap_or_default();
+    let bar = |summary| match has_losses(&summary) {
+        true => plots::bar(&estimate(summary), axis),
+        false => String::new(),
+    };
     table.insert(BAR, "", report.methods.iter().map(bar));
     table.insert(
         BAR + 1,

@@ -2,31 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
 use crate::report::{Cell, Table};
 
 use super::pick::{counted, counted_loss};
 use super::record::PredictionResult;
-use super::report::DatasetReport;
+use super::summary::{DatasetReport, MarkSummary};
 
-/// The marks of a method over the materials that were diagnosed.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct MarkSummary {
-    /// The number of materials with a diagnosis.
-    pub materials: usize,
-    /// The number of these with any mark.
-    pub marked: usize,
-    /// The number of materials that are marked by each hypothesis.
-    pub by: BTreeMap<String, usize>,
-    /// The number of materials whose loss is not above the floor of the ground truth.
-    pub not_resolvable: usize,
-    /// The number of materials whose difference to the best method is not above it; `None` for the best.
-    pub to_best_not_resolvable: Option<usize>,
-}
-
-/// The marks of a method of a report over all materials that it has, beside the `best` method; `None` where no prediction was diagnosed.
+/// The marks of a method over all materials that it has, beside the `best` method; `None` where no prediction was diagnosed.
 /// Of several predictions of a material, those count that count for the loss; the material has the marks of all of them.
 pub(super) fn summarize_marks(
     report: &DatasetReport,

@@ -9,7 +9,6 @@ mod doubts;
 mod evaluate;
 mod list;
 mod mark_summary;
-mod metric_report;
 mod metric_summary;
 mod pick;
 mod ranking;
@@ -18,18 +17,18 @@ mod remark;
 mod repetition;
 mod report;
 mod results;
+mod summary;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
 pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{DatasetResults, run};
 pub use list::{Shard, cases_of_folders, cases_of_table};
-pub use mark_summary::{MarkSummary, marks_table};
-pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger};
+pub use mark_summary::marks_table;
+pub use metric_summary::best_by_metric;
 pub use pick::{Pick, counted_loss, counted_sample};
-pub use ranking::MethodSummary;
 pub use record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
     PredictionResult, Source,
 };
 pub use remark::Remark;
-pub use report::DatasetReport;
+pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};

@@ -27,16 +27,12 @@ impl FromStr for Pick {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self, Error> {
-        match name {
-            "fixed" => Ok(Self::Fixed),
-            "mean" => Ok(Self::Mean),
-            "best" => Ok(Self::Best),
-            _ => Err(Error::UnknownName {
-                what: "choice of samples",
-                found: name.to_owned(),
-                known: "fixed, mean, best".to_owned(),
-            }),
-        }
+        let found = [Self::Fixed, Self::Mean, Self::Best].into_iter().find(|pick| pick.to_string() == name);
+        found.ok_or_else(|| Error::UnknownName {
+            what: "choice of samples",
+            found: name.to_owned(),
+            known: "fixed, mean, best".to_owned(),
+        })
     }
 }
 

@@ -3,68 +3,15 @@
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
 use svbrdf_core::statistics::median;
 
 use super::bootstrap::{interval_of_mean, interval_of_positive_mean};
-use super::doubts::ReadingSummary;
-use super::mark_summary::MarkSummary;
-use super::metric_summary::MetricSummary;
 use super::pick::{Pick, counted_loss};
 use super::record::{KnownLoss, MaterialResult};
+use super::summary::MethodSummary;
 
 /// The 97.5% quantile of the normal distribution.
 const Z: f64 = 1.959_964;
-
-/// The losses of a method.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct MethodSummary {
-    pub method: String,
-    /// Whether it has a loss of as many materials as any other; if not, its mean is over other materials.
-    pub compared: bool,
-    /// The number of materials with a loss.
-    pub materials: usize,
-    /// The number of materials without one.
-    pub failures: usize,
-    /// Over the materials that all compared methods have, `compared_materials`; of a method that is not compared, over those that it has
-    /// a loss of; `None` without a loss.
-    #[schemars(with = "Option<f64>")]
-    pub mean: f64,
-    /// Over the materials of the mean.
-    #[schemars(with = "Option<f64>")]
-    pub median: f64,
-    /// The 95% interval of the mean over all materials like these; `None` for fewer than 5.
-    pub interval95_materials: Option<[f64; 2]>,
-    /// The 95% interval of the mean over these materials, due to the sampling of scenes alone.
-    #[schemars(with = "[Option<f64>; 2]")]
-    pub interval95_scenes: [f64; 2],
-    /// The mean difference to the best method over the materials of both; `None` for the best, and where nothing is compared.
-    pub to_best: Option<f64>,
-    pub to_best_interval95_materials: Option<[f64; 2]>,
-    /// Whether it is compared, and the materials cannot separate it from the best: tables set it in bold.
-    pub ties_with_best: bool,
-    /// How its predictions were read; `None` where there are none.
-    pub reading: Option<ReadingSummary>,
-    /// Of the maps, by name; `None` where they were not asked for.
-    #[schemars(with = "Option<BTreeMap<String, MetricSummary>>")]
-    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
-    pub metrics: BTreeMap<String, MetricSummary>,
-    /// `None` where no diagnosis was asked for.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub marks: Option<MarkSummary>,
-}
-
-impl MethodSummary {
-    /// The number of materials with a loss, and of how many where it lacks some.
-    pub fn count(&self) -> String {
-        match self.failures {
-            0 => self.materials.to_string(),
-            failures => format!("{} of {}", self.materials, self.materials + failures),
-        }
-    }
-}
 
 /// The numbers of `methods` without their readings, metrics and marks, and the indices of the materials that compared methods are
 /// compared over. The compared ones come first, smallest mean loss first; then those that lack materials, the most materials first.

@@ -1,10 +1,5 @@
 //! The losses of methods over a data set: JSON, text, CSV and LaTeX.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use schemars::JsonSchema;
-use serde::Serialize;
-
 use crate::report::{Cell, Field, Reader, Repetition, Report, Table, bold, escaped, latex, missed};
 use svbrdf_core::error::Error;
 use svbrdf_core::text::line;
@@ -12,37 +7,13 @@ use svbrdf_core::text::line;
 use super::bootstrap::FEWEST;
 use super::doubts::ReadingSummary;
 use super::mark_summary::{marks_table, summarize_marks};
-use super::metric_summary::summarize_metrics;
+use super::metric_summary::{latex_table, metric_names, metrics_table, summarize_metrics};
 use super::pick::{Pick, counted};
-use super::ranking::{MethodSummary, ranked};
+use super::ranking::ranked;
 use super::record::{DatasetReading, DatasetSettings, MaterialResult, PredictionResult};
 use super::remark::Remark;
-use super::{metric_report, repetition};
-
-/// The losses of methods over a data set.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct DatasetReport {
-    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
-    pub settings: DatasetSettings,
-    /// How the files are read.
-    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
-    pub reading: DatasetReading,
-    /// Which of several predictions of a material counts.
-    pub pick: Pick,
-    /// How to repeat it.
-    pub repetition: Repetition,
-    /// The names of the materials that the means of compared methods are over.
-    pub compared_materials: Vec<String>,
-    /// How the ground truths were read.
-    pub ground_truths: ReadingSummary,
-    /// The compared ones first, best first; then those that lack materials, the most materials first.
-    pub methods: Vec<MethodSummary>,
-    /// One per material, in order.
-    pub results: Vec<MaterialResult>,
-    /// The indices of the materials that the means of compared methods are over.
-    #[serde(skip)]
-    pub(super) common: BTreeSet<usize>,
-}
+use super::repetition;
+use super::summary::{DatasetReport, MethodSummary};
 
 /// The columns of the methods.
 const METHODS: [Field<MethodSummary>; 9] = [
@@ -181,14 +152,12 @@ impl DatasetReport {
     /// Every remark on the reading of a material, with its name and, for a prediction, its method.
     pub fn remarks(&self) -> impl Iterator<Item = (String, &Remark)> {
         self.results.iter().flat_map(|result| {
-            let truth =
-                result.reading.iter().map(|remark| (format!("{}, ground truth", result.material), remark));
-            let of =
-                move |prediction: &'_ PredictionResult| format!("{}, {}", result.material, prediction.method);
-            let predictions = result.predictions.iter();
-            truth.chain(
-                predictions.flat_map(move |one| one.reading.iter().map(move |remark| (of(one), remark))),
-            )
+            let predictions = result.predictions.iter().map(|one| (one.method.as_str(), &one.reading));
+            let all = [("ground truth", &result.reading)].into_iter().chain(predictions);
+            all.flat_map(|(of, reading)| {
+                let name = format!("{}, {of}", result.material);
+                reading.iter().map(move |remark| (name.clone(), remark))
+            })
         })
     }
 
@@ -216,7 +185,7 @@ impl DatasetReport {
         let comments = self.conditions().into_iter().chain([self.repetition.to_string()]);
         let comments: String = comments.map(|comment| format!("% {}\n", line(&comment))).collect();
         let losses = latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows);
-        comments + &losses + &metric_report::latex_table(self)
+        comments + &losses + &latex_table(self)
     }
 
     /// Every prediction with its material.
@@ -248,7 +217,7 @@ impl Report for DatasetReport {
             self.methods_table().text(),
             lines(self.conditions()),
             table(marks_table(self)),
-            table(metric_report::table(self)),
+            table(metrics_table(self)),
             self.repetition,
         )
     }
@@ -259,7 +228,7 @@ impl Report for DatasetReport {
         let count = fields.len() - if self.settings.diagnose { 0 } else { OF_DIAGNOSES };
         let rows = self.predictions().map(|(result, prediction)| (self, result, prediction));
         let mut table = Table::fields(&fields[..count], rows, Reader::Program);
-        for name in metric_report::names(&self.results) {
+        for name in metric_names(&self.results) {
             let value = |(_, one): (_, &PredictionResult)| one.metrics.get(name).copied().into();
             table.push(name.to_owned(), self.predictions().map(value));
         }

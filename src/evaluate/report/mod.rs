@@ -27,7 +27,6 @@ mod info;
 mod latex;
 mod loss;
 mod loss_table;
-mod loss_text;
 mod map;
 mod metrics;
 mod missed;

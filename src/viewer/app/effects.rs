@@ -8,6 +8,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_evaluate::capture::Capture;
 use svbrdf_evaluate::photograph::flash;
+use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::open::allow_outside;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::scene_file;
