@@ -326,7 +326,9 @@ class PredictionResult(Record):
     error: str | None
     """Why there is no loss."""
     interval95: tuple[float, float] | None
+    """The 95% confidence interval of the loss over all scenes."""
     loss: float | None
+    """The loss."""
     marks: tuple[Mark, ...] | None
     """The marks of its diagnosis, the largest share first, where they were asked for."""
     metrics: Mapping[str, float | None] | None
