@@ -12,8 +12,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, MethodSummary, Pick,
-    PredictionResult, Ranking, Source, best_by_metric, interval_of_mean, interval_of_positive_mean,
-    summarize_marks, summarize_metrics,
+    PredictionResult, Source, best_by_metric, interval_of_mean, interval_of_positive_mean,
 };
 use svbrdf_evaluate::rank;
 use svbrdf_files::samples;
@@ -118,7 +117,7 @@ fn an_interval_of_losses_has_no_negative_end() {
     assert!(0.0 < low && low < high, "{low}, {high}");
     let results: Vec<MaterialResult> =
         skewed.iter().enumerate().map(|(i, loss)| result(i, &[("a", Some(*loss))])).collect();
-    let Ranking { methods, .. } = ranked(&["a"], &results, Pick::Fixed).ranking;
+    let DatasetReport { methods, .. } = ranked(&["a"], &results, Pick::Fixed);
     let [low, high] = methods[0].interval95_scenes;
     assert!(0.0 < low && low < high, "{low}, {high}");
 }
@@ -135,12 +134,12 @@ fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
         };
         let metrics: BTreeMap<String, f64> =
             loss.map(|loss| ("rmse_roughness".to_owned(), 10.0 * loss)).into_iter().collect();
-        let result = loss.map(known).ok_or_else(|| "broken".to_owned());
         predictions.push(PredictionResult {
             method: (*method).to_owned(),
             sample,
             path: String::new(),
-            result,
+            known: loss.map(known),
+            error: loss.is_none().then(|| "broken".to_owned()),
             reading: Vec::new(),
             metrics: metrics.clone(),
             marks: None,
@@ -164,7 +163,7 @@ fn ranked(methods: &[&str], results: &[MaterialResult], pick: Pick) -> DatasetRe
 }
 
 fn summary<'a>(report: &'a DatasetReport, method: &str) -> &'a MethodSummary {
-    report.ranking.methods.iter().find(|summary| summary.method == method).unwrap()
+    report.methods.iter().find(|summary| summary.method == method).unwrap()
 }
 
 #[test]
@@ -175,7 +174,7 @@ fn methods_are_compared_over_the_materials_of_both() {
             result(i, &[("a", Some(base)), ("b", Some(base + 0.05 + 0.001 * (i % 3) as f64))])
         })
         .collect();
-    let [a, b] = ranked(&["b", "a"], &results, Pick::Fixed).ranking.methods.try_into().unwrap();
+    let [a, b] = ranked(&["b", "a"], &results, Pick::Fixed).methods.try_into().unwrap();
     assert_eq!((a.method.as_str(), a.materials, a.failures), ("a", 9, 0));
     assert_eq!((b.materials, b.failures), (9, 0));
     assert!((a.mean - 0.5).abs() < 1e-12 && (a.median - 0.5).abs() < 1e-12, "{a:?}");
@@ -183,10 +182,9 @@ fn methods_are_compared_over_the_materials_of_both() {
     // Materials differ far more than methods: only paired, the difference is known.
     let [low, high] = a.interval95_materials.unwrap();
     assert!(low < b.mean && b.mean < high, "{a:?}");
-    let difference = b.to_best.unwrap();
-    let [low, high] = difference.interval95_materials.unwrap();
-    assert!(0.05 < low && low < difference.mean && difference.mean < high && high < 0.052, "{difference:?}");
-    assert!(a.ties_with_best() && !b.ties_with_best());
+    let (difference, [low, high]) = (b.to_best.unwrap(), b.to_best_interval95_materials.unwrap());
+    assert!(0.05 < low && low < difference && difference < high && high < 0.052, "{b:?}");
+    assert!(a.ties_with_best && !b.ties_with_best);
 }
 
 #[test]
@@ -202,16 +200,15 @@ fn a_method_that_lacks_materials_is_never_the_best() {
         })
         .collect();
     let report = ranked(&["none", "few", "b", "a"], &results, Pick::Fixed);
-    let ranking = &report.ranking;
-    let names: Vec<&str> = ranking.methods.iter().map(|summary| summary.method.as_str()).collect();
+    let names: Vec<&str> = report.methods.iter().map(|summary| summary.method.as_str()).collect();
     assert_eq!(names, ["a", "b", "few", "none"]);
-    let [a, b, few, none] = ranking.methods.clone().try_into().unwrap();
-    assert!(few.mean < a.mean && !few.ties_with_best() && !none.ties_with_best(), "{few:?}");
-    assert!((few.to_best.unwrap().mean - 0.01).abs() < 1e-12, "paired, it is worse");
+    let [a, b, few, none] = report.methods.clone().try_into().unwrap();
+    assert!(few.mean < a.mean && !few.ties_with_best && !none.ties_with_best, "{few:?}");
+    assert!((few.to_best.unwrap() - 0.01).abs() < 1e-12, "paired, it is worse");
     assert_eq!([a.count(), few.count(), none.count()], ["4", "1 of 4", "0 of 4"]);
-    assert!(a.is_compared && b.is_compared && !few.is_compared && !none.is_compared);
-    assert_eq!(ranking.common.len(), 4);
-    let over = ranking.over(4).join("\n");
+    assert!(a.compared && b.compared && !few.compared && !none.compared);
+    assert_eq!(report.compared_materials.len(), 4);
+    let over = report.conditions().join("\n");
     assert!(over.contains("the 4 materials that all 2 compared methods have"), "{over}");
     assert!(over.contains("few has 1 of 4 materials: not compared"), "{over}");
     let best = best_by_metric(&report);
@@ -235,17 +232,17 @@ fn methods_that_lack_one_material_each_are_compared_over_the_others() {
             )
         })
         .collect();
-    let ranking = ranked(&["a", "b", "c"], &results, Pick::Fixed).ranking;
-    assert_eq!(ranking.common, [1, 2, 3].into());
-    let [a, b, c] = ranking.methods.clone().try_into().unwrap();
+    let report = ranked(&["a", "b", "c"], &results, Pick::Fixed);
+    assert_eq!(report.compared_materials, ["m1", "m2", "m3"]);
+    let [a, b, c] = report.methods.clone().try_into().unwrap();
     assert!((a.mean - 0.3).abs() < 1e-12 && (b.mean - 0.33).abs() < 1e-12, "{a:?} {b:?}");
-    assert!(a.is_compared && b.is_compared && !c.is_compared);
-    assert!(ranking.over(6)[0].contains("the 3 of 6 materials"), "{:?}", ranking.over(6));
+    assert!(a.compared && b.compared && !c.compared);
+    assert!(report.conditions()[0].contains("the 3 of 6 materials"), "{:?}", report.conditions());
     // Methods without a material in common have no place.
     let apart = [result(0, &[("a", Some(0.1)), ("b", None)]), result(1, &[("a", None), ("b", Some(0.2))])];
-    let ranking = ranked(&["a", "b"], &apart, Pick::Fixed).ranking;
-    assert!(ranking.methods.iter().all(|one| !one.is_compared && !one.ties_with_best()));
-    assert!(ranking.best().is_none() && ranking.over(2)[0].contains("nothing is compared"));
+    let report = ranked(&["a", "b"], &apart, Pick::Fixed);
+    assert!(report.methods.iter().all(|one| !one.compared && !one.ties_with_best));
+    assert!(report.best().is_none() && report.conditions()[0].contains("nothing is compared"));
 }
 
 #[test]
@@ -264,7 +261,7 @@ fn equal_maps_leave_the_mean_psnr_finite() {
         })
         .collect();
     let report = ranked(&["a", "b", "same"], &results, Pick::Fixed);
-    let of = |place: usize| summarize_metrics(&report, &report.ranking.methods[place])["psnr_diffuse"];
+    let of = |place: usize| report.methods[place].metrics["psnr_diffuse"];
     let square_errors = (1..12).map(|i| 10_f64.powf(-(20.0 + 0.1 * f64::from(i)) / 10.0)).sum::<f64>();
     assert!((of(0).mean - (-10.0 * (square_errors / 12.0).log10())).abs() < 1e-12, "{:?}", of(0));
     let [low, high] = of(1).interval95_materials.unwrap();
@@ -297,10 +294,7 @@ fn marks_are_counted_by_material_and_method_and_follow_the_pick() {
         // Not diagnosed.
         result(2, &[("a", Some(0.3)), ("b", None)]),
     ];
-    let of = |method: &str, pick| {
-        let report = ranked(&["a", "b"], &results, pick);
-        summarize_marks(&report, summary(&report, method))
-    };
+    let of = |method: &str, pick| summary(&ranked(&["a", "b"], &results, pick), method).marks.clone();
     let fixed = of("a", Pick::Fixed).unwrap();
     assert_eq!((fixed.materials, fixed.marked, fixed.not_resolvable), (2, 2, 1));
     assert_eq!(fixed.by, [("normal_y".to_owned(), 2), ("shift".to_owned(), 1)].into());
@@ -312,7 +306,7 @@ fn marks_are_counted_by_material_and_method_and_follow_the_pick() {
     let mean = of("a", Pick::Mean).unwrap();
     assert_eq!((mean.marked, mean.by["exposure"], mean.not_resolvable), (2, 1, 0));
     let none = ranked(&["a"], &results[2..], Pick::Fixed);
-    assert_eq!(summarize_marks(&none, summary(&none, "a")), None);
+    assert_eq!(summary(&none, "a").marks, None);
 }
 
 #[test]
@@ -340,10 +334,8 @@ fn metrics_over_materials_follow_the_pick_of_the_losses() {
         )
     };
     let results: Vec<MaterialResult> = (0..5).map(methods).collect();
-    let metrics = |method: &str, pick| {
-        let report = ranked(&["a", "b", "c"], &results, pick);
-        summarize_metrics(&report, summary(&report, method))
-    };
+    let metrics =
+        |method: &str, pick| summary(&ranked(&["a", "b", "c"], &results, pick), method).metrics.clone();
     let mean = |method: &str, pick| metrics(method, pick)["rmse_roughness"];
     for (pick, expected) in [(Pick::Fixed, 3.2), (Pick::Best, 3.0), (Pick::Mean, 3.1)] {
         let got = mean("a", pick);

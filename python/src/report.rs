@@ -63,12 +63,13 @@ enum CellItem {
 impl From<Cell> for CellItem {
     fn from(cell: Cell) -> Self {
         match cell {
-            Cell::Empty => Self::Empty(None),
+            Cell::Missing(_) => Self::Empty(None),
             Cell::Text(text) => Self::Text(text),
             Cell::Integer(number) => Self::Integer(number),
-            Cell::Number(number) => Self::Number(number),
+            Cell::Number(number) | Cell::Share(number) => Self::Number(number),
             Cell::Single(number) => Self::Number(f64::from(number)),
             Cell::Truth(truth) => Self::Truth(truth),
+            Cell::Interval(_) | Cell::Point(_) => Self::Text(cell.text()),
         }
     }
 }

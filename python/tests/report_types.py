@@ -27,6 +27,8 @@ from ._scenes import Scene
 SCALARS = {"string": "str", "integer": "int", "number": "float", "boolean": "bool", "null": "None"}
 WITH_ARRAYS = ("MapReport", "PhotoReport")
 """The package adds their arrays."""
+OTHERS = ("info",)
+"""Reports of the command line alone: the package has `Material.assumptions` and `Material.notes`."""
 
 
 def module(program: str) -> str:
@@ -42,8 +44,9 @@ def module(program: str) -> str:
             raise ValueError(f"two classes are called {name}")
 
     printed = subprocess.run([program, "schema"], check=True, capture_output=True).stdout
-    for schema in json.loads(printed).values():
-        add(schema["title"], schema, schema.get("$defs", {}), "Report")
+    for command, schema in json.loads(printed).items():
+        if command not in OTHERS:
+            add(schema["title"], schema, schema.get("$defs", {}), "Report")
     names = "".join(f'    "{name}",\n' for name in sorted(classes) if name not in WITH_ARRAYS)
     return "\n\n".join([f"{HEAD}\n__all__ = [\n{names}]\n", *classes.values()])
 

@@ -48,18 +48,14 @@ def predictions(report: svbrdf.DatasetReport) -> list[svbrdf.PredictionResult]:
     return [prediction for result in report.results for prediction in result.predictions]
 
 
-def loss_of(prediction: svbrdf.PredictionResult) -> float | None:
-    return None if prediction.result.Ok is None else prediction.result.Ok.loss
-
-
 @pytest.mark.parametrize("pick", ["fixed", "mean", "best"])
 def test_a_data_set_has_the_numbers_of_the_command_line(program: str, dataset: Path, pick: Any) -> None:
     found = of_command_line(program, dataset, "--pick", pick)
     report = ranked(dataset, pick=pick)
     assert report.to_dict() == found
     assert problems(program, "dataset", found) == []
-    expected = [p["result"].get("Ok", {}).get("loss") for result in found["results"] for p in result["predictions"]]
-    assert [loss_of(prediction) for prediction in predictions(report)] == expected
+    expected = [p.get("loss") for result in found["results"] for p in result["predictions"]]
+    assert [prediction.loss for prediction in predictions(report)] == expected
     # The good method lacks a material: it is not compared.
     assert [(summary.method, summary.compared) for summary in report.methods] == [("bad", True), ("good", False)]
     assert repr(report) + "\n" == text_of_command_line(program, dataset, "--pick", pick)
@@ -77,7 +73,7 @@ def test_the_marks_of_a_data_set_are_those_of_the_command_line(program: str, dat
     assert repr(report) + "\n" == text_of_command_line(program, dataset, "--diagnose")
     expected = {entry["method"]: entry["marks"]["marked"] for entry in found["methods"]}
     assert {method.method: method.marks.marked for method in report.methods if method.marks} == expected
-    marks = [prediction.marks for prediction in predictions(report) if loss_of(prediction) is not None]
+    marks = [prediction.marks for prediction in predictions(report) if prediction.loss is not None]
     assert all(mark is not None for mark in marks)
     assert ranked(dataset).methods[0].marks is None
 
@@ -87,11 +83,11 @@ def test_a_broken_file_is_a_result_that_says_why(dataset: Path) -> None:
     report = svbrdf.rank_dataset(
         dataset / "gt", {"ours": dataset / "good"}, target_error=0.1, progress=lambda *counts: seen.append(counts)
     )
-    (failed,) = [prediction for prediction in predictions(report) if loss_of(prediction) is None]
+    (failed,) = [prediction for prediction in predictions(report) if prediction.loss is None]
     assert failed == report.results[3].predictions[0]
-    assert failed.result.Err is not None
-    assert "cannot decode" in failed.result.Err
-    assert "m3.exr" in failed.result.Err
+    assert failed.error is not None
+    assert "cannot decode" in failed.error
+    assert "m3.exr" in failed.error
     assert seen[-1] == (8, 8)
 
 
@@ -115,7 +111,7 @@ def test_doubts_in_reading_are_warned_of_by_method(tmp_path: Path) -> None:
 def test_read_options_reach_the_files_and_wrong_ones_are_refused(dataset: Path) -> None:
     def first(**options: Any) -> float | None:
         report = svbrdf.rank_dataset(dataset / "gt", dataset / "bad", target_error=0.1, **options)
-        return loss_of(predictions(report)[0])
+        return predictions(report)[0].loss
 
     assert first(read_predictions={"roughness": "gloss"}) != first()
     with pytest.raises(svbrdf.Error, match="unknown variant"):

@@ -3,12 +3,14 @@
 import json
 import subprocess
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import jsonschema
 import pytest
 import report_types
 import svbrdf
+from conftest import maps
 
 
 def problems(program: str, name: str, report: Any) -> list[str]:
@@ -42,6 +44,19 @@ def test_a_planted_fault_is_found(program: str, plant: Callable[[Any], None], pr
     plant(report)
     (found,) = problems(program, "loss", report)
     assert problem in found
+
+
+def test_the_content_of_files_is_as_its_schema_says(program: str, tmp_path: Path) -> None:
+    """The package has no report of it: `Material.assumptions` and `Material.notes` are its parts."""
+    path = tmp_path / "a.png"
+    svbrdf.write(svbrdf.Material(**maps(13, 11)), path)
+    printed = subprocess.run([program, "info", path, "--format", "json"], check=True, capture_output=True).stdout
+    report = json.loads(printed)
+    assert len(report["maps"]) == 4
+    assert len(report["assumptions"]) > 3
+    assert problems(program, "info", report) == []
+    report["assumptions"][0]["certainty"] = "perhaps"
+    assert problems(program, "info", report) != []
 
 
 def test_types_follow_schemas() -> None:

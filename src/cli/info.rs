@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use clap::ValueEnum;
-use serde::Serialize;
 
 use svbrdf_core::text::{line, printable};
-use svbrdf_files::read::{Assumption, Binding, MapReport, Note, Read, Sidecar};
+use svbrdf_evaluate::report::InfoReport;
+use svbrdf_files::read::{Binding, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;
 use super::args::{NamedPath, refuse};
@@ -53,16 +53,6 @@ enum InfoFormat {
     Json,
 }
 
-/// All that is printed.
-#[derive(Debug, Serialize)]
-struct Info<'a> {
-    name: &'a str,
-    size: [usize; 2],
-    maps: &'a [MapReport],
-    assumptions: &'a [Assumption],
-    notes: &'a [Note],
-}
-
 #[derive(Debug)]
 struct InfoJob {
     material: OneMaterial,
@@ -88,13 +78,7 @@ impl Job for InfoJob {
             let place = stoppable(|progress| saved.save(path, progress))?;
             exit::tell(&format!("note: saved in {}", place.display()));
         }
-        let info = Info {
-            name: read.material.name(),
-            size: read.material.size(),
-            maps: &read.maps,
-            assumptions: &read.assumptions,
-            notes: &read.notes,
-        };
+        let info = InfoReport::from(read);
         let printed = match self.format {
             InfoFormat::Text => printable(&text(&info)),
             InfoFormat::Json => json::text(&info)?,
@@ -103,19 +87,19 @@ impl Job for InfoJob {
     }
 }
 
-fn text(info: &Info<'_>) -> String {
+fn text(info: &InfoReport) -> String {
     let mut text = format!("{}, {} x {} texels\n\nAs stored:\n", info.name, info.size[0], info.size[1]);
-    for map in info.maps {
+    for map in &info.maps {
         let _ = writeln!(text, "  {}", line(&map.to_string()));
     }
     text += "\nAssumed:\n";
-    for assumption in info.assumptions {
+    for assumption in &info.assumptions {
         let _ = writeln!(text, "  {}", line(&advice::assumption_with_option(assumption)));
     }
     if !info.notes.is_empty() {
         text += "\nNoticed:\n";
     }
-    for note in info.notes {
+    for note in &info.notes {
         let _ = writeln!(text, "  {}", line(&advice::with_option(note)));
     }
     text

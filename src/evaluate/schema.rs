@@ -1,7 +1,8 @@
 //! JSON Schemas of the reports: the keys of their JSON with their types and meanings.
 
 use crate::report::{
-    BlameReport, DiagnoseReport, LossReport, MapReport, MetricsReport, RankReport, ScenesReport, WorstReport,
+    BlameReport, DiagnoseReport, InfoReport, LossReport, MapReport, MetricsReport, RankReport, ScenesReport,
+    WorstReport,
 };
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
@@ -15,7 +16,7 @@ use crate::photograph::PhotoReport;
 pub type ReportSchema = (&'static str, fn() -> Schema);
 
 /// The schema of each report by its name: that of its command, `dataset` for `rank --dataset`.
-pub const REPORTS: [ReportSchema; 10] = [
+pub const REPORTS: [ReportSchema; 11] = [
     ("loss", of::<LossReport>),
     ("rank", of::<RankReport>),
     ("blame", of::<BlameReport>),
@@ -26,6 +27,7 @@ pub const REPORTS: [ReportSchema; 10] = [
     ("metrics", of::<MetricsReport>),
     ("photo", of::<PhotoReport>),
     ("dataset", of::<DatasetReport>),
+    ("info", of::<InfoReport>),
 ];
 
 /// The schema of what is written, not of what could be read.

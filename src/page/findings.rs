@@ -7,14 +7,15 @@ use svbrdf_core::loss::{Loss, Outcome};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::report::scenes_line;
+use svbrdf_evaluate::report::{Reader, parts, scenes_line};
 use svbrdf_evaluate::why::{Attribution, Hemisphere};
 
 use super::content::{Findings, Repetition, Report};
 use super::data::LinkedScene;
 use super::exposure::exposure;
-use super::markup::{MOST_NAMES, escaped, number, percent, place};
+use super::markup::{MOST_NAMES, escaped, number, place};
 use super::pictures::Rows;
+use super::tables::Table;
 use super::{pictures, plots};
 use svbrdf_files::disk::atomic::SOFTWARE;
 
@@ -65,20 +66,12 @@ fn losses(findings: &Findings) -> String {
     let loss = &findings.loss;
     let all = &loss.outcome.losses;
     let axis = plots::axis(all.iter().map(|loss| &loss.estimate));
-    let mut rows = String::new();
-    for loss in all {
-        let [low, high] = interval(loss.estimate.interval95);
-        let _ = write!(
-            rows,
-            r#"<tr><th scope="row" class="name">{}</th><td>{}</td><td>{low} to {high}</td><td>{}</td></tr>"#,
-            escaped(&loss.prediction),
-            number(loss.estimate.mean),
-            plots::bar(&loss.estimate, axis)
-        );
-    }
+    let mut table = Table::of(loss.table_for(Reader::Person), "name", false).titled();
+    table.insert(3, "", all.iter().map(|loss| plots::bar(&loss.estimate, axis)));
     let verdicts = verdicts(&loss.outcome);
     format!(
-        r#"<section aria-labelledby="losses"><h2 id="losses">Rendering loss</h2><div class="wide"><table><thead><tr><th scope="col">Prediction</th><th scope="col">Loss</th><th scope="col">95% interval</th><td></td></tr></thead><tbody>{rows}</tbody></table></div>{verdicts}<p class="weak">Mean over scenes, texels and RGB of |ln(R<sub>gt</sub> + {}) &minus; ln(R<sub>pred</sub> + {})| against {}, {} &times; {} texels. {}</p></section>"#,
+        r#"<section aria-labelledby="losses"><h2 id="losses">Rendering loss</h2>{}{verdicts}<p class="weak">Mean over scenes, texels and RGB of |ln(R<sub>gt</sub> + {}) &minus; ln(R<sub>pred</sub> + {})| against {}, {} &times; {} texels. {}</p></section>"#,
+        table.html(),
         loss.epsilon,
         loss.epsilon,
         escaped(&loss.ground_truth),
@@ -122,26 +115,10 @@ fn shares(attributions: &[Attribution]) -> String {
     );
     let axis = plots::axis(attributions.iter().flat_map(|one| one.maps.iter().map(|share| &share.shapley)));
     for one in attributions {
-        let mut rows = String::new();
-        for share in &one.maps {
-            let [low, high] = interval(share.shapley.interval95);
-            let _ = write!(
-                rows,
-                r#"<tr><th scope="row">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{low} to {high}</td><td>{}</td><td>{}</td></tr>"#,
-                share.map.name(),
-                percent(if one.loss.mean > 0.0 { share.shapley.mean / one.loss.mean } else { 0.0 }),
-                plots::bar(&share.shapley, axis),
-                number(share.shapley.mean),
-                number(share.only_wrong.mean),
-                number(share.only_right.mean),
-            );
-        }
+        let mut table = Table::of(parts(&one.maps, &one.loss), "", false).titled();
+        table.insert(2, "", one.maps.iter().map(|share| plots::bar(&share.shapley, axis)));
         let note = one.note().map_or(String::new(), |note| format!("<p>{}</p>", escaped(&note)));
-        let _ = write!(
-            html,
-            r#"<h3>{}</h3><div class="wide"><table><thead><tr><th scope="col">Map</th><th scope="col">Share</th><td></td><th scope="col">Of the loss</th><th scope="col">95% interval</th><th scope="col">Only it wrong</th><th scope="col">Only it right</th></tr></thead><tbody>{rows}</tbody></table></div>{note}"#,
-            escaped(&one.prediction)
-        );
+        let _ = write!(html, r#"<h3>{}</h3>{}{note}"#, escaped(&one.prediction), table.html());
     }
     html + "</section>"
 }

@@ -13,6 +13,7 @@ mod pictures;
 mod plots;
 mod ranking;
 mod ranking_views;
+mod tables;
 
 use std::path::Path;
 

@@ -1,19 +1,19 @@
 //! The ranking of a data set as one HTML file: methods, materials, thumbnails, and links to figures.
 
-use std::fmt::Write as _;
+use std::collections::BTreeSet;
 
 use svbrdf_core::loss::Estimate;
 
 use super::markup::{Document, escaped, filled, number};
 use super::plots;
-use svbrdf_evaluate::dataset::{
-    DatasetReport, MaterialResult, MethodSummary, counted_loss, mark_report, summarize_metrics,
-};
-use svbrdf_files::disk::atomic::SOFTWARE;
+use super::tables::{Table, cell, row_heading};
+use svbrdf_evaluate::dataset::{DatasetReport, MaterialResult, MethodSummary, counted_loss, marks_table};
 
 const PAGE: &str = include_str!("ranking.html");
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("ranking.css"));
 const SCRIPT: &str = include_str!("ranking.js");
+/// The place of the bars in the table of the methods, beside the means and their intervals.
+const BAR: usize = 5;
 
 /// What a ranking shows of a material beside its losses.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -40,43 +40,36 @@ fn heading(report: &DatasetReport) -> String {
     let percent = 100.0 * settings.target_error;
     let (convention, pick) = (escaped(&settings.convention), &report.pick);
     format!(
-        "Convention {convention}, &plusmn;{percent}% per loss, seed {}, pick {pick}. {SOFTWARE}. Repeat with <code>{}</code>",
+        "Convention {convention}, &plusmn;{percent}% per loss, seed {}, pick {pick}. {}. Repeat with <code>{}</code>",
         settings.seed,
-        escaped(&report.command())
+        report.repetition.software,
+        escaped(&report.repetition.command)
     )
 }
 
 fn methods(report: &DatasetReport) -> String {
-    let methods = &report.ranking.methods;
-    let means = methods.iter().filter(|summary| summary.materials > 0).map(estimate).collect::<Vec<_>>();
+    let has_losses = |summary: &&MethodSummary| summary.materials > 0;
+    let means: Vec<Estimate> = report.methods.iter().filter(has_losses).map(estimate).collect();
     let axis = plots::axis(means.iter());
-    let mut rows = String::new();
-    for summary in methods {
-        let bar = if summary.materials > 0 { plots::bar(&estimate(summary), axis) } else { String::new() };
-        let (difference, interval) = match &summary.to_best {
-            None => (cell(None), "<td></td>".to_owned()),
-            Some(to_best) => (cell(Some(to_best.mean)), ends(to_best.interval95_materials)),
-        };
-        let _ = write!(
-            rows,
-            r#"<tr><th scope="row" class="name">{}</th>{}{}<td>{bar}</td><td>{}</td>{difference}{interval}{}{}{}{}</tr>"#,
-            escaped(&summary.method),
-            cell(Some(summary.mean)),
-            ends(summary.interval95_materials),
-            verdict(summary),
-            cell(Some(summary.median)),
-            ends(Some(summary.interval95_scenes)),
-            count(summary.materials),
-            count(summary.failures),
-        );
-    }
-    let paired = report.ranking.best().map_or(String::new(), |best| {
+    let mut table = Table::of(report.methods_table(), "name", true).titled();
+    let bar = |summary| match has_losses(&summary) {
+        true => plots::bar(&estimate(summary), axis),
+        false => String::new(),
+    };
+    table.insert(BAR, "", report.methods.iter().map(bar));
+    table.insert(
+        BAR + 1,
+        "against the best",
+        report.methods.iter().map(|summary| verdict(summary).to_owned()),
+    );
+    let paired = report.best().map_or(String::new(), |best| {
         format!("Differences are paired: over the materials of both, against {}. ", escaped(&best.method))
     });
     let conditions: String =
         report.conditions().iter().map(|condition| format!("<li>{}</li>", escaped(condition))).collect();
     format!(
-        r#"<section aria-labelledby="methods"><h2 id="methods">Methods</h2><div class="wide"><table><thead><tr><th scope="col">Method</th><th scope="col">Mean loss</th><th scope="col">95% over materials</th><td></td><th scope="col">Against the best</th><th scope="col">&minus;&nbsp;best</th><th scope="col">95% over materials</th><th scope="col">Median</th><th scope="col">95% over scenes</th><th scope="col">Materials</th><th scope="col">Failed</th></tr></thead><tbody>{rows}</tbody></table></div><ul class="conditions">{conditions}</ul><p class="weak">{paired}The interval over materials covers other materials of this kind, the interval over scenes these materials alone.</p></section>"#
+        r#"<section aria-labelledby="methods"><h2 id="methods">Methods</h2>{}<ul class="conditions">{conditions}</ul><p class="weak">{paired}The interval over materials covers other materials of this kind, the interval over scenes these materials alone.</p></section>"#,
+        table.html()
     )
 }
 
@@ -87,11 +80,11 @@ fn estimate(summary: &MethodSummary) -> Estimate {
 
 /// The paired verdict on a method.
 fn verdict(summary: &MethodSummary) -> &'static str {
-    match (&summary.to_best, summary.ties_with_best()) {
+    match (&summary.to_best, summary.ties_with_best) {
         _ if summary.materials == 0 => "no losses",
-        _ if !summary.is_compared => "lacks materials",
+        _ if !summary.compared => "lacks materials",
         (None, _) => "best",
-        (Some(difference), true) if difference.interval95_materials.is_none() => "too few materials",
+        (Some(_), true) if summary.to_best_interval95_materials.is_none() => "too few materials",
         (Some(_), true) => "no significant difference",
         (Some(_), false) => "worse",
     }
@@ -99,72 +92,55 @@ fn verdict(summary: &MethodSummary) -> &'static str {
 
 /// The metrics of the maps, where there are any: a row for each, a column for each method.
 fn metrics(report: &DatasetReport) -> String {
-    let all: Vec<_> =
-        report.ranking.methods.iter().map(|summary| summarize_metrics(report, summary)).collect();
-    let mut names: Vec<&String> = all.iter().flat_map(|metrics| metrics.keys()).collect();
-    names.sort();
-    names.dedup();
+    let names: BTreeSet<&String> = report.methods.iter().flat_map(|summary| summary.metrics.keys()).collect();
     if names.is_empty() {
         return String::new();
     }
-    let row = |name: &&String| {
-        let cells = all.iter().map(|metrics| {
-            let interval = metrics.get(*name).and_then(|metric| metric.interval95_materials);
-            with_interval(metrics.get(*name).map(|metric| metric.mean), interval)
+    let row = |name: &String| {
+        let cells = report.methods.iter().map(|summary| {
+            let metric = summary.metrics.get(name);
+            let interval = metric.and_then(|metric| metric.interval95_materials);
+            with_interval(metric.map(|metric| metric.mean), interval)
         });
-        format!(r#"<tr><th scope="row">{}</th>{}</tr>"#, escaped(name), cells.collect::<String>())
+        [row_heading("", &escaped(name))].into_iter().chain(cells).collect()
     };
-    let rows: String = names.iter().map(row).collect();
+    let table = by_method(report, "Metric", names.into_iter().map(row));
     format!(
-        r#"<section aria-labelledby="metrics"><h2 id="metrics">Metrics of the maps</h2><div class="wide"><table><thead><tr><th scope="col">Metric</th>{}</tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Means over materials, with their 95% intervals over materials.</p></section>"#,
-        method_headings(report)
+        r#"<section aria-labelledby="metrics"><h2 id="metrics">Metrics of the maps</h2>{table}<p class="weak">Means over materials, with their 95% intervals over materials.</p></section>"#
     )
+}
+
+/// A table with a column for each method.
+fn by_method(report: &DatasetReport, first: &str, rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let methods = report.methods.iter().map(|summary| summary.method.as_str());
+    Table::new([first].into_iter().chain(methods), rows).html()
 }
 
 /// The marks of diagnoses, where there are any.
 fn marks(report: &DatasetReport) -> String {
-    let rows = mark_report::rows(report);
-    let Some((headings, rows)) = rows.split_first() else { return String::new() };
-    let headings: String =
-        headings.iter().map(|heading| format!(r#"<th scope="col">{}</th>"#, escaped(heading))).collect();
-    let row = |cells: &Vec<String>| {
-        let (name, numbers) = cells.split_first().map_or(("", &[][..]), |(name, rest)| (name.as_str(), rest));
-        let numbers: String = numbers.iter().map(|number| format!("<td>{}</td>", escaped(number))).collect();
-        format!(r#"<tr><th scope="row">{}</th>{numbers}</tr>"#, escaped(name))
-    };
-    let rows: String = rows.iter().map(row).collect();
+    let Some(table) = marks_table(report) else { return String::new() };
+    let table = Table::of(table, "", false).html();
     format!(
-        r#"<section aria-labelledby="marks"><h2 id="marks">What would explain a loss</h2><div class="wide"><table><thead><tr>{headings}</tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Numbers of materials. A mark that most materials of a method share is a convention of its files.</p></section>"#
+        r#"<section aria-labelledby="marks"><h2 id="marks">What would explain a loss</h2>{table}<p class="weak">Numbers of materials. A mark that most materials of a method share is a convention of its files.</p></section>"#
     )
 }
 
 fn materials(report: &DatasetReport, views: &[MaterialView]) -> String {
     let none = MaterialView::default();
-    let mut rows = String::new();
-    for (place, result) in report.results.iter().enumerate() {
-        let cells: String =
-            report.ranking.methods.iter().map(|summary| loss(report, result, &summary.method)).collect();
+    let row = |(place, result): (usize, &MaterialResult)| {
         let name = material(&result.material, views.get(place).unwrap_or(&none));
-        let _ = write!(rows, r#"<tr><th scope="row" class="material">{name}</th>{cells}</tr>"#);
-    }
+        let losses = report.methods.iter().map(|summary| loss(report, result, &summary.method));
+        [row_heading("material", &name)].into_iter().chain(losses).collect()
+    };
+    let table = by_method(report, "Material", report.results.iter().enumerate().map(row));
     let links = if views.iter().any(|view| view.figure.is_some()) {
         " A name with a link opens the interactive figure of the material, a file beside this one."
     } else {
         ""
     };
     format!(
-        r#"<section aria-labelledby="materials"><h2 id="materials">Materials</h2><div class="wide"><table><thead><tr><th scope="col">Material</th>{}</tr></thead><tbody>{rows}</tbody></table></div><p class="weak">Loss, and its 95% interval over scenes. Renderings from left to right: ground truth, then the methods with a loss, in the order of the columns.{links}</p></section>"#,
-        method_headings(report)
+        r#"<section aria-labelledby="materials"><h2 id="materials">Materials</h2>{table}<p class="weak">Loss, and its 95% interval over scenes. Renderings from left to right: ground truth, then the methods with a loss, in the order of the columns.{links}</p></section>"#
     )
-}
-
-fn method_headings(report: &DatasetReport) -> String {
-    report
-        .ranking
-        .methods
-        .iter()
-        .map(|summary| format!(r#"<th scope="col">{}</th>"#, escaped(&summary.method)))
-        .collect()
 }
 
 /// The name of a material, its thumbnails and the link to its figure.
@@ -186,36 +162,15 @@ fn loss(report: &DatasetReport, result: &MaterialResult, method: &str) -> String
         return with_interval(Some(known.loss), Some(known.interval95));
     }
     let mut of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
-    let problem = of_method.find_map(|prediction| prediction.result.as_ref().err());
-    let problem = problem.map_or("no prediction", String::as_str);
+    let problem = of_method.find_map(|prediction| prediction.error.as_deref()).unwrap_or("no prediction");
     format!(r#"<td class="problem" data-sort="">{}</td>"#, escaped(problem))
 }
 
-/// A cell that is sorted by its number.
-fn cell(value: Option<f64>) -> String {
-    match value.filter(|value| value.is_finite()) {
-        Some(value) => format!(r#"<td data-sort="{value}">{}</td>"#, number(value)),
-        None => r#"<td data-sort=""></td>"#.to_owned(),
-    }
-}
-
+/// A cell of a number above its interval, sorted by the number.
 fn with_interval(value: Option<f64>, interval: Option<[f64; 2]>) -> String {
-    let (Some(value), Some([low, high])) = (value, interval) else { return cell(value) };
+    let (Some(value), Some([low, high])) = (value, interval) else {
+        return cell(&value.filter(|value| value.is_finite()).into(), true);
+    };
     let [text, low, high] = [value, low, high].map(number);
     format!(r#"<td data-sort="{value}">{text}<small>{low} to {high}</small></td>"#)
-}
-
-/// A cell with the ends of an interval, sorted by the lower one.
-fn ends(interval: Option<[f64; 2]>) -> String {
-    match interval.filter(|[low, _]| !low.is_nan()) {
-        Some([low, high]) => {
-            let texts = [low, high].map(number);
-            format!(r#"<td data-sort="{low}">{} to {}</td>"#, texts[0], texts[1])
-        }
-        None => r#"<td data-sort="">&ndash;</td>"#.to_owned(),
-    }
-}
-
-fn count(number: usize) -> String {
-    format!(r#"<td data-sort="{number}">{number}</td>"#)
 }

@@ -107,11 +107,8 @@ fn file_name(result: &MaterialResult) -> String {
 /// The indices of the materials that have a figure.
 fn chosen(report: &DatasetReport, figures: Figures) -> BTreeSet<usize> {
     let mean = |result: &MaterialResult| {
-        let losses = report
-            .ranking
-            .methods
-            .iter()
-            .filter_map(|summary| counted_loss(result, &summary.method, report.pick));
+        let methods = report.methods.iter();
+        let losses = methods.filter_map(|summary| counted_loss(result, &summary.method, report.pick));
         let losses: Vec<f64> = losses.map(|known| known.loss).collect();
         (!losses.is_empty()).then(|| (losses.iter().sum::<f64>() / losses.len() as f64, result.index))
     };
@@ -131,7 +128,7 @@ fn opened(report: &DatasetReport, result: &MaterialResult, case: &Case) -> Optio
     };
     let ground_truth = open(&case.ground_truth, &report.reading.ground_truths, &result.material)?;
     let mut materials = vec![ground_truth];
-    for summary in &report.ranking.methods {
+    for summary in &report.methods {
         let Some(sample) = counted_sample(result, &summary.method, report.pick) else { continue };
         let mut candidates = case.candidates.iter();
         let candidate = candidates.find(|one| one.method == summary.method && one.sample == sample)?;

@@ -20,6 +20,10 @@ fn predictions_of_a_pattern_are_ranked() {
         ranking["ranking"].as_array().unwrap().iter().map(|entry| &entry["prediction"]).collect();
     assert_eq!(names, ["good", "mean", "bad"]);
     assert_eq!(ranking["ranking"][2]["group"], 3);
+    assert!(ranking["repetition"]["command"].as_str().unwrap().starts_with("svbrdf rank gt.png"));
+    let readings = ranking["readings"].as_array().unwrap();
+    assert_eq!((readings.len(), &readings[0]["material"]), (4, &"gt".into()));
+    assert!(readings[0]["remarks"][0].as_str().unwrap().starts_with("layout: "), "{readings:?}");
     let table = succeed(folder.path(), "rank gt.png out/*.png");
     assert!(table.contains("- best") && table.contains("group"), "{table}");
     assert_eq!(succeed(folder.path(), "rank gt.png out/*.png --format csv").lines().count(), 4);
@@ -79,6 +83,9 @@ fn a_bad_file_of_a_data_set_is_reported_and_not_fatal() {
     assert_eq!((&theirs["materials"], &theirs["failures"]), (&5.into(), &2.into()));
     assert_eq!((&ours["ties_with_best"], &theirs["ties_with_best"]), (&true.into(), &false.into()));
     assert!(theirs["to_best_interval95_materials"][0].as_f64().unwrap() > 0.0);
+    let [known, failed] = [0, 1].map(|method| &ranking["results"][5]["predictions"][method]);
+    assert!(known["loss"].as_f64().unwrap() > 0.0 && known.get("error").is_none(), "{known}");
+    assert!(failed["error"].as_str().unwrap().contains("m5.png") && failed.get("loss").is_none(), "{failed}");
     let table = succeed(folder.path(), RANK);
     assert!(table.contains("7 of 7 materials") && table.contains("95% over materials"), "{table}");
     let rows = succeed(folder.path(), &format!("{RANK} --format csv"));

@@ -102,12 +102,12 @@ fn no_format_puts_a_method_first_that_failed_on_most_materials() {
 #[test]
 fn a_loss_does_not_depend_on_its_rivals_nor_on_other_materials() {
     let folder = data_set(&[("ours", 8), ("theirs", 80)], 4);
-    let losses = |args: &str| -> Vec<(Value, Value)> {
+    let losses = |args: &str| -> Vec<(Value, [Value; 3])> {
         let ranking = json(&succeed(folder.path(), &format!("{args} --format json")));
         let of = |result: &Value| {
             let predictions = result["predictions"].as_array().unwrap().clone();
             let ours = predictions.into_iter().find(|one| one["method"] == "ours").unwrap();
-            (result["material"].clone(), ours["result"]["Ok"].clone())
+            (result["material"].clone(), ["loss", "interval95", "scenes"].map(|key| ours[key].clone()))
         };
         ranking["results"].as_array().unwrap().iter().map(of).collect()
     };
@@ -138,9 +138,9 @@ fn a_ranking_says_how_to_repeat_it() {
     let words: Vec<&str> = words.iter().map(String::as_str).skip(1).collect();
     assert_eq!(run(&words), table);
     let ranking = json(&run(&[&args[..], &["--format", "json"]].concat()));
-    assert_eq!(ranking["command"], repeat.unwrap());
+    assert_eq!(ranking["repetition"]["command"], repeat.unwrap());
     assert_eq!(ranking["reading"]["predictions"]["preset"], "deschaintre");
-    assert!(ranking["software"].as_str().unwrap().contains(version));
+    assert!(ranking["repetition"]["software"].as_str().unwrap().contains(version));
     run(&[&args[..], &["--format", "html", "-o", "page.html"]].concat());
     let page = fs::read_to_string(folder.path().join("page.html")).unwrap();
     assert!(page.contains("rank --dataset gt ours") && page.contains(version));
@@ -218,7 +218,7 @@ fn methods_of_unlike_conventions_are_ranked_together() {
     let (read, ranking) = means("--read glossy:roughness=gloss");
     assert!(read[0] < 1e-9 && read[1] < 1e-6, "{read:?}");
     assert_eq!(ranking["reading"]["methods"]["glossy"]["roughness"], "gloss");
-    let command = ranking["command"].as_str().unwrap();
+    let command = ranking["repetition"]["command"].as_str().unwrap();
     assert!(
         command.contains("same=ours glossy") && command.contains("--read glossy:roughness=gloss"),
         "{command}"

@@ -39,9 +39,9 @@ fn a_page_has_the_losses_the_verdicts_the_failures_and_figures_of_the_worst() {
         serde_json::from_str(&succeed(folder.path(), &format!("{RANK} --format json --metrics"))).unwrap();
     for result in ranking["results"].as_array().unwrap() {
         for prediction in result["predictions"].as_array().unwrap() {
-            let expected = match &prediction["result"]["Ok"]["loss"] {
+            let expected = match &prediction["loss"] {
                 Value::Null => {
-                    let problem = prediction["result"]["Err"].as_str().unwrap();
+                    let problem = prediction["error"].as_str().unwrap();
                     let plain = problem.split(['&', '<', '>', '"', '\'']).next().unwrap();
                     assert!(plain.len() > 10, "{problem}");
                     format!("<td class=\"problem\" data-sort=\"\">{plain}")

@@ -24,7 +24,6 @@ fn prediction(method: &str, loss: Result<f64, &str>) -> PredictionResult {
         interval95: [loss - 0.02, loss + 0.02],
         scenes: 500,
     };
-    let result = loss.map(known).map_err(str::to_owned);
     let mark = Mark { hypothesis: HOSTILE.to_owned(), value: json!(1), share: 0.5, remedy: None };
     let marks = Some(if method == "ours" { vec![mark] } else { Vec::new() });
     let metrics = BTreeMap::from([("normal_angle_mean".to_owned(), 12.5)]);
@@ -32,7 +31,8 @@ fn prediction(method: &str, loss: Result<f64, &str>) -> PredictionResult {
         method: method.to_owned(),
         sample: 0,
         path: HOSTILE.to_owned(),
-        result,
+        known: loss.ok().map(known),
+        error: loss.err().map(str::to_owned),
         reading: vec![Remark { doubt: Some(HOSTILE.to_owned()), text: HOSTILE.to_owned() }],
         metrics,
         marks,
@@ -78,6 +78,8 @@ fn names_add_no_elements_to_a_ranking() {
     assert!(count("&lt;/td&gt;&lt;/script&gt;") >= 5, "{html}");
     assert!(html.contains("<td>5</td><td>0</td></tr>"), "the marks of ours, and none of the other method");
     assert!(html.contains("<td>lacks materials</td>") && html.contains("<td>best</td>"));
+    let names = html.matches(r#"<th scope="col">ours</th>"#).count();
+    assert_eq!(names, 3, "metrics, marks and materials have a column for each method by its name");
     assert!(html.contains("not compared") && !html.contains("<td>worse</td>"));
 }
 

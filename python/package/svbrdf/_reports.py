@@ -22,9 +22,7 @@ __all__ = [
     "Estimate",
     "FewScenes",
     "Finding",
-    "KnownLoss",
     "Loss",
-    "LossOrError",
     "LossReport",
     "MapShare",
     "MapSummary",
@@ -161,23 +159,33 @@ class MethodSummary(Record):
     failures: int
     """The number of materials without one."""
     mean: float | None
-    """Over the materials that all compared methods have, `compared_materials`; None without a loss."""
+    """Over the materials that all compared methods have, `compared_materials`; of a method that is not compared, over those that it has a loss of; None without a loss."""
     median: float | None
+    """Over the materials of the mean."""
     interval95_materials: tuple[float, float] | None
     """The 95% interval of the mean over all materials like these; None for fewer than 5."""
     interval95_scenes: tuple[float | None, float | None]
     """The 95% interval of the mean over these materials, due to the sampling of scenes alone."""
     to_best: float | None
-    """The mean difference to the best method over the materials of both; None for the best."""
+    """The mean difference to the best method over the materials of both; None for the best, and where nothing is compared."""
     to_best_interval95_materials: tuple[float, float] | None
     ties_with_best: bool
-    """Whether it is compared, and the materials cannot separate it from the best."""
+    """Whether it is compared, and the materials cannot separate it from the best: tables set it in bold."""
     reading: ReadingSummary | None
     """How its predictions were read; None where there are none."""
     marks: MarkSummary | None
     """None where no diagnosis was asked for."""
     metrics: Mapping[str, MetricSummary] | None
     """Of the maps, by name; None where they were not asked for."""
+
+
+class Repetition(Record):
+    """How to repeat a result."""
+
+    software: str
+    """The program and its version."""
+    command: str
+    """The command line."""
 
 
 class Mark(Record):
@@ -202,39 +210,28 @@ class Remark(Record):
     """What the number of materials with remarks like it is of, such as "without normal map" or "unsure specular"; None for a remark on nothing that is in doubt."""
 
 
-class KnownLoss(Record):
-    """A loss that is known."""
-
-    loss: float
-    standard_error: float
-    """Due to the sampling of scenes and texels."""
-    interval95: tuple[float, float]
-    scenes: int
-    """The number of scenes that its accuracy took: the first ones of the seed of its material, so that it does not depend on which other predictions there are."""
-
-
-class LossOrError(Record):
-    """The schema of the result of a prediction: it has one of both."""
-
-    Err: str | None
-    """Why there is no loss."""
-    Ok: KnownLoss | None
-
-
 class PredictionResult(Record):
     """The result of one prediction."""
 
     method: str
     sample: int
     path: str
-    result: LossOrError
-    """The loss, or why there is none."""
     reading: tuple[Remark, ...]
     """What was noticed and assumed in reading it."""
+    error: str | None
+    """Why there is no loss."""
+    interval95: tuple[float, float] | None
+    """The 95% confidence interval of the loss over all scenes."""
+    loss: float | None
+    """The loss."""
     marks: tuple[Mark, ...] | None
     """The marks of its diagnosis, the largest share first, where they were asked for."""
     metrics: Mapping[str, float | None] | None
     """The metrics of its maps by name, where they were asked for; the PSNR of equal maps is infinite, in JSON None."""
+    scenes: int | None
+    """The number of scenes that its accuracy took: the first ones of the seed of its material, so that it does not depend on which other predictions there are."""
+    standard_error: float | None
+    """Due to the sampling of scenes and texels."""
 
 
 class MaterialResult(Record):
@@ -257,18 +254,18 @@ class DatasetReport(Report):
     settings: Mapping[str, Any]
     reading: Mapping[str, Any]
     """How the files are read."""
-    pick: str
-    software: str
-    """The program and its version."""
-    command: str
-    """The command that makes the results again."""
+    pick: Literal["fixed", "mean", "best"]
+    """Which of several predictions of a material counts."""
+    repetition: Repetition
+    """How to repeat it."""
     compared_materials: tuple[str, ...]
     """The names of the materials that the means of compared methods are over."""
     ground_truths: ReadingSummary
     """How the ground truths were read."""
     methods: tuple[MethodSummary, ...]
-    """The compared ones first, best first."""
+    """The compared ones first, best first; then those that lack materials, the most materials first."""
     results: tuple[MaterialResult, ...]
+    """One per material, in order."""
 
 
 class Finding(Record):
@@ -638,17 +635,6 @@ class MaterialReading(Record):
     remarks: tuple[str, ...]
 
 
-class Repetition(Record):
-    """What a ranking depends on beside its settings."""
-
-    software: str
-    """The program and its version."""
-    command: str
-    """The command line."""
-    readings: tuple[MaterialReading, ...]
-    """For each material, the ground truth first, what was noticed and assumed in reading it."""
-
-
 class RankReport(Report):
     """Predictions of one ground truth, smallest loss first, with what the data can separate."""
 
@@ -669,6 +655,8 @@ class RankReport(Report):
     """The number of captures that the floor is the mean loss between; None: it is that of rounding."""
     ranking: tuple[RankedPrediction, ...]
     """Best first."""
+    readings: tuple[MaterialReading, ...] | None
+    """For each material, the ground truth first, what was noticed and assumed in reading it; None for materials of no files."""
     repetition: Repetition | None
     """How to repeat it; None for materials that no command names."""
 

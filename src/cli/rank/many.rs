@@ -108,7 +108,7 @@ impl ManyJob {
         }
         check_any(&report)?;
         target::warn_of(report.missed(), strict)?;
-        let means = report.ranking.methods.into_iter().filter(|summary| summary.materials > 0);
+        let means = report.methods.into_iter().filter(|summary| summary.materials > 0);
         check_limit(fail_above, means.map(|summary| (summary.method, summary.mean)))
     }
 }
@@ -148,7 +148,7 @@ fn tell_reading(verbose: bool, output: &Output, report: &DatasetReport) {
 
 /// The error of a data set without any loss.
 fn check_any(report: &DatasetReport) -> Result<(), Error> {
-    if report.ranking.methods.iter().any(|summary| summary.materials > 0) {
+    if report.methods.iter().any(|summary| summary.materials > 0) {
         return Ok(());
     }
     let failed = failures(&report.results).count();
@@ -165,7 +165,7 @@ fn check_any(report: &DatasetReport) -> Result<(), Error> {
 /// The predictions without a loss: material, method and what is wrong.
 fn failures(results: &[MaterialResult]) -> impl Iterator<Item = (&str, &str, &str)> {
     results.iter().flat_map(|result| {
-        let failed = result.predictions.iter().filter_map(|p| Some((p, p.result.as_ref().err()?)));
+        let failed = result.predictions.iter().filter_map(|p| Some((p, p.error.as_ref()?)));
         failed.map(|(p, problem)| (result.material.as_str(), p.method.as_str(), problem.as_str()))
     })
 }

@@ -6,7 +6,6 @@ use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::rank::most_scenes;
 use svbrdf_evaluate::report::{Compared, MaterialReading, RankReport, Repetition, Report as _};
-use svbrdf_files::disk::atomic::SOFTWARE;
 
 use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat, check_limit};
 use crate::cli::args::floor::FloorArgs;
@@ -59,20 +58,20 @@ impl Job for OneJob {
             let (floor, captures) = floor_of(&repeats, &job, &opened, seed)?;
             report = report.with_floor(&floor, captures);
         }
-        report.repetition = Some(repetition(&opened));
+        report.repetition = Some(Repetition::new(command_line()));
+        report.readings = readings(&opened);
         exit::put(&format.write(&report, RankReport::latex)?)?;
         target::warn_of(report.missed(), job.materials.strict)?;
         check_limit(fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
     }
 }
 
-/// How to repeat the ranking of materials that were opened.
-fn repetition(opened: &Opened<f32>) -> Repetition {
+/// How the materials were read.
+fn readings(opened: &Opened<f32>) -> Vec<MaterialReading> {
     let materials = std::iter::once(&opened.ground_truth).chain(&opened.predictions);
     let reading = |(material, remarks): (&Material<f32>, &Vec<String>)| MaterialReading {
         material: material.name().to_owned(),
         remarks: remarks.clone(),
     };
-    let readings = materials.zip(&opened.readings).map(reading).collect();
-    Repetition { software: SOFTWARE, command: command_line(), readings }
+    materials.zip(&opened.readings).map(reading).collect()
 }

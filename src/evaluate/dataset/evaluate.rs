@@ -119,6 +119,7 @@ impl Run<'_> {
         let DatasetSettings { convention, target_error, metrics, diagnose, .. } = self.settings;
         // Another version may compute other numbers, and remark on other things.
         let of = json!({
+            "format": 2,
             "software": SOFTWARE,
             "convention": convention,
             "target_error": target_error,
@@ -153,7 +154,7 @@ impl Run<'_> {
             Some((key, neighbours?))
         });
         let prediction = self.prediction(candidate, truth, opened, floor.unwrap_or(0.0), seed)?;
-        if let (Some(folder), Some((key, neighbours)), Ok(_)) = (&self.results, kept, &prediction.result) {
+        if let (Some(folder), Some((key, neighbours)), Some(_)) = (&self.results, kept, prediction.known) {
             let (reading, prediction) = (truth.remarks.clone(), prediction.clone());
             let result = PairResult { reading, floor, prediction, neighbours };
             folder.add(&case.material, &key, &result, self.progress)?;
@@ -189,14 +190,18 @@ impl Run<'_> {
         let metrics = pair.filter(|_| self.settings.metrics).map(metrics).unwrap_or_default();
         let marks = pair.filter(|_| self.settings.diagnose);
         let marks = marks.map(|pair| self.marks(pair, floor, seed)).transpose()?;
-        let loss = pair.map(|pair| self.loss(pair, seed)).transpose()?;
-        let result = match (loss, opened.found) {
-            (Some(loss), _) => Ok(loss),
-            (None, Err(problem)) => Err(problem),
-            (None, Ok(_)) => Err("no loss".to_owned()),
-        };
+        let known = pair.map(|pair| self.loss(pair, seed)).transpose()?;
+        // `open` gives the problem of the ground truth, too.
+        let error = opened.found.err();
         let reading = opened.remarks;
-        Ok(PredictionResult { result, reading, metrics, marks, ..without_loss(candidate, String::new()) })
+        Ok(PredictionResult {
+            known,
+            error,
+            reading,
+            metrics,
+            marks,
+            ..without_loss(candidate, String::new())
+        })
     }
 
     fn loss(&self, (truth, prediction): Pair<'_>, seed: u64) -> Result<KnownLoss, Error> {
@@ -235,8 +240,8 @@ impl Run<'_> {
 fn without_loss(candidate: &Candidate, problem: String) -> PredictionResult {
     let Candidate { method, sample, path, .. } = candidate.clone();
     let path = path.display().to_string();
-    let (metrics, marks) = (BTreeMap::new(), None);
-    PredictionResult { method, sample, path, result: Err(problem), reading: Vec::new(), metrics, marks }
+    let (error, metrics) = (Some(problem), BTreeMap::new());
+    PredictionResult { method, sample, path, known: None, error, reading: Vec::new(), metrics, marks: None }
 }
 
 /// A ground truth and a prediction of one size.

@@ -1,35 +1,22 @@
-//! Marks of diagnoses over all materials.
+//! Marks of diagnoses over all materials, and their table beside that of the losses.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use schemars::JsonSchema;
-use serde::Serialize;
+use crate::report::{Cell, Table};
 
 use super::pick::{counted, counted_loss};
-use super::ranking::{DatasetReport, MethodSummary};
 use super::record::PredictionResult;
+use super::summary::{DatasetReport, MarkSummary};
 
-/// The marks of a method over the materials that were diagnosed.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct MarkSummary {
-    /// The number of materials with a diagnosis.
-    pub materials: usize,
-    /// The number of these with any mark.
-    pub marked: usize,
-    /// The number of materials that are marked by each hypothesis.
-    pub by: BTreeMap<String, usize>,
-    /// The number of materials whose loss is not above the floor of the ground truth.
-    pub not_resolvable: usize,
-    /// The number of materials whose difference to the best method is not above it; `None` for the best.
-    pub to_best_not_resolvable: Option<usize>,
-}
-
-/// The marks of a method of a report over all materials that it has; `None` where no prediction was diagnosed. Of several predictions of
-/// a material, those count that count for the loss; the material has the marks of all of them.
-pub fn summarize_marks(report: &DatasetReport, summary: &MethodSummary) -> Option<MarkSummary> {
-    let DatasetReport { ranking, results, pick, .. } = report;
-    let method = summary.method.as_str();
-    let best = ranking.best().map(|best| best.method.as_str()).filter(|best| *best != method);
+/// The marks of a method over all materials that it has, beside the `best` method; `None` where no prediction was diagnosed.
+/// Of several predictions of a material, those count that count for the loss; the material has the marks of all of them.
+pub(super) fn summarize_marks(
+    report: &DatasetReport,
+    method: &str,
+    best: Option<&str>,
+) -> Option<MarkSummary> {
+    let DatasetReport { results, pick, .. } = report;
+    let best = best.filter(|best| *best != method);
     let mut summary = MarkSummary {
         materials: 0,
         marked: 0,
@@ -56,4 +43,27 @@ pub fn summarize_marks(report: &DatasetReport, summary: &MethodSummary) -> Optio
         }
     }
     (summary.materials > 0).then_some(summary)
+}
+
+/// Numbers of materials, a column for each method; `None` without diagnoses.
+pub fn marks_table(report: &DatasetReport) -> Option<Table> {
+    let marks = || report.methods.iter().map(|summary| summary.marks.as_ref());
+    let names: BTreeSet<&String> = marks().flatten().flat_map(|marks| marks.by.keys()).collect();
+    let row = |name: &str, number: &dyn Fn(&MarkSummary) -> Option<usize>| {
+        let cell = |marks: Option<&MarkSummary>| Cell::or(marks.and_then(number), "-");
+        [name.into()].into_iter().chain(marks().map(cell)).collect()
+    };
+    let by =
+        |name: &String| row(&format!("by {name}"), &|marks| Some(marks.by.get(name).copied().unwrap_or(0)));
+    let start =
+        [row("diagnosed", &|marks| Some(marks.materials)), row("marked", &|marks| Some(marks.marked))];
+    let end = [
+        row("loss not resolvable", &|marks| Some(marks.not_resolvable)),
+        row("- best not resolvable", &|marks| marks.to_best_not_resolvable),
+    ];
+    let rows = start.into_iter().chain(names.into_iter().map(by)).chain(end);
+    let methods = report.methods.iter().map(|summary| summary.method.as_str());
+    marks()
+        .any(|marks| marks.is_some())
+        .then(|| Table::new(["number of materials"].into_iter().chain(methods), rows))
 }

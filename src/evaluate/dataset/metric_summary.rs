@@ -1,27 +1,14 @@
-//! Metrics of maps over the materials of a ranking.
+//! Metrics of maps over the materials of a ranking, and their tables beside those of the losses.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use schemars::JsonSchema;
-use serde::Serialize;
-
+use crate::report::{Cell, Table, bold, escaped, latex};
 use svbrdf_core::statistics::median;
 
 use super::bootstrap::{interval_of_mean, interval_of_positive_mean};
 use super::pick::counted;
-use super::ranking::{DatasetReport, MethodSummary};
-
-/// A metric of a method over the materials that its mean loss is over.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
-pub struct MetricSummary {
-    /// The mean; of a PSNR, that of the mean square error, which is infinite only where the maps of all materials are equal.
-    #[schemars(with = "Option<f64>")]
-    pub mean: f64,
-    #[schemars(with = "Option<f64>")]
-    pub median: f64,
-    /// The 95% interval of the mean over all materials like these; `None` for fewer than 5, and where the mean is infinite.
-    pub interval95_materials: Option<[f64; 2]>,
-}
+use super::record::MaterialResult;
+use super::summary::{DatasetReport, MethodSummary, MetricSummary};
 
 /// How values of a metric are averaged: as errors of 0 or more, which have a mean and an interval whatever they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +54,10 @@ impl Scale {
 }
 
 /// The metrics of a method of a report by name. Of several predictions of a material, those count that count for the loss.
-pub fn summarize_metrics(report: &DatasetReport, method: &MethodSummary) -> BTreeMap<String, MetricSummary> {
+pub(super) fn summarize_metrics(
+    report: &DatasetReport,
+    method: &MethodSummary,
+) -> BTreeMap<String, MetricSummary> {
     let summary = |(name, errors): (&str, BTreeMap<usize, f64>)| {
         let scale = Scale::of(name);
         let mut errors: Vec<f64> = errors.into_values().collect();
@@ -83,21 +73,19 @@ pub fn summarize_metrics(report: &DatasetReport, method: &MethodSummary) -> BTre
 }
 
 /// Whether larger values of a metric are better ones: similarities and signal-to-noise ratios.
-pub fn is_better_larger(metric: &str) -> bool {
+fn is_better_larger(metric: &str) -> bool {
     Scale::of(metric) != Scale::Error
 }
 
 /// For each metric by name: which methods of the ranking are the best one, or cannot be separated from it. Only methods that are compared
 /// are; a method ties with the best one where the 95% interval of the mean of their differences includes 0 or is unknown.
 pub fn best_by_metric(report: &DatasetReport) -> BTreeMap<String, Vec<bool>> {
-    let methods = &report.ranking.methods;
+    let methods = &report.methods;
     let errors: Vec<_> = methods.iter().map(|method| errors_of(report, method)).collect();
     let names: BTreeSet<&str> = errors.iter().flat_map(|errors| errors.keys().copied()).collect();
     let best_of = |name: &str| -> Vec<bool> {
-        let compared = methods
-            .iter()
-            .zip(&errors)
-            .map(|(method, errors)| errors.get(name).filter(|_| method.is_compared));
+        let compared =
+            methods.iter().zip(&errors).map(|(method, errors)| errors.get(name).filter(|_| method.compared));
         let mean = |errors: &BTreeMap<usize, f64>| mean(&errors.values().copied().collect::<Vec<_>>());
         let best = compared.clone().flatten().min_by(|a, b| mean(a).total_cmp(&mean(b)));
         compared.map(|errors| errors.zip(best).is_some_and(|(errors, best)| ties(errors, best))).collect()
@@ -120,7 +108,8 @@ type Errors<'a> = BTreeMap<&'a str, BTreeMap<usize, f64>>;
 
 fn errors_of<'a>(report: &'a DatasetReport, method: &MethodSummary) -> Errors<'a> {
     let mut errors: Errors<'a> = BTreeMap::new();
-    for result in report.ranking.results_of(method, &report.results) {
+    let is_over = |result: &&MaterialResult| !method.compared || report.common.contains(&result.index);
+    for result in report.results.iter().filter(is_over) {
         let counted = counted(result, &method.method, report.pick);
         for name in counted.first().map(|prediction| prediction.metrics.keys()).into_iter().flatten() {
             let scale = Scale::of(name);
@@ -130,4 +119,54 @@ fn errors_of<'a>(report: &'a DatasetReport, method: &MethodSummary) -> Errors<'a
         }
     }
     errors
+}
+
+/// The names of the metrics of the results.
+pub(super) fn metric_names(results: &[MaterialResult]) -> Vec<&str> {
+    let first = results.iter().flat_map(|result| &result.predictions).find(|p| !p.metrics.is_empty());
+    first.into_iter().flat_map(|prediction| prediction.metrics.keys()).map(String::as_str).collect()
+}
+
+/// The means over materials with their intervals, two columns for each method; `None` without metrics.
+pub(super) fn metrics_table(report: &DatasetReport) -> Option<Table> {
+    let methods = report.methods.iter();
+    let titles = methods.flat_map(|summary| [summary.method.as_str(), "95%"]);
+    let row = |name: &str| {
+        let cells = report.methods.iter().flat_map(|summary| {
+            let metric = summary.metrics.get(name);
+            let interval = metric.and_then(|metric| metric.interval95_materials);
+            [Cell::or(metric.map(|metric| metric.mean), "-"), Cell::or(interval, "-")]
+        });
+        [name.into()].into_iter().chain(cells).collect()
+    };
+    let rows: Vec<_> = metric_names(&report.results).into_iter().map(row).collect();
+    let titles = ["metric, mean over materials"].into_iter().chain(titles);
+    (!rows.is_empty()).then(|| Table::new(titles, rows))
+}
+
+/// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
+/// without metrics.
+pub(super) fn latex_table(report: &DatasetReport) -> String {
+    let methods = &report.methods;
+    let best = best_by_metric(report);
+    if best.is_empty() {
+        return String::new();
+    }
+    let row = |(name, best): (&String, &Vec<bool>)| {
+        let cell = |(method, &best): (&MethodSummary, &bool)| {
+            method.metrics.get(name).map_or("--".to_owned(), |metric| bold(&number(metric.mean), best))
+        };
+        let cells: Vec<String> = methods.iter().zip(best).map(cell).collect();
+        let arrow = if is_better_larger(name) { "$\\uparrow$" } else { "$\\downarrow$" };
+        format!("{} {arrow} & {} \\\\\n", escaped(name), cells.join(" & "))
+    };
+    let rows: String = best.iter().map(row).collect();
+    let names: Vec<String> = methods.iter().map(|summary| escaped(&summary.method)).collect();
+    let heading = format!("Metric, mean over materials & {}", names.join(" & "));
+    format!("\n{}", latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
+}
+
+/// A number in LaTeX.
+fn number(value: f64) -> String {
+    if value.is_infinite() { "$\\infty$".to_owned() } else { format!("{value:.4}") }
 }

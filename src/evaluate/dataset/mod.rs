@@ -2,15 +2,13 @@
 //!
 //! A data set is a list of [`Case`]s, one for each material: [`cases_of_folders`] matches folders by name, [`cases_of_table`] reads a table of
 //! pairs. [`run`] gives a [`MaterialResult`] for each and keeps the losses in a results folder, so that no run computes them again; a
-//! [`Ranking`] compares the methods by them.
+//! [`DatasetReport`] compares the methods by them.
 
 mod bootstrap;
 mod doubts;
 mod evaluate;
 mod list;
-pub mod mark_report;
 mod mark_summary;
-mod metric_report;
 mod metric_summary;
 mod pick;
 mod ranking;
@@ -18,19 +16,19 @@ mod record;
 mod remark;
 mod repetition;
 mod report;
-mod report_json;
 mod results;
+mod summary;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
 pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{DatasetResults, run};
 pub use list::{Shard, cases_of_folders, cases_of_table};
-pub use mark_summary::{MarkSummary, summarize_marks};
-pub use metric_summary::{MetricSummary, best_by_metric, is_better_larger, summarize_metrics};
+pub use mark_summary::marks_table;
+pub use metric_summary::best_by_metric;
 pub use pick::{Pick, counted_loss, counted_sample};
-pub use ranking::{DatasetReport, MethodDifference, MethodSummary, Ranking};
 pub use record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
     PredictionResult, Source,
 };
 pub use remark::Remark;
+pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};

@@ -3,12 +3,16 @@
 use std::fmt;
 use std::str::FromStr;
 
+use schemars::JsonSchema;
+use serde::Serialize;
+
 use svbrdf_core::error::Error;
 
 use super::record::{KnownLoss, MaterialResult, PredictionResult};
 
 /// Which of several predictions of a material by one method counts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum Pick {
     /// The first.
     #[default]
@@ -23,16 +27,12 @@ impl FromStr for Pick {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self, Error> {
-        match name {
-            "fixed" => Ok(Self::Fixed),
-            "mean" => Ok(Self::Mean),
-            "best" => Ok(Self::Best),
-            _ => Err(Error::UnknownName {
-                what: "choice of samples",
-                found: name.to_owned(),
-                known: "fixed, mean, best".to_owned(),
-            }),
-        }
+        let found = [Self::Fixed, Self::Mean, Self::Best].into_iter().find(|pick| pick.to_string() == name);
+        found.ok_or_else(|| Error::UnknownName {
+            what: "choice of samples",
+            found: name.to_owned(),
+            known: "fixed, mean, best".to_owned(),
+        })
     }
 }
 
@@ -49,8 +49,7 @@ impl fmt::Display for Pick {
 /// The loss of a method for a material: the mean of the predictions that count; `None` where none has a loss.
 pub fn counted_loss(result: &MaterialResult, method: &str, pick: Pick) -> Option<KnownLoss> {
     let counted = counted(result, method, pick);
-    let known: Vec<&KnownLoss> =
-        counted.iter().filter_map(|prediction| prediction.result.as_ref().ok()).collect();
+    let known: Vec<&KnownLoss> = counted.iter().filter_map(|prediction| prediction.known.as_ref()).collect();
     let count = known.len() as f64;
     let mean = |of: &dyn Fn(&KnownLoss) -> f64| known.iter().map(|known| of(known)).sum::<f64>() / count;
     let scenes = known.iter().map(|known| known.scenes).max()?;
@@ -71,9 +70,8 @@ pub fn counted_sample(result: &MaterialResult, method: &str, pick: Pick) -> Opti
 /// The predictions of a material by a method that count: those with a loss.
 pub(super) fn counted<'a>(result: &'a MaterialResult, method: &str, pick: Pick) -> Vec<&'a PredictionResult> {
     let mut of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
-    let loss =
-        |prediction: &PredictionResult| prediction.result.as_ref().map_or(f64::INFINITY, |known| known.loss);
-    let has_loss = |prediction: &&PredictionResult| prediction.result.is_ok();
+    let loss = |prediction: &PredictionResult| prediction.known.map_or(f64::INFINITY, |known| known.loss);
+    let has_loss = |prediction: &&PredictionResult| prediction.known.is_some();
     match pick {
         // The first counts, and is not replaced by another.
         Pick::Fixed => of_method.next().filter(has_loss).into_iter().collect(),

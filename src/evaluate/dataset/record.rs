@@ -178,9 +178,12 @@ pub struct PredictionResult {
     pub method: String,
     pub sample: usize,
     pub path: String,
-    /// The loss, or why there is none.
-    #[schemars(with = "LossOrError")]
-    pub result: Result<KnownLoss, String>,
+    /// `None` where it has no loss.
+    #[serde(flatten)]
+    pub known: Option<KnownLoss>,
+    /// Why there is no loss.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<String>,
     /// What was noticed and assumed in reading it.
     pub reading: Vec<Remark>,
     /// The metrics of its maps by name, where they were asked for; the PSNR of equal maps is infinite, in JSON null.
@@ -192,16 +195,12 @@ pub struct PredictionResult {
     pub marks: Option<Vec<Mark>>,
 }
 
-/// The schema of the result of a prediction: it has one of both.
-#[derive(JsonSchema)]
-#[schemars(rename_all = "PascalCase")]
-#[expect(dead_code, reason = "a schema alone")]
-struct LossOrError {
-    #[schemars(skip_serializing_if = "Option::is_none")]
-    ok: Option<KnownLoss>,
-    /// Why there is no loss.
-    #[schemars(skip_serializing_if = "Option::is_none")]
-    err: Option<String>,
+impl PredictionResult {
+    /// The names of its marks, separated by blanks; `None` where it was not diagnosed.
+    pub(super) fn marked(&self) -> Option<String> {
+        let names = self.marks.as_ref()?.iter().map(|mark| mark.hypothesis.as_str());
+        Some(names.collect::<Vec<_>>().join(" "))
+    }
 }
 
 /// A marked finding of a diagnosis.
@@ -239,9 +238,11 @@ fn with_infinities<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMa
 /// A loss that is known.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct KnownLoss {
+    /// The loss.
     pub loss: f64,
     /// Due to the sampling of scenes and texels.
     pub standard_error: f64,
+    /// The 95% confidence interval of the loss over all scenes.
     pub interval95: [f64; 2],
     /// The number of scenes that its accuracy took: the first ones of the seed of its material, so that it does not depend on which
     /// other predictions there are.

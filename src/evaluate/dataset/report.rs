@@ -1,82 +1,163 @@
-//! The losses of methods over a data set as text, CSV and LaTeX.
+//! The losses of methods over a data set: JSON, text, CSV and LaTeX.
 
-use crate::report::{Cell, Report, Table, aligned, bold, escaped, latex, missed};
+use crate::report::{Cell, Field, Reader, Repetition, Report, Table, bold, escaped, latex, missed};
 use svbrdf_core::error::Error;
 use svbrdf_core::text::line;
 
+use super::bootstrap::FEWEST;
 use super::doubts::ReadingSummary;
-use super::mark_report;
-use super::metric_report;
-use super::pick::counted;
-use super::ranking::{DatasetReport, MethodSummary};
-use super::record::{DatasetSettings, Mark, MaterialResult, PredictionResult};
+use super::mark_summary::{marks_table, summarize_marks};
+use super::metric_summary::{latex_table, metric_names, metrics_table, summarize_metrics};
+use super::pick::{Pick, counted};
+use super::ranking::ranked;
+use super::record::{DatasetReading, DatasetSettings, MaterialResult, PredictionResult};
 use super::remark::Remark;
 use super::repetition;
-use svbrdf_files::disk::atomic::SOFTWARE;
+use super::summary::{DatasetReport, MethodSummary};
 
-const TITLES: [&str; 9] = [
-    "method",
-    "materials",
-    "failed",
-    "mean loss",
-    "95% over materials",
-    "95% over scenes",
-    "median",
-    "- best",
-    "95% over materials",
+/// The columns of the methods.
+const METHODS: [Field<MethodSummary>; 9] = [
+    ("", "method", |summary| summary.method.as_str().into()),
+    ("", "materials", |summary| summary.count().into()),
+    ("", "failed", |summary| summary.failures.into()),
+    ("", "mean loss", |summary| Cell::or(known(summary.mean), "none")),
+    ("", "95% over materials", |summary| Cell::or(summary.interval95_materials, "-")),
+    ("", "95% over scenes", |summary| Cell::or(known(summary.mean).map(|_| summary.interval95_scenes), "-")),
+    ("", "median", |summary| Cell::or(known(summary.median), "none")),
+    ("", "- best", |summary| summary.to_best.into()),
+    ("", "95% over materials", |summary| {
+        let missing = if summary.to_best.is_some() { "-" } else { "" };
+        Cell::or(summary.to_best_interval95_materials, missing)
+    }),
 ];
 
-const COLUMNS: [&str; 14] = [
-    "material",
-    "method",
-    "sample",
-    "loss",
-    "standard_error",
-    "interval95_low",
-    "interval95_high",
-    "seed",
-    "scenes",
-    "path",
-    "error",
-    "compared",
-    "doubts",
-    "ground_truth_doubts",
-];
+/// A number, unless it is that of a method without any loss.
+fn known(number: f64) -> Option<f64> {
+    Some(number).filter(|number| !number.is_nan())
+}
 
-/// The columns of diagnoses.
-const MARKS: [&str; 3] = ["floor", "resolvable", "marked"];
+/// A prediction with its material.
+type Row<'a> = (&'a DatasetReport, &'a MaterialResult, &'a PredictionResult);
+
+/// The columns of predictions; the last ones are those of diagnoses.
+fn predictions<'a>() -> [Field<Row<'a>>; 16] {
+    [
+        ("material", "", |(_, result, _)| result.material.as_str().into()),
+        ("method", "", |(.., one)| one.method.as_str().into()),
+        ("sample", "", |(.., one)| one.sample.into()),
+        ("loss", "", |(.., one)| one.known.map(|known| known.loss).into()),
+        ("standard_error", "", |(.., one)| one.known.map(|known| known.standard_error).into()),
+        ("interval95_low interval95_high", "", |(.., one)| one.known.map(|known| known.interval95).into()),
+        ("seed", "", |(_, result, _)| result.seed.into()),
+        ("scenes", "", |(.., one)| one.known.map(|known| known.scenes).into()),
+        ("path", "", |(.., one)| one.path.as_str().into()),
+        ("error", "", |(.., one)| one.error.clone().into()),
+        ("compared", "", |(report, result, one)| report.is_compared(result, one).into()),
+        ("doubts", "", |(.., one)| doubts(&one.reading)),
+        ("ground_truth_doubts", "", |(_, result, _)| doubts(&result.reading)),
+        ("floor", "", |(_, result, _)| result.floor.into()),
+        ("resolvable", "", |(_, result, one)| {
+            result.floor.zip(one.known).map(|(floor, known)| known.loss > floor).into()
+        }),
+        ("marked", "", |(.., one)| one.marked().into()),
+    ]
+}
+
+/// The number of those columns.
+const OF_DIAGNOSES: usize = 3;
+
+fn doubts(reading: &[Remark]) -> Cell {
+    reading.iter().filter(|remark| remark.doubt.is_some()).count().into()
+}
 
 impl DatasetReport {
-    /// The command that makes these results again.
-    pub fn command(&self) -> String {
-        repetition::command(&self.settings, &self.reading, self.pick)
+    /// The report of `results`; of several predictions of a material, `pick` says which counts.
+    pub fn new(
+        settings: DatasetSettings,
+        reading: DatasetReading,
+        results: Vec<MaterialResult>,
+        pick: Pick,
+    ) -> Self {
+        let (methods, common) = ranked(&settings.methods, &results, pick);
+        let is_common = |result: &&MaterialResult| common.contains(&result.index);
+        let report = Self {
+            repetition: Repetition::new(repetition::command(&settings, &reading, pick)),
+            compared_materials: results.iter().filter(is_common).map(|one| one.material.clone()).collect(),
+            ground_truths: ReadingSummary::of_ground_truths(&results),
+            methods: Vec::new(),
+            settings,
+            reading,
+            pick,
+            results,
+            common,
+        };
+        let mut readings = ReadingSummary::by_method(&report.results);
+        let best = methods.first().filter(|best| best.compared).map(|best| best.method.clone());
+        let whole = |summary: MethodSummary| MethodSummary {
+            reading: readings.remove(summary.method.as_str()),
+            metrics: summarize_metrics(&report, &summary),
+            marks: summarize_marks(&report, &summary.method, best.as_deref()),
+            ..summary
+        };
+        let methods = methods.into_iter().map(whole).collect();
+        Self { methods, ..report }
     }
 
-    /// The doubts in reading the ground truths, and the predictions of each method: lines, none where nothing is in doubt.
-    pub fn doubts(&self) -> Vec<String> {
-        let mut methods = ReadingSummary::by_method(&self.results);
-        let of_method =
-            |summary: &MethodSummary| methods.remove(summary.method.as_str())?.line(&summary.method);
-        let truths = ReadingSummary::of_ground_truths(&self.results).line("ground truths");
-        truths.into_iter().chain(self.ranking.methods.iter().filter_map(of_method)).collect()
+    /// The best method, where methods are compared.
+    pub fn best(&self) -> Option<&MethodSummary> {
+        self.methods.first().filter(|summary| summary.compared)
+    }
+
+    /// The methods for people: a row for each.
+    pub fn methods_table(&self) -> Table {
+        Table::fields(&METHODS, &self.methods, Reader::Person)
     }
 
     /// The materials that the means are over, and how they were read: lines.
     pub fn conditions(&self) -> Vec<String> {
-        self.ranking.over(self.results.len()).into_iter().chain(self.doubts()).collect()
+        self.over().into_iter().chain(self.doubts()).collect()
+    }
+
+    /// The materials that the means are over, and the methods that lack some: lines below a table.
+    fn over(&self) -> Vec<String> {
+        let compared = self.methods.iter().filter(|summary| summary.compared).count();
+        let (common, all) = (self.common.len(), self.results.len());
+        let materials = if common == all { format!("{all}") } else { format!("{common} of {all}") };
+        let mut lines = vec![match compared {
+            0 => "no material has a loss of every method: nothing is compared".to_owned(),
+            1 => format!("means over the {materials} materials"),
+            _ => format!("means over the {materials} materials that all {compared} compared methods have"),
+        }];
+        let lacking = self.methods.iter().filter(|summary| compared > 0 && !summary.compared);
+        lines.extend(lacking.map(|summary| {
+            let count = summary.count();
+            format!(
+                "{} has {count} materials: not compared, its mean is over other materials",
+                summary.method
+            )
+        }));
+        if self.methods.iter().all(|summary| summary.interval95_materials.is_none()) {
+            lines.push(format!("intervals over materials and significance need {FEWEST} materials"));
+        }
+        lines
+    }
+
+    /// The doubts in reading the ground truths, and the predictions of each method: lines, none where nothing is in doubt.
+    pub fn doubts(&self) -> Vec<String> {
+        let of = |summary: &MethodSummary| summary.reading.as_ref()?.line(&summary.method);
+        let methods = self.methods.iter().filter_map(of);
+        self.ground_truths.line("ground truths").into_iter().chain(methods).collect()
     }
 
     /// Every remark on the reading of a material, with its name and, for a prediction, its method.
     pub fn remarks(&self) -> impl Iterator<Item = (String, &Remark)> {
         self.results.iter().flat_map(|result| {
-            let truth =
-                result.reading.iter().map(|remark| (format!("{}, ground truth", result.material), remark));
-            let of =
-                move |prediction: &'_ PredictionResult| format!("{}, {}", result.material, prediction.method);
-            let predictions = result.predictions.iter();
-            truth.chain(
-                predictions.flat_map(move |one| one.reading.iter().map(move |remark| (of(one), remark))),
-            )
+            let predictions = result.predictions.iter().map(|one| (one.method.as_str(), &one.reading));
+            let all = [("ground truth", &result.reading)].into_iter().chain(predictions);
+            all.flat_map(|(of, reading)| {
+                let name = format!("{}, {of}", result.material);
+                reading.iter().map(move |remark| (name.clone(), remark))
+            })
         })
     }
 
@@ -84,7 +165,7 @@ impl DatasetReport {
     pub fn latex(&self) -> String {
         let row = |summary: &MethodSummary| {
             let number = |value: f64| if value.is_nan() { "--".to_owned() } else { format!("{value:.4}") };
-            let mean = bold(&number(summary.mean), summary.ties_with_best());
+            let mean = bold(&number(summary.mean), summary.ties_with_best);
             let interval = summary
                 .interval95_materials
                 .map_or("--".to_owned(), |[low, high]| format!("[{low:.4}, {high:.4}]"));
@@ -95,67 +176,37 @@ impl DatasetReport {
                 summary.count()
             )
         };
-        let (compared, lacking): (Vec<_>, Vec<_>) =
-            self.ranking.methods.iter().partition(|summary| summary.is_compared);
+        let (compared, lacking): (Vec<_>, Vec<_>) = self.methods.iter().partition(|summary| summary.compared);
         let mut rows: String = compared.into_iter().map(row).collect();
         if !lacking.is_empty() {
             rows += "\\midrule\n";
             rows.extend(lacking.into_iter().map(row));
         }
-        let comments = self.conditions().into_iter().chain([self.repetition()]);
+        let comments = self.conditions().into_iter().chain([self.repetition.to_string()]);
         let comments: String = comments.map(|comment| format!("% {}\n", line(&comment))).collect();
         let losses = latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows);
-        comments + &losses + &metric_report::latex_table(self)
+        comments + &losses + &latex_table(self)
     }
 
-    /// How to repeat the ranking: a line.
-    fn repetition(&self) -> String {
-        format!("repeat with {SOFTWARE}: {}", self.command())
-    }
-
-    fn losses(&self) -> String {
-        let number = |value: f64| if value.is_nan() { "none".to_owned() } else { format!("{value:.6}") };
-        let range = |interval: Option<[f64; 2]>| {
-            interval
-                .filter(|[low, _]| !low.is_nan())
-                .map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.6} to {high:.6}"))
-        };
-        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(self.ranking.methods.iter().map(|summary| {
-            let [difference, of_difference] = match &summary.to_best {
-                None => [const { String::new() }; 2],
-                Some(difference) => [number(difference.mean), range(difference.interval95_materials)],
-            };
-            vec![
-                summary.method.clone(),
-                summary.count(),
-                summary.failures.to_string(),
-                number(summary.mean),
-                range(summary.interval95_materials),
-                range(Some(summary.interval95_scenes)),
-                number(summary.median),
-                difference,
-                of_difference,
-            ]
-        }));
-        aligned(&rows)
+    /// Every prediction with its material.
+    fn predictions(&self) -> impl Iterator<Item = (&MaterialResult, &PredictionResult)> {
+        self.results.iter().flat_map(|result| result.predictions.iter().map(move |one| (result, one)))
     }
 
     /// Whether the loss of a prediction is a part of a mean that is compared.
     fn is_compared(&self, result: &MaterialResult, prediction: &PredictionResult) -> bool {
         let is_of = |summary: &&MethodSummary| summary.method == prediction.method;
-        let method = self.ranking.methods.iter().find(is_of);
+        let method = self.methods.iter().find(is_of);
         let counts =
             counted(result, &prediction.method, self.pick).iter().any(|one| one.sample == prediction.sample);
-        counts
-            && self.ranking.common.contains(&result.index)
-            && method.is_some_and(|summary| summary.is_compared)
+        counts && self.common.contains(&result.index) && method.is_some_and(|summary| summary.compared)
     }
 }
 
 impl Report for DatasetReport {
     fn text(&self) -> String {
         let DatasetSettings { convention, target_error, seed, materials, .. } = &self.settings;
+        let table = |table: Option<Table>| table.map_or(String::new(), |table| format!("\n{}", table.text()));
         let lines = |lines: Vec<String>| lines.into_iter().map(|line| line + "\n").collect::<String>();
         format!(
             "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n\n{}\n{}{}{}\n{}\n",
@@ -163,76 +214,33 @@ impl Report for DatasetReport {
             materials.len(),
             100.0 * target_error,
             self.pick,
-            self.losses(),
+            self.methods_table().text(),
             lines(self.conditions()),
-            mark_report::text(self),
-            metric_report::text(self),
-            self.repetition(),
+            table(marks_table(self)),
+            table(metrics_table(self)),
+            self.repetition,
         )
     }
 
     /// A row for each prediction.
     fn table(&self) -> Table {
-        let metrics = metric_report::names(&self.results);
-        let doubts = |reading: &[Remark]| reading.iter().filter(|remark| remark.doubt.is_some()).count();
-        let row = |result: &MaterialResult, prediction: &PredictionResult| {
-            let start = [
-                result.material.as_str().into(),
-                prediction.method.as_str().into(),
-                prediction.sample.into(),
-            ];
-            let known = prediction.result.as_ref().ok();
-            let numbers = match known {
-                Some(known) => [known.loss, known.standard_error, known.interval95[0], known.interval95[1]]
-                    .map(Cell::from),
-                None => [const { Cell::Empty }; 4],
-            };
-            let end = [
-                result.seed.into(),
-                known.map(|known| known.scenes).into(),
-                prediction.path.as_str().into(),
-                prediction.result.as_ref().err().cloned().into(),
-                self.is_compared(result, prediction).into(),
-                doubts(&prediction.reading).into(),
-                doubts(&result.reading).into(),
-            ];
-            let metrics = metrics.iter().map(|name| prediction.metrics.get(*name).copied().into());
-            let marks = self.settings.diagnose.then(|| marks(result, prediction));
-            start
-                .into_iter()
-                .chain(numbers)
-                .chain(end)
-                .chain(marks.into_iter().flatten())
-                .chain(metrics)
-                .collect()
-        };
-        let of_marks = if self.settings.diagnose { &MARKS[..] } else { &[] };
-        let rows = self
-            .results
-            .iter()
-            .flat_map(|result| result.predictions.iter().map(move |prediction| (result, prediction)));
-        Table::new(
-            COLUMNS.into_iter().chain(of_marks.iter().copied()).chain(metrics.iter().copied()),
-            rows.map(|(result, prediction)| row(result, prediction)),
-        )
+        let fields = predictions();
+        let count = fields.len() - if self.settings.diagnose { 0 } else { OF_DIAGNOSES };
+        let rows = self.predictions().map(|(result, prediction)| (self, result, prediction));
+        let mut table = Table::fields(&fields[..count], rows, Reader::Program);
+        for name in metric_names(&self.results) {
+            let value = |(_, one): (_, &PredictionResult)| one.metrics.get(name).copied().into();
+            table.push(name.to_owned(), self.predictions().map(value));
+        }
+        table
     }
 
     fn missed(&self) -> Vec<Error> {
-        let of = |result: &MaterialResult, prediction: &PredictionResult| {
-            let known = prediction.result.as_ref().ok()?;
+        let of = |(result, prediction): (&MaterialResult, &PredictionResult)| {
+            let known = prediction.known?;
             let name = format!("{}, {}", result.material, prediction.method);
             missed(self.settings.target_error, &name, &known.estimate(), known.scenes)
         };
-        let all = self.results.iter();
-        all.flat_map(|result| result.predictions.iter().filter_map(|p| of(result, p))).collect()
+        self.predictions().filter_map(of).collect()
     }
-}
-
-/// The cells of [`MARKS`]: the marks are names of hypotheses, the largest share first.
-fn marks(result: &MaterialResult, prediction: &PredictionResult) -> [Cell; MARKS.len()] {
-    let loss = prediction.result.as_ref().ok().map(|known| known.loss);
-    let resolvable = result.floor.zip(loss).map(|(floor, loss)| loss > floor);
-    let names =
-        |marks: &Vec<Mark>| marks.iter().map(|mark| mark.hypothesis.as_str()).collect::<Vec<_>>().join(" ");
-    [result.floor.into(), resolvable.into(), prediction.marks.as_ref().map(names).into()]
 }

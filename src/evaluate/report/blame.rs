@@ -6,13 +6,54 @@ use serde::Serialize;
 use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
-use super::table::{Cell, Column, Table, aligned};
+use super::table::{Cell, Field, Reader, Table};
 use crate::why::{self, MapShare};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Request};
 
-const TITLES: [&str; 7] =
-    ["map", "share", "of the loss", "+- std. error", "95% interval", "only it wrong", "only it right"];
+/// What a map adds to the loss of a prediction, or all maps do.
+struct Part<'a> {
+    prediction: &'a str,
+    map: &'static str,
+    shapley: Estimate,
+    /// The losses where only it is wrong, and where only it is right.
+    only: Option<[f64; 2]>,
+    loss: f64,
+    target_error: Option<f64>,
+    target_reached: Option<bool>,
+}
+
+fn fields<'a>() -> [Field<Part<'a>>; 11] {
+    [
+        ("prediction", "", |part| part.prediction.into()),
+        ("map", "map", |part| part.map.into()),
+        ("", "share", |part| match part.loss > 0.0 {
+            true => Cell::Share(part.shapley.mean / part.loss),
+            false => Cell::Missing("-"),
+        }),
+        ("shapley", "of the loss", |part| part.shapley.mean.into()),
+        ("standard_error", "+- std. error", |part| Cell::or(part.shapley.standard_error, "unknown")),
+        ("interval95_low interval95_high", "95% interval", |part| {
+            Cell::or(part.shapley.interval95, "unknown")
+        }),
+        ("only_wrong", "only it wrong", |part| part.only.map(|[wrong, _]| wrong).into()),
+        ("only_right", "only it right", |part| part.only.map(|[_, right]| right).into()),
+        ("loss", "", |part| part.loss.into()),
+        ("target_error", "", |part| part.target_error.into()),
+        ("target_reached", "", |part| part.target_reached.into()),
+    ]
+}
+
+/// What each of the `maps` adds to the loss of a prediction, for people.
+pub fn parts(maps: &[MapShare], loss: &Estimate) -> Table {
+    Table::fields(&fields(), maps.iter().map(|share| part(share, loss)), Reader::Person)
+}
+
+fn part(share: &MapShare, loss: &Estimate) -> Part<'static> {
+    let only = Some([share.only_wrong.mean, share.only_right.mean]);
+    let (map, shapley, loss) = (share.map.name(), share.shapley, loss.mean);
+    Part { prediction: "", map, shapley, only, loss, target_error: None, target_reached: None }
+}
 
 /// The attribution of the loss of each prediction to its maps.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -68,22 +109,11 @@ impl BlameReport {
 
     fn text_of(&self, attribution: &Attribution) -> String {
         let Attribution { prediction, loss, maps, lines: [scenes, note], .. } = attribution;
-        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(maps.iter().map(|share| {
-            let [mean, error, interval] = share.shapley.texts();
-            let share_of_loss = percent(share.shapley.mean, loss.mean);
-            let [wrong, right] = [share.only_wrong, share.only_right].map(|e| format!("{:.6}", e.mean));
-            vec![share.map.name().to_owned(), share_of_loss, mean, error, interval, wrong, right]
-        }));
-        let [mean, error, interval] = loss.texts();
-        rows.push(vec!["all".to_owned(), percent(loss.mean, loss.mean), mean, error, interval]);
+        let all = Part { map: "all", shapley: *loss, only: None, ..part(&maps[0], loss) };
+        let rows = maps.iter().map(|share| part(share, loss)).chain([all]);
         let heading = self.compared.heading(&format!("blame of {prediction}"));
-        format!("{heading}{scenes}\n{}{note}", aligned(&rows))
+        format!("{heading}{scenes}\n{}{note}", Table::fields(&fields(), rows, Reader::Person).text())
     }
-}
-
-fn percent(part: f64, whole: f64) -> String {
-    if whole > 0.0 { format!("{:.1}%", 100.0 * part / whole) } else { "-".to_owned() }
 }
 
 impl Report for BlameReport {
@@ -92,21 +122,17 @@ impl Report for BlameReport {
     }
 
     fn table(&self) -> Table {
-        let columns: [Column<'_, (&Self, &Attribution, &MapShare)>; 11] = [
-            ("prediction", |(_, a, _)| a.prediction.as_str().into()),
-            ("map", |(.., share)| share.map.name().into()),
-            ("shapley", |(.., share)| share.shapley.mean.into()),
-            ("standard_error", |(.., share)| share.shapley.standard_error.into()),
-            ("interval95_low", |(.., share)| Cell::low(share.shapley.interval95)),
-            ("interval95_high", |(.., share)| Cell::high(share.shapley.interval95)),
-            ("only_wrong", |(.., share)| share.only_wrong.mean.into()),
-            ("only_right", |(.., share)| share.only_right.mean.into()),
-            ("loss", |(_, a, _)| a.loss.mean.into()),
-            ("target_error", |(report, ..)| report.target_error.into()),
-            ("target_reached", |(_, a, _)| a.target_reached.into()),
-        ];
-        let rows = self.attributions.iter().flat_map(|a| a.maps.iter().map(move |share| (self, a, share)));
-        Table::of(&columns, rows)
+        let rows = self.attributions.iter().flat_map(|one| {
+            let Attribution { prediction, target_reached, loss, maps, .. } = one;
+            let (target_error, target_reached) = (self.target_error, *target_reached);
+            maps.iter().map(move |share| Part {
+                prediction,
+                target_error,
+                target_reached,
+                ..part(share, loss)
+            })
+        });
+        Table::fields(&fields(), rows, Reader::Program)
     }
 
     fn missed(&self) -> Vec<Error> {

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, floor_line};
-use super::table::{Cell, Column, Table, aligned_columns};
+use super::table::{Cell, Column, Field, Reader, Table, aligned_columns};
 use crate::diagnose::{self, Finding, Rung, Seam, Value, sentence};
 use svbrdf_core::loss::Estimate;
 
@@ -84,7 +84,7 @@ impl DiagnoseReport {
             "{}\n\n{}: loss {mean}, 95% {interval}\n\n{}\n{}{}",
             diagnosis.sentence,
             diagnosis.prediction,
-            aligned_columns(&columns(), &diagnosis.findings),
+            Table::fields(&fields(), diagnosis.rows(), Reader::Person).text(),
             aligned_columns(&rungs, &diagnosis.ladder),
             self.seams_line(diagnosis)
         )
@@ -109,30 +109,37 @@ impl DiagnoseReport {
     }
 }
 
-/// The columns of the findings for people.
-fn columns<'a>() -> [Column<'static, &'a ReportedFinding, String>; 7] {
+/// The columns of findings, each with its prediction.
+fn fields<'a>() -> [Field<(&'a str, &'a ReportedFinding)>; 14] {
     [
-        ("", |one| if one.finding.marked { "*" } else { "" }.to_owned()),
-        ("hypothesis", |one| one.finding.hypothesis.name().to_owned()),
-        ("value", |ReportedFinding { finding: Finding { value, unit, .. }, .. }| match unit {
-            Some(unit) => format!("{value} {unit}"),
-            None => value.to_string(),
+        ("prediction", "", |(prediction, _)| (*prediction).into()),
+        ("", " ", |(_, one)| if one.finding.marked { "*" } else { "" }.into()),
+        ("hypothesis", "hypothesis", |(_, one)| one.finding.hypothesis.name().into()),
+        ("", "value", |(_, ReportedFinding { finding: Finding { value, unit, .. }, .. })| match unit {
+            Some(unit) => format!("{value} {unit}").into(),
+            None => value.to_string().into(),
         }),
-        ("loss", |one| known(one.finding.loss, |loss| format!("{loss:.6}"))),
-        ("95% interval", |one| known(one.finding.interval95, |[low, high]| format!("{low:.6} to {high:.6}"))),
-        ("share", |one| known(one.finding.share, |share| format!("{:.1}%", 100.0 * share))),
-        ("option", |one| match one.finding.marked {
-            true => one.option.clone().unwrap_or_else(|| "none".to_owned()),
-            false => String::new(),
+        ("value", "", |(_, one)| cell(&one.finding.value)),
+        ("unit", "", |(_, one)| one.finding.unit.into()),
+        ("loss", "loss", |(_, one)| Cell::or(one.finding.loss, "-")),
+        ("interval95_low interval95_high", "95% interval", |(_, one)| Cell::or(one.finding.interval95, "-")),
+        ("share", "share", |(_, one)| one.finding.share.map_or(Cell::Missing("-"), Cell::Share)),
+        ("share_interval95_low share_interval95_high", "", |(_, one)| one.finding.share_interval95.into()),
+        ("p", "", |(_, one)| one.finding.p.into()),
+        ("marked", "", |(_, one)| one.finding.marked.into()),
+        ("remedy", "", |(_, one)| one.remedy.clone().into()),
+        ("", "option", |(_, one)| match one.finding.marked {
+            true => Cell::or(one.option.clone(), "none"),
+            false => Cell::Missing(""),
         }),
     ]
 }
 
-fn known<T>(value: Option<T>, text: impl Fn(T) -> String) -> String {
-    value.map_or_else(|| "-".to_owned(), text)
-}
-
 impl Diagnosis {
+    fn rows(&self) -> impl Iterator<Item = (&str, &ReportedFinding)> {
+        self.findings.iter().map(|finding| (self.prediction.as_str(), finding))
+    }
+
     fn new(found: diagnose::Diagnosis, compared: &Compared, floor: &Estimate) -> Self {
         let names = [compared.ground_truth.as_str(), &found.prediction];
         let finding = |finding: &Finding| ReportedFinding {
@@ -177,23 +184,7 @@ impl Report for DiagnoseReport {
     }
 
     fn table(&self) -> Table {
-        let columns: [Column<'_, (&str, &ReportedFinding)>; 13] = [
-            ("prediction", |(prediction, _)| (*prediction).into()),
-            ("hypothesis", |(_, one)| one.finding.hypothesis.name().into()),
-            ("value", |(_, one)| cell(&one.finding.value)),
-            ("unit", |(_, one)| one.finding.unit.into()),
-            ("loss", |(_, one)| one.finding.loss.into()),
-            ("interval95_low", |(_, one)| Cell::low(one.finding.interval95)),
-            ("interval95_high", |(_, one)| Cell::high(one.finding.interval95)),
-            ("share", |(_, one)| one.finding.share.into()),
-            ("share_interval95_low", |(_, one)| Cell::low(one.finding.share_interval95)),
-            ("share_interval95_high", |(_, one)| Cell::high(one.finding.share_interval95)),
-            ("p", |(_, one)| one.finding.p.into()),
-            ("marked", |(_, one)| one.finding.marked.into()),
-            ("remedy", |(_, one)| one.remedy.clone().into()),
-        ];
-        let all = self.predictions.iter();
-        let rows = all.flat_map(|one| one.findings.iter().map(|finding| (one.prediction.as_str(), finding)));
-        Table::of(&columns, rows)
+        let rows = self.predictions.iter().flat_map(Diagnosis::rows);
+        Table::fields(&fields(), rows, Reader::Program)
     }
 }

@@ -1,41 +1,43 @@
-//! A loss report: its rows, one per prediction, and what it misses.
+//! A loss report: its rows, one per prediction, its text, and what it misses.
 
 use super::Report;
-use super::loss::{LossReport, PredictionLoss};
+use super::heading::scenes_line;
+use super::loss::{Difference, FewScenes, LossReport, PredictionLoss};
 use super::missed::missed_by_any;
-use super::table::{Cell, Column, Table};
+use super::table::{Cell, Field, Reader, Table};
 use svbrdf_core::error::Error;
 
-fn table(report: &LossReport) -> Table {
-    let columns: [Column<'_, (&LossReport, &PredictionLoss)>; 26] = [
-        ("prediction", |(_, result)| result.prediction.as_str().into()),
-        ("loss", |(_, result)| result.loss.into()),
-        ("standard_error", |(_, result)| result.standard_error.into()),
-        ("interval95_low", |(_, result)| Cell::low(result.interval95)),
-        ("interval95_high", |(_, result)| Cell::high(result.interval95)),
-        ("convention", |(report, _)| report.convention.into()),
-        ("epsilon", |(report, _)| report.epsilon.into()),
-        ("width", |(report, _)| report.size[0].into()),
-        ("height", |(report, _)| report.size[1].into()),
-        ("near", |(report, _)| report.sampled.near.into()),
-        ("distant", |(report, _)| report.sampled.distant.into()),
-        ("seed", |(report, _)| report.sampled.seed.into()),
-        ("sampler", |(report, _)| report.sampled.sampler.map(|sampler| sampler.to_string()).into()),
-        ("texels", |(report, _)| report.sampled.texels.into()),
-        ("precision", |(report, _)| report.precision.into()),
-        ("backend", |(report, _)| report.backend.into()),
-        ("target_error", |(report, _)| report.target_error.into()),
-        ("target_reached", |(report, _)| report.target_reached.into()),
-        ("path", |(_, result)| result.path.clone().into()),
-        ("ground_truth", |(report, _)| report.ground_truth.as_str().into()),
-        ("ground_truth_path", |(report, _)| report.ground_truth_path.clone().into()),
-        ("interval95_from", |(report, _)| report.interval95_from.to_string().into()),
-        ("few_scenes_loss", |(_, result)| result.few_scenes.as_ref().map(|few| few.few_scenes_loss).into()),
-        ("few_scenes_low", |(_, result)| Cell::low(few_scenes(result))),
-        ("few_scenes_high", |(_, result)| Cell::high(few_scenes(result))),
-        ("step", |(_, result)| result.step.into()),
-    ];
-    Table::of(&columns, report.results.iter().map(|result| (report, result)))
+fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 24] {
+    [
+        ("prediction", "prediction", |(_, result)| result.prediction.as_str().into()),
+        ("loss", "loss", |(_, result)| result.loss.into()),
+        ("standard_error", "+- std. error", |(_, result)| Cell::or(result.standard_error, "unknown")),
+        ("interval95_low interval95_high", "95% interval", |(_, result)| {
+            Cell::or(result.interval95, "unknown")
+        }),
+        ("convention", "", |(report, _)| report.convention.into()),
+        ("epsilon", "", |(report, _)| report.epsilon.into()),
+        ("width", "", |(report, _)| report.size[0].into()),
+        ("height", "", |(report, _)| report.size[1].into()),
+        ("near", "", |(report, _)| report.sampled.near.into()),
+        ("distant", "", |(report, _)| report.sampled.distant.into()),
+        ("seed", "", |(report, _)| report.sampled.seed.into()),
+        ("sampler", "", |(report, _)| report.sampled.sampler.map(|sampler| sampler.to_string()).into()),
+        ("texels", "", |(report, _)| report.sampled.texels.into()),
+        ("precision", "", |(report, _)| report.precision.into()),
+        ("backend", "", |(report, _)| report.backend.into()),
+        ("target_error", "", |(report, _)| report.target_error.into()),
+        ("target_reached", "", |(report, _)| report.target_reached.into()),
+        ("path", "", |(_, result)| result.path.clone().into()),
+        ("ground_truth", "", |(report, _)| report.ground_truth.as_str().into()),
+        ("ground_truth_path", "", |(report, _)| report.ground_truth_path.clone().into()),
+        ("interval95_from", "", |(report, _)| report.interval95_from.to_string().into()),
+        ("few_scenes_loss", "", |(_, result)| {
+            result.few_scenes.as_ref().map(|few| few.few_scenes_loss).into()
+        }),
+        ("few_scenes_low few_scenes_high", "", |(_, result)| few_scenes(result).into()),
+        ("step", "", |(_, result)| result.step.into()),
+    ]
 }
 
 /// The interval of the loss over few scenes.
@@ -43,13 +45,60 @@ fn few_scenes(result: &PredictionLoss) -> Option<[f64; 2]> {
     result.few_scenes.as_ref()?.few_scenes_interval95
 }
 
+impl LossReport {
+    /// The losses for a `reader`: a row per prediction.
+    pub fn table_for(&self, reader: Reader) -> Table {
+        Table::fields(&fields(), self.results.iter().map(|result| (self, result)), reader)
+    }
+
+    /// The losses over few scenes: a line per prediction.
+    fn few_scenes_lines(&self, FewScenes { sampled, .. }: &FewScenes) -> String {
+        let line = |result: &PredictionLoss| {
+            let few = result.few_scenes.as_ref()?;
+            let interval = few
+                .few_scenes_interval95
+                .map_or("unknown".to_owned(), |[low, high]| format!("{low:.3} to {high:.3}"));
+            Some(format!(
+                "{} + {} scenes: {:.3} (95% {interval}), {}\n",
+                sampled.near, sampled.distant, few.few_scenes_loss, result.prediction
+            ))
+        };
+        format!("\n{}", self.results.iter().filter_map(line).collect::<String>())
+    }
+
+    /// Paired differences: variance that the scenes have in common cancels, so the errors of the losses do not add up.
+    fn difference_lines(&self) -> String {
+        let line = |difference: &Difference| {
+            let [mean, error, interval] = difference.estimate().texts();
+            let Difference { prediction, to, .. } = difference;
+            format!("\n{prediction} - {to}, same scenes: {mean} +- {error}, 95% {interval}")
+        };
+        let text: String = self.differences.iter().map(line).collect();
+        if text.is_empty() { text } else { text + "\n" }
+    }
+
+    fn header(&self) -> String {
+        let Self { convention, epsilon, ground_truth, size, precision, backend, outcome, .. } = self;
+        let [width, height] = size;
+        format!(
+            "rendering loss against {ground_truth}, {width} x {height} texels, {precision} on the {backend}\n\
+             convention {convention}, epsilon {epsilon}\n{}",
+            scenes_line(outcome.sampling.as_ref(), &outcome.scenes, *size)
+        )
+    }
+}
+
 impl Report for LossReport {
+    /// The table of the losses, then the difference of each further loss from the first, then a line per prediction for the few
+    /// scenes of the papers.
     fn text(&self) -> String {
-        self.text()
+        let table = self.table_for(Reader::Person).text();
+        let few_scenes = self.few_scenes.as_ref().map(|few| self.few_scenes_lines(few)).unwrap_or_default();
+        format!("{}\n{table}{}{few_scenes}", self.header(), self.difference_lines())
     }
 
     fn table(&self) -> Table {
-        table(self)
+        self.table_for(Reader::Program)
     }
 
     fn missed(&self) -> Vec<Error> {

@@ -32,7 +32,7 @@ pub struct MapReport {
 }
 
 /// The map of a prediction in a few numbers.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
 struct MapSummary {
     prediction: String,
     /// The loss.
@@ -67,7 +67,7 @@ impl MapReport {
             let (at, largest) = all.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
             let (column, row) = (Some(at % image.width), Some(at / image.width));
             let (mean, largest) = (why::mean(image), f64::from(largest));
-            MapSummary { prediction: name, mean, largest, column, row, standard_error: None, direction: None }
+            MapSummary { prediction: name, mean, largest, column, row, ..MapSummary::default() }
         };
         Ok(Self {
             compared: Compared::new(comparison.ground_truth(), comparison.convention()),
@@ -95,15 +95,8 @@ impl MapReport {
             let (direction, largest) = map.worst(index)?;
             let (standard_error, direction) = (Some(map.standard_error(index)), Some(direction));
             let mean = map.mean(index);
-            Some(MapSummary {
-                prediction: name,
-                mean,
-                largest,
-                column: None,
-                row: None,
-                standard_error,
-                direction,
-            })
+            let found = MapSummary { prediction: name, mean, largest, ..MapSummary::default() };
+            Some(MapSummary { standard_error, direction, ..found })
         };
         let image = |losses: &Vec<f64>| Image {
             width: side,

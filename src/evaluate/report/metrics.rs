@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use super::Report;
 use super::heading::{Compared, scenes_line};
-use super::table::{Cell, Table, aligned};
+use super::table::{Cell, Reader, Table};
 use crate::metrics::{Metric, RenderedScenes};
 use svbrdf_core::loss::Sampling;
 
@@ -82,39 +82,23 @@ impl MetricsReport {
         }
     }
 
-    /// The metrics of all predictions, by name.
-    fn rows(&self) -> impl Iterator<Item = (&'static str, Vec<Metric>)> {
+    /// A row for each metric; for each prediction its value, and for means over scenes their interval.
+    fn table_for(&self, reader: Reader) -> Table {
         let names = self.results.first().map(|first| first.metrics.as_slice()).unwrap_or_default();
-        names.iter().enumerate().map(|(index, metric)| {
-            (metric.name, self.results.iter().map(|result| result.metrics[index]).collect())
-        })
-    }
-
-    /// Whether metrics are means over scenes, which may have intervals.
-    fn has_scenes(&self) -> bool {
-        self.protocol.is_none()
-    }
-
-    /// The titles of a table, with columns for the interval of each prediction where there may be one.
-    fn columns(&self, interval: impl Fn(&str) -> Vec<String>) -> Vec<String> {
-        let of = |result: &Metrics| {
-            let ends = if self.has_scenes() { interval(&result.prediction) } else { Vec::new() };
-            [result.prediction.clone()].into_iter().chain(ends)
-        };
-        ["metric".to_owned()].into_iter().chain(self.results.iter().flat_map(of)).collect()
-    }
-
-    /// The rows of a table: the name, then the cells of each prediction, the first of which is its value.
-    fn cells<C, const N: usize>(
-        &self,
-        name: impl Fn(&str) -> C,
-        cells: impl Fn(&Metric) -> [C; N],
-    ) -> impl Iterator<Item = Vec<C>> {
-        let used = if self.has_scenes() { N } else { 1 };
-        self.rows().map(move |(metric, values)| {
-            let of_all = values.iter().flat_map(|value| cells(value).into_iter().take(used));
-            [name(metric)].into_iter().chain(of_all).collect()
-        })
+        let mut table = Table::new(["metric"], names.iter().map(|metric| vec![metric.name.into()]));
+        for Metrics { prediction, metrics, .. } in &self.results {
+            table.push(prediction.clone(), metrics.iter().map(|metric| metric.value.into()));
+            let intervals = || metrics.iter().map(|metric| metric.interval95);
+            match reader {
+                _ if self.protocol.is_some() => {}
+                Reader::Person => table.push("95%".to_owned(), intervals().map(Cell::from)),
+                Reader::Program => {
+                    table.push(format!("{prediction} interval95_low"), intervals().map(Cell::low));
+                    table.push(format!("{prediction} interval95_high"), intervals().map(Cell::high));
+                }
+            }
+        }
+        table
     }
 }
 
@@ -133,20 +117,10 @@ fn by_name<S: Serializer>(metrics: &[Metric], serializer: S) -> Result<S::Ok, S:
 
 impl Report for MetricsReport {
     fn text(&self) -> String {
-        let cells = |metric: &Metric| {
-            let interval = metric.interval95.map(|[low, high]| format!("{low:.6} to {high:.6}"));
-            [format!("{:.6}", metric.value), interval.unwrap_or_default()]
-        };
-        let titles = self.columns(|_| vec!["95%".to_owned()]);
-        let rows: Vec<_> = [titles].into_iter().chain(self.cells(|name| name.to_owned(), cells)).collect();
-        format!("{}\n{}", self.heading, aligned(&rows))
+        format!("{}\n{}", self.heading, self.table_for(Reader::Person).text())
     }
 
     fn table(&self) -> Table {
-        let cells = |metric: &Metric| {
-            [metric.value.into(), Cell::low(metric.interval95), Cell::high(metric.interval95)]
-        };
-        let ends = |name: &str| ["low", "high"].map(|end| format!("{name} interval95_{end}")).into();
-        Table::new(self.columns(ends), self.cells(|name| Cell::from(name), cells))
+        self.table_for(Reader::Program)
     }
 }

@@ -23,31 +23,34 @@
 mod blame;
 mod diagnose;
 mod heading;
+mod info;
 mod latex;
 mod loss;
 mod loss_table;
-mod loss_text;
 mod map;
 mod metrics;
 mod missed;
 mod names;
 mod rank;
+mod repetition;
 mod scenes;
 mod table;
 mod worst;
 
-pub use blame::BlameReport;
+pub use blame::{BlameReport, parts};
 pub use diagnose::DiagnoseReport;
 pub use heading::{Compared, position, scenes_line};
+pub use info::InfoReport;
 pub use latex::{bold, escaped, latex};
 pub use loss::{LossReport, SampledScenes};
 pub use map::MapReport;
 pub use metrics::MetricsReport;
 pub use missed::missed;
 pub use names::distinct_names;
-pub use rank::{MaterialReading, RankReport, Repetition};
+pub use rank::{MaterialReading, RankReport};
+pub use repetition::Repetition;
 pub use scenes::ScenesReport;
-pub use table::{Cell, Column, Table, aligned, aligned_columns};
+pub use table::{Cell, Column, Field, Reader, Table, aligned, aligned_columns};
 pub use worst::WorstReport;
 
 use serde::Serialize;

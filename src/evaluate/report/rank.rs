@@ -7,13 +7,35 @@ use super::Report;
 use super::heading::{Compared, floor_line, scenes_line};
 use super::latex::{bold, escaped, latex};
 use super::missed::missed_by_any;
-use super::table::{Cell, Column, Table, aligned};
+use super::repetition::Repetition;
+use super::table::{Cell, Field, Reader, Table};
 use crate::rank::{Ranked, places};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Outcome};
 
-const TITLES: [&str; 7] =
-    ["prediction", "loss", "95% interval", "- best", "95% interval", "group", "not resolvable"];
+/// The place of a prediction from 0, the prediction, and the requested accuracy.
+type Row<'a> = (usize, &'a RankedPrediction, f64);
+
+fn fields<'a>() -> [Field<Row<'a>>; 12] {
+    [
+        ("place", "", |(index, ..)| (index + 1).into()),
+        ("prediction", "prediction", |(_, place, _)| place.prediction.as_str().into()),
+        ("loss", "loss", |(_, place, _)| place.loss.mean.into()),
+        ("standard_error", "", |(_, place, _)| place.loss.standard_error.into()),
+        ("interval95_low interval95_high", "95% interval", |(_, place, _)| {
+            Cell::or(place.loss.interval95, "unknown")
+        }),
+        ("to_best", "- best", |(_, place, _)| place.to_best.map(|estimate| estimate.mean).into()),
+        ("to_best_low to_best_high", "95% interval", |(_, place, _)| {
+            place.to_best.map_or(Cell::Missing(""), |estimate| Cell::or(estimate.interval95, "unknown"))
+        }),
+        ("group", "group", |(_, place, _)| place.group.into()),
+        ("target_reached", "", |(_, place, target)| (place.loss.relative_error95() <= *target).into()),
+        ("resolvable", "", |(_, place, _)| place.resolvable.into()),
+        ("to_best_resolvable", "", |(_, place, _)| place.to_best_resolvable.into()),
+        ("", "not resolvable", |(_, place, _)| place.unresolvable().into()),
+    ]
+}
 
 /// Predictions of one ground truth, smallest loss first, with what the data can separate.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -34,6 +56,9 @@ pub struct RankReport {
     /// How to repeat it; `None` for materials that no command names.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repetition: Option<Repetition>,
+    /// For each material, the ground truth first, what was noticed and assumed in reading it; `None` for materials of no files.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub readings: Vec<MaterialReading>,
     /// Best first.
     pub ranking: Vec<RankedPrediction>,
     /// The lines about the ground truth and the scenes.
@@ -56,17 +81,6 @@ pub struct RankedPrediction {
     resolvable: Option<bool>,
     /// Whether the difference to the best is above the floor.
     to_best_resolvable: Option<bool>,
-}
-
-/// What a ranking depends on beside its settings.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-pub struct Repetition {
-    /// The program and its version.
-    pub software: &'static str,
-    /// The command line.
-    pub command: String,
-    /// For each material, the ground truth first, what was noticed and assumed in reading it.
-    pub readings: Vec<MaterialReading>,
 }
 
 /// How a material was read.
@@ -104,6 +118,7 @@ impl RankReport {
             floor: None,
             captures: None,
             repetition: None,
+            readings: Vec::new(),
             ranking: places(outcome).into_iter().map(place).collect(),
             heading,
         }
@@ -120,6 +135,10 @@ impl RankReport {
         }
         self.heading += &floor_line(floor, captures);
         Self { floor: Some(floor.mean), captures, ..self }
+    }
+
+    fn rows(&self) -> impl Iterator<Item = Row<'_>> {
+        self.ranking.iter().enumerate().map(|(index, place)| (index, place, self.target_error))
     }
 
     /// A table for a paper: the first group in bold.
@@ -155,42 +174,16 @@ impl RankedPrediction {
 
 impl Report for RankReport {
     fn text(&self) -> String {
-        let mut rows = vec![TITLES.map(str::to_owned).to_vec()];
-        rows.extend(self.ranking.iter().map(|place| {
-            let [mean, _, interval] = place.loss.texts();
-            let [difference, _, of_difference] =
-                place.to_best.map_or_else(|| [const { String::new() }; 3], |estimate| estimate.texts());
-            let (group, unresolvable) = (place.group.to_string(), place.unresolvable());
-            vec![place.prediction.clone(), mean, interval, difference, of_difference, group, unresolvable]
-        }));
-        if rows[1..].iter().all(|row| row.last().is_some_and(String::is_empty)) {
-            rows.iter_mut().for_each(|row| row.truncate(TITLES.len() - 1));
-        }
-        let repetition = self
-            .repetition
-            .as_ref()
-            .map(|Repetition { software, command, .. }| format!("\nrepeat with {software}: {command}\n"));
-        format!("{}\n{}{}", self.heading, aligned(&rows), repetition.unwrap_or_default())
+        let all_resolvable = self.ranking.iter().all(|place| place.unresolvable().is_empty());
+        let fields = fields();
+        let fields = &fields[..fields.len() - usize::from(all_resolvable)];
+        let repetition = self.repetition.as_ref().map(|repetition| format!("\n{repetition}\n"));
+        let table = Table::fields(fields, self.rows(), Reader::Person).text();
+        format!("{}\n{table}{}", self.heading, repetition.unwrap_or_default())
     }
 
     fn table(&self) -> Table {
-        let columns: [Column<'_, (usize, &RankedPrediction, f64)>; 13] = [
-            ("place", |(index, ..)| (index + 1).into()),
-            ("prediction", |(_, place, _)| place.prediction.as_str().into()),
-            ("loss", |(_, place, _)| place.loss.mean.into()),
-            ("standard_error", |(_, place, _)| place.loss.standard_error.into()),
-            ("interval95_low", |(_, place, _)| Cell::low(place.loss.interval95)),
-            ("interval95_high", |(_, place, _)| Cell::high(place.loss.interval95)),
-            ("to_best", |(_, place, _)| place.to_best.map(|estimate| estimate.mean).into()),
-            ("to_best_low", |(_, place, _)| Cell::low(place.to_best.and_then(|e| e.interval95))),
-            ("to_best_high", |(_, place, _)| Cell::high(place.to_best.and_then(|e| e.interval95))),
-            ("group", |(_, place, _)| place.group.into()),
-            ("target_reached", |(_, place, target)| (place.loss.relative_error95() <= *target).into()),
-            ("resolvable", |(_, place, _)| place.resolvable.into()),
-            ("to_best_resolvable", |(_, place, _)| place.to_best_resolvable.into()),
-        ];
-        let rows = self.ranking.iter().enumerate().map(|(index, place)| (index, place, self.target_error));
-        Table::of(&columns, rows)
+        Table::fields(&fields(), self.rows(), Reader::Program)
     }
 
     fn missed(&self) -> Vec<Error> {

@@ -4,11 +4,18 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
-use super::heading::{Compared, position, scenes_line};
-use super::table::{Cell, Column, Table, aligned};
+use super::heading::{Compared, scenes_line};
+use super::table::{Cell, Field, Reader, Table};
 use crate::why::{Distribution, worst_first};
 use svbrdf_core::loss::Outcome;
 use svbrdf_core::model::scene::Scene;
+
+/// The columns of a scene.
+pub(super) const SCENE: [Field<Scene>; 3] = [
+    ("kind", "kind", |scene| scene.kind.to_string().into()),
+    ("view_x view_y view_z", "view", |scene| scene.view.into()),
+    ("light_x light_y light_z", "light", |scene| scene.light.into()),
+];
 
 /// The scenes with the largest losses, sorted by the mean of the losses of all predictions in them, worst first. Its JSON is a
 /// scene file, too.
@@ -77,35 +84,24 @@ fn distribution(prediction: &str, d: &Distribution) -> String {
     )
 }
 
-impl Report for ScenesReport {
-    fn text(&self) -> String {
-        let names = self.results.iter().map(|result| result.prediction.as_str());
-        let titles: Vec<_> = ["scene", "kind", "view", "light"].into_iter().chain(names).collect();
-        let mut rows = vec![titles.into_iter().map(str::to_owned).collect::<Vec<_>>()];
-        rows.extend(self.indices.iter().zip(&self.scenes).enumerate().map(|(k, (index, scene))| {
-            let start =
-                [index.to_string(), scene.kind.to_string(), position(scene.view), position(scene.light)];
-            let losses = self.results.iter().map(|result| format!("{:.6}", result.losses[k]));
-            start.into_iter().chain(losses).collect()
-        }));
-        format!("{}\n{}", self.heading, aligned(&rows))
-    }
-
-    fn table(&self) -> Table {
-        let columns: [Column<'_, (&usize, &Scene)>; 8] = [
-            ("scene", |(index, _)| (**index).into()),
-            ("kind", |(_, scene)| scene.kind.to_string().into()),
-            ("view_x", |(_, scene)| scene.view[0].into()),
-            ("view_y", |(_, scene)| scene.view[1].into()),
-            ("view_z", |(_, scene)| scene.view[2].into()),
-            ("light_x", |(_, scene)| scene.light[0].into()),
-            ("light_y", |(_, scene)| scene.light[1].into()),
-            ("light_z", |(_, scene)| scene.light[2].into()),
-        ];
-        let mut table = Table::of(&columns, self.indices.iter().zip(&self.scenes));
+impl ScenesReport {
+    fn table_for(&self, reader: Reader) -> Table {
+        let index: [Field<usize>; 1] = [("scene", "scene", |index| (*index).into())];
+        let scenes = Table::fields(&SCENE, &self.scenes, reader);
+        let mut table = Table::fields(&index, &self.indices, reader).beside(scenes);
         for result in &self.results {
             table.push(result.prediction.clone(), result.losses.iter().map(|&loss| Cell::from(loss)));
         }
         table
+    }
+}
+
+impl Report for ScenesReport {
+    fn text(&self) -> String {
+        format!("{}\n{}", self.heading, self.table_for(Reader::Person).text())
+    }
+
+    fn table(&self) -> Table {
+        self.table_for(Reader::Program)
     }
 }

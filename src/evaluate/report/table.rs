@@ -1,37 +1,73 @@
 //! Tables: typed cells for CSV and data frames, and aligned columns for people.
 
+use std::borrow::Borrow;
 use std::fmt;
 
+use super::heading::position;
 use svbrdf_core::error::Error;
 use svbrdf_core::text::line;
 
 /// A value of a [`Table`].
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// An unknown value.
-    Empty,
+    /// No value, and what people read in its place.
+    Missing(&'static str),
     Text(String),
     Integer(u64),
     Number(f64),
     /// A number of 32 bits, which has fewer digits.
     Single(f32),
     Truth(bool),
+    /// A part of a whole, which people read in percent.
+    Share(f64),
+    Interval([f64; 2]),
+    /// A position or direction.
+    Point([f64; 3]),
 }
 
+/// The cell for programs: every digit.
 impl fmt::Display for Cell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Empty => Ok(()),
+            Self::Missing(_) => Ok(()),
             Self::Text(text) => text.fmt(f),
             Self::Integer(number) => number.fmt(f),
-            Self::Number(number) => number.fmt(f),
+            Self::Number(number) | Self::Share(number) => number.fmt(f),
             Self::Single(number) => number.fmt(f),
             Self::Truth(truth) => truth.fmt(f),
+            Self::Interval(_) | Self::Point(_) => f.write_str(&self.text()),
         }
     }
 }
 
 impl Cell {
+    /// The cell for people.
+    pub fn text(&self) -> String {
+        match self {
+            Self::Missing(text) => (*text).to_owned(),
+            Self::Number(number) => format!("{number:.6}"),
+            Self::Share(share) => format!("{:.1}%", 100.0 * share),
+            Self::Interval([low, high]) => format!("{low:.6} to {high:.6}"),
+            Self::Point(point) => position(*point),
+            cell => cell.to_string(),
+        }
+    }
+
+    /// A value, or what people read in its place.
+    pub fn or(value: Option<impl Into<Self>>, missing: &'static str) -> Self {
+        value.map_or(Self::Missing(missing), Into::into)
+    }
+
+    /// The cells of `count` columns: the ends of an interval, or the coordinates of a point.
+    fn parts(self, count: usize) -> Vec<Self> {
+        match self {
+            Self::Missing(_) => vec![self; count],
+            Self::Interval(ends) => ends.map(Self::Number).into(),
+            Self::Point(point) => point.map(Self::Number).into(),
+            cell => vec![cell],
+        }
+    }
+
     /// Its text in a table. Spreadsheets take text that begins with `= + - @` as a formula: it begins with `'` instead.
     fn in_table(&self) -> String {
         match self {
@@ -61,11 +97,13 @@ cells_of! {
     u64, number => Self::Integer(number);
     f64, number => Self::Number(number);
     bool, truth => Self::Truth(truth);
+    [f64; 2], ends => Self::Interval(ends);
+    [f64; 3], point => Self::Point(point);
 }
 
 impl<T: Into<Self>> From<Option<T>> for Cell {
     fn from(value: Option<T>) -> Self {
-        value.map_or(Self::Empty, Into::into)
+        Self::or(value, "")
     }
 }
 
@@ -83,6 +121,18 @@ impl Cell {
 
 /// A column of a table: its name, and its value in a row.
 pub type Column<'a, R, V = Cell> = (&'a str, fn(&R) -> V);
+
+/// A column of a report, declared once: its name for programs (CSV and data frames), its title for people (text, window and pages), and
+/// its value in a row. An interval or a point has names for its parts, separated by blanks. Where a name or title is empty, the column is
+/// for the others alone; a blank is a title without words.
+pub type Field<R> = (&'static str, &'static str, fn(&R) -> Cell);
+
+/// Who reads a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reader {
+    Program,
+    Person,
+}
 
 /// Rows of values under the names of their columns.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,6 +155,43 @@ impl Table {
     pub fn of<R>(columns: &[Column<'_, R>], rows: impl IntoIterator<Item = R>) -> Self {
         let cells = |row: R| columns.iter().map(|(_, value)| value(&row)).collect();
         Self::new(columns.iter().map(|(name, _)| *name), rows.into_iter().map(cells))
+    }
+
+    /// The table of `rows`, each of which has a value in every one of `fields`, for a `reader`.
+    pub fn fields<R>(
+        fields: &[Field<R>],
+        rows: impl IntoIterator<Item = impl Borrow<R>>,
+        reader: Reader,
+    ) -> Self {
+        let names = |(name, title, _): &Field<R>| match reader {
+            Reader::Program => name.split_whitespace().collect::<Vec<_>>(),
+            Reader::Person => [*title].into_iter().filter(|title| !title.is_empty()).map(str::trim).collect(),
+        };
+        let columns: Vec<_> = fields.iter().map(|field| (names(field), field.2)).collect();
+        let columns = || columns.iter().filter(|(names, _)| !names.is_empty());
+        let cells = |row: &R| {
+            let parts = columns().map(|(names, value)| match reader {
+                Reader::Program => value(row).parts(names.len()),
+                Reader::Person => vec![value(row)],
+            });
+            parts.flatten().collect()
+        };
+        let rows = rows.into_iter().map(|row| cells(row.borrow()));
+        Self::new(columns().flat_map(|(names, _)| names.iter().copied()), rows)
+    }
+
+    /// Lines of aligned columns for people, below the names of the columns.
+    pub fn text(&self) -> String {
+        let rows = self.rows.iter().map(|row| row.iter().map(Cell::text).collect());
+        aligned(&std::iter::once(self.columns.clone()).chain(rows).collect::<Vec<_>>())
+    }
+
+    /// The columns of this table, then those of another one of as many rows.
+    #[must_use]
+    pub fn beside(mut self, other: Self) -> Self {
+        self.columns.extend(other.columns);
+        self.rows.iter_mut().zip(other.rows).for_each(|(row, cells)| row.extend(cells));
+        self
     }
 
     /// Adds a column with a cell for each row.
@@ -158,6 +245,19 @@ pub fn aligned(rows: &[Vec<String>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_field_has_names_for_programs_and_a_title_for_people() {
+        let fields: [Field<Option<[f64; 2]>>; 3] = [
+            ("known", "", |ends| ends.map(|_| f64::NAN).into()),
+            ("low high", "95%", |ends| Cell::or(*ends, "unknown")),
+            ("", "share", |ends| ends.map_or(Cell::Missing("-"), |[low, _]| Cell::Share(low))),
+        ];
+        let table = |reader| Table::fields(&fields, [Some([0.25, 1e-9]), None], reader);
+        assert_eq!(table(Reader::Program).csv().unwrap(), "known,low,high\nNaN,0.25,0.000000001\n,,\n");
+        let text = "95%                   share\n0.250000 to 0.000000  25.0%\nunknown                   -\n";
+        assert_eq!(table(Reader::Person).text(), text);
+    }
 
     #[test]
     fn csv_has_a_heading_quotes_names_and_leaves_unknown_values_empty() {

@@ -4,9 +4,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
-use super::heading::{Compared, position};
+use super::heading::Compared;
 use super::missed::missed;
-use super::table::{Cell, Column, Table, aligned_columns};
+use super::scenes::SCENE;
+use super::table::{Cell, Field, Reader, Table};
 use crate::why;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate};
@@ -53,8 +54,23 @@ impl WorstReport {
         Self { compared, distance_tail: tail, results, scenes }
     }
 
-    fn rows(&self) -> impl Iterator<Item = (&Worst, Scene)> {
-        self.results.iter().zip(self.scenes.iter().copied())
+    fn table_for(&self, reader: Reader) -> Table {
+        let losses: [Field<Worst>; 4] = [
+            ("prediction", "prediction", |one| one.prediction.as_str().into()),
+            ("worst", "worst", |one| one.worst.into()),
+            ("mean", "mean", |one| one.mean.into()),
+            ("", "times the mean", |one| match one.mean > 0.0 {
+                true => format!("{:.2}", one.worst / one.mean).into(),
+                false => Cell::Missing("-"),
+            }),
+        ];
+        let search: [Field<Worst>; 2] = [
+            ("evaluations", "evaluations", |one| one.evaluations.into()),
+            ("target_reached", "", |one| one.target_reached.into()),
+        ];
+        let [losses, search] =
+            [&losses[..], &search].map(|fields| Table::fields(fields, &self.results, reader));
+        losses.beside(Table::fields(&SCENE, &self.scenes, reader)).beside(search)
     }
 }
 
@@ -75,41 +91,14 @@ impl From<why::Worst> for Worst {
 
 impl Report for WorstReport {
     fn text(&self) -> String {
-        let columns: [Column<'_, (&Worst, Scene), String>; 8] = [
-            ("prediction", |(worst, _)| worst.prediction.clone()),
-            ("worst", |(worst, _)| format!("{:.6}", worst.worst)),
-            ("mean", |(worst, _)| format!("{:.6}", worst.mean)),
-            ("times the mean", |(Worst { worst, mean, .. }, _)| match *mean > 0.0 {
-                true => format!("{:.2}", worst / mean),
-                false => "-".to_owned(),
-            }),
-            ("kind", |(_, scene)| scene.kind.to_string()),
-            ("view", |(_, scene)| position(scene.view)),
-            ("light", |(_, scene)| position(scene.light)),
-            ("evaluations", |(worst, _)| worst.evaluations.to_string()),
-        ];
         let central = 100.0 - 200.0 * self.distance_tail;
         let cut = format!("distances within the central {central}% of their distributions\n");
-        let table = aligned_columns(&columns, self.rows());
+        let table = self.table_for(Reader::Person).text();
         format!("{}{cut}\n{table}", self.compared.heading("worst scenes"))
     }
 
     fn table(&self) -> Table {
-        let columns: [Column<'_, (&Worst, Scene)>; 12] = [
-            ("prediction", |(worst, _)| worst.prediction.as_str().into()),
-            ("worst", |(worst, _)| worst.worst.into()),
-            ("mean", |(worst, _)| worst.mean.into()),
-            ("kind", |(_, scene)| scene.kind.to_string().into()),
-            ("view_x", |(_, scene)| scene.view[0].into()),
-            ("view_y", |(_, scene)| scene.view[1].into()),
-            ("view_z", |(_, scene)| scene.view[2].into()),
-            ("light_x", |(_, scene)| scene.light[0].into()),
-            ("light_y", |(_, scene)| scene.light[1].into()),
-            ("light_z", |(_, scene)| scene.light[2].into()),
-            ("evaluations", |(worst, _)| worst.evaluations.into()),
-            ("target_reached", |(worst, _)| Cell::from(worst.target_reached)),
-        ];
-        Table::of(&columns, self.rows())
+        self.table_for(Reader::Program)
     }
 
     fn missed(&self) -> Vec<Error> {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use eframe::egui;
 
 use svbrdf_core::error::Error;
+use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::open::allow_outside;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::SessionPhotograph;

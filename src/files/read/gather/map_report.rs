@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::read::measure;
@@ -11,8 +12,11 @@ use crate::read::raster::{Raster, Samples};
 use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// One map as stored.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[schemars(rename = "StoredMap")]
 pub struct MapReport {
+    /// The map, such as "normal" or "base".
+    #[schemars(with = "String")]
     pub map: Role,
     pub file: PathBuf,
     /// Layer, channel or tile within the file; may be empty.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::material::Map;
@@ -11,7 +12,7 @@ use super::reason::Reason;
 use super::storage_convention::StorageConvention;
 
 /// The subject of an assumption.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum What {
     /// Which part of a picture or file is which map.
@@ -58,7 +59,7 @@ impl What {
 }
 
 /// How far an assumption can be trusted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Certainty {
     /// Another reading is as plausible. Strict reading refuses it.
@@ -72,11 +73,13 @@ pub enum Certainty {
 }
 
 /// One thing that was assumed, and why.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Assumption {
     pub what: What,
     /// The choice, for the user.
     pub chosen: String,
+    /// In words.
+    #[schemars(with = "String")]
     pub why: Reason,
     pub certainty: Certainty,
 }

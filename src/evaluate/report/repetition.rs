@@ -1,0 +1,30 @@
+//! How to repeat a result.
+
+use std::fmt;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use svbrdf_files::disk::atomic::SOFTWARE;
+
+/// How to repeat a result.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+pub struct Repetition {
+    /// The program and its version.
+    pub software: &'static str,
+    /// The command line.
+    pub command: String,
+}
+
+impl Repetition {
+    /// By `command` and this version of the program.
+    pub fn new(command: String) -> Self {
+        Self { software: SOFTWARE, command }
+    }
+}
+
+impl fmt::Display for Repetition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "repeat with {}: {}", self.software, self.command)
+    }
+}
