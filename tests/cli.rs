@@ -59,9 +59,8 @@ fn text(bytes: &[u8]) -> &str {
 fn succeed(folder: &Path, args: &str) -> String {
     let output = run_in(folder, args);
     assert!(output.status.success(), "{args}: {}", text(&output.stderr));
-    let complaints = text(&output.stderr)
-        .lines()
-        .find(|line| !line.starts_with("svbrdf: note: ") && !is_progress(line));
+    let complaints =
+        text(&output.stderr).lines().find(|line| !line.starts_with("svbrdf: note: ") && !is_progress(line));
     assert_eq!(complaints, None, "{args}");
     text(&output.stdout).to_owned()
 }
