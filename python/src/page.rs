@@ -9,7 +9,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
-use svbrdf_files::session::window::Display;
+use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_page::{Findings, Repetition, Report, View, check_destination, exposure};
 
 use crate::asked::Asked;
@@ -78,7 +78,7 @@ impl PageAsked {
         let scene = self.scene.scene()?;
         scene.check().map_err(|problem| exception(Error::UnusableScene { problem }))?;
         let layout = self.layout.parse().map_err(exception)?;
-        let display = Display { layout, ..Display::default() };
+        let display = SessionDisplay { layout, ..SessionDisplay::default() };
         Ok(View { scene, exposure_ev: 0.0, display })
     }
 

@@ -225,7 +225,8 @@ fn a_data_set_counts_the_materials_of_each_method_by_their_marks() {
     let rank = |options: &str| {
         succeed(folder.path(), &format!("rank --dataset gt ours theirs {READ} --target-error 10% {options}"))
     };
-    let found = json(&rank("--diagnose --format json"));
+    let kept = |format: &str| rank(&format!("--diagnose --results kept {format}"));
+    let found = json(&kept("--format json"));
     let of = |method: &str| {
         let all = found["methods"].as_array().unwrap();
         all.iter().find(|entry| entry["method"] == method).unwrap()["marks"].clone()
@@ -254,12 +255,10 @@ fn a_data_set_counts_the_materials_of_each_method_by_their_marks() {
     assert_eq!(row("number of materials"), order);
     let by = |method: &str| row("by normal_y")[order.iter().position(|one| *one == method).unwrap()].clone();
     assert_eq!([by("ours"), by("theirs")], ["2", "0"]);
-    let csv = rank("--diagnose --format csv");
+    let csv = kept("--format csv");
     assert!(csv.lines().next().unwrap().ends_with(",floor,resolvable,marked"), "{csv}");
     assert_eq!(csv.lines().filter(|line| line.ends_with(",true,normal_y")).count(), 2, "{csv}");
-    // Kept results print the same.
-    rank("--diagnose --results kept");
-    assert_eq!(rank("--diagnose --results kept"), text);
+    assert_eq!(kept(""), text, "results that were kept print the same");
     assert!(!rank("").contains("number of materials"));
 }
 
