@@ -23,7 +23,7 @@ def test_the_version_is_that_of_the_crate() -> None:
 
 
 def test_the_wheel_has_no_graphics_and_no_command_line() -> None:
-    command = "cargo tree --package=svbrdf-python --edges=normal --prefix=none --format={p} --locked".split()
+    command = ["cargo", "tree", "--package=svbrdf-python", "--edges=normal", "--prefix=none", "--locked"]
     tree = subprocess.run(command, cwd=REPOSITORY, check=True, capture_output=True, text=True).stdout
     names = {line.split(" ")[0] for line in tree.splitlines()}
     assert {"svbrdf-core", "svbrdf-evaluate", "svbrdf-files", "svbrdf-page"} <= names
