@@ -1,4 +1,4 @@
-//! What a window shows, for those who drive it.
+//! Observations of a window, for programs that drive it.
 
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::material::Material;
