@@ -3,6 +3,7 @@
 //! Functions take and return plain values: arrays as buffers, options as numbers and words, scenes as tuples. The package
 //! `svbrdf` beside it is the interface for users. It checks shapes and types and gives results their classes.
 
+mod analysis;
 mod arrays;
 mod asked;
 mod dataset;
@@ -39,13 +40,10 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(model::read_scenes, module)?)?;
     module.add_function(wrap_pyfunction!(loss::loss, module)?)?;
     module.add_function(wrap_pyfunction!(loss::rank, module)?)?;
-    module.add_function(wrap_pyfunction!(why::blame, module)?)?;
-    module.add_function(wrap_pyfunction!(why::worst, module)?)?;
-    module.add_function(wrap_pyfunction!(why::scenes, module)?)?;
+    module.add_function(wrap_pyfunction!(analysis::analysis, module)?)?;
     module.add_function(wrap_pyfunction!(why::map, module)?)?;
     module.add_function(wrap_pyfunction!(why::diagnose, module)?)?;
     module.add_function(wrap_pyfunction!(metrics::matfusion, module)?)?;
-    module.add_function(wrap_pyfunction!(metrics::metrics, module)?)?;
     module.add_function(wrap_pyfunction!(photo::photo, module)?)?;
     module.add_function(wrap_pyfunction!(dataset::rank_dataset, module)?)?;
     module.add_function(wrap_pyfunction!(page::page, module)?)?;

@@ -1,13 +1,12 @@
-//! Metrics beside the loss.
+//! The metrics of published evaluations.
 
 use std::path::Path;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use svbrdf_core::loss::check_same_size;
-use svbrdf_core::model::sampler::Sampler;
-use svbrdf_evaluate::metrics::{RenderedScenes, of_maps, of_matfusion, of_renderings};
-use svbrdf_evaluate::report::{Compared, MetricsReport};
+use svbrdf_evaluate::metrics::of_matfusion;
+use svbrdf_evaluate::report::MetricsReport;
 use svbrdf_files::read;
 
 use crate::asked::Asked;
@@ -15,38 +14,6 @@ use crate::errors::exception;
 use crate::material::{CoreMaterial, read_options};
 use crate::report::Views;
 use crate::work;
-
-/// The metrics of the maps and renderings of `predictions`. `exposure`: of the renderings, in stops.
-#[pyfunction]
-pub fn metrics(
-    py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
-    exposure: f32,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
-    let (convention, request) = (asked.convention()?, asked.listed()?);
-    let sampling = request.sampling();
-    let scenes = request.scenes(&convention).map_err(exception)?.unwrap_or_default();
-    let rendered = RenderedScenes {
-        scenes: &scenes,
-        sampler: sampling.map_or(Sampler::Random, |sampling| sampling.sampler),
-        convention: &convention,
-        exposure_ev: exposure,
-    };
-    let all = asked.singles(ground_truth, &predictions);
-    let mut results = Vec::new();
-    for prediction in &all[1..] {
-        let metrics = work::run(py, progress, |progress| {
-            let of_renderings = of_renderings(&all[0], prediction, &rendered, progress)?;
-            Ok([of_maps(&all[0], prediction)?, of_renderings].concat())
-        })?;
-        results.push((prediction.name().to_owned(), metrics));
-    }
-    let compared = Compared::new(&all[0], &convention);
-    Views::new(&MetricsReport::new(&compared, sampling.as_ref(), &rendered, results))
-}
 
 /// The metrics of MatFusion's evaluation. Files are read anew: it compares normals of the lengths that are stored.
 /// `options` are those that each material was read with; None for one of arrays.

@@ -1,7 +1,7 @@
 //! Reports of the crate as Python takes them.
 
 use pyo3::prelude::*;
-use svbrdf_evaluate::report::{Cell, Report};
+use svbrdf_evaluate::report::{Cell, Reader, Report};
 
 use crate::errors::exception;
 
@@ -21,8 +21,8 @@ impl Views {
     ///
     /// # Errors
     /// As [`Report::json`].
-    pub fn new(report: &impl Report) -> PyResult<Self> {
-        let table = report.table();
+    pub fn new(report: &(impl Report + ?Sized)) -> PyResult<Self> {
+        let table = report.table(Reader::Program);
         Ok(Self {
             rows: table.rows.into_iter().map(items).collect(),
             columns: table.columns,
@@ -34,7 +34,7 @@ impl Views {
     ///
     /// # Errors
     /// As [`Report::json`].
-    pub fn without_rows(report: &impl Report) -> PyResult<Self> {
+    pub fn without_rows(report: &(impl Report + ?Sized)) -> PyResult<Self> {
         Ok(Self {
             json: report.json().map_err(exception)?,
             text: report.text(),
@@ -66,10 +66,12 @@ impl From<Cell> for CellItem {
             Cell::Missing(_) => Self::Empty(None),
             Cell::Text(text) => Self::Text(text),
             Cell::Integer(number) => Self::Integer(number),
-            Cell::Number(number) | Cell::Share(number) => Self::Number(number),
+            Cell::Number(number) | Cell::Share(number) | Cell::Digits(_, number) | Cell::Stops(number) => {
+                Self::Number(number)
+            }
             Cell::Single(number) => Self::Number(f64::from(number)),
             Cell::Truth(truth) => Self::Truth(truth),
-            Cell::Interval(_) | Cell::Point(_) => Self::Text(cell.text()),
+            Cell::Interval(..) | Cell::Point(_) => Self::Text(cell.text()),
         }
     }
 }

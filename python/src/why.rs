@@ -1,16 +1,14 @@
-//! Causes of a loss: maps, scenes, texels and directions.
+//! Causes of a loss: trivial ones, texels and directions.
 
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::diagnose as diagnosis;
-use svbrdf_evaluate::report::{BlameReport, Compared, DiagnoseReport, MapReport, ScenesReport, WorstReport};
-use svbrdf_evaluate::why;
+use svbrdf_evaluate::report::{Compared, DiagnoseReport, MapReport};
 
 use crate::arrays;
 use crate::asked::Asked;
@@ -18,61 +16,6 @@ use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
 use crate::report::Views;
 use crate::work;
-
-/// A question that is asked of each prediction alone.
-struct Each {
-    convention: Convention,
-    /// The ground truth first.
-    materials: Vec<Material<f32>>,
-}
-
-impl Each {
-    fn new(
-        ground_truth: &CoreMaterial,
-        predictions: &[PyRef<'_, CoreMaterial>],
-        asked: &Asked,
-    ) -> PyResult<Self> {
-        Ok(Self { convention: asked.convention()?, materials: asked.singles(ground_truth, predictions) })
-    }
-
-    fn ground_truth(&self) -> &Material<f32> {
-        &self.materials[0]
-    }
-
-    fn compared(&self) -> Compared {
-        Compared::new(self.ground_truth(), &self.convention)
-    }
-
-    /// What `answer` computes for each prediction by its index.
-    fn answers<T: Send>(
-        &self,
-        py: Python<'_>,
-        progress: Option<&Bound<'_, PyAny>>,
-        answer: impl Fn(usize, &Material<f32>, &Progress) -> Result<T, CoreError> + Sync,
-    ) -> PyResult<Vec<T>> {
-        let all = self.materials[1..].iter().enumerate();
-        let one = |(index, prediction): (usize, &Material<f32>)| {
-            work::run(py, progress, |progress| answer(index, prediction, progress))
-        };
-        all.map(one).collect()
-    }
-}
-
-/// The attributions of the losses of `predictions`.
-#[pyfunction]
-pub fn blame(
-    py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
-    let (each, request) = (Each::new(ground_truth, &predictions, &asked)?, asked.request()?);
-    let attributions = each.answers(py, progress, |_, prediction, progress| {
-        why::attribute(each.ground_truth(), prediction, &each.convention, &request, progress)
-    })?;
-    Views::new(&BlameReport::new(each.compared(), &request, attributions))
-}
 
 /// The diagnosis of the loss of each of `predictions`; `repeats` are further captures of the ground truth.
 #[pyfunction]
@@ -84,16 +27,18 @@ pub fn diagnose(
     repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let (each, seed) = (Each::new(ground_truth, &predictions, &asked)?, asked.seed()?);
-    let floor = floor_of(py, (ground_truth, &repeats), &each.convention, seed, progress)?;
-    let storages: Vec<_> = predictions.iter().map(|prediction| &prediction.storage).collect();
-    let of_truth = &ground_truth.storage;
-    let diagnoses = each.answers(py, progress, |index, prediction, progress| {
-        let (pair, storages) = ([each.ground_truth(), prediction], [of_truth, storages[index]]);
-        diagnosis::diagnose(pair, storages, &each.convention, floor.0.mean, seed, progress)
-    })?;
-    let seams = diagnosis::seams(each.ground_truth());
-    let compared = each.compared();
+    let (convention, seed) = (asked.convention()?, asked.seed()?);
+    let materials = asked.singles(ground_truth, &predictions);
+    let truth = &materials[0];
+    let floor = floor_of(py, (ground_truth, &repeats), &convention, seed, progress)?;
+    let of_each = materials[1..].iter().zip(&predictions).map(|(material, prediction)| {
+        let (pair, storages) = ([truth, material], [&ground_truth.storage, &prediction.storage]);
+        work::run(py, progress, |progress| {
+            diagnosis::diagnose(pair, storages, &convention, floor.0.mean, seed, progress)
+        })
+    });
+    let diagnoses = of_each.collect::<PyResult<_>>()?;
+    let (compared, seams) = (Compared::new(truth, &convention), diagnosis::seams(truth));
     Views::new(&DiagnoseReport::new(compared, seed, floor, seams, diagnoses))
 }
 
@@ -118,40 +63,6 @@ pub fn floor_of(
     let floor =
         |progress: &Progress| diagnosis::floor_of_captures(&truth, &repeats, convention, seed, progress);
     Ok((work::run(py, progress, floor)?, Some(1 + repeats.len())))
-}
-
-/// The worst scene of each of `predictions`.
-#[pyfunction]
-pub fn worst(
-    py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
-    let (each, seed) = (Each::new(ground_truth, &predictions, &asked)?, asked.seed()?);
-    let found = each.answers(py, progress, |_, prediction, progress| {
-        why::worst(each.ground_truth(), prediction, &each.convention, seed, why::TAIL, progress)
-    })?;
-    Views::new(&WorstReport::new(each.compared(), why::TAIL, found))
-}
-
-/// The `top` scenes with the largest losses.
-#[pyfunction]
-pub fn scenes(
-    py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
-    top: usize,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
-    let (convention, request) = (asked.convention()?, asked.listed()?);
-    let materials = asked.singles(ground_truth, &predictions);
-    let all: Vec<_> = materials.iter().collect();
-    let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?.without_pilot();
-    let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
-    Views::new(&ScenesReport::new(Compared::new(all[0], &convention), &outcome, top))
 }
 
 /// The axes of a map over directions.

@@ -1,4 +1,4 @@
-"""The types of reports, from their schemas.
+"""The types of reports and the functions of analyses, from their schemas.
 
 `cargo xtask bless types` writes them with the program that it names: `python3 report_types.py target/debug/svbrdf`.
 """
@@ -6,11 +6,12 @@
 import json
 import subprocess
 import sys
+import textwrap
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-COMMITTED = Path(__file__).parents[1] / "package" / "svbrdf" / "_reports.py"
+PACKAGE = Path(__file__).parents[1] / "package" / "svbrdf"
 HEAD = '''"""The types of reports: the keys of their JSON.
 
 Generated from `svbrdf schema` by `cargo xtask bless types`: do not edit.
@@ -24,6 +25,53 @@ from typing import Any, Literal
 from ._report import Record, Report
 from ._scenes import Scene
 '''
+HEAD_OF_ANALYSES = '''"""The analyses that each have one question.
+
+Generated from `svbrdf schema` by `cargo xtask bless types`: do not edit.
+"""
+# ruff: noqa: E501
+# fmt: off
+
+import json
+from typing import Literal
+
+from . import _core
+from ._asked import Asked, Predictions, Scenes, answered
+from ._material import Material, Source
+from ._progress import Report as Progress
+from ._reports import {reports}
+from ._scenes import check_whole
+
+__all__ = {names}
+'''
+FUNCTION = '''
+
+def {name}(
+    ground_truth: Material | Source,
+    predictions: Predictions,
+    *,
+{parameters}
+    convention: str = "printed",
+    progress: bool | Progress = False,
+) -> {report}:
+    """{about}.
+
+{details}
+
+{arguments}
+    """
+{checks}    options = json.dumps({{{options}}})
+    asked = Asked(ground_truth, predictions, convention=convention, {given})
+    return answered({report}, _core.analysis, asked, "{doing}", progress, "{name}", options)
+'''
+SCENES = {
+    "seed": {"seed": "int"},
+    "target_error": {"target_error": "float"},
+    "sampled": {"near": "int", "distant": "int", "sampler": 'Literal["random", "sobol"]'},
+    "list": {"scenes": "Scenes"},
+}
+OF_THE_PACKAGE = ("metrics",)
+"""The package has functions of its own for these, with further arguments."""
 SCALARS = {"string": "str", "integer": "int", "number": "float", "boolean": "bool", "null": "None"}
 WITH_ARRAYS = ("MapReport", "PhotoReport")
 """The package adds their arrays."""
@@ -31,7 +79,51 @@ OTHERS = ("info",)
 """Reports of the command line alone: the package has `Material.assumptions` and `Material.notes`."""
 
 
-def module(program: str) -> str:
+def modules(program: str) -> dict[str, str]:
+    """The generated files of the package by their names."""
+    printed = subprocess.run([program, "schema"], check=True, capture_output=True).stdout
+    schemas = json.loads(printed)
+    return {"_reports.py": types(schemas), "_analyses.py": functions(schemas)}
+
+
+def functions(schemas: dict[str, Any]) -> str:
+    """The module of the analyses."""
+    of_analyses = {name: schema for name, schema in schemas.items() if "x-analysis" in schema}
+    names = sorted(of_analyses.keys() - set(OF_THE_PACKAGE))
+    reports = ", ".join(of_analyses[name]["title"] for name in names)
+    listed = json.dumps(names)
+    head = HEAD_OF_ANALYSES.format(reports=reports, names=listed)
+    return head + "".join(function(name, of_analyses[name]) for name in names)
+
+
+def function(name: str, schema: dict[str, Any]) -> str:
+    """The function of an analysis."""
+    analysis = schema["x-analysis"]
+    own = analysis["options"].get("properties", {})
+    scenes = {option: kind for group in analysis["scenes"] for option, kind in SCENES[group].items()}
+    parameters = [f"    {key}: {SCALARS[option['type']]} = {option['default']}," for key, option in own.items()]
+    parameters += [f"    {key}: {kind} | None = None," for key, kind in scenes.items()]
+    arguments = "".join(f"`{key}`: {option['description'][0].lower()}{option['description'][1:]}. " for key, option in own.items())
+    whole = [key for key, option in own.items() if option["type"] == "integer"]
+    return FUNCTION.format(
+        name=name,
+        parameters="\n".join(parameters),
+        report=schema["title"],
+        about=analysis["about"].replace("Prints", "Computes"),
+        details=filled(analysis["details"]),
+        arguments=filled(arguments + "The other args and errors are those of `svbrdf.loss`."),
+        checks="".join(f'    check_whole("{key}", {key})\n' for key in whole),
+        options=", ".join(f'"{key}": {key}' for key in own),
+        given=", ".join(f"{key}={key}" for key in scenes),
+        doing=analysis["doing"],
+    )
+
+
+def filled(text: str) -> str:
+    return textwrap.fill(text, 116, initial_indent="    ", subsequent_indent="    ")
+
+
+def types(schemas: dict[str, Any]) -> str:
     """The module of the types; a class stands before those that have it."""
     classes: dict[str, str] = {}
 
@@ -43,8 +135,7 @@ def module(program: str) -> str:
         if classes.setdefault(name, text) != text:
             raise ValueError(f"two classes are called {name}")
 
-    printed = subprocess.run([program, "schema"], check=True, capture_output=True).stdout
-    for command, schema in json.loads(printed).items():
+    for command, schema in schemas.items():
         if command not in OTHERS:
             add(schema["title"], schema, schema.get("$defs", {}), "Report")
     names = "".join(f'    "{name}",\n' for name in sorted(classes) if name not in WITH_ARRAYS)
@@ -108,4 +199,5 @@ def kind(name: str, schema: dict[str, Any], parts: dict[str, Any]) -> str:
 
 
 if __name__ == "__main__":
-    COMMITTED.write_text(module(sys.argv[1]))
+    for name, text in modules(sys.argv[1]).items():
+        (PACKAGE / name).write_text(text)

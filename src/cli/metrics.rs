@@ -1,18 +1,17 @@
 //! `svbrdf metrics`: metrics beside the loss.
 
-use svbrdf_core::error::Error;
-use svbrdf_core::loss::Request;
-use svbrdf_core::material::Material;
-use svbrdf_core::model::sampler::Sampler;
-use svbrdf_evaluate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
-use svbrdf_evaluate::report::{Compared, MetricsReport};
+use serde_json::json;
 
+use svbrdf_evaluate::analysis::AnyAnalysis;
+use svbrdf_evaluate::report::MetricsReport;
+
+use super::analysis::AnalysisJob;
 use super::args::scenes::SceneArgs;
 use super::args::values::stops;
 use super::args::{ComparisonArgs, Given, refuse};
 use super::job::{ComparisonJob, Job, NewJob};
+use super::output::CommandError;
 use super::output::report::ReportFormat;
-use super::output::{CommandError, exit, watched};
 use super::protocol::{self, ProtocolArgs};
 
 /// Prints metrics of maps and renderings, each with its convention in its name
@@ -42,24 +41,17 @@ pub struct MetricsArgs {
 }
 
 #[derive(Debug)]
-struct MetricsJob {
+struct ProtocolJob {
     comparison: ComparisonJob,
-    metrics: Metrics,
+    protocol: ProtocolArgs,
     format: ReportFormat,
-}
-
-/// The metrics, with what they take.
-#[derive(Debug)]
-enum Metrics {
-    Ours { request: Request, exposure_ev: f32 },
-    OfProtocol(ProtocolArgs),
 }
 
 impl MetricsArgs {
     pub fn job(self, given: &Given) -> NewJob {
         let Self { scenes, protocol, exposure, format, comparison: args } = self;
         let comparison = ComparisonJob::with_predictions(&args, given)?;
-        let metrics = if protocol.protocol.is_some() {
+        if protocol.protocol.is_some() {
             let reason = "a protocol has its own scenes, convention and exposure";
             given.refuse::<SceneArgs>(reason)?;
             refuse(args.convention.is_some(), "convention", reason)?;
@@ -70,41 +62,19 @@ impl MetricsArgs {
                 let problem = "a protocol takes the files of materials; name them instead of a session";
                 return Err(CommandError::usage(problem));
             }
-            Metrics::OfProtocol(protocol)
-        } else {
-            refuse(protocol.renderings.is_some(), "renderings", "only a --protocol writes renderings")?;
-            Metrics::Ours { request: scenes.options()?.listed()?, exposure_ev: exposure.unwrap_or(0.0) }
-        };
-        Ok(Box::new(MetricsJob { comparison, metrics, format }))
+            return Ok(Box::new(ProtocolJob { comparison, protocol, format }));
+        }
+        refuse(protocol.renderings.is_some(), "renderings", "only a --protocol writes renderings")?;
+        let analysis = AnyAnalysis::of::<MetricsReport>();
+        let (request, options) =
+            (analysis.request(&scenes.options()?)?, json!({ "exposure": exposure.unwrap_or(0.0) }));
+        Ok(Box::new(AnalysisJob { analysis, comparison, request, options, format }))
     }
 }
 
-/// Prints the metrics to stdout.
-impl Job for MetricsJob {
+/// Prints the metrics of a protocol to stdout.
+impl Job for ProtocolJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let ComparisonJob { convention, materials, .. } = &self.comparison;
-        let (request, exposure_ev) = match &self.metrics {
-            Metrics::Ours { request, exposure_ev } => (request, *exposure_ev),
-            Metrics::OfProtocol(protocol) => return protocol::run(protocol, materials, self.format),
-        };
-        let scenes = request.scenes(convention)?.unwrap_or_default();
-        let sampling = request.sampling();
-        let rendered = RenderedScenes {
-            scenes: &scenes,
-            sampler: sampling.map_or(Sampler::Random, |sampling| sampling.sampler),
-            convention,
-            exposure_ev,
-        };
-        let opened = materials.open::<f32>()?;
-        let truth = &opened.ground_truth;
-        let one = |prediction: &Material<f32>| -> Result<(String, Vec<Metric>), Error> {
-            let renderings =
-                watched("rendering", |progress| of_renderings(truth, prediction, &rendered, progress))?;
-            Ok((prediction.name().to_owned(), [of_maps(truth, prediction)?, renderings].concat()))
-        };
-        let results = opened.predictions.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-        let compared = Compared::new(truth, convention);
-        let report = MetricsReport::new(&compared, sampling.as_ref(), &rendered, results);
-        Ok(exit::put(&self.format.write(&report)?)?)
+        protocol::run(&self.protocol, &self.comparison.materials, self.format)
     }
 }

@@ -1,7 +1,7 @@
 //! The command line: one file per subcommand.
 
+mod analysis;
 mod args;
-mod blame;
 mod convert;
 mod diagnose;
 #[cfg(test)]
@@ -18,13 +18,11 @@ mod protocol;
 mod rank;
 mod render;
 mod report;
-mod scenes;
 mod schema;
 mod strip;
 mod study;
 mod version;
 mod view;
-mod worst;
 
 use std::process::ExitCode;
 
@@ -102,10 +100,9 @@ enum Subcommands {
     Strip(strip::StripArgs),
     Report(report::ReportArgs),
     Rank(rank::RankArgs),
-    Blame(blame::BlameArgs),
+    #[command(flatten)]
+    Analysis(analysis::AnalysisArgs),
     Diagnose(diagnose::DiagnoseArgs),
-    Scenes(scenes::ScenesArgs),
-    Worst(worst::WorstArgs),
     Map(map::MapArgs),
     Metrics(metrics::MetricsArgs),
     Photo(photo::PhotoArgs),
@@ -183,10 +180,8 @@ impl Subcommands {
             Self::Strip(args) => args.job(given),
             Self::Report(args) => args.job(given),
             Self::Rank(args) => args.job(given),
-            Self::Blame(args) => args.job(given),
+            Self::Analysis(args) => args.job(given),
             Self::Diagnose(args) => args.job(given),
-            Self::Scenes(args) => args.job(given),
-            Self::Worst(args) => args.job(given),
             Self::Map(args) => args.job(given),
             Self::Metrics(args) => args.job(given),
             Self::Photo(args) => args.job(given),

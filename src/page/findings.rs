@@ -7,7 +7,7 @@ use svbrdf_core::loss::{Loss, Outcome};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::report::{Reader, parts, scenes_line};
+use svbrdf_evaluate::report::{Reader, Report as _, parts, scenes_line};
 use svbrdf_evaluate::why::{Attribution, Hemisphere};
 
 use super::content::{Findings, Repetition, Report};
@@ -66,7 +66,7 @@ fn losses(findings: &Findings) -> String {
     let loss = &findings.loss;
     let all = &loss.outcome.losses;
     let axis = plots::axis(all.iter().map(|loss| &loss.estimate));
-    let mut table = Table::of(loss.table_for(Reader::Person), "name", false).titled();
+    let mut table = Table::of(loss.table(Reader::Person), "name", false).titled();
     table.insert(3, "", all.iter().map(|loss| plots::bar(&loss.estimate, axis)));
     let verdicts = verdicts(&loss.outcome);
     format!(

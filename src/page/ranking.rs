@@ -8,6 +8,7 @@ use super::markup::{Document, escaped, filled, number};
 use super::plots;
 use super::tables::{Table, cell, row_heading};
 use svbrdf_evaluate::dataset::{DatasetReport, MaterialResult, MethodSummary, counted_loss, marks_table};
+use svbrdf_evaluate::report::{Reader, Report as _};
 
 const PAGE: &str = include_str!("ranking.html");
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("ranking.css"));
@@ -51,7 +52,7 @@ fn methods(report: &DatasetReport) -> String {
     let has_losses = |summary: &&MethodSummary| summary.materials > 0;
     let means: Vec<Estimate> = report.methods.iter().filter(has_losses).map(estimate).collect();
     let axis = plots::axis(means.iter());
-    let mut table = Table::of(report.methods_table(), "name", true).titled();
+    let mut table = Table::of(report.table(Reader::Person), "name", true).titled();
     let bar = |summary| match has_losses(&summary) {
         true => plots::bar(&estimate(summary), axis),
         false => String::new(),

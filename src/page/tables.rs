@@ -82,7 +82,7 @@ pub(super) fn cell(value: &Cell, sorts: bool) -> String {
         Cell::Text(_) | Cell::Truth(_) => return format!("<td>{}</td>", escaped(&value.text())),
         Cell::Number(value) if value.is_finite() => (value.to_string(), number(*value)),
         Cell::Share(share) => (share.to_string(), percent(*share)),
-        Cell::Interval([low, high]) => (low.to_string(), format!("{} to {}", number(*low), number(*high))),
+        Cell::Interval(_, [low, high]) => (low.to_string(), format!("{} to {}", number(*low), number(*high))),
         Cell::Integer(count) => (count.to_string(), count.to_string()),
         Cell::Missing("-") => (String::new(), "&ndash;".to_owned()),
         other => (String::new(), escaped(&other.text())),

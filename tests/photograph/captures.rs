@@ -14,7 +14,7 @@ use svbrdf_core::model::brdf::{Model, Texel, reflectance};
 use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::photograph::{CaptureExposure, PhotoOutlier, PhotoReport, PhotoSetting};
-use svbrdf_evaluate::report::Report as _;
+use svbrdf_evaluate::report::{Json as _, Report as _};
 use svbrdf_files::photograph::Capture;
 
 use super::small;

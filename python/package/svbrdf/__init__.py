@@ -15,7 +15,8 @@ Results print as the tables of the command line, and have `to_dict()`, its JSON,
 are those of the command line, bit for bit. `svbrdf.torch` has the same loss for training.
 """
 
-from . import _reports
+from . import _analyses, _reports
+from ._analyses import *  # noqa: F403
 from ._assumptions import Assumption, AssumptionWarning
 from ._core import Error, __version__
 from ._dataset import rank_dataset
@@ -28,7 +29,7 @@ from ._report import Record, Report
 from ._reports import *  # noqa: F403
 from ._scenes import CONVENTIONS, Convention, Scene, named_scenes, read_scenes, render, sample_scenes
 from ._show import show
-from ._why import MapReport, blame, diagnose, map, scenes, worst
+from ._why import MapReport, diagnose, map
 
 __all__ = [
     "CONVENTIONS",
@@ -44,7 +45,6 @@ __all__ = [
     "Report",
     "Scene",
     "__version__",
-    "blame",
     "built_in",
     "diagnose",
     "figure",
@@ -60,9 +60,7 @@ __all__ = [
     "render",
     "report",
     "sample_scenes",
-    "scenes",
     "show",
-    "worst",
     "write",
 ]
-__all__ += _reports.__all__
+__all__ += _analyses.__all__ + _reports.__all__

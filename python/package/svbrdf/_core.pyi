@@ -70,12 +70,9 @@ class PhotoItems(TypedDict):
 # Of a ground truth, its predictions, the arguments that comparisons have in common and further ones, the progress last.
 loss: Callable[..., Views]
 rank: Callable[..., Views]
-blame: Callable[..., Views]
-worst: Callable[..., Views]
-scenes: Callable[..., Views]
+analysis: Callable[..., Views]
 diagnose: Callable[..., Views]
 matfusion: Callable[..., Views]
-metrics: Callable[..., Views]
 map: Callable[..., MapItems]
 
 def photo(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> PhotoItems: ...

@@ -1,5 +1,6 @@
 """Metrics beside the loss."""
 
+import json
 import math
 from typing import Any, Literal
 
@@ -49,4 +50,4 @@ def metrics(
     if exposure is not None and not math.isfinite(exposure):
         raise ValueError(f"exposure: expected a finite number of stops, found {exposure}")
     asked = Asked(ground_truth, predictions, convention=convention or "printed", **choice)
-    return answered(MetricsReport, _core.metrics, asked, "rendering", progress, exposure or 0.0)
+    return answered(MetricsReport, _core.analysis, asked, "rendering", progress, "metrics", json.dumps({"exposure": exposure or 0.0}))

@@ -1,4 +1,4 @@
-"""The maps, scenes, directions, texels and trivial errors that a loss comes from."""
+"""The directions, texels and trivial errors that a loss comes from."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
@@ -13,8 +13,7 @@ from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import data_frame, report_of
-from ._reports import BlameReport, DiagnoseReport, ScenesReport, WorstReport
-from ._scenes import check_whole
+from ._reports import DiagnoseReport
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -56,31 +55,6 @@ class MapReport(_reports.MapReport):
         return frame
 
 
-def blame(
-    ground_truth: Material | Source,
-    predictions: Predictions,
-    *,
-    target_error: float | None = None,
-    seed: int | None = None,
-    scenes: Scenes | None = None,
-    convention: str = "printed",
-    progress: bool | Progress = False,
-) -> BlameReport:
-    """How much of the loss of each prediction comes from each of its maps: Shapley values, which add up to the loss.
-
-    >>> import svbrdf
-    >>> ground_truth, blurred, _ = svbrdf.built_in()
-    >>> report = svbrdf.blame(ground_truth, blurred, target_error=0.05)
-    >>> max(report.attributions[0].maps, key=lambda share: share.shapley.mean).map
-    'normal'
-
-    `target_error` samples at most 49,152 scenes; it is 0.01 where `scenes` are not given. Args and errors are those of
-    `svbrdf.loss`.
-    """
-    asked = Asked(ground_truth, predictions, convention=convention, seed=seed, scenes=scenes, target_error=target_error)
-    return answered(BlameReport, _core.blame, asked, "rendering", progress)
-
-
 def diagnose(
     ground_truth: Material | Source,
     predictions: Predictions,
@@ -104,61 +78,6 @@ def diagnose(
     """
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
     return answered(DiagnoseReport, _core.diagnose, asked, "diagnosing", progress, repeated(repeats))
-
-
-def worst(
-    ground_truth: Material | Source,
-    predictions: Predictions,
-    *,
-    seed: int = 0,
-    convention: str = "printed",
-    progress: bool | Progress = False,
-) -> WorstReport:
-    """Searches for the scene with the largest loss of each prediction.
-
-    >>> import svbrdf
-    >>> ground_truth, blurred, _ = svbrdf.built_in()
-    >>> report = svbrdf.worst(ground_truth, blurred)
-    >>> report.results[0].worst > 3 * report.results[0].mean
-    True
-
-    12,288 of the scenes that the loss is over are sampled, and the 16 worst refined, the best two on all texels.
-    Distances are within the central 99% of their distributions. The loss of the scene that it finds is over all texels.
-
-    `seed` names the scenes that the search starts from. Args and errors are those of `svbrdf.loss`.
-    """
-    asked = Asked(ground_truth, predictions, convention=convention, seed=seed)
-    return answered(WorstReport, _core.worst, asked, "searching", progress)
-
-
-def scenes(
-    ground_truth: Material | Source,
-    predictions: Predictions,
-    *,
-    top: int = 10,
-    near: int | None = None,
-    distant: int | None = None,
-    seed: int | None = None,
-    sampler: Literal["random", "sobol"] | None = None,
-    scenes: Scenes | None = None,
-    convention: str = "printed",
-    progress: bool | Progress = False,
-) -> ScenesReport:
-    """The scenes with the largest losses, sorted by the mean of the losses of all predictions in them, worst first.
-
-    >>> import svbrdf
-    >>> ground_truth, *predictions = svbrdf.built_in()
-    >>> report = svbrdf.scenes(ground_truth, predictions, top=3)
-    >>> len(report.scenes), report.of
-    (3, 192)
-
-    `top` is the number of scenes that are listed. Where neither `near` nor `distant` is given, they are of 128
-    near-field and 64 distant ones, sampled by "sobol". The other args and errors are those of `svbrdf.loss`.
-    """
-    choice: dict[str, Any] = {"near": near, "distant": distant, "seed": seed, "sampler": sampler, "scenes": scenes}
-    asked = Asked(ground_truth, predictions, convention=convention, **choice)
-    check_whole("top", top)
-    return answered(ScenesReport, _core.scenes, asked, "rendering", progress, top)
 
 
 def map(

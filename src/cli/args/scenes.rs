@@ -15,8 +15,21 @@ use crate::cli::output::CommandError;
 
 /// Sampled scenes, or those of a list.
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Scenes")]
 pub struct SceneArgs {
+    #[command(flatten)]
+    pub sampled: SampledArgs,
+
+    #[command(flatten)]
+    pub seed: SeedArgs,
+
+    #[command(flatten)]
+    pub list: ListArgs,
+}
+
+/// How many scenes are sampled, and how.
+#[derive(Clone, Copy, Debug, clap::Args)]
+#[command(next_help_heading = "Scenes")]
+pub struct SampledArgs {
     /// Number of near-field scenes [default: 128; with --distant two for each distant one]
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     pub near: Option<usize>,
@@ -25,15 +38,9 @@ pub struct SceneArgs {
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     pub distant: Option<usize>,
 
-    #[command(flatten)]
-    pub seed: SeedArgs,
-
     /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: sobol]
     #[arg(long, value_name = "random|sobol")]
     pub sampler: Option<Sampler>,
-
-    #[command(flatten)]
-    pub list: ListArgs,
 }
 
 /// The seed of a command that samples its scenes.
@@ -47,12 +54,19 @@ pub struct SeedArgs {
 /// A loss to an accuracy.
 #[derive(Debug, clap::Args)]
 pub struct AccuracyArgs {
+    #[command(flatten)]
+    target_error: TargetErrorArgs,
+
+    #[command(flatten)]
+    seed: SeedArgs,
+}
+
+/// The accuracy of a loss.
+#[derive(Debug, clap::Args)]
+pub struct TargetErrorArgs {
     /// Samples as many scenes as this relative error of every loss needs at 95% confidence [default: 1%]
     #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true)]
     pub target_error: Option<f64>,
-
-    #[command(flatten)]
-    pub seed: SeedArgs,
 }
 
 /// The scenes of a file, or those of a publication.
@@ -91,19 +105,25 @@ impl SceneArgs {
     /// # Errors
     /// As [`ListArgs::file`].
     pub fn options(&self) -> Result<LossOptions, CommandError> {
-        let Self { near, distant, seed: SeedArgs { seed }, sampler, ref list } = *self;
-        Ok(LossOptions { near, distant, seed, sampler, file: list.file()?, ..LossOptions::default() })
+        Ok(LossOptions { seed: self.seed.seed, file: self.list.file()?, ..self.sampled.options() })
+    }
+}
+
+impl SampledArgs {
+    pub fn options(self) -> LossOptions {
+        let Self { near, distant, sampler } = self;
+        LossOptions { near, distant, sampler, ..LossOptions::default() }
     }
 }
 
 impl AccuracyArgs {
     /// The target error, 1% where it is not specified, and the seed.
     pub fn target_and_seed(&self) -> (f64, u64) {
-        (self.target_error.unwrap_or(ALL_SCENES_TARGET), self.seed.seed.unwrap_or(0))
+        (self.target_error.target_error.unwrap_or(ALL_SCENES_TARGET), self.seed.seed.unwrap_or(0))
     }
 
     pub fn options(&self) -> LossOptions {
-        let Self { target_error, seed: SeedArgs { seed } } = *self;
+        let (target_error, seed) = (self.target_error.target_error, self.seed.seed);
         LossOptions { target_error, seed, ..LossOptions::default() }
     }
 }

@@ -18,7 +18,7 @@ impl ReportFormat {
     ///
     /// # Errors
     /// As [`Report::json`] and [`Report::csv`].
-    pub fn write(self, report: &impl Report) -> Result<String, Error> {
+    pub fn write(self, report: &(impl Report + ?Sized)) -> Result<String, Error> {
         match self {
             Self::Text => Ok(printable(&report.text())),
             Self::Json => report.json(),

@@ -108,11 +108,6 @@ impl DatasetReport {
         self.methods.first().filter(|summary| summary.compared)
     }
 
-    /// The methods for people: a row for each.
-    pub fn methods_table(&self) -> Table {
-        Table::fields(&METHODS, &self.methods, Reader::Person)
-    }
-
     /// The materials that the means are over, and how they were read: lines.
     pub fn conditions(&self) -> Vec<String> {
         self.over().into_iter().chain(self.doubts()).collect()
@@ -204,17 +199,25 @@ impl DatasetReport {
 }
 
 impl Report for DatasetReport {
-    fn text(&self) -> String {
+    fn heading(&self) -> String {
         let DatasetSettings { convention, target_error, seed, materials, .. } = &self.settings;
-        let table = |table: Option<Table>| table.map_or(String::new(), |table| format!("\n{}", table.text()));
-        let lines = |lines: Vec<String>| lines.into_iter().map(|line| line + "\n").collect::<String>();
         format!(
-            "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n\n{}\n{}{}{}\n{}\n",
+            "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n",
             self.results.len(),
             materials.len(),
             100.0 * target_error,
             self.pick,
-            self.methods_table().text(),
+        )
+    }
+
+    /// With the conditions, marks, metrics and the command that repeats it below the table.
+    fn text(&self) -> String {
+        let table = |table: Option<Table>| table.map_or(String::new(), |table| format!("\n{}", table.text()));
+        let lines = |lines: Vec<String>| lines.into_iter().map(|line| line + "\n").collect::<String>();
+        format!(
+            "{}\n{}\n{}{}{}\n{}\n",
+            self.heading(),
+            self.table(Reader::Person).text(),
             lines(self.conditions()),
             table(marks_table(self)),
             table(metrics_table(self)),
@@ -222,12 +225,15 @@ impl Report for DatasetReport {
         )
     }
 
-    /// A row for each prediction.
-    fn table(&self) -> Table {
+    /// For programs a row for each prediction; for people one for each method.
+    fn table(&self, reader: Reader) -> Table {
+        if reader == Reader::Person {
+            return Table::fields(&METHODS, &self.methods, reader);
+        }
         let fields = predictions();
         let count = fields.len() - if self.settings.diagnose { 0 } else { OF_DIAGNOSES };
         let rows = self.predictions().map(|(result, prediction)| (self, result, prediction));
-        let mut table = Table::fields(&fields[..count], rows, Reader::Program);
+        let mut table = Table::fields(&fields[..count], rows, reader);
         for name in metric_names(&self.results) {
             let value = |(_, one): (_, &PredictionResult)| one.metrics.get(name).copied().into();
             table.push(name.to_owned(), self.predictions().map(value));

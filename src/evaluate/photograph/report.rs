@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::report::{Cell, Report, Table, aligned, position};
+use crate::report::{Cell, Field, Reader, Report, Table, position};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::material::Material;
@@ -115,22 +115,6 @@ impl PhotoReport {
         format!("{of}, {width} x {height} pixels, {transfers}, corners {corners}")
     }
 
-    /// The lines above the tables.
-    fn heading(&self) -> String {
-        let falloff = if self.falloff { ", falloff of the light divided out" } else { "" };
-        let below = match self.scenes.as_slice() {
-            [Scene { kind, view, light }] => {
-                format!("{kind} scene: view {}, light {}", position(*view), position(*light))
-            }
-            _ => self.exposure(),
-        };
-        let (source, convention) = (self.source(), self.convention);
-        format!(
-            "differences from {source}{falloff}\nconvention {convention}, epsilon {}\n{below}; RMSE and SSIM of sRGB values\n",
-            self.epsilon
-        )
-    }
-
     /// To what the exposure is fitted.
     fn exposure(&self) -> String {
         let held_out = self.setting.held_out();
@@ -216,8 +200,9 @@ impl Row<'_> {
         self.group.and_then(of_group).map(|estimate| estimate.mean).or_else(|| self.one.and_then(of_one))
     }
 
-    fn interval(&self, (of_group, _): Measure) -> Option<[f64; 2]> {
-        self.group.and_then(of_group)?.interval95
+    fn interval(&self, (of_group, _): Measure) -> Cell {
+        let interval = self.group.and_then(of_group).and_then(|estimate| estimate.interval95);
+        Cell::or(interval.map(|ends| Cell::Interval(4, ends)), "-")
     }
 }
 
@@ -228,106 +213,126 @@ const LOG: Measure = (|group| group.log, PhotoMeasure::mean_log);
 const RMSE: Measure = (|group| group.rmse, |one| one.rmse);
 const SSIM: Measure = (|group| group.ssim, |one| one.ssim);
 
-/// A column of CSV: its name, the title of its column in the text, its format there, and its value.
-type PhotoColumn = (&'static str, &'static str, fn(&Row<'_>, &Cell) -> String, fn(&Row<'_>) -> Cell);
+fn fields<'a>() -> [Field<Row<'a>>; 33] {
+    [
+        ("material", "material", |row| row.result.material.as_str().into()),
+        ("photographs", "", |row| row.photographs().into()),
+        ("", "photographs", |row| row.group.map(counted).into()),
+        ("photograph", "photograph", |row| row.read.map(|read| read.name.as_str()).into()),
+        ("factor", "factor", |row| number(row.factor())),
+        ("exposure_ev", "EV", |row| stops(row.factor().map(f64::log2))),
+        ("own_exposure_ev", "EV alone", |row| stops(row.one.and_then(|one| one.own_exposure_ev))),
+        ("log_mean", "log mean", |row| number(row.measure(LOG))),
+        ("log_interval95_low log_interval95_high", "95% interval", |row| row.interval(LOG)),
+        ("log_median", "median", |row| number(row.one.and_then(|one| Some(one.log?.median)))),
+        ("log_p95", "95%", |row| number(row.one.and_then(|one| Some(one.log?.p95)))),
+        ("absolute_mean", "abs. mean", |row| number(row.one.and_then(|one| Some(one.absolute?.mean)))),
+        ("absolute_median", "median", |row| number(row.one.and_then(|one| Some(one.absolute?.median)))),
+        ("absolute_p95", "95%", |row| number(row.one.and_then(|one| Some(one.absolute?.p95)))),
+        ("relative_mean", "rel. mean", |row| number(row.one.and_then(|one| Some(one.relative?.mean)))),
+        ("relative_median", "median", |row| number(row.one.and_then(|one| Some(one.relative?.median)))),
+        ("relative_p95", "95%", |row| number(row.one.and_then(|one| Some(one.relative?.p95)))),
+        ("rmse", "RMSE", |row| number(row.measure(RMSE))),
+        ("rmse_interval95_low rmse_interval95_high", "95% interval", |row| row.interval(RMSE)),
+        ("ssim", "SSIM", |row| number(row.measure(SSIM))),
+        ("ssim_interval95_low ssim_interval95_high", "95% interval", |row| row.interval(SSIM)),
+        ("texels", "", |row| row.one.map(|one| one.texels).into()),
+        ("clipped", "", |row| row.one.map(|one| one.clipped).into()),
+        ("", "clipped", |row| row.one.map(clipped).into()),
+        ("outlier", "", |row| row.one.map(|one| one.outlier.is_any()).into()),
+        ("", "marks", |row| row.one.map(marks).into()),
+        ("transfer", "", |row| row.read.map(|read| read.transfer.name()).into()),
+        ("exposure", "", |row| row.report.exposure.name().into()),
+        ("declared_ev", "EV from light_pow", |row| stops(row.report.setting.declared_ev(row.factor()))),
+        ("falloff", "", |row| row.report.falloff.into()),
+        ("capture", "", |row| row.report.capture.as_deref().into()),
+        ("convention", "", |row| row.report.convention.into()),
+        ("epsilon", "", |row| row.report.epsilon.into()),
+    ]
+}
 
-const COLUMNS: [PhotoColumn; 33] = [
-    ("material", "material", plain, |row| row.result.material.as_str().into()),
-    ("photographs", "photographs", counted, |row| row.photographs().into()),
-    ("photograph", "photograph", plain, |row| row.read.map(|read| read.name.as_str()).into()),
-    ("factor", "factor", number, |row| row.factor().into()),
-    ("exposure_ev", "EV", stops, |row| row.factor().map(f64::log2).into()),
-    ("own_exposure_ev", "EV alone", stops, |row| row.one.and_then(|one| one.own_exposure_ev).into()),
-    ("log_mean", "log mean", number, |row| row.measure(LOG).into()),
-    ("log_interval95_low", "95% interval", |row, _| ends(row, LOG), |row| Cell::low(row.interval(LOG))),
-    ("log_interval95_high", "", plain, |row| Cell::high(row.interval(LOG))),
-    ("log_median", "median", number, |row| row.one.and_then(|one| Some(one.log?.median)).into()),
-    ("log_p95", "95%", number, |row| row.one.and_then(|one| Some(one.log?.p95)).into()),
-    ("absolute_mean", "abs. mean", number, |row| row.one.and_then(|one| Some(one.absolute?.mean)).into()),
-    ("absolute_median", "median", number, |row| row.one.and_then(|one| Some(one.absolute?.median)).into()),
-    ("absolute_p95", "95%", number, |row| row.one.and_then(|one| Some(one.absolute?.p95)).into()),
-    ("relative_mean", "rel. mean", number, |row| row.one.and_then(|one| Some(one.relative?.mean)).into()),
-    ("relative_median", "median", number, |row| row.one.and_then(|one| Some(one.relative?.median)).into()),
-    ("relative_p95", "95%", number, |row| row.one.and_then(|one| Some(one.relative?.p95)).into()),
-    ("rmse", "RMSE", number, |row| row.measure(RMSE).into()),
-    ("rmse_interval95_low", "95% interval", |row, _| ends(row, RMSE), |row| Cell::low(row.interval(RMSE))),
-    ("rmse_interval95_high", "", plain, |row| Cell::high(row.interval(RMSE))),
-    ("ssim", "SSIM", number, |row| row.measure(SSIM).into()),
-    ("ssim_interval95_low", "95% interval", |row, _| ends(row, SSIM), |row| Cell::low(row.interval(SSIM))),
-    ("ssim_interval95_high", "", plain, |row| Cell::high(row.interval(SSIM))),
-    ("texels", "texels", plain, |row| row.one.map(|one| one.texels).into()),
-    ("clipped", "clipped", share, |row| row.one.map(|one| one.clipped).into()),
-    ("outlier", "", marks, |row| row.one.map(|one| one.outlier.is_any()).into()),
-    ("transfer", "transfer", plain, |row| row.read.map(|read| read.transfer.name()).into()),
-    ("exposure", "exposure", plain, |row| row.report.exposure.name().into()),
-    ("declared_ev", "EV from light_pow", stops, |row| row.report.setting.declared_ev(row.factor()).into()),
-    ("falloff", "falloff", plain, |row| row.report.falloff.into()),
-    ("capture", "capture", plain, |row| row.report.capture.as_deref().into()),
-    ("convention", "convention", plain, |row| row.report.convention.into()),
-    ("epsilon", "epsilon", plain, |row| row.report.epsilon.into()),
-];
-/// The columns of the text: of means over photographs, of each of several photographs, and of a single one.
+/// The columns for people, by their names for programs, or their titles where they have none: of means over photographs, of each of
+/// several photographs, and of a single one.
 const OF_MEANS: &str = "material photographs factor exposure_ev declared_ev log_mean log_interval95_low \
                         rmse rmse_interval95_low ssim ssim_interval95_low";
-const OF_EACH: &str = "photograph material own_exposure_ev log_mean rmse ssim clipped outlier";
+const OF_EACH: &str = "photograph material own_exposure_ev log_mean rmse ssim clipped marks";
 const OF_ONE: &str = "material factor exposure_ev declared_ev log_mean log_median log_p95 \
                       absolute_mean absolute_median absolute_p95 relative_mean relative_median relative_p95 rmse ssim clipped";
 
-fn plain(_: &Row<'_>, cell: &Cell) -> String {
-    cell.to_string()
+fn number(value: Option<f64>) -> Cell {
+    Cell::or(value.map(|number| Cell::Digits(4, number)), "-")
 }
 
-fn number(_: &Row<'_>, cell: &Cell) -> String {
-    if let Cell::Number(number) = cell { format!("{number:.4}") } else { "-".to_owned() }
+fn stops(value: Option<f64>) -> Cell {
+    Cell::or(value.map(Cell::Stops), "-")
 }
 
-fn stops(_: &Row<'_>, cell: &Cell) -> String {
-    if let Cell::Number(stops) = cell { format!("{stops:+.2}") } else { "-".to_owned() }
+fn counted(group: &PhotoMeans) -> String {
+    format!("{} {}", group.count, group.name).replace(" all", "")
 }
 
-fn counted(row: &Row<'_>, _: &Cell) -> String {
-    row.group.map_or_else(String::new, |group| format!("{} {}", group.count, group.name).replace(" all", ""))
+fn clipped(one: &PhotoMeasure) -> String {
+    format!("{:.2}%", 100.0 * one.clipped as f64 / one.texels as f64)
 }
 
-fn ends(row: &Row<'_>, measure: Measure) -> String {
-    row.interval(measure).map_or_else(|| "-".to_owned(), |[low, high]| format!("{low:.4} to {high:.4}"))
+fn marks(one: &PhotoMeasure) -> String {
+    let marks = [(one.outlier.is_any(), "outlier"), (one.is_held_out, "held out")];
+    marks.into_iter().filter(|(is, _)| *is).map(|(_, mark)| mark).collect::<Vec<_>>().join(", ")
 }
 
-fn share(row: &Row<'_>, _: &Cell) -> String {
-    row.one.map_or_else(String::new, |one| format!("{:.2}%", 100.0 * one.clipped as f64 / one.texels as f64))
-}
-
-fn marks(row: &Row<'_>, _: &Cell) -> String {
-    let marks = row.one.map(|one| [(one.outlier.is_any(), "outlier"), (one.is_held_out, "held out")]);
-    let marks = marks.into_iter().flatten().filter(|(is, _)| *is).map(|(_, mark)| mark);
-    marks.collect::<Vec<_>>().join(", ")
-}
-
-/// The columns of these names in aligned text. That of the power of the light is left out where there is none.
-fn text_of(rows: &[Row<'_>], names: &str) -> String {
+/// The columns of these names for people. That of the power of the light is left out where there is none.
+fn table_of(rows: &[Row<'_>], names: &str) -> Table {
     let has_power = rows.iter().any(|row| row.report.declared_factor.is_some());
     let names = names.split_whitespace().filter(|name| has_power || *name != "declared_ev");
-    let columns: Vec<_> = names.filter_map(|name| COLUMNS.iter().find(|(of, ..)| *of == name)).collect();
-    let titles = columns.iter().map(|(_, title, ..)| (*title).to_owned()).collect();
-    let texts = |row| columns.iter().map(|(_, _, format, value)| format(row, &value(row))).collect();
-    aligned(&std::iter::once(titles).chain(rows.iter().map(texts)).collect::<Vec<_>>())
+    let all = fields();
+    let is_of = |(name, title, _): &&Field<Row<'_>>, of: &str| match name.split_whitespace().next() {
+        Some(name) => name == of && !title.is_empty(),
+        None => *title == of,
+    };
+    let fields: Vec<_> = names.filter_map(|of| all.iter().find(|field| is_of(field, of)).copied()).collect();
+    Table::fields(&fields, rows, Reader::Person)
 }
 
 impl Report for PhotoReport {
-    fn text(&self) -> String {
-        let (heading, count) = (self.heading(), self.photographs.len());
-        let (means, each): (Vec<_>, Vec<_>) = self.rows().partition(|row| row.group.is_some());
-        if count == 1 {
-            return format!("{heading}\n{}", text_of(&each, OF_ONE));
-        }
-        let outliers: String = (0..count).filter_map(|index| self.outlier(index)).collect();
-        let by_photograph = (0..count).flat_map(|index| each.iter().skip(index).step_by(count).copied());
-        let (means, each) = (text_of(&means, OF_MEANS), text_of(&by_photograph.collect::<Vec<_>>(), OF_EACH));
-        format!("{heading}{outliers}\n{means}\n{each}")
+    fn heading(&self) -> String {
+        let falloff = if self.falloff { ", falloff of the light divided out" } else { "" };
+        let below = match self.scenes.as_slice() {
+            [Scene { kind, view, light }] => {
+                format!("{kind} scene: view {}, light {}", position(*view), position(*light))
+            }
+            _ => self.exposure(),
+        };
+        let (source, convention) = (self.source(), self.convention);
+        format!(
+            "differences from {source}{falloff}\nconvention {convention}, epsilon {}\n{below}; RMSE and SSIM of sRGB values\n",
+            self.epsilon
+        )
     }
 
-    fn table(&self) -> Table {
-        let cells = |row| COLUMNS.iter().map(|(.., value)| value(&row)).collect();
-        Table::new(COLUMNS.map(|(name, ..)| name), self.rows().map(cells))
+    /// With the outliers above the tables, where there are several photographs.
+    fn text(&self) -> String {
+        let (heading, count) = (self.heading(), self.photographs.len());
+        let table = self.table(Reader::Person).text();
+        if count == 1 {
+            return format!("{heading}\n{table}");
+        }
+        let outliers: String = (0..count).filter_map(|index| self.outlier(index)).collect();
+        let each: Vec<_> = self.rows().filter(|row| row.group.is_none()).collect();
+        let by_photograph = (0..count).flat_map(|index| each.iter().skip(index).step_by(count).copied());
+        let each = table_of(&by_photograph.collect::<Vec<_>>(), OF_EACH).text();
+        format!("{heading}{outliers}\n{table}\n{each}")
+    }
+
+    /// For people the means over several photographs, or the differences from a single one.
+    fn table(&self, reader: Reader) -> Table {
+        match reader {
+            Reader::Program => Table::fields(&fields(), self.rows(), reader),
+            Reader::Person if self.photographs.len() == 1 => {
+                table_of(&self.rows().collect::<Vec<_>>(), OF_ONE)
+            }
+            Reader::Person => {
+                table_of(&self.rows().filter(|row| row.group.is_some()).collect::<Vec<_>>(), OF_MEANS)
+            }
+        }
     }
 }

@@ -7,9 +7,11 @@ use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
 use super::table::{Cell, Field, Reader, Table};
+use crate::analysis::{Analysis, NoOptions, SceneOptions, Subject};
 use crate::why::{self, MapShare};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Request};
+use svbrdf_core::progress::Progress;
 
 /// What a map adds to the loss of a prediction, or all maps do.
 struct Part<'a> {
@@ -117,11 +119,16 @@ impl BlameReport {
 }
 
 impl Report for BlameReport {
+    fn heading(&self) -> String {
+        self.compared.heading("blame")
+    }
+
+    /// With the lines about its scenes above the table of each prediction.
     fn text(&self) -> String {
         self.attributions.iter().map(|attribution| self.text_of(attribution)).collect::<Vec<_>>().join("\n")
     }
 
-    fn table(&self) -> Table {
+    fn table(&self, reader: Reader) -> Table {
         let rows = self.attributions.iter().flat_map(|one| {
             let Attribution { prediction, target_reached, loss, maps, .. } = one;
             let (target_error, target_reached) = (self.target_error, *target_reached);
@@ -132,12 +139,33 @@ impl Report for BlameReport {
                 ..part(share, loss)
             })
         });
-        Table::fields(&fields(), rows, Reader::Program)
+        Table::fields(&fields(), rows, reader)
     }
 
     fn missed(&self) -> Vec<Error> {
         let Some(target) = self.target_error else { return Vec::new() };
         let of = |a: &Attribution| missed(target, &a.prediction, &a.loss, a.scenes);
         self.attributions.iter().filter_map(of).collect()
+    }
+}
+
+impl Analysis for BlameReport {
+    const NAME: &'static str = "blame";
+    const TITLE: &'static str = "Which map";
+    const ABOUT: &'static str = "Prints how much of the rendering loss comes from each map";
+    const DETAILS: &'static str = "Renders all 16 mixtures of the maps of the ground truth and of the prediction in the same scenes \
+        on the same texels. The Shapley value of a map is the mean of what it adds to the loss over all orders in which the maps can \
+        become wrong; the four values add up to the loss. Beside them stands the loss where only this map is wrong, and where only \
+        this map is right. A share below 0%: the error of this map hides errors of others.";
+    const DOING: &'static str = "rendering";
+    const SCENES: &'static [SceneOptions] =
+        &[SceneOptions::TargetError, SceneOptions::Seed, SceneOptions::List];
+    type Options = NoOptions;
+
+    fn run(subject: &Subject<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
+        let Subject { ground_truth, convention, request, .. } = subject;
+        let attributions = subject
+            .each(|prediction| why::attribute(ground_truth, prediction, convention, request, progress))?;
+        Ok(Self::new(subject.compared(), request, attributions))
     }
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, floor_line};
-use super::table::{Cell, Column, Field, Reader, Table, aligned_columns};
+use super::table::{Cell, Field, Reader, Table};
 use crate::diagnose::{self, Finding, Rung, Seam, Value, sentence};
 use svbrdf_core::loss::Estimate;
 
@@ -74,18 +74,18 @@ impl DiagnoseReport {
 
     fn text_of(&self, diagnosis: &Diagnosis) -> String {
         let [mean, _, interval] = diagnosis.loss.texts();
-        let rungs: [Column<'_, &Rung, String>; 4] = [
-            ("block", |rung| format!("{0} x {0}", rung.side)),
-            ("loss", |rung| format!("{:.6}", rung.loss)),
-            ("roughness, ground truth", |rung| format!("{:.4}", rung.roughness[0])),
-            ("roughness, prediction", |rung| format!("{:.4}", rung.roughness[1])),
+        let rungs: [Field<Rung>; 4] = [
+            ("", "block", |rung| format!("{0} x {0}", rung.side).into()),
+            ("", "loss", |rung| rung.loss.into()),
+            ("", "roughness, ground truth", |rung| Cell::Digits(4, rung.roughness[0])),
+            ("", "roughness, prediction", |rung| Cell::Digits(4, rung.roughness[1])),
         ];
         format!(
             "{}\n\n{}: loss {mean}, 95% {interval}\n\n{}\n{}{}",
             diagnosis.sentence,
             diagnosis.prediction,
             Table::fields(&fields(), diagnosis.rows(), Reader::Person).text(),
-            aligned_columns(&rungs, &diagnosis.ladder),
+            Table::fields(&rungs, &diagnosis.ladder, Reader::Person).text(),
             self.seams_line(diagnosis)
         )
     }
@@ -171,20 +171,24 @@ fn cell(value: &Value) -> Cell {
 }
 
 impl Report for DiagnoseReport {
-    fn text(&self) -> String {
-        let texts: Vec<String> = self.predictions.iter().map(|diagnosis| self.text_of(diagnosis)).collect();
+    fn heading(&self) -> String {
         let [near, distant] = diagnose::SCENES;
         format!(
-            "{}{near} near-field and {distant} distant scenes, seed {}, scrambled Sobol\n{}\n{}",
+            "{}{near} near-field and {distant} distant scenes, seed {}, scrambled Sobol\n{}",
             self.compared.heading("diagnosis"),
             self.seed,
-            floor_line(&self.floor, self.captures),
-            texts.join("\n")
+            floor_line(&self.floor, self.captures)
         )
     }
 
-    fn table(&self) -> Table {
+    /// With ladder and seams below the table of each prediction.
+    fn text(&self) -> String {
+        let texts: Vec<String> = self.predictions.iter().map(|diagnosis| self.text_of(diagnosis)).collect();
+        format!("{}\n{}", self.heading(), texts.join("\n"))
+    }
+
+    fn table(&self, reader: Reader) -> Table {
         let rows = self.predictions.iter().flat_map(Diagnosis::rows);
-        Table::fields(&fields(), rows, Reader::Program)
+        Table::fields(&fields(), rows, reader)
     }
 }

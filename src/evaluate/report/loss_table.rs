@@ -46,11 +46,6 @@ fn few_scenes(result: &PredictionLoss) -> Option<[f64; 2]> {
 }
 
 impl LossReport {
-    /// The losses for a `reader`: a row per prediction.
-    pub fn table_for(&self, reader: Reader) -> Table {
-        Table::fields(&fields(), self.results.iter().map(|result| (self, result)), reader)
-    }
-
     /// The losses over few scenes: a line per prediction.
     fn few_scenes_lines(&self, FewScenes { sampled, .. }: &FewScenes) -> String {
         let line = |result: &PredictionLoss| {
@@ -76,8 +71,10 @@ impl LossReport {
         let text: String = self.differences.iter().map(line).collect();
         if text.is_empty() { text } else { text + "\n" }
     }
+}
 
-    fn header(&self) -> String {
+impl Report for LossReport {
+    fn heading(&self) -> String {
         let Self { convention, epsilon, ground_truth, size, precision, backend, outcome, .. } = self;
         let [width, height] = size;
         format!(
@@ -86,19 +83,18 @@ impl LossReport {
             scenes_line(outcome.sampling.as_ref(), &outcome.scenes, *size)
         )
     }
-}
 
-impl Report for LossReport {
     /// The table of the losses, then the difference of each further loss from the first, then a line per prediction for the few
     /// scenes of the papers.
     fn text(&self) -> String {
-        let table = self.table_for(Reader::Person).text();
+        let table = self.table(Reader::Person).text();
         let few_scenes = self.few_scenes.as_ref().map(|few| self.few_scenes_lines(few)).unwrap_or_default();
-        format!("{}\n{table}{}{few_scenes}", self.header(), self.difference_lines())
+        format!("{}\n{table}{}{few_scenes}", self.heading(), self.difference_lines())
     }
 
-    fn table(&self) -> Table {
-        self.table_for(Reader::Program)
+    /// A row per prediction.
+    fn table(&self, reader: Reader) -> Table {
+        Table::fields(&fields(), self.results.iter().map(|result| (self, result)), reader)
     }
 
     fn missed(&self) -> Vec<Error> {

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::Report;
 use super::heading::{Compared, position};
-use super::table::{Cell, Column, Table, aligned_columns};
+use super::table::{Cell, Field, Reader, Table};
 use crate::why::{self, Hemisphere};
 use svbrdf_core::error::Error;
 use svbrdf_core::image::{Image, mean_of_channels};
@@ -132,65 +132,70 @@ type DirectionRow<'a> = (&'a str, [f64; 3], [f64; 2]);
 type TexelRow<'a> = (&'a str, [usize; 2], [f32; 3]);
 
 impl Report for MapReport {
-    fn text(&self) -> String {
-        let start: [Column<'_, &MapSummary, String>; 3] = [
-            ("prediction", |summary| summary.prediction.clone()),
-            ("mean", |summary| format!("{:.6}", summary.mean)),
-            ("largest", |summary| format!("{:.6}", summary.largest)),
-        ];
-        let end: [Column<'_, &MapSummary, String>; 2] = match self.directions {
-            Some((moved, _)) => [
-                ("+- std. error", |summary| format!("{:.6}", summary.standard_error.unwrap_or_default())),
-                (roles(moved)[0], |summary| position(summary.direction.unwrap_or_default())),
-            ],
-            None => [
-                ("column", |summary| summary.column.unwrap_or_default().to_string()),
-                ("row", |summary| summary.row.unwrap_or_default().to_string()),
-            ],
-        };
-        let table = aligned_columns(&[&start[..], &end].concat(), &self.results);
-        format!("{}\n{}", self.compared.heading(&self.shows), table)
+    fn heading(&self) -> String {
+        self.compared.heading(&self.shows)
     }
 
-    /// A row for each texel or direction of each prediction.
-    fn table(&self) -> Table {
-        match &self.directions {
-            Some((_, map)) => {
-                let columns: [Column<'_, DirectionRow<'_>>; 6] = [
-                    ("prediction", |(prediction, ..)| (*prediction).into()),
-                    ("x", |(_, direction, _)| direction[0].into()),
-                    ("y", |(_, direction, _)| direction[1].into()),
-                    ("z", |(_, direction, _)| direction[2].into()),
-                    ("loss", |(.., [loss, _])| (*loss).into()),
-                    ("standard_error", |(.., [_, error])| (*error).into()),
-                ];
-                let all = self.results.iter().zip(&map.losses).zip(&map.standard_errors);
-                let rows = all.flat_map(|((summary, losses), errors)| {
-                    let cells = map.directions.iter().zip(losses).zip(errors);
-                    let row = |((direction, &loss), &error): ((&Option<[f64; 3]>, _), _)| {
-                        Some((summary.prediction.as_str(), (*direction)?, [loss, error]))
-                    };
-                    cells.filter_map(row)
-                });
-                Table::of(&columns, rows)
-            }
-            None => {
-                let columns: [Column<'_, TexelRow<'_>>; 6] = [
-                    ("prediction", |(prediction, ..)| (*prediction).into()),
-                    ("column", |(_, [column, _], _)| (*column).into()),
-                    ("row", |(_, [_, row], _)| (*row).into()),
-                    ("red", |(.., [red, _, _])| Cell::Single(*red)),
-                    ("green", |(.., [_, green, _])| Cell::Single(*green)),
-                    ("blue", |(.., [_, _, blue])| Cell::Single(*blue)),
-                ];
-                let rows = self.results.iter().zip(&self.images).flat_map(|(summary, image)| {
-                    let all = image.pixels.iter().enumerate();
-                    all.map(|(at, pixel)| {
-                        (summary.prediction.as_str(), [at % image.width, at / image.width], *pixel)
-                    })
-                });
-                Table::of(&columns, rows)
-            }
+    /// For programs a row for each texel or direction of each prediction; for people a summary of each prediction.
+    fn table(&self, reader: Reader) -> Table {
+        match (reader, &self.directions) {
+            (Reader::Person, directions) => self.summary(directions.as_ref().map(|(moved, _)| *moved)),
+            (Reader::Program, Some((_, map))) => self.directions_table(map),
+            (Reader::Program, None) => self.texels_table(),
         }
+    }
+}
+
+impl MapReport {
+    /// A row for each prediction; `moved` is what moves over the directions.
+    fn summary(&self, moved: Option<Endpoint>) -> Table {
+        let summary: [Field<MapSummary>; 3] = [
+            ("", "prediction", |summary| summary.prediction.as_str().into()),
+            ("", "mean", |summary| summary.mean.into()),
+            ("", "largest", |summary| summary.largest.into()),
+        ];
+        let place: [Field<MapSummary>; 2] = match moved {
+            Some(moved) => [
+                ("", "+- std. error", |summary| summary.standard_error.into()),
+                ("", roles(moved)[0], |summary| summary.direction.into()),
+            ],
+            None => {
+                [("", "column", |summary| summary.column.into()), ("", "row", |summary| summary.row.into())]
+            }
+        };
+        Table::fields(&[&summary[..], &place].concat(), &self.results, Reader::Person)
+    }
+
+    fn directions_table(&self, map: &Hemisphere) -> Table {
+        let fields: [Field<DirectionRow<'_>>; 4] = [
+            ("prediction", "", |(prediction, ..)| (*prediction).into()),
+            ("x y z", "", |(_, direction, _)| (*direction).into()),
+            ("loss", "", |(.., [loss, _])| (*loss).into()),
+            ("standard_error", "", |(.., [_, error])| (*error).into()),
+        ];
+        let all = self.results.iter().zip(&map.losses).zip(&map.standard_errors);
+        let rows = all.flat_map(|((summary, losses), errors)| {
+            let cells = map.directions.iter().zip(losses).zip(errors);
+            cells.filter_map(|((direction, &loss), &error)| {
+                Some((summary.prediction.as_str(), (*direction)?, [loss, error]))
+            })
+        });
+        Table::fields(&fields, rows, Reader::Program)
+    }
+
+    fn texels_table(&self) -> Table {
+        let fields: [Field<TexelRow<'_>>; 6] = [
+            ("prediction", "", |(prediction, ..)| (*prediction).into()),
+            ("column", "", |(_, [column, _], _)| (*column).into()),
+            ("row", "", |(_, [_, row], _)| (*row).into()),
+            ("red", "", |(.., [red, _, _])| Cell::Single(*red)),
+            ("green", "", |(.., [_, green, _])| Cell::Single(*green)),
+            ("blue", "", |(.., [_, _, blue])| Cell::Single(*blue)),
+        ];
+        let rows = self.results.iter().zip(&self.images).flat_map(|(summary, image)| {
+            let all = image.pixels.iter().enumerate();
+            all.map(|(at, pixel)| (summary.prediction.as_str(), [at % image.width, at / image.width], *pixel))
+        });
+        Table::fields(&fields, rows, Reader::Program)
     }
 }

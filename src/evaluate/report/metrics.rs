@@ -3,13 +3,17 @@
 use std::collections::BTreeMap;
 
 use schemars::JsonSchema;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 
 use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Reader, Table};
-use crate::metrics::{Metric, RenderedScenes};
+use crate::analysis::{Analysis, SceneOptions, Subject};
+use crate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
+use svbrdf_core::error::Error;
 use svbrdf_core::loss::Sampling;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
 
 /// Metrics of maps and renderings, each with its convention in its name: docs/metrics.md defines them.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -46,7 +50,7 @@ struct Metrics {
 impl MetricsReport {
     /// The metrics of maps and of renderings in `rendered`, which are of `sampling` unless they were listed. `results` are the name and
     /// the metrics of each prediction.
-    pub fn new(
+    fn new(
         compared: &Compared,
         sampling: Option<&Sampling>,
         rendered: &RenderedScenes<'_>,
@@ -81,9 +85,15 @@ impl MetricsReport {
             results: entries(results),
         }
     }
+}
+
+impl Report for MetricsReport {
+    fn heading(&self) -> String {
+        self.heading.clone()
+    }
 
     /// A row for each metric; for each prediction its value, and for means over scenes their interval.
-    fn table_for(&self, reader: Reader) -> Table {
+    fn table(&self, reader: Reader) -> Table {
         let names = self.results.first().map(|first| first.metrics.as_slice()).unwrap_or_default();
         let mut table = Table::new(["metric"], names.iter().map(|metric| vec![metric.name.into()]));
         for Metrics { prediction, metrics, .. } in &self.results {
@@ -115,12 +125,38 @@ fn by_name<S: Serializer>(metrics: &[Metric], serializer: S) -> Result<S::Ok, S:
     by_name.serialize(serializer)
 }
 
-impl Report for MetricsReport {
-    fn text(&self) -> String {
-        format!("{}\n{}", self.heading, self.table_for(Reader::Person).text())
-    }
+/// The options of the metrics.
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct MetricsOptions {
+    /// Exposure of renderings in stops, before they are clipped
+    #[schemars(extend("format" = "stops"))]
+    pub exposure: f32,
+}
 
-    fn table(&self) -> Table {
-        self.table_for(Reader::Program)
+impl Analysis for MetricsReport {
+    const NAME: &'static str = "metrics";
+    const TITLE: &'static str = "Other metrics";
+    const ABOUT: &'static str = "Prints metrics of maps and renderings, each with its convention in its name";
+    const DETAILS: &'static str = "Root mean square and mean absolute differences, PSNR and SSIM of the four maps and of renderings, \
+        the same of base colour and metallic, angles between normals, and FLIP of renderings. docs/metrics.md defines each.";
+    const DOING: &'static str = "rendering";
+    const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
+    type Options = MetricsOptions;
+
+    fn run(subject: &Subject<'_>, options: &MetricsOptions, progress: &Progress) -> Result<Self, Error> {
+        let Subject { ground_truth, convention, request, .. } = subject;
+        let (scenes, sampling) = (request.scenes(convention)?.unwrap_or_default(), request.sampling());
+        let rendered = RenderedScenes {
+            scenes: &scenes,
+            sampler: sampling.map_or(Sampler::Random, |sampling| sampling.sampler),
+            convention,
+            exposure_ev: options.exposure,
+        };
+        let results = subject.each(|prediction| {
+            let of_renderings = of_renderings(ground_truth, prediction, &rendered, progress)?;
+            Ok((prediction.name().to_owned(), [of_maps(ground_truth, prediction)?, of_renderings].concat()))
+        })?;
+        Ok(Self::new(&subject.compared(), sampling.as_ref(), &rendered, results))
     }
 }

@@ -50,40 +50,52 @@ pub use names::distinct_names;
 pub use rank::{MaterialReading, RankReport};
 pub use repetition::Repetition;
 pub use scenes::ScenesReport;
-pub use table::{Cell, Column, Field, Reader, Table, aligned, aligned_columns};
+pub use table::{Cell, Field, Reader, Table};
 pub use worst::WorstReport;
 
 use serde::Serialize;
 
 use svbrdf_core::error::Error;
 
-/// A result with the settings that it depends on; its serialization is its JSON.
-pub trait Report: Serialize {
-    /// Tables for people with the settings above them; ends with a line break.
-    fn text(&self) -> String;
+/// A value that can be written as JSON.
+pub trait Json {
+    /// One JSON object; ends with a line break.
+    ///
+    /// # Errors
+    /// [`Error::Internal`], which no report of this crate gives.
+    fn json(&self) -> Result<String, Error>;
+}
 
-    /// The results as rows for spreadsheets.
-    fn table(&self) -> Table;
+impl<T: Serialize> Json for T {
+    fn json(&self) -> Result<String, Error> {
+        let text = serde_json::to_string_pretty(self).map_err(|problem| Error::Internal(problem.to_string()));
+        Ok(text? + "\n")
+    }
+}
+
+/// A result with the settings that it depends on; its serialization is its JSON.
+pub trait Report: Json {
+    /// The settings: lines above the table, each with its line break.
+    fn heading(&self) -> String;
+
+    /// The results: for programs every value, for people a table to read.
+    fn table(&self, reader: Reader) -> Table;
+
+    /// The table for people with the settings above it; ends with a line break.
+    fn text(&self) -> String {
+        format!("{}\n{}", self.heading(), self.table(Reader::Person).text())
+    }
 
     /// An [`Error::Inaccurate`] for each result that is known less well than requested.
     fn missed(&self) -> Vec<Error> {
         Vec::new()
     }
 
-    /// One JSON object; ends with a line break.
-    ///
-    /// # Errors
-    /// [`Error::Internal`], which no report of this crate gives.
-    fn json(&self) -> Result<String, Error> {
-        let text = serde_json::to_string_pretty(self).map_err(|problem| Error::Internal(problem.to_string()));
-        Ok(text? + "\n")
-    }
-
-    /// The [`Report::table`] as CSV (RFC 4180) with a heading.
+    /// The [`Report::table`] for programs as CSV (RFC 4180) with a heading.
     ///
     /// # Errors
     /// [`Error::Internal`], which no table in memory gives.
     fn csv(&self) -> Result<String, Error> {
-        self.table().csv()
+        self.table(Reader::Program).csv()
     }
 }

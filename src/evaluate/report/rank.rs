@@ -173,17 +173,22 @@ impl RankedPrediction {
 }
 
 impl Report for RankReport {
+    fn heading(&self) -> String {
+        self.heading.clone()
+    }
+
+    /// With the command that repeats it below the table.
     fn text(&self) -> String {
-        let all_resolvable = self.ranking.iter().all(|place| place.unresolvable().is_empty());
-        let fields = fields();
-        let fields = &fields[..fields.len() - usize::from(all_resolvable)];
         let repetition = self.repetition.as_ref().map(|repetition| format!("\n{repetition}\n"));
-        let table = Table::fields(fields, self.rows(), Reader::Person).text();
+        let table = self.table(Reader::Person).text();
         format!("{}\n{table}{}", self.heading, repetition.unwrap_or_default())
     }
 
-    fn table(&self) -> Table {
-        Table::fields(&fields(), self.rows(), Reader::Program)
+    fn table(&self, reader: Reader) -> Table {
+        let all_resolvable = self.ranking.iter().all(|place| place.unresolvable().is_empty());
+        let fields = fields();
+        let fields = &fields[..fields.len() - usize::from(all_resolvable)];
+        Table::fields(fields, self.rows(), reader)
     }
 
     fn missed(&self) -> Vec<Error> {

@@ -1,14 +1,17 @@
 //! The scenes of a loss, worst first.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Field, Reader, Table};
+use crate::analysis::{Analysis, SceneOptions, Subject};
 use crate::why::{Distribution, worst_first};
-use svbrdf_core::loss::Outcome;
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::{Comparison, Outcome};
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
 
 /// The columns of a scene.
 pub(super) const SCENE: [Field<Scene>; 3] = [
@@ -84,8 +87,12 @@ fn distribution(prediction: &str, d: &Distribution) -> String {
     )
 }
 
-impl ScenesReport {
-    fn table_for(&self, reader: Reader) -> Table {
+impl Report for ScenesReport {
+    fn heading(&self) -> String {
+        self.heading.clone()
+    }
+
+    fn table(&self, reader: Reader) -> Table {
         let index: [Field<usize>; 1] = [("scene", "scene", |index| (*index).into())];
         let scenes = Table::fields(&SCENE, &self.scenes, reader);
         let mut table = Table::fields(&index, &self.indices, reader).beside(scenes);
@@ -96,12 +103,34 @@ impl ScenesReport {
     }
 }
 
-impl Report for ScenesReport {
-    fn text(&self) -> String {
-        format!("{}\n{}", self.heading, self.table_for(Reader::Person).text())
-    }
+/// The options of the list.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct ScenesOptions {
+    /// Number of scenes that are listed
+    top: usize,
+}
 
-    fn table(&self) -> Table {
-        self.table_for(Reader::Program)
+impl Default for ScenesOptions {
+    fn default() -> Self {
+        Self { top: 10 }
+    }
+}
+
+impl Analysis for ScenesReport {
+    const NAME: &'static str = "scenes";
+    const TITLE: &'static str = "Which scenes";
+    const ABOUT: &'static str = "Prints the scenes with the largest losses, worst first";
+    const DETAILS: &'static str = "Scenes are sorted by the mean of the losses of all predictions in them, over all texels. The JSON \
+        is a scene file, too.";
+    const EXAMPLE: &'static str = " --top 5 --format json > worst.json";
+    const DOING: &'static str = "rendering";
+    const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
+    type Options = ScenesOptions;
+
+    fn run(subject: &Subject<'_>, options: &ScenesOptions, progress: &Progress) -> Result<Self, Error> {
+        let Subject { ground_truth, predictions, convention, request } = subject;
+        let comparison = Comparison::new(*ground_truth, predictions, *convention)?.without_pilot();
+        Ok(Self::new(subject.compared(), &comparison.run(request, progress)?, options.top))
     }
 }

@@ -20,7 +20,12 @@ pub enum Cell {
     Truth(bool),
     /// A part of a whole, which people read in percent.
     Share(f64),
-    Interval([f64; 2]),
+    /// A number, of which people read this many digits behind the point.
+    Digits(usize, f64),
+    /// An exposure in stops.
+    Stops(f64),
+    /// Its ends, of which people read this many digits behind the point.
+    Interval(usize, [f64; 2]),
     /// A position or direction.
     Point([f64; 3]),
 }
@@ -32,10 +37,12 @@ impl fmt::Display for Cell {
             Self::Missing(_) => Ok(()),
             Self::Text(text) => text.fmt(f),
             Self::Integer(number) => number.fmt(f),
-            Self::Number(number) | Self::Share(number) => number.fmt(f),
+            Self::Number(number) | Self::Share(number) | Self::Digits(_, number) | Self::Stops(number) => {
+                number.fmt(f)
+            }
             Self::Single(number) => number.fmt(f),
             Self::Truth(truth) => truth.fmt(f),
-            Self::Interval(_) | Self::Point(_) => f.write_str(&self.text()),
+            Self::Interval(..) | Self::Point(_) => f.write_str(&self.text()),
         }
     }
 }
@@ -47,7 +54,9 @@ impl Cell {
             Self::Missing(text) => (*text).to_owned(),
             Self::Number(number) => format!("{number:.6}"),
             Self::Share(share) => format!("{:.1}%", 100.0 * share),
-            Self::Interval([low, high]) => format!("{low:.6} to {high:.6}"),
+            Self::Digits(digits, number) => format!("{number:.digits$}"),
+            Self::Stops(stops) => format!("{stops:+.2}"),
+            Self::Interval(digits, [low, high]) => format!("{low:.digits$} to {high:.digits$}"),
             Self::Point(point) => position(*point),
             cell => cell.to_string(),
         }
@@ -62,7 +71,7 @@ impl Cell {
     fn parts(self, count: usize) -> Vec<Self> {
         match self {
             Self::Missing(_) => vec![self; count],
-            Self::Interval(ends) => ends.map(Self::Number).into(),
+            Self::Interval(_, ends) => ends.map(Self::Number).into(),
             Self::Point(point) => point.map(Self::Number).into(),
             cell => vec![cell],
         }
@@ -97,7 +106,7 @@ cells_of! {
     u64, number => Self::Integer(number);
     f64, number => Self::Number(number);
     bool, truth => Self::Truth(truth);
-    [f64; 2], ends => Self::Interval(ends);
+    [f64; 2], ends => Self::Interval(6, ends);
     [f64; 3], point => Self::Point(point);
 }
 
@@ -118,9 +127,6 @@ impl Cell {
         interval.map(|[_, high]| high).into()
     }
 }
-
-/// A column of a table: its name, and its value in a row.
-pub type Column<'a, R, V = Cell> = (&'a str, fn(&R) -> V);
 
 /// A column of a report, declared once: its name for programs (CSV and data frames), its title for people (text, window and pages), and
 /// its value in a row. An interval or a point has names for its parts, separated by blanks. Where a name or title is empty, the column is
@@ -149,12 +155,6 @@ impl Table {
         rows: impl IntoIterator<Item = Vec<Cell>>,
     ) -> Self {
         Self { columns: columns.into_iter().map(Into::into).collect(), rows: rows.into_iter().collect() }
-    }
-
-    /// The table of `rows`, each of which has a value in every one of `columns`.
-    pub fn of<R>(columns: &[Column<'_, R>], rows: impl IntoIterator<Item = R>) -> Self {
-        let cells = |row: R| columns.iter().map(|(_, value)| value(&row)).collect();
-        Self::new(columns.iter().map(|(name, _)| *name), rows.into_iter().map(cells))
     }
 
     /// The table of `rows`, each of which has a value in every one of `fields`, for a `reader`.
@@ -218,15 +218,8 @@ impl Table {
     }
 }
 
-/// The [`aligned`] texts of `rows` in `columns`, below the names of the columns.
-pub fn aligned_columns<R>(columns: &[Column<'_, R, String>], rows: impl IntoIterator<Item = R>) -> String {
-    let titles = columns.iter().map(|(name, _)| (*name).to_owned()).collect();
-    let texts = |row: R| columns.iter().map(|(_, text)| text(&row)).collect();
-    aligned(&std::iter::once(titles).chain(rows.into_iter().map(texts)).collect::<Vec<_>>())
-}
-
 /// Lines of aligned columns, the first to the left, the others to the right. Every cell is a [`line`].
-pub fn aligned(rows: &[Vec<String>]) -> String {
+fn aligned(rows: &[Vec<String>]) -> String {
     let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(|cell| line(cell)).collect()).collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |c| {

@@ -1,17 +1,19 @@
 //! The scene with the largest loss of each prediction.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Report;
 use super::heading::Compared;
 use super::missed::missed;
 use super::scenes::SCENE;
 use super::table::{Cell, Field, Reader, Table};
+use crate::analysis::{Analysis, SceneOptions, Subject};
 use crate::why;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate};
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
 
 /// The scene with the largest loss of each prediction. Its JSON is a scene file, too.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -53,25 +55,6 @@ impl WorstReport {
         let results = found.into_iter().map(Worst::from).collect();
         Self { compared, distance_tail: tail, results, scenes }
     }
-
-    fn table_for(&self, reader: Reader) -> Table {
-        let losses: [Field<Worst>; 4] = [
-            ("prediction", "prediction", |one| one.prediction.as_str().into()),
-            ("worst", "worst", |one| one.worst.into()),
-            ("mean", "mean", |one| one.mean.into()),
-            ("", "times the mean", |one| match one.mean > 0.0 {
-                true => format!("{:.2}", one.worst / one.mean).into(),
-                false => Cell::Missing("-"),
-            }),
-        ];
-        let search: [Field<Worst>; 2] = [
-            ("evaluations", "evaluations", |one| one.evaluations.into()),
-            ("target_reached", "", |one| one.target_reached.into()),
-        ];
-        let [losses, search] =
-            [&losses[..], &search].map(|fields| Table::fields(fields, &self.results, reader));
-        losses.beside(Table::fields(&SCENE, &self.scenes, reader)).beside(search)
-    }
 }
 
 impl From<why::Worst> for Worst {
@@ -90,15 +73,29 @@ impl From<why::Worst> for Worst {
 }
 
 impl Report for WorstReport {
-    fn text(&self) -> String {
+    fn heading(&self) -> String {
         let central = 100.0 - 200.0 * self.distance_tail;
         let cut = format!("distances within the central {central}% of their distributions\n");
-        let table = self.table_for(Reader::Person).text();
-        format!("{}{cut}\n{table}", self.compared.heading("worst scenes"))
+        self.compared.heading("worst scenes") + &cut
     }
 
-    fn table(&self) -> Table {
-        self.table_for(Reader::Program)
+    fn table(&self, reader: Reader) -> Table {
+        let losses: [Field<Worst>; 4] = [
+            ("prediction", "prediction", |one| one.prediction.as_str().into()),
+            ("worst", "worst", |one| one.worst.into()),
+            ("mean", "mean", |one| one.mean.into()),
+            ("", "times the mean", |one| match one.mean > 0.0 {
+                true => format!("{:.2}", one.worst / one.mean).into(),
+                false => Cell::Missing("-"),
+            }),
+        ];
+        let search: [Field<Worst>; 2] = [
+            ("evaluations", "evaluations", |one| one.evaluations.into()),
+            ("target_reached", "", |one| one.target_reached.into()),
+        ];
+        let [losses, search] =
+            [&losses[..], &search].map(|fields| Table::fields(fields, &self.results, reader));
+        losses.beside(Table::fields(&SCENE, &self.scenes, reader)).beside(search)
     }
 
     fn missed(&self) -> Vec<Error> {
@@ -107,5 +104,40 @@ impl Report for WorstReport {
             missed(worst.target_error, &format!("the mean of {}", worst.prediction), &mean, worst.mean_scenes)
         };
         self.results.iter().filter_map(of).collect()
+    }
+}
+
+/// The options of the search.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct WorstOptions {
+    /// Leaves out this share of the nearest distances, and as much of the farthest
+    #[schemars(extend("format" = "share"))]
+    distance_tail: f64,
+}
+
+impl Default for WorstOptions {
+    fn default() -> Self {
+        Self { distance_tail: why::TAIL }
+    }
+}
+
+impl Analysis for WorstReport {
+    const NAME: &'static str = "worst";
+    const TITLE: &'static str = "Which scene is the worst";
+    const ABOUT: &'static str = "Searches for the scene with the largest loss of each prediction";
+    const DETAILS: &'static str = "Samples 12,288 of the scenes that the loss is over, compares the 256 worst with changed distances \
+        on 1,024 texels, and refines the 16 worst of these, the best 2 on all texels. Distances have no largest value: the search is \
+        within the central 99% of their distributions, which the distance tail changes. The mean is the loss over all scenes, to +-1% \
+        where 49,152 scenes are enough. The JSON is a scene file, too.";
+    const DOING: &'static str = "searching";
+    const SCENES: &'static [SceneOptions] = &[SceneOptions::Seed];
+    type Options = WorstOptions;
+
+    fn run(subject: &Subject<'_>, options: &WorstOptions, progress: &Progress) -> Result<Self, Error> {
+        let (truth, convention, tail) = (subject.ground_truth, &subject.convention, options.distance_tail);
+        let found = subject
+            .each(|prediction| why::worst(truth, prediction, convention, subject.seed(), tail, progress))?;
+        Ok(Self::new(subject.compared(), tail, found))
     }
 }

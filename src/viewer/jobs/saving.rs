@@ -9,7 +9,7 @@ use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_evaluate::report::{Compared, Report as _, ScenesReport};
+use svbrdf_evaluate::report::{Compared, Json as _, ScenesReport};
 use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::export::strip::{Column, Crop, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};

@@ -1,0 +1,40 @@
+//! The analyses that the crate declares.
+
+use pyo3::prelude::*;
+use svbrdf_core::error::Error as CoreError;
+use svbrdf_evaluate::analysis::{AnyAnalysis, Subject};
+
+use crate::asked::Asked;
+use crate::errors::{Error, exception};
+use crate::material::CoreMaterial;
+use crate::report::Views;
+use crate::work;
+
+/// The report of the analysis of this name, with its own options as JSON.
+#[pyfunction]
+pub fn analysis(
+    py: Python<'_>,
+    ground_truth: &CoreMaterial,
+    predictions: Vec<PyRef<'_, CoreMaterial>>,
+    asked: Asked,
+    name: &str,
+    options: &str,
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Views> {
+    let internal = |problem: &dyn ToString| exception(CoreError::Internal(problem.to_string()));
+    let analysis = AnyAnalysis::named(name).ok_or_else(|| internal(&format!("no analysis {name}")))?;
+    let options = serde_json::from_str(options).map_err(|problem| Error::new_err(problem.to_string()))?;
+    let materials = asked.singles(ground_truth, &predictions);
+    let subject = Subject {
+        ground_truth: &materials[0],
+        predictions: materials[1..].iter().collect(),
+        convention: asked.convention()?,
+        request: analysis.request(&asked.options()?).map_err(exception)?,
+    };
+    // A report is no value of several threads.
+    let views = work::run(py, progress, |progress| {
+        let report = analysis.run(&subject, options, progress)?;
+        Ok(Views::new(&*report))
+    })?;
+    views
+}

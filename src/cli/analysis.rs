@@ -1,0 +1,195 @@
+//! The commands of the analyses, made from their declarations.
+
+use clap::builder::ValueParser;
+use clap::{Arg, ArgMatches, Args, Command, Error as ClapError, FromArgMatches, Subcommand};
+use serde_json::{Map, Value};
+
+use svbrdf_core::loss::{LossOptions, Request};
+use svbrdf_evaluate::analysis::{ANALYSES, AnyAnalysis, SceneOptions, Subject};
+
+use super::args::scenes::{ListArgs, SampledArgs, SeedArgs, TargetErrorArgs};
+use super::args::values::{percent, whole};
+use super::args::{ComparisonArgs, Given};
+use super::job::{ComparisonJob, Job, NewJob};
+use super::output::report::ReportFormat;
+use super::output::{CommandError, exit, target, watched};
+
+/// The analyses that have a command with further arguments.
+const OTHERS: [&str; 1] = ["metrics"];
+
+/// The arguments of the command of an analysis.
+#[derive(Debug)]
+pub struct AnalysisArgs {
+    analysis: &'static AnyAnalysis,
+    seed: Option<SeedArgs>,
+    target_error: Option<TargetErrorArgs>,
+    sampled: Option<SampledArgs>,
+    list: Option<ListArgs>,
+    options: Value,
+    output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+struct OutputArgs {
+    /// Output format
+    #[arg(long, value_enum, default_value_t)]
+    format: ReportFormat,
+
+    #[command(flatten)]
+    comparison: ComparisonArgs,
+}
+
+fn commands() -> impl Iterator<Item = &'static AnyAnalysis> {
+    ANALYSES.iter().filter(|analysis| !OTHERS.contains(&analysis.name))
+}
+
+fn command(analysis: &AnyAnalysis) -> Command {
+    let AnyAnalysis { name, about, details, example, .. } = analysis;
+    let command = Command::new(*name).args(own_options(analysis).into_iter().map(|option| option.arg()));
+    let scenes = analysis.scenes.iter().fold(command, |command, scenes| match scenes {
+        SceneOptions::Seed => SeedArgs::augment_args(command),
+        SceneOptions::TargetError => TargetErrorArgs::augment_args(command).mut_arg("target_error", |arg| {
+            arg.help("Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152 [default: 1%]")
+        }),
+        SceneOptions::Sampled => SampledArgs::augment_args(command),
+        SceneOptions::List => ListArgs::augment_args(command),
+    });
+    // What is flattened into it would bring its own words.
+    OutputArgs::augment_args(scenes.next_help_heading(None::<&str>))
+        .about(*about)
+        .long_about(format!("{about}\n\n{details} Without GT and PRED: the built-in materials."))
+        .after_help(format!("Example:\n  svbrdf {name} gt.png a.png{example}"))
+}
+
+/// An option of an analysis itself.
+struct OwnOption {
+    name: String,
+    help: String,
+    default: Value,
+    is_share: bool,
+}
+
+fn own_options(analysis: &AnyAnalysis) -> Vec<OwnOption> {
+    let schema = (analysis.options)();
+    let properties = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
+    let option = |(name, property): (&String, &Value)| OwnOption {
+        name: name.clone(),
+        help: property["description"].as_str().unwrap_or_default().to_owned(),
+        default: property["default"].clone(),
+        is_share: property["format"] == "share",
+    };
+    properties.map(option).collect()
+}
+
+impl OwnOption {
+    fn arg(&self) -> Arg {
+        let (value_name, default, parser) = match &self.default {
+            share if self.is_share => {
+                let percent = format!("{}%", 100.0 * share.as_f64().unwrap_or_default());
+                ("PERCENT", percent, ValueParser::new(parsed_share))
+            }
+            count => ("N", count.to_string(), ValueParser::new(parsed_count)),
+        };
+        let arg = Arg::new(self.name.clone()).long(self.name.replace('_', "-")).help(self.help.clone());
+        arg.value_name(value_name).value_parser(parser).default_value(default).allow_hyphen_values(true)
+    }
+}
+
+fn parsed_share(text: &str) -> Result<Value, String> {
+    percent(text).map(Value::from)
+}
+
+fn parsed_count(text: &str) -> Result<Value, String> {
+    Ok(whole::<u64>(text)?.into())
+}
+
+impl Subcommand for AnalysisArgs {
+    fn augment_subcommands(program: Command) -> Command {
+        program.subcommands(commands().map(command))
+    }
+
+    fn augment_subcommands_for_update(program: Command) -> Command {
+        Self::augment_subcommands(program)
+    }
+
+    fn has_subcommand(name: &str) -> bool {
+        commands().any(|analysis| analysis.name == name)
+    }
+}
+
+impl FromArgMatches for AnalysisArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, ClapError> {
+        let unknown = || ClapError::new(clap::error::ErrorKind::InvalidSubcommand);
+        let (name, matches) = matches.subcommand().ok_or_else(unknown)?;
+        let analysis = AnyAnalysis::named(name).ok_or_else(unknown)?;
+        let value = |option: OwnOption| Some((option.name.clone(), matches.get_one(&option.name).cloned()?));
+        Ok(Self {
+            analysis,
+            seed: args_of(analysis, SceneOptions::Seed, matches)?,
+            target_error: args_of(analysis, SceneOptions::TargetError, matches)?,
+            sampled: args_of(analysis, SceneOptions::Sampled, matches)?,
+            list: args_of(analysis, SceneOptions::List, matches)?,
+            options: own_options(analysis).into_iter().filter_map(value).collect::<Map<_, _>>().into(),
+            output: OutputArgs::from_arg_matches(matches)?,
+        })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), ClapError> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// The arguments of these scenes, where the analysis has them.
+fn args_of<A: Args>(
+    analysis: &AnyAnalysis,
+    scenes: SceneOptions,
+    matches: &ArgMatches,
+) -> Result<Option<A>, ClapError> {
+    analysis.scenes.contains(&scenes).then(|| A::from_arg_matches(matches)).transpose()
+}
+
+impl AnalysisArgs {
+    pub fn job(self, given: &Given) -> NewJob {
+        let Self { analysis, seed, target_error, sampled, list, options, output } = self;
+        let comparison = ComparisonJob::with_predictions(&output.comparison, given)?;
+        let sampled = sampled.map(|sampled| sampled.options()).unwrap_or_default();
+        let request = analysis.request(&LossOptions {
+            seed: seed.and_then(|seed| seed.seed),
+            target_error: target_error.and_then(|target| target.target_error),
+            file: list.map_or(Ok(None), |list| list.file())?,
+            ..sampled
+        })?;
+        Ok(Box::new(AnalysisJob { analysis: *analysis, comparison, request, options, format: output.format }))
+    }
+}
+
+/// An analysis of materials that are not opened yet.
+#[derive(Debug)]
+pub struct AnalysisJob {
+    pub analysis: AnyAnalysis,
+    pub comparison: ComparisonJob,
+    pub request: Request,
+    /// Its own options: a JSON object.
+    pub options: Value,
+    pub format: ReportFormat,
+}
+
+/// Prints the report to stdout; with `--strict` fails where a target error is not reached, after the report is printed.
+impl Job for AnalysisJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self {
+            analysis,
+            comparison: ComparisonJob { convention, materials, .. },
+            request,
+            options,
+            format,
+        } = *self;
+        let opened = materials.open::<f32>()?;
+        let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect());
+        let subject = Subject { ground_truth, predictions, convention, request };
+        let report = watched(analysis.doing, |progress| analysis.run(&subject, options, progress))?;
+        exit::put(&format.write(&*report)?)?;
+        target::warn_of(report.missed(), materials.strict)
+    }
+}
