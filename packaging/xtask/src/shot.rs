@@ -10,9 +10,10 @@ use std::time::{Duration, Instant};
 use crate::{command, finish};
 
 /// States of the window: a name, the settings that it starts with, and the keys that are pressed.
-const STATES: [(&str, &str, &[&str]); 8] = [
+const STATES: [(&str, &str, &[&str]); 9] = [
     ("loss", "()", &[]),
     ("why", "(tab:Why)", &[]),
+    ("metrics", "(tab:Why,sections:[\"metrics\"])", &[]),
     ("files", "(tab:Files)", &[]),
     ("light", "(dark:false)", &[]),
     ("difference", "()", &["d"]),
@@ -96,7 +97,7 @@ impl Desktop {
         let home = std::env::temp_dir().join(format!("svbrdf-shot-{}", std::process::id()));
         let stored = home.join(".local/share/svbrdf");
         fs::create_dir_all(&stored).map_err(|problem| problem.to_string())?;
-        let text = format!("{{\"settings\":\"{settings}\"}}");
+        let text = format!("{{\"settings\":{settings:?}}}");
         fs::write(stored.join("app.ron"), text).map_err(|problem| problem.to_string())?;
         let mut server = command("Xvfb");
         server.args(["-displayfd", "1", "-nolisten", "tcp", "-screen", "0", &format!("{size}x24")]);

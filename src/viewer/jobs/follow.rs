@@ -79,7 +79,7 @@ impl Jobs {
         let is_open = model.settings.tab == Tab::Why && model.side_panel();
         let loss = &model.settings.loss;
         let query = WhyQuery {
-            sections: model.settings.why,
+            sections: model.settings.sections.clone(),
             scenes: loss.listed_scenes(),
             seed: loss.seed,
             moved: model.why.moved,

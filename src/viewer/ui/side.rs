@@ -141,7 +141,7 @@ fn why_tab(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelText
         pairs: ComparedPair::all(&model.materials.all, &model.view),
         why: model.why,
         jobs: &jobs.why,
-        sections: model.settings.why,
+        sections: &model.settings.sections,
         settings: &model.settings.loss,
     };
     why.ui(ui, textures)

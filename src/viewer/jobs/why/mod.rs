@@ -7,6 +7,7 @@ pub mod one_by_one;
 pub mod pair;
 pub mod scenes;
 pub mod search;
+pub mod tables;
 pub mod thumbnails;
 
 use svbrdf_core::error::Error;
@@ -24,6 +25,7 @@ pub use directions::{DirectionMaps, DirectionsJob, ScaledPicture};
 pub use pair::ComparedPair;
 pub use scenes::{SceneList, ScenesJob};
 pub use search::SearchJob;
+pub use tables::{AnalysisTable, TableJobs};
 pub use thumbnails::{MOST as MOST_THUMBNAILS, Thumbnails};
 
 /// What the results depend on besides the pair and the scene.
@@ -47,6 +49,7 @@ pub struct WhyJobs {
     pub scenes: ScenesJob,
     pub directions: DirectionsJob,
     pub search: SearchJob,
+    pub tables: TableJobs,
 }
 
 impl WhyJobs {
@@ -66,6 +69,7 @@ impl WhyJobs {
             ),
             self.scenes.follow(waker, is_open(WhySection::Scenes), pairs.get(chosen), query.scenes),
             self.directions.follow(waker, is_open(WhySection::Directions), &pairs, query.moved, scene),
+            self.tables.follow(waker, |name| is_open(WhySection::Table(name)), (&pairs, chosen), query.seed),
         ];
         errors.into_iter().flatten().collect()
     }

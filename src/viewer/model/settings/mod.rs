@@ -51,7 +51,7 @@ pub struct Settings {
     /// Whether the prediction with the least loss comes first in the panel.
     pub sort_losses: bool,
     /// The unfolded sections of the tab *Why*.
-    pub why: WhySections,
+    pub sections: WhySections,
     /// Whether the loss is computed again after every change.
     pub auto_loss: bool,
     pub loss: LossSettings,
@@ -70,7 +70,7 @@ impl Default for Settings {
             histograms: false,
             tab: Tab::Loss,
             sort_losses: true,
-            why: WhySections::default(),
+            sections: WhySections::default(),
             auto_loss: true,
             loss: LossSettings::default(),
             watch: false,

@@ -1,5 +1,7 @@
 //! State of the tab *Why*: its unfolded sections, the endpoint that moves, and the number of listed scenes.
 
+use std::collections::BTreeSet;
+
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::model::scene::Endpoint;
@@ -35,43 +37,44 @@ pub enum WhySection {
     Scenes,
     /// The loss over the directions of light or view.
     Directions,
+    /// The table of the analysis of this name.
+    Table(&'static str),
 }
 
-/// Which sections are unfolded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct WhySections {
-    diagnosis: bool,
-    hypotheses: bool,
-    maps: bool,
-    scenes: bool,
-    directions: bool,
+impl WhySection {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Diagnosis => "diagnosis",
+            Self::Hypotheses => "hypotheses",
+            Self::Maps => "maps",
+            Self::Scenes => "scenes",
+            Self::Directions => "directions",
+            Self::Table(name) => name,
+        }
+    }
 }
+
+/// Which sections are unfolded, by their names.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct WhySections(BTreeSet<String>);
 
 impl Default for WhySections {
     fn default() -> Self {
-        Self { diagnosis: true, hypotheses: false, maps: true, scenes: true, directions: true }
+        let open = [WhySection::Diagnosis, WhySection::Maps, WhySection::Scenes, WhySection::Directions];
+        Self(open.into_iter().map(|section| section.name().to_owned()).collect())
     }
 }
 
 impl WhySections {
-    pub fn is_open(self, section: WhySection) -> bool {
-        match section {
-            WhySection::Diagnosis => self.diagnosis,
-            WhySection::Hypotheses => self.hypotheses,
-            WhySection::Maps => self.maps,
-            WhySection::Scenes => self.scenes,
-            WhySection::Directions => self.directions,
-        }
+    pub fn is_open(&self, section: WhySection) -> bool {
+        self.0.contains(section.name())
     }
 
     pub fn open(&mut self, section: WhySection, on: bool) {
-        match section {
-            WhySection::Diagnosis => self.diagnosis = on,
-            WhySection::Hypotheses => self.hypotheses = on,
-            WhySection::Maps => self.maps = on,
-            WhySection::Scenes => self.scenes = on,
-            WhySection::Directions => self.directions = on,
-        }
+        match on {
+            true => self.0.insert(section.name().to_owned()),
+            false => self.0.remove(section.name()),
+        };
     }
 }

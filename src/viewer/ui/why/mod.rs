@@ -7,6 +7,7 @@ pub mod legends;
 pub mod maps;
 pub mod row;
 pub mod scenes;
+pub mod tables;
 
 use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
@@ -43,7 +44,7 @@ pub struct WhyPanel<'a> {
     pub pairs: Vec<ComparedPair>,
     pub why: WhyState,
     pub jobs: &'a WhyJobs,
-    pub sections: WhySections,
+    pub sections: &'a WhySections,
     /// Say which scenes are listed.
     pub settings: &'a LossSettings,
 }
@@ -65,7 +66,9 @@ impl WhyPanel<'_> {
             self.rows(ui, self.losses.map(|(losses, _)| losses), &mut commands);
         });
         self.displayed_quantity(ui, &mut commands);
-        for (section, title, question) in [
+        let tables = self.jobs.tables.analyses();
+        let tables = tables.map(|one| (WhySection::Table(one.name), one.title, one.details));
+        let own = [
             (
                 WhySection::Diagnosis,
                 "Would something trivial explain it?",
@@ -78,7 +81,8 @@ impl WhyPanel<'_> {
                 "Which light or view",
                 "The loss over the directions of a distant light or view",
             ),
-        ] {
+        ];
+        for (section, title, question) in own.into_iter().chain(tables) {
             ui.separator();
             let open = self.sections.is_open(section);
             let header = egui::CollapsingHeader::new(RichText::new(title).strong()).open(Some(open));
@@ -96,6 +100,9 @@ impl WhyPanel<'_> {
                 WhySection::Scenes => self.scenes(ui, pair, textures, &mut commands),
                 WhySection::Directions => {
                     self.directions(ui, pair.convention.u1_max.sqrt(), textures, &mut commands)
+                }
+                WhySection::Table(analysis) => {
+                    tables::ui(ui, self.jobs.tables.get(analysis, pair, self.settings.seed))
                 }
             });
             if header.header_response.on_hover_text(question).clicked() {

@@ -1,0 +1,84 @@
+//! Tables of the analyses that have no section of their own, of all predictions one by one.
+
+use std::time::Duration;
+
+use serde_json::json;
+
+use svbrdf_core::error::Error;
+use svbrdf_core::loss::LossOptions;
+use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::analysis::{ANALYSES, AnyAnalysis, Subject};
+use svbrdf_evaluate::report::{Reader, Table};
+
+use crate::jobs::why::one_by_one::OneByOne;
+use crate::jobs::why::pair::ComparedPair;
+use crate::jobs::work::waker::Waker;
+
+/// The analyses that have a section of their own.
+const OWN_SECTIONS: [&str; 3] = ["blame", "scenes", "worst"];
+
+/// The report of an analysis of one prediction.
+#[derive(Clone, Debug)]
+pub struct AnalysisTable {
+    /// The lines about its settings.
+    pub heading: String,
+    pub table: Table,
+}
+
+/// The tables, by analysis.
+#[derive(Debug)]
+pub struct TableJobs(Vec<(&'static AnyAnalysis, OneByOne<AnalysisTable>)>);
+
+impl Default for TableJobs {
+    fn default() -> Self {
+        let others = ANALYSES.iter().filter(|analysis| !OWN_SECTIONS.contains(&analysis.name));
+        Self(others.map(|analysis| (analysis, OneByOne::default())).collect())
+    }
+}
+
+impl TableJobs {
+    /// Takes over results, and computes the next ones that are missing, of the analyses that are open.
+    pub fn follow(
+        &mut self,
+        waker: &Waker,
+        is_open: impl Fn(&'static str) -> bool,
+        of: (&[ComparedPair], usize),
+        seed: u64,
+    ) -> Option<Error> {
+        let follow = |(analysis, tables): &mut (&'static AnyAnalysis, OneByOne<AnalysisTable>)| {
+            let analysis = *analysis;
+            tables.follow(waker, is_open(analysis.name), of, seed, move |pair, seed, progress| {
+                answer(analysis, pair, seed, progress)
+            })
+        };
+        self.0.iter_mut().filter_map(follow).next_back()
+    }
+
+    pub fn analyses(&self) -> impl Iterator<Item = &'static AnyAnalysis> {
+        self.0.iter().map(|(analysis, _)| *analysis)
+    }
+
+    /// The table of this pair; until it is there, the share of the work that is done and its time.
+    pub fn get(
+        &self,
+        analysis: &str,
+        pair: &ComparedPair,
+        seed: u64,
+    ) -> Result<&AnalysisTable, Option<(f32, Duration)>> {
+        let (_, tables) = self.0.iter().find(|(of, _)| of.name == analysis).ok_or(None)?;
+        tables.get(pair, seed).ok_or_else(|| tables.busy())
+    }
+}
+
+fn answer(
+    analysis: &AnyAnalysis,
+    pair: &ComparedPair,
+    seed: u64,
+    progress: &Progress,
+) -> Result<AnalysisTable, Error> {
+    let request = analysis.request(&LossOptions { seed: Some(seed), ..LossOptions::default() })?;
+    let (ground_truth, predictions) = (pair.ground_truth(), vec![pair.prediction()]);
+    let subject = Subject { ground_truth, predictions, convention: pair.convention, request };
+    let report = analysis.run(&subject, json!({}), progress)?;
+    Ok(AnalysisTable { heading: report.heading(), table: report.table(Reader::Person) })
+}
