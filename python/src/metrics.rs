@@ -40,7 +40,7 @@ pub fn metrics(
     for prediction in &all[1..] {
         let metrics = work::run(py, progress, |progress| {
             let of_renderings = of_renderings(&all[0], prediction, &rendered, progress)?;
-            Ok([of_maps(&all[0], prediction)?, of_renderings].concat())
+            of_maps(&all[0], prediction).map(|of_maps| [of_maps, of_renderings].concat())
         })?;
         results.push((prediction.name().to_owned(), metrics));
     }
@@ -68,7 +68,7 @@ pub fn matfusion(
         (Some(path), Some(options)) => {
             let options = &read_options(options)?;
             work::run(py, progress, |progress| {
-                Ok(read::read_as_stored::<f64>(Path::new(path), options, progress)?.0)
+                read::read_as_stored::<f64>(Path::new(path), options, progress).map(|(planes, _)| planes)
             })
         }
         _ => Err(PyValueError::new_err(

@@ -2,12 +2,12 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyByteArray;
-use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::diagnose as diagnosis;
 use svbrdf_evaluate::report::{BlameReport, Compared, DiagnoseReport, MapReport, ScenesReport, WorstReport};
 use svbrdf_evaluate::why;
@@ -44,11 +44,11 @@ impl Each {
     }
 
     /// What `answer` computes for each prediction by its index.
-    fn answers<T: Send>(
+    fn answers<T: Send, E: Into<EvaluateError> + Send>(
         &self,
         py: Python<'_>,
         progress: Option<&Bound<'_, PyAny>>,
-        answer: impl Fn(usize, &Material<f32>, &Progress) -> Result<T, CoreError> + Sync,
+        answer: impl Fn(usize, &Material<f32>, &Progress) -> Result<T, E> + Sync,
     ) -> PyResult<Vec<T>> {
         let all = self.materials[1..].iter().enumerate();
         let one = |(index, prediction): (usize, &Material<f32>)| {

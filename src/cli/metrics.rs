@@ -1,11 +1,11 @@
 //! `svbrdf metrics`: metrics beside the loss.
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
 use svbrdf_evaluate::report::{Compared, MetricsReport};
+use svbrdf_files::Error;
 
 use super::args::scenes::SceneArgs;
 use super::args::values::stops;

@@ -14,6 +14,7 @@
 
 pub mod dataset;
 pub mod diagnose;
+mod error;
 pub mod metrics;
 pub mod photograph;
 pub mod rank;
@@ -21,3 +22,5 @@ pub mod report;
 pub mod schema;
 pub mod study;
 pub mod why;
+
+pub use error::Error;

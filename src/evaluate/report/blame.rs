@@ -7,8 +7,8 @@ use super::Report;
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
 use super::table::{Cell, Field, Reader, Table};
+use crate::error::Error;
 use crate::why::{self, MapShare};
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Request};
 
 /// What a map adds to the loss of a prediction, or all maps do.

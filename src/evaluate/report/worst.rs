@@ -8,8 +8,8 @@ use super::heading::Compared;
 use super::missed::missed;
 use super::scenes::SCENE;
 use super::table::{Cell, Field, Reader, Table};
+use crate::error::Error;
 use crate::why;
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate};
 use svbrdf_core::model::scene::Scene;
 
