@@ -37,7 +37,6 @@
 
 pub mod backend;
 
-pub use svbrdf_core::error::Error;
 pub use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request, Sampling, Texels};
 pub use svbrdf_core::material::{Map, Material, Planes};
 pub use svbrdf_core::model::convention::Convention;
@@ -45,6 +44,7 @@ pub use svbrdf_core::model::sampler::Sampler;
 pub use svbrdf_core::model::scene::{Kind, Scene};
 pub use svbrdf_core::progress::Progress;
 pub use svbrdf_core::render::render_f32 as render;
+pub use svbrdf_evaluate::Error;
 pub use svbrdf_evaluate::why::attribute;
 pub use svbrdf_files::read::{Read, ReadOptions, read};
 pub use svbrdf_files::samples::load as built_in;

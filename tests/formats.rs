@@ -24,9 +24,9 @@ use std::path::Path;
 use image::{DynamicImage, GrayImage, ImageFormat};
 use tempfile::tempdir;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 use svbrdf_files::read::{
     Albedo, Certainty, NonFinite, NormalY, Order, Preset, Read, ReadOptions, Roughness, What, read,
 };

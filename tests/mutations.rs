@@ -16,8 +16,9 @@ use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
 use tempfile::tempdir;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 use svbrdf_files::read::{NonFinite, Order, Read, ReadOptions, read, read_bytes};
 
 use crate::support::pictures::packed;
@@ -91,7 +92,7 @@ fn of_picture(error: &Error) -> bool {
         | Error::NotAMaterial { path, .. }
         | Error::MissingMap { path, .. } => path == Path::new("damaged"),
         // A float that is too large for the material.
-        Error::OutOfRange { whose, .. } => whose == "damaged",
+        Error::Core(CoreError::OutOfRange { whose, .. }) => whose == "damaged",
         Error::MapSizesDiffer { .. } => true,
         _ => false,
     }
@@ -140,7 +141,7 @@ fn an_error_of_another_kind_or_file_is_not_accepted() {
     assert!(of_picture(&bad("damaged")) && !of_picture(&bad("damaged.png")) && !of_picture(&bad("other")));
     let internal = || Error::Internal("damaged".to_owned());
     for is_expected in [of_picture, of_listing, of_sidecar] {
-        assert!(!is_expected(&internal()) && !is_expected(&Error::NoPrediction));
+        assert!(!is_expected(&internal()) && !is_expected(&Error::NoSuchBuiltIn { number: 9, count: 7 }));
     }
     let absent = Error::unreadable(Path::new("damaged"), std::io::ErrorKind::NotFound.into());
     assert!(!of_picture(&absent) && of_listing(&absent) && !of_sidecar(&absent));

@@ -6,7 +6,6 @@ use glam::DVec3;
 use image::{DynamicImage, GrayAlphaImage, GrayImage, Rgb, RgbImage, RgbaImage};
 use tempfile::{TempDir, tempdir};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{Albedo, NormalY, Read, ReadOptions, read, read_bytes};
@@ -200,7 +199,7 @@ fn reading_reports_progress_and_stops_when_asked() {
     assert_eq!(progress.counts(), (4, 4));
     progress.cancel();
     let result = read::<f32>(folder.path(), &LINEAR, &progress);
-    assert!(matches!(result, Err(Error::Cancelled)));
+    assert!(result.is_err_and(|error| error.is_cancelled()));
 }
 
 #[test]

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 use svbrdf_files::read::{Binding, Certainty, Read, ReadOptions, read_bound};
 use svbrdf_needs::needs;
 

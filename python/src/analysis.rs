@@ -1,7 +1,6 @@
 //! The analyses that the crate declares.
 
 use pyo3::prelude::*;
-use svbrdf_core::error::Error as CoreError;
 use svbrdf_evaluate::analysis::{AnyAnalysis, Subject};
 
 use crate::asked::Asked;
@@ -21,8 +20,7 @@ pub fn analysis(
     options: &str,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let internal = |problem: &dyn ToString| exception(CoreError::Internal(problem.to_string()));
-    let analysis = AnyAnalysis::named(name).ok_or_else(|| internal(&format!("no analysis {name}")))?;
+    let analysis = AnyAnalysis::named(name).ok_or_else(|| Error::new_err(format!("no analysis {name}")))?;
     let options = serde_json::from_str(options).map_err(|problem| Error::new_err(problem.to_string()))?;
     let materials = asked.singles(ground_truth, &predictions);
     let subject = Subject {

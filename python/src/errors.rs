@@ -6,7 +6,7 @@ use pyo3::PyErr;
 use pyo3::exceptions::{
     PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyPermissionError, PyRuntimeError,
 };
-use svbrdf_core::error::Error as CoreError;
+use svbrdf_files::Error as FilesError;
 
 #[allow(missing_docs, reason = "the macro makes public items without comments")]
 mod class {
@@ -23,14 +23,15 @@ pub use class::Error;
 
 /// The exception for `error`: [`Error`], an `OSError` where a file cannot be read or written, `KeyboardInterrupt` where the
 /// work was cancelled.
-pub fn exception(error: CoreError) -> PyErr {
+pub fn exception(error: impl Into<svbrdf_evaluate::Error>) -> PyErr {
+    let error = error.into();
     let text = error.to_string();
-    match error {
-        CoreError::Unreadable { source, .. } | CoreError::Unwritable { source, .. } => {
-            os_error(&source, text)
+    match error.files() {
+        Some(FilesError::Unreadable { source, .. } | FilesError::Unwritable { source, .. }) => {
+            os_error(source, text)
         }
-        CoreError::Cancelled => PyKeyboardInterrupt::new_err(text),
-        CoreError::Internal(_) => PyRuntimeError::new_err(text),
+        Some(FilesError::Internal(_)) => PyRuntimeError::new_err(text),
+        _ if error.is_cancelled() => PyKeyboardInterrupt::new_err(text),
         _ => Error::new_err(text),
     }
 }

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use pyo3::prelude::*;
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::diagnose::Storage;
+use svbrdf_files::Error;
 use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::read::{self as reading, Certainty, Read, ReadOptions};
 use svbrdf_files::samples;

@@ -35,7 +35,7 @@ pub fn matfusion(
         (Some(path), Some(options)) => {
             let options = &read_options(options)?;
             work::run(py, progress, |progress| {
-                Ok(read::read_as_stored::<f64>(Path::new(path), options, progress)?.0)
+                read::read_as_stored::<f64>(Path::new(path), options, progress).map(|(planes, _)| planes)
             })
         }
         _ => Err(PyValueError::new_err(

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::Error;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::session::window::SessionDisplay;
@@ -76,7 +76,7 @@ pub fn page(
 impl PageAsked {
     fn view(&self) -> PyResult<View> {
         let scene = self.scene.scene()?;
-        scene.check().map_err(|problem| exception(Error::UnusableScene { problem }))?;
+        scene.check_usable().map_err(exception)?;
         let layout = self.layout.parse().map_err(exception)?;
         let display = SessionDisplay { layout, ..SessionDisplay::default() };
         Ok(View { scene, exposure_ev: 0.0, display })

@@ -90,11 +90,11 @@ impl PhotoAsked {
     fn difference(&self) -> PyResult<Difference> {
         let known = PhotoSetting::DIFFERENCES;
         known.into_iter().find(|kind| kind.key() == self.difference).ok_or_else(|| {
-            exception(CoreError::UnknownName {
-                what: "difference",
-                found: self.difference.clone(),
-                known: known.map(Difference::key).join(", "),
-            })
+            exception(CoreError::unknown_name(
+                "difference",
+                &self.difference,
+                known.map(Difference::key).join(", "),
+            ))
         })
     }
 }

@@ -8,8 +8,9 @@ use std::time::Duration;
 
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::Error;
+use svbrdf_files::Error as FilesError;
 
 use crate::errors::exception;
 
@@ -30,7 +31,7 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
     }
     let started = ThreadPoolBuilder::new().build();
     let started =
-        started.map_err(|e| exception(Error::Internal(format!("no threads can be started: {e}"))))?;
+        started.map_err(|e| exception(FilesError::Internal(format!("no threads can be started: {e}"))))?;
     let started = Arc::new(started);
     // That of the parent cannot be ended from here.
     std::mem::forget(pool.replace((process, started.clone())));
@@ -41,7 +42,10 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
 ///
 /// # Errors
 /// Those of the work.
-pub fn at_once<R: Send>(py: Python<'_>, work: impl FnOnce() -> Result<R, Error> + Send) -> PyResult<R> {
+pub fn at_once<R: Send, E: Into<Error> + Send>(
+    py: Python<'_>,
+    work: impl FnOnce() -> Result<R, E> + Send,
+) -> PyResult<R> {
     let pool = pool()?;
     py.detach(|| pool.install(work)).map_err(exception)
 }
@@ -50,10 +54,10 @@ pub fn at_once<R: Send>(py: Python<'_>, work: impl FnOnce() -> Result<R, Error> 
 ///
 /// # Errors
 /// Those of the work; what a signal handler or `report` raises, which cancels the work.
-pub fn run<R: Send>(
+pub fn run<R: Send, E: Into<Error> + Send>(
     py: Python<'_>,
     report: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(&Progress) -> Result<R, Error> + Send,
+    work: impl FnOnce(&Progress) -> Result<R, E> + Send,
 ) -> PyResult<R> {
     let pool = pool()?;
     let progress = Progress::default();
@@ -80,7 +84,7 @@ pub fn run<R: Send>(
                 Ok(result) => return result.map_err(exception),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => {
-                    return Err(exception(Error::Internal(
+                    return Err(exception(FilesError::Internal(
                         "a computation ended without a result".to_owned(),
                     )));
                 }

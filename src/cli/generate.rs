@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::Command;
 use clap_complete::Shell;
 
-use svbrdf_core::error::Error;
+use svbrdf_files::Error;
 
 use super::output::CommandError;
 use super::output::exit::put;

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_evaluate::report::{MapReport, Report as _};
+use svbrdf_files::Error;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, write_text};
 

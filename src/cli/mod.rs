@@ -29,7 +29,7 @@ use std::process::ExitCode;
 use clap::error::ErrorKind;
 use clap::{ArgAction, ArgMatches, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
-use svbrdf_core::error::Error;
+use svbrdf_files::Error;
 
 use args::reading::former;
 use args::{Given, TrustArgs};

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::metrics::{Metric, matfusion_renderings, of_matfusion};
 use svbrdf_evaluate::report::MetricsReport;
+use svbrdf_files::Error;
 use svbrdf_files::export::write_npy;
 use svbrdf_files::read;
 use svbrdf_files::source::{MaterialSource, Place};

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Scene;
@@ -137,9 +136,9 @@ impl Job for ReportJob {
 }
 
 /// Refuses a page of more than `limit` bytes, which smaller maps do not help.
-fn check_size(page: &Page, limit: usize) -> Result<(), Error> {
+fn check_size(page: &Page, limit: usize) -> Result<(), CommandError> {
     let bytes = page.html.len();
-    if bytes <= limit { Ok(()) } else { Err(Error::ReportTooLarge { bytes, limit }) }
+    if bytes <= limit { Ok(()) } else { Err(CommandError::ReportTooLarge { bytes, limit }) }
 }
 
 /// Reports what the size of the file, at most `most` bytes, has cost.

@@ -2,11 +2,12 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
 #[cfg(feature = "viewer")]
 use svbrdf_core::loss::FileScenes;
 #[cfg(feature = "viewer")]
 use svbrdf_core::model::scene::Scene;
+#[cfg(feature = "viewer")]
+use svbrdf_files::Error;
 use svbrdf_files::photograph::Capture;
 #[cfg(feature = "viewer")]
 use svbrdf_files::photograph::SessionPhotograph;
@@ -71,16 +72,14 @@ struct ViewJob {
 impl Job for ViewJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
         #[cfg(feature = "viewer")]
-        let closed = svbrdf::open_viewer(self.options);
+        let closed = svbrdf::open_viewer(self.options).map_err(CommandError::from);
         #[cfg(not(feature = "viewer"))]
-        let closed = Err(Error::NoWindow {
-            problem: "this program was built without the window".to_owned(),
-            remedy: "build with the default features",
-        });
-        if let Err(Error::NoWindow { .. } | Error::NoAdapter { .. }) = closed {
-            tell("note: `svbrdf loss` and `svbrdf render` work without a window");
-        }
-        Ok(closed?)
+        let closed = Err(CommandError::NoWindow);
+        closed.inspect_err(|error| {
+            if error.is_without_graphics() {
+                tell("note: `svbrdf loss` and `svbrdf render` work without a window");
+            }
+        })
     }
 }
 

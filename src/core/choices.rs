@@ -34,11 +34,7 @@ macro_rules! choices {
             fn from_str(name: &str) -> Result<Self, Self::Err> {
                 match name {
                     $($name $(| $old)* => Ok(Self::$variant),)+
-                    _ => Err($crate::error::Error::UnknownName {
-                        what: $what,
-                        found: name.to_owned(),
-                        known: Self::ALL.map(Self::name).join(", "),
-                    }),
+                    _ => Err($crate::error::Error::unknown_name($what, name, Self::ALL.map(Self::name).join(", "))),
                 }
             }
         }

@@ -1,56 +1,15 @@
-//! Errors of all operations: one variant per cause. The text says where, what was expected, what was found and what to do.
+//! Errors of computations: one variant per cause. The text says where, what was expected, what was found and what to do.
 //!
-//! No text names an option of the command line or a control of the window: each of them adds its own advice.
+//! No text names an option of the command line or a control of the window: each of them adds its own advice. That holds for the errors
+//! of the other crates, too; each of them passes those of the crates below it on.
 
-use std::io;
-use std::path::{Path, PathBuf};
-
-use crate::text::percent;
-
-/// The error of every fallible operation of this crate.
+/// The error of every fallible operation of this crate, and of what implements its traits.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file or folder cannot be opened or read.
-    #[error("cannot read {}: {source}; check that the path is right and readable", path.display())]
-    Unreadable { path: PathBuf, source: io::Error },
-
-    /// A file is there, but is not an image that can be decoded.
-    #[error("cannot decode {}: {problem}; {remedy}", path.display())]
-    BadImage { path: PathBuf, problem: String, remedy: String },
-
-    /// What was read is not the four maps of a material.
-    #[error("{} is not a material: expected {expected}, found {found}; {remedy}", path.display())]
-    NotAMaterial { path: PathBuf, expected: String, found: String, remedy: String },
-
-    /// A map that a material needs is not among what was read.
-    #[error("{} is not a material: expected one picture for the {map} map (named after one of {examples}), found {found}; \
-        add or rename the file, specify the map, or open a packed picture by itself", path.display())]
-    MissingMap { path: PathBuf, map: &'static str, examples: String, found: String },
-
-    /// A packed image was expected, and the picture cannot be divided into one.
-    #[error("{} is not a material: expected {}, found {} x {} pixels; give a packed image, or a folder or prefix of one \
-        file per map", path.display(), expected_tiles(*grid), size[0], size[1])]
-    NotPacked {
-        path: PathBuf,
-        size: [usize; 2],
-        /// Columns and rows of tiles, where they were specified.
-        grid: Option<[usize; 2]>,
-    },
-
-    /// A file holds fewer materials than were counted on.
-    #[error("{} holds {count} materials: expected an exemplar from 0 to {}, found {exemplar}; count from 0",
-        path.display(), count.saturating_sub(1))]
-    NoSuchExemplar { path: PathBuf, count: usize, exemplar: usize },
-
-    /// A sidecar file cannot be understood.
-    #[error("{} does not specify how a material is read: {problem}; expected an object such as \
-        {{\"albedo\": \"srgb\", \"maps\": {{\"roughness\": \"orm.png:g\"}}}}, of the keys {keys}", path.display())]
-    BadSidecar { path: PathBuf, problem: String, keys: String },
-
-    /// Something had to be guessed where the user wants no guesses.
-    #[error("{} is ambiguous: {guesses}; specify what is unsure, or allow guesses", path.display())]
-    Guessed { path: PathBuf, guesses: String },
+    /// A name that is none of the known ones.
+    #[error("unknown {what} `{found}`; use one of: {known}")]
+    UnknownName { what: &'static str, found: String, known: String },
 
     /// Two things that must have the same size do not.
     #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; {remedy}",
@@ -63,34 +22,9 @@ pub enum Error {
         remedy: &'static str,
     },
 
-    /// A crop of a figure reaches beyond the materials.
-    #[error("the crop {} reaches beyond the material: expected columns 0 to {} and rows 0 to {} of {} x {} texels, found \
-        columns {} to {} and rows {} to {}; move it, or make it smaller", crop.map(|n| n.to_string()).join(","),
-        size[0].saturating_sub(1), size[1].saturating_sub(1), size[0], size[1],
-        crop[0], last(crop[0], crop[2]), crop[1], last(crop[1], crop[3]))]
-    CropOutside {
-        /// Left, top, width and height.
-        crop: [usize; 4],
-        size: [usize; 2],
-    },
-
-    /// Maps of one material have different shapes.
-    #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; resize them so that the maps of a material have \
-        one shape", first_size[0], first_size[1], second_size[0], second_size[1])]
-    MapSizesDiffer { first: String, first_size: [usize; 2], second: String, second_size: [usize; 2] },
-
-    /// Samples of a map are NaN or infinite.
-    #[error("{}: {map} map, column {column}, row {row}: expected finite numbers, found {value}, one of {nans} NaN and \
-        {infinities} infinite samples; correct the map", path.display())]
-    NotFinite {
-        path: PathBuf,
-        map: &'static str,
-        column: usize,
-        row: usize,
-        value: f32,
-        nans: usize,
-        infinities: usize,
-    },
+    /// Planes that are not those of a material: no texels, or planes of another length.
+    #[error("{whose} is not a material: expected {expected}, found {found}; {remedy}")]
+    BadPlanes { whose: String, expected: String, found: String, remedy: &'static str },
 
     /// A value lies outside its range.
     #[error(
@@ -105,48 +39,16 @@ pub enum Error {
         found: String,
     },
 
-    /// A scene file is not one, or one of its scenes cannot be rendered.
-    #[error("{} is not a usable scene file: {problem}; expected \
-        {{\"scenes\": [{{\"kind\": \"near\" or \"distant\", \"view\": [x, y, z], \"light\": [x, y, z]}}, ...]}}, \
-        finite, light and view above the plane", path.display())]
-    BadScene { path: PathBuf, problem: String },
-
-    /// A capture cannot be used: a folder of photographs with their lights and views.
-    #[error("{} is not a usable capture: {problem}; expected a folder with capture.json, or with the JSON or \
-        text files of a MaterialGAN capture", path.display())]
-    BadCapture { path: PathBuf, problem: String },
-
-    /// A loss is above the limit that was given for it.
-    #[error("{name} has a loss of {loss}, above the limit of {limit}")]
-    AboveLimit { name: String, loss: f64, limit: f64 },
-
-    /// No prediction of a data set has a loss.
-    #[error(
-        "no prediction has a loss: {failed} of {failed} failed, the first of them, {name}: {problem}; correct the predictions"
-    )]
-    NothingRanked { failed: usize, name: String, problem: String },
-
     /// A scene given by hand cannot be rendered.
     #[error("the scene cannot be rendered: {problem}; move it above the plane, within 1e9 of the origin")]
     UnusableScene { problem: String },
 
-    /// The corners of the plane in a photograph make no sense.
+    /// A loss over no scenes, or over too many.
     #[error(
-        "the corners of the plane cannot be used: {problem}; give the top left, top right, bottom right and bottom left \
-        corner of the material in the photograph, in pixels"
+        "a loss needs at least one scene and at most {most}, found {count}; ask for another number of near-field or \
+        distant scenes"
     )]
-    UnusableCorners { problem: String },
-
-    /// No factor brings a photograph to the exposure of a rendering.
-    #[error(
-        "the exposure of the photograph cannot be fitted to {name}: {problem}; check light, view and corners, or take \
-        another photograph"
-    )]
-    NoExposure { name: String, problem: String },
-
-    /// A name that is none of the known ones.
-    #[error("unknown {what} `{found}`; use one of: {known}")]
-    UnknownName { what: &'static str, found: String, known: String },
+    SceneCount { count: usize, most: usize },
 
     /// A way of sampling scenes whose number is left open.
     #[error(
@@ -163,161 +65,22 @@ pub enum Error {
         reason: &'static str,
     },
 
-    /// Two values of one option.
-    #[error("{option} is specified twice; leave out one")]
-    SpecifiedTwice { option: String },
-
-    /// A loss over no scenes, or over too many.
-    #[error(
-        "a loss needs at least one scene and at most {most}, found {count}; ask for another number of near-field or \
-        distant scenes"
-    )]
-    SceneCount { count: usize, most: usize },
-
-    /// A session file that cannot be used.
-    #[error("the session {} cannot be opened: {problem}; save it again from the window", path.display())]
-    BadSession { path: PathBuf, problem: String },
-
-    /// A session names a built-in material that does not exist.
-    #[error("there is no built-in material {number}: expected a number from 0 to {}; correct the session file", count - 1)]
-    NoSuchBuiltIn { number: usize, count: usize },
-
-    /// More than one scene file, where the scenes of a loss come from one.
-    #[error("expected one scene file, found {} and {}; give one of them", first.display(), second.display())]
-    SeveralSceneFiles { first: PathBuf, second: PathBuf },
-
-    /// There is nothing to compare a ground truth with.
-    #[error("there is no prediction to compare; open one")]
-    NoPrediction,
-
-    /// A result is saved before it has been computed.
-    #[error("{0} is not complete yet: save it once it is displayed")]
-    Incomplete(&'static str),
-
-    /// A kind of file that a material cannot be written to in this way.
-    #[error("{} {problem}", path.display())]
-    UnsupportedOutput { path: PathBuf, problem: OutputProblem },
-
-    /// A defect of this program.
-    #[error("internal error: {0}; report it with what you did")]
-    Internal(String),
-
-    /// The materials of a study do not differ.
-    #[error(
-        "the two materials look the same in every scene, so that there is no error to study; \
-        give a prediction that differs from the ground truth"
-    )]
-    NothingToStudy,
-
-    /// A material would be resized to more than fits.
-    #[error("the materials cannot be resized to {width} x {height} texels: expected at most {max_side} x {max_side} \
-        and {} GiB a material, found {} GiB; choose a smaller width",
-        max_bytes >> 30, bytes.div_ceil(1 << 30))]
-    TooLarge { width: usize, height: usize, bytes: usize, max_side: usize, max_bytes: usize },
-
-    /// An accuracy that was asked for needs more scenes than are drawn.
-    #[error("{prediction} is known to +-{}, not to the target of +-{}: {scenes} scenes, the limit, are not enough; \
-        go by the interval, or set a larger target", percent(*reached), percent(*target))]
-    Inaccurate { prediction: String, reached: f64, target: f64, scenes: usize },
-
-    /// A result cannot be written.
-    #[error("cannot write {}: {source}; {remedy}", path.display())]
-    Unwritable { path: PathBuf, source: io::Error, remedy: &'static str },
-
-    /// A file names another by an absolute path.
-    #[error("{} names {} by an absolute path: only files by relative paths are read; use a relative path, or allow files \
-        outside, if you trust it", by.display(), path.display())]
-    Outside { path: PathBuf, by: PathBuf },
-
-    /// Something other than a regular file stands where one is expected.
-    #[error("cannot read {}: expected a regular file, found {found}; name a file", path.display())]
-    NotAFile { path: PathBuf, found: &'static str },
-
-    /// Something takes more memory than the limit leaves.
-    #[error("{what} takes {} of memory, more than the limit of {} leaves; use smaller files, or raise the limit",
-        size(*bytes), size(*limit))]
-    Memory { what: String, bytes: u64, limit: u64 },
-
-    /// The system does not give as much memory as something takes.
-    #[error("{what} takes {} of memory, which the system does not give now; use smaller files, or raise its limit",
-        size(*bytes))]
-    NoMemory { what: String, bytes: u64 },
-
-    /// A result would replace a file that it is made from.
-    #[error("cannot write {}: it is the file {}, which the result is made from; name another file",
-        path.display(), input.display())]
-    ReplacesInput { path: PathBuf, input: PathBuf },
-
-    /// A report cannot be as small as is asked.
-    #[error(
-        "the report has {bytes} bytes with the smallest maps, more than the limit of {limit}; allow as many, or compare fewer \
-        materials"
-    )]
-    ReportTooLarge { bytes: usize, limit: usize },
-
-    /// No graphics adapter can do what is asked.
+    /// There is no graphics adapter for a [`Backend`](crate::loss::Backend), or none that can do what is asked.
     #[error("no usable graphics adapter: {problem}; {remedy}")]
     NoAdapter { problem: String, remedy: &'static str },
 
-    /// The graphics adapter or its driver refused or failed.
+    /// The graphics adapter of a [`Backend`](crate::loss::Backend), or its driver, refused or failed.
     #[error("the graphics adapter failed: {problem}; {remedy}")]
     Gpu { problem: String, remedy: &'static str },
-
-    /// No window can be opened.
-    #[error("cannot open a window: {problem}; {remedy}")]
-    NoWindow { problem: String, remedy: &'static str },
 
     /// The caller cancelled the work.
     #[error("cancelled")]
     Cancelled,
 }
 
-/// Why a material cannot be written to a file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum OutputProblem {
-    #[error(
-        "cannot be written: expected an .exr, .png, .glb or .mtlx file, or a folder, which exists, ends with / or has no extension"
-    )]
-    Kind,
-    #[error("cannot have that depth; EXR has half and float, MaterialX all, every other form 8 and 16")]
-    Depth,
-    #[error("cannot have a preview; only EXR has one")]
-    Preview,
-    /// EXR, glTF and MaterialX state what they hold.
-    #[error("cannot follow a preset; only a packed PNG and a folder do")]
-    NoPreset,
-    #[error("cannot be packed in that way; deschaintre, gao, materialgan, lookahead and matfusion pack")]
-    PackedPreset,
-    #[error("cannot be a folder of that preset; materialgan and gltf have one")]
-    FolderPreset,
-}
-
-/// A number of bytes in GiB or MiB.
-fn size(bytes: u64) -> String {
-    match bytes {
-        0..0x4000_0000 => format!("{} MiB", bytes.div_ceil(1 << 20)),
-        _ => format!("{:.1} GiB", bytes as f64 / (1u64 << 30) as f64),
-    }
-}
-
-/// The last of `count` columns or rows.
-fn last(first: usize, count: usize) -> usize {
-    first.saturating_add(count.saturating_sub(1))
-}
-
-/// What a packed image has to be.
-fn expected_tiles(grid: Option<[usize; 2]>) -> String {
-    match grid {
-        Some([columns, rows]) => format!("a packed image of {columns} x {rows} tiles with room for the order"),
-        None => "a packed strip of square tiles (any photos, then normal | diffuse | roughness | specular, 4 or more \
-            times as wide as high), or another grid in which one tile looks like normals"
-            .to_owned(),
-    }
-}
-
 impl Error {
-    /// [`Error::Unreadable`] for `path`.
-    pub fn unreadable(path: &Path, source: io::Error) -> Self {
-        Self::Unreadable { path: path.to_owned(), source }
+    /// [`Error::UnknownName`]: `found` is no name of a `what`; `known` lists the names.
+    pub fn unknown_name(what: &'static str, found: impl Into<String>, known: impl Into<String>) -> Self {
+        Self::UnknownName { what, found: found.into(), known: known.into() }
     }
 }

@@ -6,11 +6,13 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error as FilesError;
 
 use crate::report::{BlameReport, Compared, MetricsReport, Report, ScenesReport, WorstReport};
 use crate::schema;
@@ -140,7 +142,7 @@ impl AnyAnalysis {
     ///
     /// # Errors
     /// As [`LossOptions::question`].
-    pub fn request(&self, options: &LossOptions) -> Result<Request, Error> {
+    pub fn request(&self, options: &LossOptions) -> Result<Request, CoreError> {
         match self.scenes.contains(&SceneOptions::Sampled) {
             true => options.listed(),
             false => options.question().map(|question| question.request),
@@ -150,7 +152,7 @@ impl AnyAnalysis {
     /// The answer, with `options` as a JSON object; those that it lacks have their defaults.
     ///
     /// # Errors
-    /// As [`Analysis::run`]; [`Error::Internal`] for options that are none.
+    /// As [`Analysis::run`]; [`FilesError::Internal`] for options that are none.
     pub fn run(
         &self,
         subject: &Subject<'_>,
@@ -166,6 +168,7 @@ fn answer<A: Analysis>(
     options: Value,
     progress: &Progress,
 ) -> Result<Box<dyn Report>, Error> {
-    let options = serde_json::from_value(options).map_err(|problem| Error::Internal(problem.to_string()))?;
+    let options =
+        serde_json::from_value(options).map_err(|problem| FilesError::Internal(problem.to_string()))?;
     Ok(Box::new(A::run(subject, &options, progress)?))
 }

@@ -16,6 +16,7 @@
 pub mod analysis;
 pub mod dataset;
 pub mod diagnose;
+mod error;
 pub mod metrics;
 pub mod photograph;
 pub mod rank;
@@ -23,3 +24,5 @@ pub mod report;
 pub mod schema;
 pub mod study;
 pub mod why;
+
+pub use error::Error;

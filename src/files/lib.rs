@@ -14,11 +14,12 @@
 //! let output = Path::new("brick.exr");
 //! let options = WriteOptions::default();
 //! write::write(&read.material, output, FileKind::new(output, &options)?)?;
-//! # Ok::<(), svbrdf_core::error::Error>(())
+//! # Ok::<(), svbrdf_files::Error>(())
 //! ```
 
 pub mod changes;
 pub mod disk;
+mod error;
 pub mod export;
 mod npy;
 pub mod photograph;
@@ -29,3 +30,5 @@ pub mod session;
 pub mod source;
 pub mod steps;
 pub mod write;
+
+pub use error::{Error, OutputProblem};

@@ -8,16 +8,16 @@
 //!
 //! let read: Read<f32> = MaterialSource::built_in(1).read(&Progress::default())?;
 //! assert_eq!(read.material.name(), "blurred normals");
-//! # Ok::<(), svbrdf_core::error::Error>(())
+//! # Ok::<(), svbrdf_files::Error>(())
 //! ```
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
+use crate::error::Error;
 use crate::read::{self, Read, ReadOptions};
 use crate::samples;
 use crate::session::SessionMaterial;

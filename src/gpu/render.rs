@@ -21,7 +21,7 @@ impl Gpu {
         scene: &Scene,
         convention: &Convention,
     ) -> Result<Image<f32>, Error> {
-        scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+        scene.check_usable()?;
         let textures = MaterialTextures::upload(self, material)?;
         let shading = Shading::new(self)?;
         let target = shading.target(self, material.size())?;

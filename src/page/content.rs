@@ -1,6 +1,5 @@
 //! The content of a report.
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
@@ -10,6 +9,7 @@ use svbrdf_evaluate::report::LossReport;
 use svbrdf_evaluate::why::{
     Attribution, Hemisphere, RankedScene, attribute, hemisphere, worst_on_all_texels,
 };
+use svbrdf_files::Error;
 
 use svbrdf_files::session::window::SessionDisplay;
 

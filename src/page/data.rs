@@ -5,13 +5,13 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use serde_json::Value;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::{diverging, heat};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_files::Error;
 use svbrdf_shaders::PAGE_GLSL;
 
 use super::content::{Report, View};

@@ -14,9 +14,9 @@ use flate2::write::DeflateEncoder;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::tone::srgb_encode;
+use svbrdf_files::Error;
 
 /// The largest whole number of a plane of 16 bits.
 const MOST: f32 = 65_535.0;

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Loss, Outcome};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::report::{Reader, Report as _, parts, scenes_line};
 use svbrdf_evaluate::why::{Attribution, Hemisphere};
+use svbrdf_files::Error;
 
 use super::content::{Findings, Repetition, Report};
 use super::data::LinkedScene;

@@ -17,11 +17,12 @@ mod tables;
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 
 pub use content::{Findings, Repetition, Report, View};
 use encode::EncodedMaterial;
@@ -71,12 +72,12 @@ pub struct Page {
 /// Checks that a report can be at `path`, before there is anything to write.
 ///
 /// # Errors
-/// [`Error::UnknownName`] where it is not named like HTML; those of [`check_place`].
+/// [`CoreError::UnknownName`] where it is not named like HTML; those of [`check_place`].
 pub fn check_destination(path: &Path) -> Result<(), Error> {
     let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
     if !ending.is_some_and(|ending| ending == "html" || ending == "htm") {
         let (found, known) = (path.display().to_string(), "NAME.html".to_owned());
-        return Err(Error::UnknownName { what: "name of a report", found, known });
+        return Err(CoreError::unknown_name("name of a report", found, known).into());
     }
     check_place(path)
 }
@@ -85,7 +86,7 @@ impl Report<'_> {
     /// The report as one HTML file.
     ///
     /// # Errors
-    /// [`Error::SizesDiffer`], [`Error::Cancelled`].
+    /// [`CoreError::SizesDiffer`], [`Cancelled`](Error::is_cancelled).
     pub fn page(&self, progress: &Progress) -> Result<Page, Error> {
         if let [ground_truth, predictions @ ..] = self.materials {
             predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
@@ -170,7 +171,7 @@ impl Report<'_> {
         let mut reduced_to = None;
         loop {
             if progress.is_cancelled() {
-                return Err(Error::Cancelled);
+                return Err(CoreError::Cancelled.into());
             }
             let [width, height] = materials.first().map_or([0, 0], Material::size);
             let is_hopeless = width * height * 20 * materials.len() / MOST_DEFLATED > bytes;

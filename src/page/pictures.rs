@@ -6,7 +6,7 @@ use image::codecs::jpeg::JpegEncoder;
 use image::imageops::{self, FilterType};
 use image::{Rgb, RgbImage};
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
@@ -14,6 +14,7 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 
 /// Size of the pictures of materials that stand in rows.
 #[derive(Clone, Copy)]
@@ -31,7 +32,7 @@ const QUALITY: u8 = 86;
 const BACKGROUND: Rgb<u8> = Rgb([36, 38, 42]);
 
 /// The materials with sides of at most `most` texels, halved.
-pub(super) fn reduced(materials: &[&Material<f32>], most: usize) -> Result<Vec<Material<f32>>, Error> {
+pub(super) fn reduced(materials: &[&Material<f32>], most: usize) -> Result<Vec<Material<f32>>, CoreError> {
     let one = |material: &&Material<f32>| {
         let [mut width, mut height] = material.size();
         while width.max(height) > most {

@@ -8,11 +8,12 @@ use std::str::FromStr;
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use rayon::prelude::*;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 
 use super::content::{Report, View};
 use super::exposure::exposure;
@@ -45,27 +46,27 @@ pub enum Figures {
 }
 
 impl FromStr for Figures {
-    type Err = Error;
+    type Err = CoreError;
 
-    fn from_str(text: &str) -> Result<Self, Error> {
+    fn from_str(text: &str) -> Result<Self, CoreError> {
         let count = text.strip_prefix("worst:").and_then(|count| count.parse().ok());
         match count.filter(|count| *count > 0) {
             Some(count) => Ok(Self::Worst(count)),
             None if text == "all" => Ok(Self::All),
-            None => Err(Error::UnknownName {
-                what: "choice of figures",
-                found: text.to_owned(),
-                known: "all, or worst:N with N from 1 on, such as worst:20".to_owned(),
-            }),
+            None => Err(CoreError::unknown_name(
+                "choice of figures",
+                text,
+                "all, or worst:N with N from 1 on, such as worst:20",
+            )),
         }
     }
 }
 
-/// Reads the materials of `cases` again, renders thumbnails and writes the figures of `figures` into a folder beside the `page`, which
-/// is named after it. A material that cannot be read any more has neither. A material is one step of `progress`.
+/// Reads the materials of `cases` again, renders thumbnails and writes the figures of `figures` into a folder beside the `page`,
+/// which is named after it. A material that cannot be read any more has neither. A material is one step of `progress`.
 ///
 /// # Errors
-/// [`Error::Cancelled`], [`Error::Unwritable`], [`Error::UnknownName`] for an unknown convention.
+/// [`Cancelled`](Error::is_cancelled), [`Error::Unwritable`], [`CoreError::UnknownName`] for an unknown convention.
 pub fn material_views(
     report: &DatasetReport,
     cases: &[Case],
@@ -87,7 +88,8 @@ pub fn material_views(
             let figure = chosen.contains(&result.index).then(|| folder.join(file_name(result)));
             view(&materials, &convention, figure, progress)
         })?;
-        progress.step().map(|()| view)
+        progress.step()?;
+        Ok(view)
     };
     report.results.par_iter().map(one).collect()
 }
@@ -121,7 +123,8 @@ fn chosen(report: &DatasetReport, figures: Figures) -> BTreeSet<usize> {
     known.into_iter().take(count).map(|(_, index)| index).collect()
 }
 
-/// The ground truth, then the prediction of each method that has one, under the name of the method; `None` where one cannot be read.
+/// The ground truth, then the prediction of each method that has one, under the name of the method; `None` where one cannot be
+/// read.
 fn opened(report: &DatasetReport, result: &MaterialResult, case: &Case) -> Option<Vec<Material<f32>>> {
     let open = |path: &Path, options: &ReadOptions, name: &str| -> Option<Material<f32>> {
         Some(read::read(path, options, &Progress::default()).ok()?.material.renamed(name))

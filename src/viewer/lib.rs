@@ -4,10 +4,12 @@
 //! `jobs`; what a command does outside of the model is carried out by `app`.
 
 pub mod app;
+mod error;
 pub mod jobs;
 pub mod model;
 pub mod ui;
 pub mod window;
 
+pub use error::Error;
 pub use model::settings::options::ViewerOptions;
 pub use window::{run, run_watched};

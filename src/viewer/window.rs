@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_gpu::Gpu;
 
 use super::app::device_loss::{Adapters, DeviceLosses, given_up};
@@ -18,6 +18,7 @@ use super::app::{App, CrashGuard, Stop, Watch, display, outcome, stored_file};
 use super::jobs::work::{panics, priority};
 use super::model::message::Message;
 use super::model::settings::options::ViewerOptions;
+use crate::error::Error;
 
 /// The name of the window, and of the folder of its settings.
 const NAME: &str = "svbrdf";
@@ -27,9 +28,9 @@ const PAUSE_AFTER_LOSS: Duration = Duration::from_millis(300);
 /// Opens the window and returns when it is closed.
 ///
 /// # Errors
-/// [`Error::NoWindow`] without a display or the libraries of the window system, [`Error::NoAdapter`] without a
-/// graphics adapter that can draw into it, [`Error::Gpu`] where its devices are lost again and again, [`Error::Cancelled`] where a
-/// signal closed it, [`Error::Internal`] after a panic.
+/// [`Error::NoWindow`] without a display or the libraries of the window system, [`CoreError::NoAdapter`] without a graphics
+/// adapter that can draw into it, [`CoreError::Gpu`] where its devices are lost again and again, [`CoreError::Cancelled`] where a
+/// signal closed it, an internal one after a panic.
 pub fn run(options: ViewerOptions) -> Result<(), Error> {
     run_watched(options, |_, _| ())
 }
@@ -46,10 +47,11 @@ pub fn run_watched(
     panics::print(false);
     let stop = Stop::default();
     priority::yield_to_window();
-    let result = Gpu::check_environment().and_then(|()| windows(options, &stop, Rc::new(watch)));
+    let result =
+        Gpu::check_environment().map_err(Error::from).and_then(|()| windows(options, &stop, Rc::new(watch)));
     panics::print(true);
     result?;
-    if stop.is_stopped() { Err(Error::Cancelled) } else { Ok(()) }
+    if stop.is_stopped() { Err(CoreError::Cancelled.into()) } else { Ok(()) }
 }
 
 /// The application, which outlives the window of a lost device.

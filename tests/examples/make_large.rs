@@ -6,8 +6,8 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
+use svbrdf_files::Error;
 use svbrdf_files::samples;
 use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 
@@ -27,11 +27,7 @@ fn main() -> ExitCode {
 }
 
 fn make(out: &Path, side: &str, depth: &str) -> Result<(), Error> {
-    let unknown = |_| Error::UnknownName {
-        what: "SIDE",
-        found: side.to_owned(),
-        known: "a number of texels".to_owned(),
-    };
+    let unknown = |_| Error::unknown_name("SIDE", side, "a number of texels");
     let side = side.parse().map_err(unknown)?;
     let options = WriteOptions { depth: Some(depth.parse::<Depth>()?), ..WriteOptions::default() };
     write::write(&large(side)?, out, FileKind::new(out, &options)?).map(drop)

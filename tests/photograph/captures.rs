@@ -8,11 +8,11 @@ use image::{Rgb, RgbImage};
 use serde_json::{Value, json};
 use tempfile::{TempDir, tempdir};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::{Model, Texel, reflectance};
 use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::Error;
 use svbrdf_evaluate::photograph::{CaptureExposure, PhotoOutlier, PhotoReport, PhotoSetting};
 use svbrdf_evaluate::report::{Json as _, Report as _};
 use svbrdf_files::photograph::Capture;

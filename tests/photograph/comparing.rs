@@ -2,7 +2,6 @@
 
 use glam::{DMat3, DVec3};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::{Model, Texel, render};
@@ -12,6 +11,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 use svbrdf_evaluate::photograph::{PhotographComparison, flash};
+use svbrdf_files::Error;
 use svbrdf_files::photograph::Corners;
 
 use super::{SCENE, compared, glossy, photograph, rectified, small};

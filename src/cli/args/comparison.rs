@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_files::Error;
 use svbrdf_files::source::MaterialSource;
 use svbrdf_files::steps::{RunId, runs_in};
 

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes, LossOptions};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
@@ -188,7 +187,7 @@ impl OneSceneArgs {
         let kind = if self.distant { Kind::Distant } else { usual.kind };
         let (view, light) = (self.view.unwrap_or(usual.view), self.light.unwrap_or(usual.light));
         let scene = Scene { kind, view, light };
-        scene.check().map_err(|problem| CommandError::Usage(Error::UnusableScene { problem }.to_string()))?;
+        scene.check_usable().map_err(|error| CommandError::Usage(error.to_string()))?;
         Ok(scene)
     }
 }

@@ -3,13 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::text::quoted;
 use svbrdf_evaluate::dataset::{self, Case, Method};
 use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_evaluate::report::distinct_names;
+use svbrdf_files::Error;
 use svbrdf_files::disk::memory::Reserved;
 use svbrdf_files::disk::open::is_pipe_at;
 use svbrdf_files::read::{self, Assumption, Binding, Read, ReadOptions};
@@ -88,7 +89,7 @@ impl MaterialJob {
     /// one size where that is asked for.
     ///
     /// # Errors
-    /// Those of the reader; [`Error::TooLarge`].
+    /// Those of the reader; [`CommandError::TooLarge`].
     pub fn open<T: Real>(&self) -> Result<Opened<T>, CommandError> {
         let read = self.sources.iter().map(|source| self.read(source)).collect::<Result<Vec<Read<T>>, _>>();
         let read = read.inspect_err(|_| note_data_set(&self.paths))?;
@@ -272,11 +273,11 @@ pub fn noted<T: Real>(read: Read<T>, verbose: bool) -> Material<T> {
 /// Materials stand side by side only where they are equally high.
 ///
 /// # Errors
-/// [`Error::SizesDiffer`].
-pub fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
+/// [`CoreError::SizesDiffer`].
+pub fn check_heights(materials: &[Material<f32>]) -> Result<(), CoreError> {
     let different = |pair: &&[Material<f32>]| pair[0].height() != pair[1].height();
     let Some(pair) = materials.windows(2).find(different) else { return Ok(()) };
-    Err(Error::SizesDiffer {
+    Err(CoreError::SizesDiffer {
         first: pair[0].name().to_owned(),
         first_size: pair[0].size(),
         second: pair[1].name().to_owned(),
@@ -286,7 +287,7 @@ pub fn check_heights(materials: &[Material<f32>]) -> Result<(), Error> {
 }
 
 /// Every material in one size.
-fn resized<T: Real>(materials: Vec<Material<T>>, to: ResizeTo) -> Result<Vec<Material<T>>, Error> {
+fn resized<T: Real>(materials: Vec<Material<T>>, to: ResizeTo) -> Result<Vec<Material<T>>, CommandError> {
     let of = match to {
         ResizeTo::Prediction if materials.len() > 1 => &materials[1],
         _ => &materials[0],
@@ -305,17 +306,17 @@ fn resized<T: Real>(materials: Vec<Material<T>>, to: ResizeTo) -> Result<Vec<Mat
         if material.size() != size {
             exit::tell(&format!("note: {} is resized from {w} x {h} to {width} x {height}", material.name()));
         }
-        material.resized(size)
+        Ok(material.resized(size)?)
     };
     materials.into_iter().map(bring).collect()
 }
 
 /// Whether a material of this size can be expected to fit into memory.
-fn check_size<T>([width, height]: [usize; 2]) -> Result<(), Error> {
+fn check_size<T>([width, height]: [usize; 2]) -> Result<(), CommandError> {
     // Three planes each of normals, diffuse and specular, one of roughness.
     let bytes = width.saturating_mul(height).saturating_mul(10 * size_of::<T>());
     if width.max(height) <= MAX_SIDE && bytes <= MAX_BYTES {
         return Ok(());
     }
-    Err(Error::TooLarge { width, height, bytes, max_side: MAX_SIDE, max_bytes: MAX_BYTES })
+    Err(CommandError::TooLarge { width, height, bytes, max_side: MAX_SIDE, max_bytes: MAX_BYTES })
 }

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{LossOptions, LossSettings, Question, Request};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_files::Error;
 use svbrdf_files::session::Session;
 use svbrdf_files::session::window::SessionDisplay;
 
@@ -54,7 +55,8 @@ impl SessionSettings {
     /// # Errors
     /// [`Error::BadSession`] for an unknown convention.
     pub fn new(session: &Session, path: &Path) -> Result<Self, Error> {
-        let bad = |problem: Error| Error::BadSession { path: path.to_owned(), problem: problem.to_string() };
+        let bad =
+            |problem: CoreError| Error::BadSession { path: path.to_owned(), problem: problem.to_string() };
         if let Some(Request::Scenes(sampling)) = session.window.loss.as_ref().map(LossSettings::request) {
             sampling.check().map_err(bad)?;
         }
@@ -88,7 +90,7 @@ impl SessionSettings {
     ///
     /// # Errors
     /// Where the options contradict each other.
-    pub fn question(session: Option<&Self>, options: &LossOptions) -> Result<Question, Error> {
+    pub fn question(session: Option<&Self>, options: &LossOptions) -> Result<Question, CoreError> {
         let saved = session.and_then(|session| session.loss.as_ref());
         saved.map_or_else(|| options.question(), |saved| options.over(saved))
     }

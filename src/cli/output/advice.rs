@@ -1,20 +1,28 @@
 //! Advice: the options of the command line that help with an error or a note. The library names none.
 
-use svbrdf_core::error::{Error, OutputProblem};
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_files::read::{Assumption, Note, Reason, Subject};
+use svbrdf_files::{Error, OutputProblem};
 
 use super::error::CommandError;
 
 /// The option that helps with an error.
 pub fn of_error(error: &CommandError) -> Option<&'static str> {
-    let CommandError::Library(error) = error else { return None };
+    let error = match error {
+        CommandError::ReportTooLarge { .. } => {
+            return Some("--max-size sets it, and --figure leaves out the findings");
+        }
+        CommandError::TooLarge { .. } => return Some("give a smaller width to --resize-to"),
+        CommandError::Library(error) => error.files()?,
+        _ => return None,
+    };
     Some(match error {
         Error::Outside { .. } => "--allow-outside allows it",
         Error::Memory { .. } => "--max-memory sets it",
         Error::Guessed { .. } => "specify it by --read, or leave out --strict",
-        Error::ReportTooLarge { .. } => "--max-size sets it, and --figure leaves out the findings",
-        Error::SizesDiffer { .. } => "--resize-to gt, pred or a width brings materials to one size",
-        Error::TooLarge { .. } => "give a smaller width to --resize-to",
+        Error::Core(CoreError::SizesDiffer { .. }) => {
+            "--resize-to gt, pred or a width brings materials to one size"
+        }
         Error::NotFinite { .. } => "--read non-finite=replace puts other numbers in their place",
         Error::NoSuchExemplar { .. } => "--read exemplar=K chooses a material",
         Error::MissingMap { .. } => {

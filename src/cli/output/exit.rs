@@ -5,8 +5,9 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::text::{line, printable};
+use svbrdf_files::Error as FilesError;
 
 use super::advice;
 use super::error::CommandError;
@@ -50,21 +51,21 @@ pub fn tell(text: &str) {
 ///
 /// # Errors
 /// As [`put`].
-pub fn put_text(text: &str) -> Result<(), Error> {
+pub fn put_text(text: &str) -> Result<(), FilesError> {
     put(&printable(text))
 }
 
 /// Writes a result to stdout. A reader that has closed the pipe has seen enough.
 ///
 /// # Errors
-/// [`Error::Unwritable`], as on a full disk.
-pub fn put(text: &str) -> Result<(), Error> {
+/// [`FilesError::Unwritable`], as on a full disk.
+pub fn put(text: &str) -> Result<(), FilesError> {
     let mut stdout = io::stdout().lock();
     accepted(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))
 }
 
 /// A closed pipe is the reader's choice.
-fn accepted(written: io::Result<()>) -> Result<(), Error> {
+fn accepted(written: io::Result<()>) -> Result<(), FilesError> {
     match written {
         Err(source) if source.kind() != io::ErrorKind::BrokenPipe => Err(unwritable(source)),
         _ => Ok(()),
@@ -72,25 +73,28 @@ fn accepted(written: io::Result<()>) -> Result<(), Error> {
 }
 
 /// The error of a result that cannot be written to stdout.
-pub fn unwritable(source: io::Error) -> Error {
+pub fn unwritable(source: io::Error) -> FilesError {
     let path = Path::new("standard output").to_owned();
-    Error::Unwritable { path, source, remedy: "check where it is redirected to" }
+    FilesError::Unwritable { path, source, remedy: "check where it is redirected to" }
 }
 
 fn code_of(error: &CommandError) -> u8 {
     let error = match error {
         CommandError::Usage(_) => return USAGE,
+        error if error.is_without_graphics() => return NO_GRAPHICS,
         CommandError::Library(error) => error,
+        _ => return FAILED,
     };
-    match error {
-        Error::NoWindow { .. } | Error::NoAdapter { .. } => NO_GRAPHICS,
-        Error::SceneCount { .. }
-        | Error::SeveralSceneFiles { .. }
-        | Error::NoSceneCount { .. }
-        | Error::SpecifiedTwice { .. }
-        | Error::UnknownName { .. }
-        | Error::UnsupportedOutput { .. } => USAGE,
-        Error::Cancelled => INTERRUPTED,
+    match error.files() {
+        Some(
+            FilesError::SeveralSceneFiles { .. }
+            | FilesError::SpecifiedTwice { .. }
+            | FilesError::UnsupportedOutput { .. }
+            | FilesError::Core(
+                CoreError::SceneCount { .. } | CoreError::NoSceneCount { .. } | CoreError::UnknownName { .. },
+            ),
+        ) => USAGE,
+        Some(FilesError::Core(CoreError::Cancelled)) => INTERRUPTED,
         _ => FAILED,
     }
 }

@@ -1,6 +1,6 @@
 //! Objects as JSON.
 
-use svbrdf_core::error::Error;
+use svbrdf_files::Error;
 
 use super::exit;
 

@@ -1,8 +1,8 @@
 //! The output formats of reports.
 
-use svbrdf_core::error::Error;
 use svbrdf_core::text::printable;
 use svbrdf_evaluate::report::Report;
+use svbrdf_files::Error;
 
 /// The output format of a report.
 #[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]

@@ -1,6 +1,6 @@
 //! Target errors that are not reached.
 
-use svbrdf_core::error::Error;
+use svbrdf_evaluate::Error;
 
 use super::error::CommandError;
 use super::exit;

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::text::printable;
 use svbrdf_evaluate::dataset::{Pick, Shard};
 use svbrdf_evaluate::report::Report;
+use svbrdf_files::Error;
 use svbrdf_page::Figures;
 
 use crate::cli::args::floor::FloorArgs;
@@ -126,5 +126,5 @@ pub fn check_limit(
 ) -> Result<(), CommandError> {
     let Some(limit) = limit else { return Ok(()) };
     let above = losses.into_iter().find(|(_, loss)| loss.is_nan() || *loss > limit);
-    above.map_or(Ok(()), |(name, loss)| Err(Error::AboveLimit { name, loss, limit }.into()))
+    above.map_or(Ok(()), |(name, loss)| Err(CommandError::AboveLimit { name, loss, limit }))
 }

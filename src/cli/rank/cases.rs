@@ -13,7 +13,7 @@ use crate::cli::output::CommandError;
 /// How the ground truths and the predictions of `methods` are read.
 ///
 /// # Errors
-/// [`Error::SpecifiedTwice`](svbrdf_core::error::Error::SpecifiedTwice); [`CommandError::Usage`] for a name that no method has.
+/// [`Error::SpecifiedTwice`](svbrdf_files::Error::SpecifiedTwice); [`CommandError::Usage`] for a name that no method has.
 pub fn reading(given: &PairReadingArgs, methods: &[String]) -> Result<DatasetReading, CommandError> {
     let reading = given.reading()?;
     reading.check(None, methods)?;

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Pick, Shard,
@@ -147,13 +146,13 @@ fn tell_reading(verbose: bool, output: &Output, report: &DatasetReport) {
 }
 
 /// The error of a data set without any loss.
-fn check_any(report: &DatasetReport) -> Result<(), Error> {
+fn check_any(report: &DatasetReport) -> Result<(), CommandError> {
     if report.methods.iter().any(|summary| summary.materials > 0) {
         return Ok(());
     }
     let failed = failures(&report.results).count();
     match failures(&report.results).next() {
-        Some((material, method, problem)) => Err(Error::NothingRanked {
+        Some((material, method, problem)) => Err(CommandError::NothingRanked {
             failed,
             name: format!("{material}, {method}"),
             problem: problem.to_owned(),

@@ -156,11 +156,7 @@ impl FromStr for Texels {
         match (text, text.parse()) {
             ("all", _) => Ok(Self::All),
             (_, Ok(count)) if count > 0 => Ok(Self::Sampled(count)),
-            _ => Err(Error::UnknownName {
-                what: "number of texels",
-                found: text.to_owned(),
-                known: "all, or a number such as 256".to_owned(),
-            }),
+            _ => Err(Error::unknown_name("number of texels", text, "all, or a number such as 256")),
         }
     }
 }
@@ -190,11 +186,7 @@ impl FromStr for Precision {
         match name {
             "f32" => Ok(Self::F32),
             "f64" => Ok(Self::F64),
-            _ => Err(Error::UnknownName {
-                what: "precision",
-                found: name.to_owned(),
-                known: "f32, f64".to_owned(),
-            }),
+            _ => Err(Error::unknown_name("precision", name, "f32, f64")),
         }
     }
 }

@@ -81,5 +81,5 @@ fn check(scenes: &[Scene]) -> Result<(), Error> {
     if scenes.is_empty() {
         return Err(Error::SceneCount { count: 0, most: Sampling::MAX_SCENES });
     }
-    scenes.iter().try_for_each(|scene| scene.check().map_err(|problem| Error::UnusableScene { problem }))
+    scenes.iter().try_for_each(Scene::check_usable)
 }

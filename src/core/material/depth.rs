@@ -39,11 +39,7 @@ impl FromStr for Depth {
             "16" => Ok(Self::Sixteen),
             "half" => Ok(Self::Half),
             "float" => Ok(Self::Float),
-            _ => Err(Error::UnknownName {
-                what: "depth",
-                found: name.to_owned(),
-                known: "8, 16 (PNG), half, float (EXR)".to_owned(),
-            }),
+            _ => Err(Error::unknown_name("depth", name, "8, 16 (PNG), half, float (EXR)")),
         }
     }
 }

@@ -71,7 +71,7 @@ impl<T: Real> Material<T> {
     /// Takes over `planes` of `width` x `height` texels; normals of any length are normalized. The name becomes a [`line`].
     ///
     /// # Errors
-    /// [`Error::NotAMaterial`] without texels, [`Error::SizesDiffer`] where a plane has not `width * height` values,
+    /// [`Error::BadPlanes`] without texels, or where a plane has not `width * height` values,
     /// [`Error::OutOfRange`] at the first texel that is not finite, has no normal or lies outside [0, 1].
     pub fn new(
         name: impl Into<String>,
@@ -203,22 +203,22 @@ impl<T: Real> Material<T> {
 fn check_sizes<T>(name: &str, width: usize, height: usize, planes: &Planes<T>) -> Result<(), Error> {
     let expected = width.checked_mul(height).filter(|&count| count > 0);
     let Some(expected) = expected else {
-        return Err(Error::NotAMaterial {
-            path: name.into(),
+        return Err(Error::BadPlanes {
+            whose: name.to_owned(),
             expected: "at least one texel".to_owned(),
             found: format!("{width} x {height}"),
-            remedy: "give maps of at least 1 x 1".to_owned(),
+            remedy: "give maps of at least 1 x 1",
         });
     };
     let all = planes.normal.iter().chain(&planes.diffuse);
     let all = all.chain(&planes.specular).chain([&planes.roughness]);
     for plane in all {
         if plane.len() != expected {
-            return Err(Error::NotAMaterial {
-                path: name.into(),
+            return Err(Error::BadPlanes {
+                whose: name.to_owned(),
                 expected: format!("{expected} values in every plane ({width} x {height})"),
                 found: format!("a plane of {}", plane.len()),
-                remedy: "give planes of the same size".to_owned(),
+                remedy: "give planes of the same size",
             });
         }
     }

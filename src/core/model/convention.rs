@@ -95,10 +95,8 @@ impl FromStr for Convention {
     type Err = Error;
 
     fn from_str(name: &str) -> Result<Self, Error> {
-        ALL.into_iter().find(|c| c.name == name).ok_or_else(|| Error::UnknownName {
-            what: "convention",
-            found: name.to_owned(),
-            known: ALL.map(|c| c.name).join(", "),
-        })
+        ALL.into_iter()
+            .find(|c| c.name == name)
+            .ok_or_else(|| Error::unknown_name("convention", name, ALL.map(|c| c.name).join(", ")))
     }
 }

@@ -41,11 +41,7 @@ impl NamedScenes {
             "flash" => Ok(Self::Flash { fov_degrees }),
             "flash-9" => Ok(Self::Flash9),
             "hemisphere" => Ok(Self::Hemisphere),
-            _ => Err(Error::UnknownName {
-                what: "set of scenes",
-                found: name.to_owned(),
-                known: "flash, flash-9, hemisphere".to_owned(),
-            }),
+            _ => Err(Error::unknown_name("set of scenes", name, "flash, flash-9, hemisphere")),
         }
     }
 

@@ -152,11 +152,7 @@ impl FromStr for Sampler {
         match name {
             "random" => Ok(Self::Random),
             "sobol" => Ok(Self::Sobol),
-            _ => Err(Error::UnknownName {
-                what: "sampler",
-                found: name.to_owned(),
-                known: "random, sobol".to_owned(),
-            }),
+            _ => Err(Error::unknown_name("sampler", name, "random, sobol")),
         }
     }
 }

@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::convention::Convention;
+use crate::error::Error;
 use crate::math::real::{Real, Vec3, Vector as _};
 
 /// Mean of the logarithm of a near-field distance (Algorithm 1).
@@ -150,6 +151,14 @@ impl Scene {
             }
         }
         Ok(())
+    }
+
+    /// [`Scene::check`] of a scene that is to be rendered.
+    ///
+    /// # Errors
+    /// [`Error::UnusableScene`].
+    pub fn check_usable(&self) -> Result<(), Error> {
+        self.check().map_err(|problem| Error::UnusableScene { problem })
     }
 }
 

@@ -189,10 +189,12 @@ impl FromStr for Difference {
     fn from_str(text: &str) -> Result<Self, Error> {
         let all = [Quantity::Rendering, Quantity::Normal].into_iter().flat_map(Self::all);
         let mut named = all.clone().filter(|difference| difference.key() == text);
-        named.next().copied().ok_or_else(|| Error::UnknownName {
-            what: "difference",
-            found: text.to_owned(),
-            known: all.map(|difference| difference.key()).collect::<Vec<_>>().join(", "),
+        named.next().copied().ok_or_else(|| {
+            Error::unknown_name(
+                "difference",
+                text,
+                all.map(|difference| difference.key()).collect::<Vec<_>>().join(", "),
+            )
         })
     }
 }

@@ -99,10 +99,6 @@ impl FromStr for Quantity {
 
     fn from_str(text: &str) -> Result<Self, Error> {
         let found = Self::ALL.into_iter().find(|quantity| quantity.name() == text);
-        found.ok_or_else(|| Error::UnknownName {
-            what: "quantity",
-            found: text.to_owned(),
-            known: Self::ALL.map(Self::name).join(", "),
-        })
+        found.ok_or_else(|| Error::unknown_name("quantity", text, Self::ALL.map(Self::name).join(", ")))
     }
 }

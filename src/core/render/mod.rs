@@ -39,7 +39,7 @@ pub fn render<T: Real>(
     convention: &Convention,
     progress: &Progress,
 ) -> Result<Image<T>, Error> {
-    scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+    scene.check_usable()?;
     let model = Model::from(convention);
     let rays = scene.rays();
     let (width, height) = (material.width(), material.height());

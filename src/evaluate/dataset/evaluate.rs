@@ -7,13 +7,14 @@ use rayon::prelude::*;
 use serde_json::json;
 
 use crate::diagnose::{Storage, diagnose, floor};
+use crate::error::Error;
 use crate::metrics::of_maps;
 use crate::rank::most_scenes;
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Request, check_same_size};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error as FilesError;
 
 use super::record::{
     Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
@@ -35,14 +36,16 @@ pub struct DatasetResults {
 /// The results of `cases` in order, computed in parallel.
 ///
 /// Each prediction has as many of the scenes of its material as its target error needs, at most [`most_scenes`]: the scenes are the
-/// first ones of one sequence. A material that cannot be read or compared has a result, too, with the reason. A material is one step of
-/// `progress`. The results do not depend on the number of threads, nor on which other materials and predictions there are.
+/// first ones of one sequence. A material that cannot be read or compared has a result, too, with the reason. A material is one
+/// step of `progress`. The results do not depend on the number of threads, nor on which other materials and predictions there
+/// are.
 ///
-/// A loss in the folder `results` is not computed again, and each new one is added to it as it comes. The folder is made where there is
-/// none. What fails is not kept, and tried again.
+/// A loss in the folder `results` is not computed again, and each new one is added to it as it comes. The folder is made where
+/// there is none. What fails is not kept, and tried again.
 ///
 /// # Errors
-/// [`Error::Cancelled`], [`Error::UnknownName`] for an unknown convention; [`Error::Unwritable`] and [`Error::Unreadable`] of the folder.
+/// [`Cancelled`](Error::is_cancelled), [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an unknown convention;
+/// [`FilesError::Unwritable`] and [`FilesError::Unreadable`] of the folder.
 pub fn run(
     cases: &[Case],
     settings: &DatasetSettings,
@@ -57,9 +60,10 @@ pub fn run(
     progress.begin(cases.len() as u64);
     let of_case = |case: &Case| {
         let result = run.material(case, seeds.get(case.index).copied().unwrap_or(settings.seed))?;
-        progress.step().map(|()| result)
+        progress.step()?;
+        Ok(result)
     };
-    let found = cases.par_iter().map(of_case).collect::<Result<_, _>>()?;
+    let found = cases.par_iter().map(of_case).collect::<Result<_, Error>>()?;
     Ok(DatasetResults { results: found, notes: run.results.map(ResultsFolder::notes).unwrap_or_default() })
 }
 
@@ -209,7 +213,8 @@ impl Run<'_> {
         let request = Request::Accuracy { target: self.settings.target_error, seed };
         let outcome = comparison.at_most(most_scenes(1)).run(&request, &self.progress.part())?;
         let estimate = outcome.losses.first().map(|loss| loss.estimate);
-        let estimate = estimate.ok_or_else(|| Error::Internal("a comparison without a loss".to_owned()))?;
+        let estimate =
+            estimate.ok_or_else(|| FilesError::Internal("a comparison without a loss".to_owned()))?;
         Ok(KnownLoss {
             loss: estimate.mean,
             standard_error: estimate.standard_error.unwrap_or(0.0),

@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::text::line;
+use svbrdf_files::Error;
 
 use super::record::{Candidate, Case, Method, Source};
 use svbrdf_files::disk::open::NamedFile;
@@ -30,17 +31,17 @@ impl Shard {
 }
 
 impl FromStr for Shard {
-    type Err = Error;
+    type Err = CoreError;
 
-    fn from_str(text: &str) -> Result<Self, Error> {
+    fn from_str(text: &str) -> Result<Self, CoreError> {
         let numbers = text.split_once('/').map(|(number, of)| (number.parse(), of.parse()));
         match numbers {
             Some((Ok(number), Ok(of))) if 1 <= number && number <= of => Ok(Self { number, of }),
-            _ => Err(Error::UnknownName {
-                what: "part of a data set",
-                found: text.to_owned(),
-                known: "i/n with i from 1 to n, such as 1/4".to_owned(),
-            }),
+            _ => Err(CoreError::unknown_name(
+                "part of a data set",
+                text,
+                "i/n with i from 1 to n, such as 1/4",
+            )),
         }
     }
 }

@@ -28,11 +28,7 @@ impl FromStr for Pick {
 
     fn from_str(name: &str) -> Result<Self, Error> {
         let found = [Self::Fixed, Self::Mean, Self::Best].into_iter().find(|pick| pick.to_string() == name);
-        found.ok_or_else(|| Error::UnknownName {
-            what: "choice of samples",
-            found: name.to_owned(),
-            known: "fixed, mean, best".to_owned(),
-        })
+        found.ok_or_else(|| Error::unknown_name("choice of samples", name, "fixed, mean, best"))
     }
 }
 

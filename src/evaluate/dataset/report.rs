@@ -1,7 +1,7 @@
 //! The losses of methods over a data set: JSON, text, CSV and LaTeX.
 
+use crate::error::Error;
 use crate::report::{Cell, Field, Reader, Repetition, Report, Table, bold, escaped, latex, missed};
-use svbrdf_core::error::Error;
 use svbrdf_core::text::line;
 
 use super::bootstrap::FEWEST;

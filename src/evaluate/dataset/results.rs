@@ -14,8 +14,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest as _, Sha256};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 
 use super::record::PredictionResult;
 use super::remark::Remark;
@@ -159,7 +159,7 @@ impl ResultsFolder {
     /// Adds the result of a pair of this material.
     ///
     /// # Errors
-    /// [`Error::Unwritable`]; [`Error::Cancelled`].
+    /// [`Error::Unwritable`]; [`Cancelled`](Error::is_cancelled).
     pub(super) fn add(
         &self,
         material: &str,

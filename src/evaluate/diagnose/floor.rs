@@ -1,7 +1,8 @@
 //! The floor: the loss that a ground truth cannot resolve, since its maps have steps or its captures differ.
 
 use super::dither::dithered;
-use svbrdf_core::error::Error;
+use crate::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request, Sampling, Texels};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
@@ -19,7 +20,7 @@ const TEXELS: usize = 1 << 16;
 /// The expected loss between a ground truth and a copy that is [`dithered`].
 ///
 /// # Errors
-/// [`Error::Cancelled`].
+/// [`Cancelled`](Error::is_cancelled).
 pub fn floor(
     ground_truth: &Material<f32>,
     storage: &Storage,
@@ -28,7 +29,7 @@ pub fn floor(
     progress: &Progress,
 ) -> Result<Estimate, Error> {
     let copies = (0..COPIES).map(|copy| dithered(ground_truth, storage, seed.wrapping_add(copy)));
-    let copies = copies.collect::<Result<Vec<_>, Error>>()?;
+    let copies = copies.collect::<Result<Vec<_>, CoreError>>()?;
     let copies: Vec<_> = copies.iter().collect();
     Ok(mean(&[losses(ground_truth, &copies, convention, seed, progress)?]))
 }
@@ -36,7 +37,7 @@ pub fn floor(
 /// The mean loss between repeated captures of one material: over all pairs of the ground truth and its `repeats`.
 ///
 /// # Errors
-/// [`Error::SizesDiffer`], [`Error::NoPrediction`] without repeats, [`Error::Cancelled`].
+/// [`CoreError::SizesDiffer`], [`Error::NoPrediction`] without repeats, [`Cancelled`](Error::is_cancelled).
 pub fn floor_of_captures(
     ground_truth: &Material<f32>,
     repeats: &[Material<f32>],
@@ -54,7 +55,7 @@ pub fn floor_of_captures(
         progress.step()?;
         Ok(outcome)
     };
-    let outcomes = (0..repeats.len()).map(of_first).collect::<Result<Vec<_>, Error>>()?;
+    let outcomes = (0..repeats.len()).map(of_first).collect::<Result<Vec<_>, CoreError>>()?;
     Ok(mean(&outcomes))
 }
 
@@ -64,7 +65,7 @@ fn losses(
     convention: &Convention,
     seed: u64,
     progress: &Progress,
-) -> Result<Outcome, Error> {
+) -> Result<Outcome, CoreError> {
     let [near, distant] = SCENES;
     let all = first.width() * first.height() <= TEXELS;
     let texels = if all { Texels::All } else { Texels::Sampled(TEXELS / 8) };

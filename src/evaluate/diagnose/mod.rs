@@ -16,7 +16,7 @@
 //! let storage = Storage::default();
 //! let found = diagnose([&truth, &glossiness], [&storage; 2], &Convention::default(), 0.0, 0, &Progress::default())?;
 //! assert!(found.marked().next().is_some_and(|finding| finding.hypothesis.name() == "roughness"));
-//! # Ok::<(), svbrdf_core::error::Error>(())
+//! # Ok::<(), svbrdf_evaluate::Error>(())
 //! ```
 
 mod corrected;

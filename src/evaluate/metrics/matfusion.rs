@@ -10,13 +10,14 @@ use rayon::prelude::*;
 
 use super::Metric;
 use super::maps::{pairs, rmse, stored};
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Planes;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::named_scenes::{MATFUSION_DISTANCE, hemisphere};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 
 /// Smallest cosine, denominator of D, and k of G; also added to the 4 of the specular term.
 const EPS: f64 = 1e-8;
@@ -28,7 +29,7 @@ const LEAST_ROUGHNESS: f64 = 0.01;
 /// `size` is (width, height). Normals are as stored, of any length: normalized ones give other numbers.
 ///
 /// # Errors
-/// [`Error::Cancelled`].
+/// [`Cancelled`](Error::is_cancelled).
 pub fn of_matfusion<T: Real>(
     ground_truth: &Planes<T>,
     prediction: &Planes<T>,
@@ -39,7 +40,7 @@ pub fn of_matfusion<T: Real>(
     let roughness = [&ground_truth.roughness, &prediction.roughness].map(std::slice::from_ref);
     let flash = DVec3::new(0.0, 0.0, MATFUSION_DISTANCE);
     progress.begin(2);
-    let rerendered = |planes| -> Result<Vec<[f64; 3]>, Error> {
+    let rerendered = |planes| -> Result<Vec<[f64; 3]>, CoreError> {
         let rendering = rendering(planes, size, flash);
         progress.step().map(|()| rendering)
     };
@@ -59,7 +60,7 @@ pub fn of_matfusion<T: Real>(
 /// A rendering is one step of `progress`.
 ///
 /// # Errors
-/// [`Error::Cancelled`].
+/// [`Cancelled`](Error::is_cancelled).
 pub fn matfusion_renderings<T: Real>(
     planes: &Planes<T>,
     size: [usize; 2],

@@ -1,6 +1,6 @@
 //! The rendering of a material against a photograph.
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
@@ -12,6 +12,7 @@ use svbrdf_core::render;
 
 use super::exposure::Ratios;
 use super::rectified::Rectified;
+use crate::error::Error;
 
 /// A rendering and the photograph at its exposure.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +29,7 @@ impl Rectified {
     /// Renders `material`, which has the size of the photograph's texels, and brings the photograph to its exposure.
     ///
     /// # Errors
-    /// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Cancelled`].
+    /// [`CoreError::SizesDiffer`], [`CoreError::UnusableScene`], [`Error::NoExposure`], [`Cancelled`](Error::is_cancelled).
     pub fn compare(
         &self,
         material: &Material<f32>,
@@ -45,17 +46,17 @@ impl Rectified {
     /// Renders `material`, which has the size of the photograph's texels.
     ///
     /// # Errors
-    /// [`Error::SizesDiffer`], [`Error::UnusableScene`], [`Error::Cancelled`].
+    /// [`CoreError::SizesDiffer`], [`CoreError::UnusableScene`], [`Cancelled`](Error::is_cancelled).
     pub(super) fn rendering(
         &self,
         material: &Material<f32>,
         scene: &Scene,
         convention: &Convention,
         progress: &Progress,
-    ) -> Result<Image<f32>, Error> {
+    ) -> Result<Image<f32>, CoreError> {
         let size = [self.image.width, self.image.height];
         if material.size() != size {
-            return Err(Error::SizesDiffer {
+            return Err(CoreError::SizesDiffer {
                 first: "the rectified photograph".to_owned(),
                 first_size: size,
                 second: material.name().to_owned(),

@@ -32,7 +32,7 @@
 //!     compared.statistics(Difference::Log).map(|statistics| statistics.mean)
 //! };
 //! assert!((right.factor - 2.0).abs() < 1e-6 && mean(&right) < Some(1e-6) && mean(&wrong) > Some(0.01));
-//! # Ok::<(), svbrdf_core::error::Error>(())
+//! # Ok::<(), svbrdf_evaluate::Error>(())
 //! ```
 
 mod comparison;

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 
 use svbrdf_files::photograph::{Corners, Homography};
 use svbrdf_files::read::Photograph;
@@ -28,7 +28,7 @@ impl Rectified {
     /// samples are bilinear between the middles of pixels. A row is one step of `progress`.
     ///
     /// # Errors
-    /// [`Error::UnusableCorners`], [`Error::Cancelled`].
+    /// [`Error::UnusableCorners`], [`Cancelled`](Error::is_cancelled).
     pub fn new(
         photograph: &Photograph,
         corners: &Corners,

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::error::Error;
 use crate::report::{Cell, Field, Reader, Report, Table, position};
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Scene;
@@ -53,8 +53,9 @@ impl PhotoReport {
     /// A photograph that is read, and a material on a photograph, are a step of `progress`.
     ///
     /// # Errors
-    /// As [`CapturedPhotograph::read`](svbrdf_files::photograph::CapturedPhotograph::read), and [`Error::UnusableScene`], [`Error::NoExposure`], [`Error::Memory`],
-    /// [`Error::Cancelled`].
+    /// As [`CapturedPhotograph::read`](svbrdf_files::photograph::CapturedPhotograph::read), and
+    /// [`UnusableScene`](svbrdf_core::error::Error::UnusableScene), [`Error::NoExposure`],
+    /// [`Memory`](svbrdf_files::Error::Memory), [`Cancelled`](Error::is_cancelled).
     pub fn new<'a>(
         setting: PhotoSetting,
         materials: impl IntoIterator<Item = (&'a str, &'a Material<f32>)>,

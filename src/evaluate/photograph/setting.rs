@@ -2,14 +2,16 @@
 
 use schemars::JsonSchema;
 
+use crate::error::Error;
 use crate::metrics::{PictureMetrics, of_pictures};
 use svbrdf_core::choices;
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error as FilesError;
 
 use super::comparison::no_exposure;
 use super::exposure::Ratios;
@@ -47,7 +49,7 @@ impl PhotoSetting {
     /// extension.
     ///
     /// # Errors
-    /// [`Error::UnknownName`] for a name that no photograph has; [`Error::BadCapture`] where none is left.
+    /// [`CoreError::UnknownName`] for a name that no photograph has; [`FilesError::BadCapture`] where none is left.
     pub fn new(
         capture: Capture,
         exposure: CaptureExposure,
@@ -57,16 +59,13 @@ impl PhotoSetting {
         let mut held_out = vec![false; capture.photographs.len()];
         for name in hold_out {
             let index = capture.photographs.iter().position(|one| one.is_called(name));
-            let index = index.ok_or_else(|| Error::UnknownName {
-                what: "photograph",
-                found: name.clone(),
-                known: capture.names(|_| true),
-            })?;
+            let index =
+                index.ok_or_else(|| CoreError::unknown_name("photograph", name, capture.names(|_| true)))?;
             held_out[index] = true;
         }
         if held_out.iter().all(|held_out| *held_out) {
             let problem = "every photograph is held out, and none is left to fit the exposure to".to_owned();
-            return Err(Error::BadCapture { path: capture.path, problem });
+            return Err(FilesError::BadCapture { path: capture.path, problem }.into());
         }
         Ok(Self { capture, exposure, convention, held_out })
     }

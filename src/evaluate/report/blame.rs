@@ -8,8 +8,8 @@ use super::heading::{Compared, scenes_line};
 use super::missed::missed;
 use super::table::{Cell, Field, Reader, Table};
 use crate::analysis::{Analysis, NoOptions, SceneOptions, Subject};
+use crate::error::Error;
 use crate::why::{self, MapShare};
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Request};
 use svbrdf_core::progress::Progress;
 
@@ -164,8 +164,9 @@ impl Analysis for BlameReport {
 
     fn run(subject: &Subject<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
         let Subject { ground_truth, convention, request, .. } = subject;
-        let attributions = subject
-            .each(|prediction| why::attribute(ground_truth, prediction, convention, request, progress))?;
+        let attributions = subject.each(|prediction| {
+            Ok(why::attribute(ground_truth, prediction, convention, request, progress)?)
+        })?;
         Ok(Self::new(subject.compared(), request, attributions))
     }
 }

@@ -5,7 +5,7 @@ use super::heading::scenes_line;
 use super::loss::{Difference, FewScenes, LossReport, PredictionLoss};
 use super::missed::missed_by_any;
 use super::table::{Cell, Field, Reader, Table};
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 24] {
     [

@@ -1,7 +1,8 @@
 //! Requested accuracies that are not reached.
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
+
+use crate::error::Error;
 
 /// The error of a loss over `scenes` scenes whose 95% interval reaches further from it than `target`, a share of it.
 pub fn missed(target: f64, prediction: &str, loss: &Estimate, scenes: usize) -> Option<Error> {

@@ -17,7 +17,7 @@
 //! let report = LossReport::answer(&comparison, &Question::default(), &Progress::default())?;
 //! assert!(report.text().starts_with("rendering loss against truth, 64 x 64 texels, f32 on the cpu"));
 //! assert!(report.csv()?.starts_with("prediction,loss,standard_error,"));
-//! # Ok::<(), svbrdf_core::error::Error>(())
+//! # Ok::<(), svbrdf_evaluate::Error>(())
 //! ```
 
 mod blame;
@@ -55,20 +55,23 @@ pub use worst::WorstReport;
 
 use serde::Serialize;
 
-use svbrdf_core::error::Error;
+use svbrdf_files::Error as FilesError;
+
+use crate::error::Error;
 
 /// A value that can be written as JSON.
 pub trait Json {
     /// One JSON object; ends with a line break.
     ///
     /// # Errors
-    /// [`Error::Internal`], which no report of this crate gives.
-    fn json(&self) -> Result<String, Error>;
+    /// [`FilesError::Internal`], which no report of this crate gives.
+    fn json(&self) -> Result<String, FilesError>;
 }
 
 impl<T: Serialize> Json for T {
-    fn json(&self) -> Result<String, Error> {
-        let text = serde_json::to_string_pretty(self).map_err(|problem| Error::Internal(problem.to_string()));
+    fn json(&self) -> Result<String, FilesError> {
+        let text =
+            serde_json::to_string_pretty(self).map_err(|problem| FilesError::Internal(problem.to_string()));
         Ok(text? + "\n")
     }
 }
@@ -94,8 +97,8 @@ pub trait Report: Json {
     /// The [`Report::table`] for programs as CSV (RFC 4180) with a heading.
     ///
     /// # Errors
-    /// [`Error::Internal`], which no table in memory gives.
-    fn csv(&self) -> Result<String, Error> {
+    /// [`FilesError::Internal`], which no table in memory gives.
+    fn csv(&self) -> Result<String, FilesError> {
         self.table(Reader::Program).csv()
     }
 }

@@ -9,8 +9,8 @@ use super::latex::{bold, escaped, latex};
 use super::missed::missed_by_any;
 use super::repetition::Repetition;
 use super::table::{Cell, Field, Reader, Table};
+use crate::error::Error;
 use crate::rank::{Ranked, places};
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, Outcome};
 
 /// The place of a prediction from 0, the prediction, and the requested accuracy.

@@ -4,8 +4,8 @@ use std::borrow::Borrow;
 use std::fmt;
 
 use super::heading::position;
-use svbrdf_core::error::Error;
 use svbrdf_core::text::line;
+use svbrdf_files::Error;
 
 /// A value of a [`Table`].
 #[derive(Clone, Debug, PartialEq)]

@@ -9,8 +9,8 @@ use super::missed::missed;
 use super::scenes::SCENE;
 use super::table::{Cell, Field, Reader, Table};
 use crate::analysis::{Analysis, SceneOptions, Subject};
+use crate::error::Error;
 use crate::why;
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
@@ -136,8 +136,12 @@ impl Analysis for WorstReport {
 
     fn run(subject: &Subject<'_>, options: &WorstOptions, progress: &Progress) -> Result<Self, Error> {
         let (truth, convention, tail) = (subject.ground_truth, &subject.convention, options.distance_tail);
-        let found = subject
-            .each(|prediction| why::worst(truth, prediction, convention, subject.seed(), tail, progress))?;
+        if !(0.0..0.5).contains(&tail) {
+            return Err(Error::DistanceTail { found: tail });
+        }
+        let found = subject.each(|prediction| {
+            Ok(why::worst(truth, prediction, convention, subject.seed(), tail, progress)?)
+        })?;
         Ok(Self::new(subject.compared(), tail, found))
     }
 }

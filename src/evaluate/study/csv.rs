@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use crate::study::{Device, Point, Study};
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 
 use svbrdf_files::disk::atomic::Destination;
 
@@ -30,8 +30,8 @@ const CSV_HEADING: [&str; 15] = [
 /// The destination of a table. Checks `path` before there is anything to write.
 ///
 /// # Errors
-/// [`Error::UnknownName`] for an extension other than csv, [`Error::Unwritable`] where its folder is missing or it is itself
-/// a folder.
+/// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an extension other than csv, [`Error::Unwritable`] where its
+/// folder is missing or it is itself a folder.
 pub fn destination(path: &Path) -> Result<Destination<()>, Error> {
     let format = |extension: &str| (extension == "csv").then_some(());
     Destination::among(path, format, "extension of a table", ".csv")
@@ -40,7 +40,7 @@ pub fn destination(path: &Path) -> Result<Destination<()>, Error> {
 /// Writes every point of a study, a row each (RFC 4180); the file appears when it is complete, or not at all.
 ///
 /// # Errors
-/// [`Error::Unwritable`], [`Error::Cancelled`].
+/// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
 pub fn write(study: &Study, destination: &Destination<()>, progress: &Progress) -> Result<(), Error> {
     destination.replace(progress, |file| {
         let mut writer = csv::Writer::from_writer(file);

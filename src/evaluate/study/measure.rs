@@ -5,7 +5,8 @@ use std::time::Instant;
 use super::choice::{Choice, Family};
 use super::pair::Pair;
 use super::result::{Point, Reference, Study};
-use svbrdf_core::error::Error;
+use crate::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Backend, Comparison, Compute, Estimate, Outcome, Request, Sampling, Texels};
 use svbrdf_core::material::{Depth, Material};
 use svbrdf_core::model::convention::Convention;
@@ -38,7 +39,7 @@ const VARIANT_RUNS: usize = 3;
 const VARIANT_TIME: f64 = 0.4;
 
 /// Computes the loss of a sampling in the precision and with the backend and maps of a family.
-type Kernel<'a> = Box<dyn Fn(&Sampling, &Progress) -> Result<Outcome, Error> + 'a>;
+type Kernel<'a> = Box<dyn Fn(&Sampling, &Progress) -> Result<Outcome, CoreError> + 'a>;
 
 /// The loss of one prediction over sampled scenes.
 fn outcome<T: Compute>(
@@ -47,7 +48,7 @@ fn outcome<T: Compute>(
     convention: Convention,
     sampling: &Sampling,
     progress: &Progress,
-) -> Result<Outcome, Error> {
+) -> Result<Outcome, CoreError> {
     let comparison = Comparison::new(ground_truth, &[prediction], convention)?.on(backend).without_pilot();
     comparison.run(&Request::Scenes(*sampling), progress)
 }
@@ -99,7 +100,9 @@ impl<'a> Bench<'a> {
         update: &mut impl FnMut(&Study),
     ) -> Result<(), Error> {
         match self.measure(family, study, update) {
-            Err(problem @ (Error::Gpu { .. } | Error::NoAdapter { .. })) => {
+            Err(problem)
+                if matches!(problem.core(), Some(CoreError::Gpu { .. } | CoreError::NoAdapter { .. })) =>
+            {
                 study.left_out.push(format!("{}: {problem}", family.name()));
                 update(study);
                 Ok(())
@@ -116,7 +119,7 @@ impl<'a> Bench<'a> {
     ) -> Result<(), Error> {
         let plan = self.plan(family);
         if family == Family::Gpu && self.pair.gpu.is_none() || self.is_on_all(family) {
-            return self.progress.advance(plan.iter().sum());
+            return Ok(self.progress.advance(plan.iter().sum())?);
         }
         let kernel = kernel(&self.pair, family)?;
         let rate = self.warm(&kernel, family)?;

@@ -18,7 +18,7 @@
 //! if let Some(point) = study.cheapest(0.01) {
 //!     println!("1% takes {:.4} s: svbrdf loss {}", point.seconds, point.choice.options());
 //! }
-//! # Ok::<(), svbrdf_core::error::Error>(())
+//! # Ok::<(), svbrdf_evaluate::Error>(())
 //! ```
 //!
 //! The error of a setting is the root mean square, over seeds, of its relative difference from a reference over far more
@@ -39,14 +39,15 @@ pub use pair::Pair;
 pub use result::{Point, Reference, Study};
 
 use measure::Bench;
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
+
+use crate::error::Error;
 
 /// Measures every choice for `pair`, except those whose loss would take too long; `update` sees the study after each point.
 ///
 /// # Errors
 /// Those of the loss; [`Error::NothingToStudy`] where the two materials look the same, so that no error is relative to
-/// anything; [`Error::Cancelled`].
+/// anything; [`Cancelled`](Error::is_cancelled).
 pub fn run(pair: &Pair<'_>, progress: &Progress, mut update: impl FnMut(&Study)) -> Result<Study, Error> {
     let mut bench = Bench::new(pair, progress);
     let reference = bench.reference()?;

@@ -12,9 +12,9 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, register_font};
 
 use crate::study::{Family, Point, Study};
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::{percent, time};
+use svbrdf_files::Error;
 
 use svbrdf_files::disk::atomic::Destination;
 
@@ -38,8 +38,8 @@ pub enum PlotFormat {
 /// The destination of a plot. Checks `path` before there is anything to write.
 ///
 /// # Errors
-/// [`Error::UnknownName`] for an extension other than svg and png, [`Error::Unwritable`] where its folder is missing or
-/// it is itself a folder.
+/// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an extension other than svg and png, [`Error::Unwritable`] where
+/// its folder is missing or it is itself a folder.
 pub fn destination(path: &Path) -> Result<Destination<PlotFormat>, Error> {
     let format = |extension: &str| match extension {
         "svg" => Some(PlotFormat::Svg),
@@ -52,7 +52,7 @@ pub fn destination(path: &Path) -> Result<Destination<PlotFormat>, Error> {
 /// Writes the plot of `study`; the file appears when it is complete, or not at all.
 ///
 /// # Errors
-/// [`Error::Unwritable`], [`Error::Cancelled`].
+/// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
 pub fn write(study: &Study, destination: &Destination<PlotFormat>, progress: &Progress) -> Result<(), Error> {
     destination.replace(progress, |file| match destination.format {
         PlotFormat::Svg => file.write_all(svg(study)?.as_bytes()),

@@ -18,7 +18,7 @@ pub fn error_maps(
     scenes: &[Scene],
     progress: &Progress,
 ) -> Result<Vec<Image<f32>>, Error> {
-    scenes.iter().try_for_each(|scene| scene.check().map_err(|problem| Error::UnusableScene { problem }))?;
+    scenes.iter().try_for_each(Scene::check_usable)?;
     let [width, height] = comparison.ground_truth().size();
     let means = Fused::default().texel_means(comparison, scenes, progress)?;
     Ok(means.into_iter().map(|pixels| Image { width, height, pixels }).collect())

@@ -116,8 +116,7 @@ fn of_side<T: Compute>(
         Endpoint::View => Scene { kind: Kind::Distant, view: direction, light: fixed },
     };
     let scenes: Vec<Scene> = directions.iter().flatten().map(|&direction| scene(direction)).collect();
-    let usable = scenes.iter().try_for_each(Scene::check);
-    usable.map_err(|problem| Error::UnusableScene { problem })?;
+    scenes.iter().try_for_each(Scene::check_usable)?;
     let mut map = Hemisphere { side, directions, losses: Vec::new(), standard_errors: Vec::new() };
     for losses in texels.losses(comparison, &scenes, progress)? {
         let on_grid = |values: Vec<f64>| -> Vec<f64> {

@@ -16,7 +16,7 @@
 //! let share = |map| blame.of(map).shapley.mean / blame.loss.mean;
 //! assert!(share(Map::Roughness) > 0.0 && share(Map::Diffuse) > 0.0 && share(Map::Normal) == 0.0);
 //! assert!((Map::ALL.map(share).iter().sum::<f64>() - 1.0).abs() < 1e-9);
-//! # Ok::<(), svbrdf_core::error::Error>(())
+//! # Ok::<(), svbrdf_evaluate::Error>(())
 //! ```
 
 mod attribution;

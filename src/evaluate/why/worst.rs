@@ -8,20 +8,21 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::attribution::MOST_SCENES;
 use super::cloud::Cloud;
-use svbrdf_core::error::Error;
+use crate::error::Error;
 use svbrdf_core::loss::{Comparison, Compute, Estimate, SharedTexels};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error as FilesError;
 
 /// Sampled scenes: near-field, distant.
 const SAMPLED: [usize; 2] = [8192, 4096];
 /// Distant scenes with light and view as low as they are sampled, in mirror directions of each other: highlights are the strongest
 /// there, and narrower than the gaps between sampled scenes.
 const GRAZING: usize = 1024;
-/// Scenes whose variants are compared, and candidates among these for refinement, other than neighbours: of the sampled scenes, and of
-/// the grazing ones.
+/// Scenes whose variants are compared, and candidates among these for refinement, other than neighbours: of the sampled scenes,
+/// and of the grazing ones.
 const COMPARED: [usize; 2] = [256, 64];
 const CANDIDATES: [usize; 2] = [16, 8];
 /// Scenes around each candidate in a round of refinement, and how many of them the next round is around.
@@ -31,7 +32,8 @@ const ROUNDS: usize = 24;
 /// Candidates that are refined on all texels, and rounds of this.
 const LAST_CANDIDATES: usize = 4;
 const LAST_ROUNDS: usize = 6;
-/// Standard deviation of the first round, around sampled and grazing scenes, and of the last ones, in each dimension of the unit cube.
+/// Standard deviation of the first round, around sampled and grazing scenes, and of the last ones, in each dimension of the unit
+/// cube.
 const REACH: [f64; 2] = [0.06, 0.01];
 const LAST_REACH: f64 = 0.004;
 /// Candidates are at least this far apart in some dimension.
@@ -70,14 +72,14 @@ struct CubePoint {
     at: [f64; 6],
 }
 
-/// The scene with the largest loss of `prediction`, searched over the scenes that the loss samples from, without the share `tail` of
-/// nearest and the share `tail` of farthest distances; [`TAIL`] is the default.
+/// The scene with the largest loss of `prediction`, searched over the scenes that the loss samples from, without the share `tail`
+/// of nearest and the share `tail` of farthest distances; [`TAIL`] is the default.
 ///
 /// The search is deterministic; `seed` names the scenes that it starts from. It may miss a maximum that is narrower than the gaps
 /// between these. The mean has its own count of `progress`; then a step is a scene.
 ///
 /// # Errors
-/// [`Error::SizesDiffer`], [`Error::Cancelled`].
+/// [`SizesDiffer`](svbrdf_core::error::Error::SizesDiffer), [`Cancelled`](Error::is_cancelled).
 pub fn worst<T: Compute>(
     ground_truth: &Material<T>,
     prediction: &Material<T>,
@@ -129,7 +131,7 @@ impl<T: Compute> Search<'_, T> {
         let losses = T::cpu().scene_losses(&self.comparison, &scenes, None, &self.progress.part())?.remove(0);
         self.progress.advance(scenes.len() as u64)?;
         let best = scenes.into_iter().zip(losses).max_by(|a, b| a.1.total_cmp(&b.1));
-        best.ok_or_else(|| Error::Internal("the search for the worst scene is empty".to_owned()))
+        best.ok_or_else(|| FilesError::Internal("the search for the worst scene is empty".to_owned()).into())
     }
 
     /// Evenly spread scenes.

@@ -121,7 +121,7 @@ impl TryFrom<String> for Symmetry {
     fn try_from(name: String) -> Result<Self, Error> {
         let known = || Self::ALL.map(Self::name).join(", ");
         let found = Self::ALL.into_iter().find(|symmetry| symmetry.name() == name);
-        found.ok_or_else(|| Error::UnknownName { what: "symmetry", found: name, known: known() })
+        found.ok_or_else(|| Error::unknown_name("symmetry", name, known()))
     }
 }
 

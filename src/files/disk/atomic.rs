@@ -4,10 +4,11 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
 
 use crate::disk::{inputs, own};
+use crate::error::Error;
 
 /// The program and its version, as the files that it writes name it.
 pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
@@ -35,7 +36,7 @@ impl<F> Destination<F> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let Some(format) = format(&extension) else {
             let (found, known) = (path.display().to_string(), known.to_owned());
-            return Err(Error::UnknownName { what, found, known });
+            return Err(CoreError::unknown_name(what, found, known).into());
         };
         check_place(path)?;
         Ok(Self { path: path.to_owned(), format })
@@ -118,7 +119,7 @@ pub fn write_text(path: &Path, text: &str, progress: &Progress) -> Result<(), Er
 /// target. A device or a pipe stays, too: it is written to.
 ///
 /// # Errors
-/// [`Error::ReplacesInput`]; [`Error::Unwritable`]; [`Error::Cancelled`], and then `path` is as it was.
+/// [`Error::ReplacesInput`]; [`Error::Unwritable`]; [`Cancelled`](Error::is_cancelled), and then `path` is as it was.
 pub fn replace(
     path: &Path,
     progress: &Progress,
@@ -185,10 +186,8 @@ fn written(
         temporary.persist(&target)?;
         Ok(())
     };
-    replaced().map_err(|source| match progress.is_cancelled() {
-        true => Error::Cancelled,
-        false => unwritable(path, source, "check that its folder is writable and the disk not full"),
-    })
+    let remedy = "check that its folder is writable and the disk not full";
+    replaced().map_err(|source| Error::unwritten(path, source, remedy, progress))
 }
 
 /// The target of `path` where it is a link: a file, or nothing yet.
@@ -243,7 +242,7 @@ mod tests {
             progress.cancel();
             Ok(())
         };
-        assert!(matches!(half_written(&cancel), Err(Error::Cancelled)));
+        assert!(half_written(&cancel).is_err_and(|error| error.is_cancelled()));
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 

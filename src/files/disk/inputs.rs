@@ -10,7 +10,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 /// The files that are protected; `None`: none are.
 static PROTECTED: Mutex<Option<HashMap<FileId, PathBuf>>> = Mutex::new(None);

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 /// Refuses a pointer in place of the file `path`, which begins with `head`.
 ///

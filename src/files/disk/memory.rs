@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use sysinfo::{CGroupLimits, MemoryRefreshKind, System};
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 /// What is left where the system does not tell.
 const UNKNOWN: u64 = 8 << 30;

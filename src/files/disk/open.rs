@@ -12,10 +12,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use sha2::{Digest as _, Sha256};
 
-use svbrdf_core::error::Error;
-
 use crate::disk::memory;
 use crate::disk::paths;
+use crate::error::Error;
 
 /// Whether files may name others by absolute paths.
 static OUTSIDE: AtomicBool = AtomicBool::new(false);

@@ -7,7 +7,7 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 /// Refuses a link, or anything else that is no regular file, at `path`.
 ///

@@ -13,10 +13,11 @@ pub use crate::disk::atomic::{Destination, check_place, write_text};
 pub use npy::write_npy;
 pub use provenance::{Entries, Provenance};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::colour_map::heat;
 use svbrdf_core::progress::Progress;
+
+use crate::error::Error;
 
 /// Texels between two panes of a picture.
 pub const GAP: usize = 4;
@@ -38,8 +39,8 @@ impl Destination<PictureFormat> {
     /// Checks `path` before there is anything to write.
     ///
     /// # Errors
-    /// [`Error::UnknownName`] for an extension other than exr and png, [`Error::Unwritable`] where its folder is
-    /// missing or it is itself a folder.
+    /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an extension other than exr and png, [`Error::Unwritable`]
+    /// where its folder is missing or it is itself a folder.
     pub fn new(path: &Path) -> Result<Self, Error> {
         let format = |extension: &str| match extension {
             "exr" => Some(PictureFormat::Exr),
@@ -59,7 +60,7 @@ impl Destination<PictureFormat> {
     /// appears when it is complete, or not at all.
     ///
     /// # Errors
-    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
     pub fn write(
         &self,
         panes: &[Image<f32>],
@@ -72,7 +73,7 @@ impl Destination<PictureFormat> {
     /// As [`Self::write`], with this text about the content in place of the one of `provenance`.
     ///
     /// # Errors
-    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
     pub fn write_described(
         &self,
         panes: &[Image<f32>],
@@ -92,7 +93,7 @@ impl Destination<PictureFormat> {
     /// the channels from 0 to `full`, and gray where there is no number.
     ///
     /// # Errors
-    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
     pub fn write_maps(
         &self,
         panes: &[Image<f32>],
@@ -136,8 +137,8 @@ impl PngDestination {
     /// Checks `path` before there is anything to write.
     ///
     /// # Errors
-    /// [`Error::UnknownName`] for an extension other than png, [`Error::Unwritable`] where its folder is missing or it is
-    /// itself a folder.
+    /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an extension other than png, [`Error::Unwritable`] where its
+    /// folder is missing or it is itself a folder.
     pub fn new(path: &Path) -> Result<Self, Error> {
         let format = |extension: &str| (extension == "png").then_some(());
         Destination::among(path, format, "extension of a figure", ".png").map(Self)
@@ -147,7 +148,7 @@ impl PngDestination {
     /// all.
     ///
     /// # Errors
-    /// [`Error::Unwritable`], [`Error::Cancelled`].
+    /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
     pub fn write(&self, picture: &Image<u8>, entries: &Entries, progress: &Progress) -> Result<(), Error> {
         self.0.replace(progress, |file| png::write(file, picture, entries))
     }

@@ -3,18 +3,18 @@
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::progress::Progress;
 
 use crate::disk::atomic::{check_place, replace_own};
+use crate::error::Error;
 use crate::npy::Header;
 
 /// Writes pictures of one size into a file of NumPy, which is named by the program: number x height x width x 3, 32-bit floats. It
 /// appears when it is complete, or not at all.
 ///
 /// # Errors
-/// [`Error::Unwritable`], [`Error::Cancelled`].
+/// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
 pub fn write_npy(path: &Path, pictures: &[Image<f32>], progress: &Progress) -> Result<(), Error> {
     check_place(path)?;
     let [width, height] = pictures.first().map_or([0; 2], |picture| [picture.width, picture.height]);

@@ -7,8 +7,9 @@ use plotters::prelude::{BitMapBackend, IntoDrawingArea, IntoFont, RGBColor, Text
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{FontStyle, TextStyle, register_font};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
+
+use crate::error::Error;
 
 /// The family name of the font.
 const FONT: &str = "sans-serif";

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Scene;
 
 use super::corners::Corners;
 use super::materialgan::{LightPower, TEXTS};
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::{Photograph, PhotographOptions, Transfer, read_named_photograph};
 
 /// The photographs of a material, with their lights and views.

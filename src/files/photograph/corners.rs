@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 /// Least area, in pixels, of a triangle between three corners.
 const LEAST: f64 = 1e-3;

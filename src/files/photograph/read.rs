@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::{Kind, Scene};
 
 use super::capture::{Capture, CapturedPhotograph, is_json};
@@ -14,6 +13,7 @@ use super::listed::ListedCapture;
 use super::materialgan::{Calibration, LightPower, POSITIONS, TEXTS};
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::{PhotographOptions, Transfer};
 
 /// The name of the project's own description.

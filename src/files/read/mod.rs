@@ -50,13 +50,13 @@ pub use record::{
 
 use sha2::{Digest as _, Sha256};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
 use crate::disk::open::{NamedFile, hexadecimal};
 use crate::disk::{inputs, memory};
+use crate::error::Error;
 
 use decode::pictures;
 use decode::reader::Reader;
@@ -73,7 +73,7 @@ use stored::StoredMaterial;
 /// broken or too large, [`Error::NotAMaterial`] where a map is missing, claimed twice or gray though it is the
 /// normal map, [`Error::NotPacked`] where a picture is no packed image, [`Error::MapSizesDiffer`] where maps differ in
 /// shape, [`Error::NotFinite`] at NaN and infinity, [`Error::NoSuchExemplar`], [`Error::BadSidecar`],
-/// [`Error::Cancelled`].
+/// [`Cancelled`](Error::is_cancelled).
 pub fn read<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
     read_bound(path, &[], options, progress)
 }
@@ -145,8 +145,8 @@ fn read_with<T: Real>(
 /// What the reading of a material depends on, but for [`Neighbours`]: only the pixels tell whether these count.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dependencies {
-    /// In hexadecimal: of the options, of what was located by names, listings and documents, and of the content of the sidecar file and
-    /// of `files`.
+    /// In hexadecimal: of the options, of what was located by names, listings and documents, and of the content of the sidecar
+    /// file and of `files`.
     pub sha256: String,
     /// Every file that may be decoded.
     pub files: Vec<PathBuf>,
@@ -217,7 +217,9 @@ fn stored(located: Located, options: &ReadOptions, progress: &Progress) -> Resul
                 refusal = Some(error);
             }
             // An incomplete set tells what it lacks.
-            Err(error @ (Error::Cancelled | Error::MissingMap { .. })) => return Err(error),
+            Err(error) if error.is_cancelled() || matches!(error, Error::MissingMap { .. }) => {
+                return Err(error);
+            }
             // Of several candidates the first is the one that the user named.
             Err(error) => return Err(refusal.unwrap_or(error)),
         }

@@ -7,12 +7,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::choices;
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 
 use super::decode;
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::options::{Albedo, transfer};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject};

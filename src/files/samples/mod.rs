@@ -6,16 +6,16 @@
 //! let built_in = svbrdf_files::samples::load::<f32>()?;
 //! assert_eq!(built_in.ground_truth.material.size(), [256, 256]);
 //! assert_eq!(built_in.predictions.len(), 2);
-//! # Ok::<(), svbrdf_core::error::Error>(())
+//! # Ok::<(), svbrdf_files::Error>(())
 //! ```
 
 pub mod generate;
 mod noise;
 mod tiles;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::math::real::Real;
 
+use crate::error::Error;
 use crate::read::{
     Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes,
 };

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::named_scenes::flash;
 use svbrdf_core::model::scene::{Scene, SceneFile};
@@ -10,6 +9,7 @@ use svbrdf_core::model::scene::{Scene, SceneFile};
 use crate::disk::atomic::Destination;
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::photograph::{Calibration, Capture, SessionPhotograph};
 use crate::read::Sidecar;
 use crate::session::Session;
@@ -17,8 +17,8 @@ use crate::session::Session;
 /// Reads a scene file: JSON, `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`, or the
 /// `render.json` (later `parameters.json`) of a MaterialGAN capture.
 ///
-/// A capture lists positions in centimetres, with the width of the material as `im_size` (later `image_size`); they are scaled so that
-/// the width is 2. `idx` chooses and orders them, where it is there. The power of its light is not used.
+/// A capture lists positions in centimetres, with the width of the material as `im_size` (later `image_size`); they are scaled so
+/// that the width is 2. `idx` chooses and orders them, where it is there. The power of its light is not used.
 ///
 /// # Errors
 /// Where the file cannot be read, is not of that form, has no scene, or has one that [`Scene::check`] refuses.
@@ -37,8 +37,8 @@ pub fn is_named(path: &Path) -> bool {
 /// The destination of a scene file. Checks `path` before there is anything to write.
 ///
 /// # Errors
-/// [`Error::UnknownName`] where it is not named like a scene file, [`Error::Unwritable`] where its folder is missing or it is
-/// itself a folder.
+/// [`UnknownName`](svbrdf_core::error::Error::UnknownName) where it is not named like a scene file, [`Error::Unwritable`] where
+/// its folder is missing or it is itself a folder.
 pub fn destination(path: &Path) -> Result<Destination<()>, Error> {
     let format = |_: &str| is_named(path).then_some(());
     Destination::among(
@@ -92,7 +92,7 @@ impl PhotographLight {
     /// As [`flash`] and [`read`], and [`Error::BadScene`] where the file has no scene of that number.
     pub fn scene(&self) -> Result<Scene, Error> {
         let (path, number) = match self {
-            Self::Flash { fov_degrees } => return flash(*fov_degrees),
+            Self::Flash { fov_degrees } => return Ok(flash(*fov_degrees)?),
             Self::Scene(scene) => return Ok(*scene),
             Self::File { path, number } => (path, number),
         };

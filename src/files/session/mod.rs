@@ -8,12 +8,13 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::model::scene::Scene;
 
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
 use crate::disk::paths::{absolute, is_outside, relative};
+use crate::error::Error;
 use crate::photograph::SessionPhotograph;
 use crate::read::ReadOptions;
 use window::SessionWindow;
@@ -135,11 +136,11 @@ impl Session {
     /// The text of the session file `path`: the paths of materials are relative to its folder.
     ///
     /// # Errors
-    /// [`Error::UnknownName`] where the file is not named like a session file, [`Error::Internal`].
+    /// [`CoreError::UnknownName`] where the file is not named like a session file, [`Error::Internal`].
     pub fn text(&self, path: &Path) -> Result<String, Error> {
         if !Self::is_named(path) {
             let (found, known) = (path.display().to_string(), format!("NAME{ENDING}"));
-            return Err(Error::UnknownName { what: "name of a session file", found, known });
+            return Err(CoreError::unknown_name("name of a session file", found, known).into());
         }
         let mut session = self.clone();
         let folder = absolute(path.parent().unwrap_or(Path::new("")));

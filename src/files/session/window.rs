@@ -63,11 +63,10 @@ impl FromStr for Layout {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        Self::ALL.into_iter().find(|layout| layout.key() == text).ok_or_else(|| Error::UnknownName {
-            what: "layout",
-            found: text.to_owned(),
-            known: Self::ALL.map(Self::key).join(", "),
-        })
+        Self::ALL
+            .into_iter()
+            .find(|layout| layout.key() == text)
+            .ok_or_else(|| Error::unknown_name("layout", text, Self::ALL.map(Self::key).join(", ")))
     }
 }
 

@@ -9,10 +9,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::disk::stamp::Stamp;
+use crate::error::Error;
 use crate::read::EXTENSIONS;
 use names::Counted;
 pub use names::Counter;
-use svbrdf_core::error::Error;
 
 /// What identifies a training run.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -14,12 +14,12 @@ use std::path::Path;
 pub use surface::{Surface, SurfaceChanges, SurfaceForm, SurfaceTarget, WrittenChange};
 pub use svbrdf_core::material::Depth;
 
-use svbrdf_core::error::{Error, OutputProblem};
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 
 use super::read::Preset;
 use crate::disk::atomic;
+use crate::error::{Error, OutputProblem};
 
 /// Options for the files to write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -115,7 +115,7 @@ pub fn write(material: &Material<f32>, path: &Path, kind: FileKind) -> Result<Op
 /// [`write()`], which can be cancelled: then nothing appears.
 ///
 /// # Errors
-/// As [`write()`]; [`Error::Cancelled`].
+/// As [`write()`]; [`Cancelled`](Error::is_cancelled).
 pub fn write_watched(
     material: &Material<f32>,
     path: &Path,
@@ -123,16 +123,9 @@ pub fn write_watched(
     progress: &Progress,
 ) -> Result<Option<Surface>, Error> {
     let folder = |files: &[png::FolderPicture<'_>], sixteen| {
-        png::folder(path, material, files, sixteen, progress).map_err(|source| {
-            match progress.is_cancelled() {
-                true => Error::Cancelled,
-                false => Error::Unwritable {
-                    path: path.to_owned(),
-                    source,
-                    remedy: "name a folder that is not there yet, in one that is writable",
-                },
-            }
-        })
+        let remedy = "name a folder that is not there yet, in one that is writable";
+        let written = png::folder(path, material, files, sixteen, progress);
+        written.map_err(|source| Error::unwritten(path, source, remedy, progress))
     };
     match kind {
         FileKind::Exr { half, preview } => {

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::{Depth, Material};
 use svbrdf_core::progress::Progress;
 
@@ -16,6 +15,7 @@ use super::picture_exr;
 use super::png::{self, FolderPicture, picture};
 use super::surface::{Surface, SurfaceForm};
 use crate::disk::{atomic, new_folder};
+use crate::error::Error;
 
 /// The end of the name of the folder of pictures.
 const FOLDER: &str = "_textures";
@@ -24,7 +24,7 @@ const FOLDER: &str = "_textures";
 /// a folder is not.
 ///
 /// # Errors
-/// [`Error::Unwritable`], [`Error::Cancelled`].
+/// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
 pub(super) fn write(
     path: &Path,
     material: &Material<f32>,
@@ -49,14 +49,8 @@ pub(super) fn write(
             })
         })
     });
-    filled.map_err(|source| match progress.is_cancelled() {
-        true => Error::Cancelled,
-        false => Error::Unwritable {
-            path: folder.clone(),
-            source,
-            remedy: "remove the folder, or name another .mtlx in a folder that is writable",
-        },
-    })?;
+    let remedy = "remove the folder, or name another .mtlx in a folder that is writable";
+    filled.map_err(|source| Error::unwritten(&folder, source, remedy, progress))?;
     atomic::write_text(path, &text, progress).inspect_err(|_| {
         // It is new, and nothing leads to it.
         let _ = fs::remove_dir_all(&folder);

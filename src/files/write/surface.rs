@@ -5,12 +5,13 @@ use std::fmt;
 use exr::prelude::f16;
 use rayon::prelude::*;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::{DIELECTRIC, Depth, Material, Planes, base_and_metallic};
 use svbrdf_core::progress::Progress;
 
 use super::curve::Curve;
 use super::maps::{SpecularScale, Weight};
+use crate::error::Error;
 use crate::read::Albedo;
 use crate::read::options::transfer::{encoded, linear};
 
@@ -77,7 +78,7 @@ impl Surface {
     /// else the form whose mean change is less.
     ///
     /// # Errors
-    /// [`Error::Cancelled`].
+    /// [`Cancelled`](Error::is_cancelled).
     pub(super) fn choose(
         material: &Material<f32>,
         target: SurfaceTarget,
@@ -95,7 +96,7 @@ impl Surface {
         let changes = SurfaceChanges::of_specular(material, other.scale(depth), depth, progress);
         let specular = Self { changes, ..other };
         match progress.is_cancelled() {
-            true => Err(Error::Cancelled),
+            true => Err(CoreError::Cancelled.into()),
             false if changes.mean() < metallic.mean() => Ok(specular),
             false => Ok(plain),
         }

@@ -6,9 +6,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::egui_wgpu::WgpuError;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
+use svbrdf_files::Error as FilesError;
 
 use super::display;
+use crate::error::Error;
 use crate::jobs::work::panics;
 
 /// How far the window has come, and the panic that ended it.
@@ -66,7 +68,7 @@ impl CrashGuard {
 /// calls `move_settings`, which moves the settings aside: they may be its reason.
 ///
 /// # Errors
-/// [`Error::NoWindow`] and [`Error::NoAdapter`] where no frame was drawn, [`Error::Internal`] after a panic later on.
+/// [`Error::NoWindow`] and [`CoreError::NoAdapter`] where no frame was drawn, [`FilesError::Internal`] after a panic later on.
 pub fn outcome(
     guard: &CrashGuard,
     result: Result<Result<(), eframe::Error>, Error>,
@@ -93,22 +95,21 @@ fn is_of_keyboard(panic: &Error) -> bool {
 
 /// The error of a start that has panicked, with the place of the settings that it has moved aside.
 fn failed_start(panic: Error, moved: Option<PathBuf>) -> Error {
-    match (panic, moved) {
-        (Error::Internal(problem), Some(moved)) => Error::Internal(format!(
+    match (panic.files(), moved) {
+        (Some(FilesError::Internal(problem)), Some(moved)) => Error::internal(format!(
             "{problem}, as the window opened. Its settings were moved to {}; the next start has the default ones",
             moved.display()
         )),
-        (panic, _) => panic,
+        _ => panic,
     }
 }
 
 fn no_window(error: &eframe::Error) -> Error {
     match error {
         eframe::Error::Wgpu(WgpuError::CreateSurfaceError(_) | WgpuError::RequestAdapterError(_)) => {
-            Error::NoAdapter {
-                problem: "no driver for Vulkan or OpenGL was found".to_owned(),
-                remedy: "install one, for example the software driver in Debian's mesa-vulkan-drivers",
-            }
+            let problem = "no driver for Vulkan or OpenGL was found".to_owned();
+            let remedy = "install one, for example the software driver in Debian's mesa-vulkan-drivers";
+            CoreError::NoAdapter { problem, remedy }.into()
         }
         eframe::Error::Winit(_) | eframe::Error::WinitEventLoop(_) => display::none(),
         other => Error::NoWindow {
@@ -177,7 +178,7 @@ mod tests {
             let (end, moved) = end(frames, 0, None);
             let error = end.unwrap_err();
             let text = error.to_string();
-            assert!(matches!(error, Error::Internal(_)) && !moved, "{text}");
+            assert!(matches!(error.files(), Some(FilesError::Internal(_))) && !moved, "{text}");
             assert!(text.contains("planted in a panel") && text.contains("crash.rs:"), "{text}");
         }
     }

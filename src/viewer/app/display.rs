@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 /// What the environment says about displays.
 #[derive(Clone, Debug, Default)]

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
-use svbrdf_core::error::Error;
 use svbrdf_evaluate::report::Report as _;
+use svbrdf_files::Error as FilesError;
 use svbrdf_files::disk::open::allow_outside;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::SessionPhotograph;
@@ -109,7 +109,7 @@ fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
         [path] => Session::read(path),
         _ => {
             let problem = "expected a session file alone: it names its materials itself".to_owned();
-            Err(Error::BadSession { path: paths[0].clone(), problem })
+            Err(FilesError::BadSession { path: paths[0].clone(), problem })
         }
     };
     match (session, &mut parts.ui.dialogs.open) {
@@ -118,13 +118,13 @@ fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
             let request = parts.model.open_session(&session);
             parts.jobs.read(&parts.model, request);
         }
-        (Err(error), Some(dialog)) if !matches!(error, Error::Outside { .. }) => {
+        (Err(error), Some(dialog)) if !matches!(error, FilesError::Outside { .. }) => {
             dialog.fail(error.to_string())
         }
         (Err(error), _) => {
             // Asked in the window, where it can be allowed.
             parts.ui.dialogs.open = None;
-            parts.model.report([Message::Failed(error)]);
+            parts.model.report([Message::Failed(error.into())]);
         }
     }
 }
@@ -138,7 +138,7 @@ fn open_photograph(parts: &mut Parts, photograph: SessionPhotograph, light: Opti
             parts.model.show_photograph(photograph, stamp, scene);
         }
         (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
-        (Err(error), None) => parts.model.report([Message::Failed(error)]),
+        (Err(error), None) => parts.model.report([Message::Failed(error.into())]),
     }
 }
 

@@ -2,8 +2,6 @@
 
 use eframe::egui;
 
-use svbrdf_core::error::Error;
-
 use super::parts::Parts;
 use super::training;
 use crate::jobs::reading::watch::FileChange;
@@ -19,7 +17,7 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
     let error = parts.jobs.study.poll();
     parts.model.report(error.map(Message::Failed));
     let fault = parts.gpu.as_ref().and_then(|gpu| gpu.gpu.take_fault());
-    parts.model.report(fault.map(Message::Failed));
+    parts.model.report(fault.map(|fault| Message::Failed(fault.into())));
     take_saved(parts);
     take_browsed(parts);
     take_scene_file(parts);
@@ -51,7 +49,7 @@ fn report_problems(parts: &mut Parts, problems: Vec<MaterialProblem>) {
     for problem in problems {
         match (&problem, &mut parts.ui.dialogs.open) {
             (MaterialProblem::NotRead { error, opening, .. }, Some(dialog))
-                if asked == Some(*opening) && !matches!(error, Error::Outside { .. }) =>
+                if asked == Some(*opening) && error.names_outside().is_none() =>
             {
                 dialog.fail(error.to_string());
                 is_told = true;
@@ -92,7 +90,7 @@ fn take_saved(parts: &mut Parts) {
             parts.ui.dialogs.save = None;
             parts.model.report([Message::Saved(std::path::absolute(&path).unwrap_or(path))]);
         }
-        (Err(Error::Cancelled), _) => {}
+        (Err(error), _) if error.is_cancelled() => {}
         (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
         (Err(error), None) => parts.model.report([Message::Failed(error)]),
     }

@@ -228,7 +228,7 @@ fn adapter(cc: &eframe::CreationContext<'_>, model: &mut Model, context: &Curren
     let gpu = match GpuView::new(cc.wgpu_render_state.as_ref()?) {
         Ok(gpu) => gpu,
         Err(error) => {
-            model.report([Message::Failed(error)]);
+            model.report([Message::Failed(error.into())]);
             return None;
         }
     };

@@ -4,13 +4,13 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::Provenance;
 use svbrdf_files::session::window::Framing;
 
 use super::parts::Parts;
+use crate::error::Error;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::work::job::Job;
 use crate::jobs::{report, saving};
@@ -24,7 +24,7 @@ pub(super) fn save_file(
     SaveRequest { kind, path, size, handles }: SaveRequest,
 ) {
     if let Err(error) = check_output_of(&path, parts.model.files()) {
-        parts.model.report([Message::Failed(error)]);
+        parts.model.report([Message::Failed(error.into())]);
         return;
     }
     let picture = (kind == SaveKind::View).then(|| picture(parts, ctx, size, handles));
@@ -32,7 +32,7 @@ pub(super) fn save_file(
     let job = match (kind, picture) {
         (SaveKind::View, Some(Ok(picture))) => save_view(parts, picture, path),
         (SaveKind::View, picture) => {
-            let missing = || Error::Internal("there is no picture of the view".to_owned());
+            let missing = || Error::internal("there is no picture of the view");
             let error = picture.and_then(Result::err).unwrap_or_else(missing);
             Job::start(&parts.jobs.waker, |_| Err(error))
         }

@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use eframe::egui;
 use serde::Deserialize;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::disk::atomic;
 use svbrdf_files::disk::open::NamedFile;
 
 use super::storage::{RECENT, SESSION, SETTINGS};
+use crate::error::Error;
 use crate::model::ranges::UI_SCALE;
 use crate::model::settings::Settings;
 
@@ -112,7 +112,7 @@ impl Entries {
 /// new path.
 ///
 /// # Errors
-/// [`Error::NoWindow`] where it can neither be used nor moved; [`Error::Unwritable`].
+/// [`Error::NoWindow`] where it can neither be used nor moved; [`FilesError::Unwritable`](svbrdf_files::Error::Unwritable).
 pub fn prepare(folder: &Path) -> Result<Option<PathBuf>, Error> {
     let path = folder.join(FILE);
     let is_there = path.symlink_metadata().is_ok_and(|found| !found.is_file() || found.len() > 0);

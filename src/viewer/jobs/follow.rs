@@ -1,6 +1,5 @@
 //! Jobs that follow the model: they compute what is displayed now, and only that.
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_evaluate::why::Worst;
 
@@ -9,6 +8,7 @@ use super::displayed::Displayed;
 use super::panes::RangeKey;
 use super::why::WhyQuery;
 use super::work::context::JobContext;
+use crate::error::Error;
 use crate::model::Model;
 use crate::model::settings::Tab;
 use crate::model::settings::loss_query::LossQuery;

@@ -18,11 +18,11 @@ pub mod work;
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::scene_file;
 use svbrdf_gpu::Gpu;
 
+use crate::error::Error;
 use crate::model::Model;
 use crate::model::material::request::{ReadRequest, Target};
 
@@ -96,7 +96,7 @@ impl Jobs {
     pub fn read_scenes(&mut self, paths: Vec<PathBuf>) {
         self.scene_file = Some(Job::start(&self.waker, move |_| {
             let read = scene_file::read_one(&paths)?;
-            read.ok_or_else(|| Error::Internal("there is no scene file".to_owned()))
+            read.ok_or_else(|| Error::internal("there is no scene file"))
         }));
     }
 }

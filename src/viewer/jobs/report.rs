@@ -4,7 +4,6 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
@@ -16,6 +15,7 @@ use svbrdf_page::{Findings, MOST_BYTES, Repetition, Report, View, check_destinat
 
 use super::displayed::Displayed;
 use super::work::job::Job;
+use crate::error::Error;
 use crate::model::material::read::ReadMaterial;
 
 /// Everything that the report of a window depends on.

@@ -4,11 +4,11 @@ use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::report::{Compared, Json as _, ScenesReport};
 use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::export::strip::{Column, Crop, Strip};
@@ -19,6 +19,7 @@ use super::displayed::Displayed;
 use super::why::ComparedPair;
 use super::work::job::Job;
 use super::work::waker::Waker;
+use crate::error::Error;
 use crate::model::inspection::Region;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
@@ -120,7 +121,7 @@ pub fn scenes(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let pair = ComparedPair::of(&displayed.model.materials.all, &displayed.model.view);
     let request = displayed.model.settings.loss.listed_scenes();
     Job::start(&displayed.jobs.waker, move |progress| {
-        let pair = pair.ok_or(Error::NoPrediction)?;
+        let pair = pair.ok_or(EvaluateError::NoPrediction)?;
         let destination = scene_file::destination(&path)?;
         let outcome = pair.comparison()?.run(&request, progress)?;
         let compared = Compared::new(pair.ground_truth(), &pair.convention);

@@ -2,20 +2,19 @@
 
 use eframe::egui;
 
-use svbrdf_core::error::Error;
-
 use super::WindowUi;
 use super::content::CentralArea;
 use super::pane::viewport::Viewport;
 use super::shading::gpu_view::GpuView;
 use super::shading::snapshot::{Size, snapshot};
+use crate::error::Error;
 use crate::jobs::displayed::Displayed;
 
 impl WindowUi {
     /// The panes and the legend in a picture of this size, in pixels, with or without the handles of light and view.
     ///
     /// # Errors
-    /// [`Error::Gpu`] where the adapter cannot make a picture of this size, [`Error::Internal`] without an adapter.
+    /// As [`snapshot`]; an internal one without an adapter.
     pub fn picture(
         &mut self,
         ctx: &egui::Context,
@@ -30,7 +29,7 @@ impl WindowUi {
             (pixels[0] as f32 / window[0].max(1) as f32).min(pixels[1] as f32 / window[1].max(1) as f32);
         let scale = (ctx.pixels_per_point() * grown).clamp(0.5, 8.0);
         let Some(view) = gpu else {
-            return Err(Error::Internal("there is no graphics adapter to draw the view".to_owned()));
+            return Err(Error::internal("there is no graphics adapter to draw the view"));
         };
         let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), displayed.model.settings.dark);
         for material in displayed.materials() {
@@ -45,10 +44,10 @@ impl WindowUi {
         if let Some(framing) = &mut magnified.display.framing {
             framing.pixels_per_texel *= grown;
         }
-        snapshot(&state, &gpu, Size { pixels, scale }, dark, |ui| {
+        Ok(snapshot(&state, &gpu, Size { pixels, scale }, dark, |ui| {
             let (viewport, textures) = (&mut viewport, &mut self.textures);
             let mut content = CentralArea { displayed, viewport, textures, view: &magnified };
             drop(content.ui(ui, Some(view)));
-        })
+        })?)
     }
 }

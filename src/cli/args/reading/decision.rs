@@ -1,7 +1,7 @@
 //! The decision of the command line on how each material is read.
 
-use svbrdf_core::error::Error;
 use svbrdf_evaluate::report::distinct_names;
+use svbrdf_files::Error;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::source::MaterialSource;
 

@@ -2,7 +2,7 @@
 
 use clap::{Arg, ArgMatches, Command, FromArgMatches};
 
-use svbrdf_core::error::Error;
+use svbrdf_files::Error;
 use svbrdf_files::read::ReadOptions;
 
 use super::Reading;

@@ -6,7 +6,7 @@ mod statement;
 
 use std::str::FromStr;
 
-use svbrdf_core::error::Error;
+use svbrdf_files::Error;
 use svbrdf_files::read::{Preset, ReadOptions};
 use svbrdf_files::source::MaterialSource;
 

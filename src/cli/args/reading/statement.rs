@@ -3,8 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::text::quoted;
+use svbrdf_files::Error;
 use svbrdf_files::read::ReadOptions;
 
 /// The materials that a statement is for.

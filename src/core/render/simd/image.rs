@@ -27,7 +27,7 @@ pub fn render_at(
     convention: &Convention,
     progress: &Progress,
 ) -> Result<Image<f32>, Error> {
-    scene.check().map_err(|problem| Error::UnusableScene { problem })?;
+    scene.check_usable()?;
     let (width, height) = (material.width(), material.height());
     let mut pixels = vec![[0.0; 3]; width * height];
     let inputs = ImageInputs::new(material, scene, convention);

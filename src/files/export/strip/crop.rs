@@ -3,8 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
+
+use crate::error::Error;
 
 /// The colours of crops, in their order, again from the first where there are more: those of Okabe and Ito (2008), which people
 /// with any colour vision tell apart.

@@ -1,12 +1,12 @@
 //! The scale bar of a difference: its colours with their numbers and unit.
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::quantity::Quantity;
 
 use super::column::{INK, SMALL};
 use super::sheet::put;
+use crate::error::Error;
 use crate::export::text::{self, Anchor};
 
 /// Pixels of a tick below the bar, and from the bar to its numbers and its unit.

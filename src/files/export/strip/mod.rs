@@ -5,7 +5,6 @@ mod crop;
 mod legend;
 mod sheet;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
@@ -16,6 +15,7 @@ pub use crop::Crop;
 pub use sheet::{GAP, HEADER};
 
 use super::text::{self, Anchor};
+use crate::error::Error;
 use column::{INK, NAME};
 use sheet::{Inset, MARGIN, Sheet, put};
 

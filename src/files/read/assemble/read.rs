@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 
 use crate::disk::memory::Reserved;
+use crate::error::Error;
 use crate::read::gather::Neighbours;
 use crate::read::gather::map_report::MapReport;
 use crate::read::options::ReadOptions;

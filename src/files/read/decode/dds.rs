@@ -4,11 +4,10 @@ use std::io::ErrorKind;
 
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
-use svbrdf_core::error::Error;
-
 use super::place::DecodedFile;
 use super::reader::Reader;
 use crate::disk::panics::caught;
+use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
 
 pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {

@@ -8,12 +8,11 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
-use svbrdf_core::error::Error;
-
 use super::dwa;
 use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE};
 use super::reader::Reader;
 use crate::disk::panics::caught;
+use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
 

@@ -4,11 +4,10 @@ use std::io::Read as _;
 
 use basisu::{DecodeFlags, TargetFormat, Transcoder};
 
-use svbrdf_core::error::Error;
-
 use super::place::{DecodedFile, MAX_BYTES};
 use super::reader::Reader;
 use crate::disk::panics::caught;
+use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
 
 /// How a KTX2 begins.

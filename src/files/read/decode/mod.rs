@@ -22,10 +22,10 @@ use std::path::Path;
 
 use crate::disk::lfs;
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
 pub(super) use place::{Decoded, Layer};
-use svbrdf_core::error::Error;
 
 use place::{DecodedFile, alone};
 use reader::Reader;

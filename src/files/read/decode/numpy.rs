@@ -4,11 +4,10 @@ use std::io::{self, ErrorKind, Read, Seek as _};
 
 use exr::prelude::f16;
 
-use svbrdf_core::error::Error;
-
 use super::layout::{self, ArrayAxes};
 use super::place::{Decoded, DecodedFile, Layer, MAX_BYTES, alone};
 use super::reader::Reader;
+use crate::error::Error;
 use crate::npy::Header;
 use crate::read::raster::{Buffer, Raster, Samples};
 

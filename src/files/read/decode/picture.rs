@@ -12,13 +12,12 @@ use image::error::{ImageError, LimitErrorKind};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
-use svbrdf_core::error::Error;
-
 use super::head::{self, PngHead};
 use super::known;
 use super::place::{Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone};
 use super::reader::Reader;
 use crate::disk::panics::caught;
+use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;
 

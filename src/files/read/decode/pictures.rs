@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 
 use super::reader::Reader;
 use super::{Decoded, Layer, from_reader, one, whole};
+use crate::error::Error;
 use crate::read::located::binding::{BoundSource, LocatedBinding};
 use crate::read::located::gltf::LocatedGltf;
 use crate::read::located::mtl::LocatedMtl;
@@ -40,7 +40,7 @@ pub(crate) enum DecodedCandidate {
 /// Pictures that are needed only where the pixels of others are not those of their map stay undecoded.
 ///
 /// # Errors
-/// [`Error::Unreadable`], [`Error::BadImage`], [`Error::Cancelled`].
+/// [`Error::Unreadable`], [`Error::BadImage`], [`Cancelled`](Error::is_cancelled).
 pub(in crate::read) fn candidate(
     candidate: Candidate,
     progress: &Progress,
@@ -78,7 +78,8 @@ fn all(pictures: &[LocatedPicture], progress: &Progress) -> Result<Vec<DecodedPi
     progress.begin(pictures.len() as u64);
     let decode = |picture: &LocatedPicture| {
         let decoded = decoded(picture);
-        progress.step().and(decoded)
+        progress.step()?;
+        decoded
     };
     // All are decoded before the first error is taken: so the same one is reported every time.
     let all: Vec<_> = pictures.par_iter().map(decode).collect();

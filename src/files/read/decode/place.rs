@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
 use crate::disk::memory::{self, Reserved};
+use crate::error::Error;
 use crate::read::options::Role;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};

@@ -4,10 +4,9 @@ use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use svbrdf_core::error::Error;
-
 use super::place::{DecodedFile, MAX_BYTES};
 use super::reader::Reader;
+use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
 
 pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {

@@ -8,12 +8,11 @@ use std::path::PathBuf;
 use rayon::prelude::*;
 use sha2::{Digest as _, Sha256};
 
-use svbrdf_core::error::Error;
-
 use super::colours::measured;
 use super::log_odds::MOST_OF_NEIGHBOURS;
 use crate::disk::open::{NamedFile, hexadecimal};
 use crate::disk::stamp::Stamp;
+use crate::error::Error;
 use crate::read::decode;
 use crate::read::locate::neighbours;
 use crate::read::record::{Evidence, Subject};

@@ -8,9 +8,9 @@ mod values;
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::math::real::Real;
 
+use crate::error::Error;
 use crate::read::gather::Evidences;
 use crate::read::options::{Energy, ReadOptions, Role};
 use crate::read::record::{Assumption, Certainty, Note, Reason, What};

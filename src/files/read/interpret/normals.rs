@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::resize::{self, Filter};
 use svbrdf_core::math::real::Real;
 
 use super::decide::decide;
+use crate::error::Error;
 use crate::read::gather::HeightEvidence;
 use crate::read::measure::{self, NORMAL_AT_LEAST};
 use crate::read::options::{NormalEncoding, NormalY, ReadOptions};

@@ -1,7 +1,6 @@
 //! Samples outside the range of a map: NaN, infinity, and values outside [0, 1].
 
-use svbrdf_core::error::Error;
-
+use crate::error::Error;
 use crate::read::options::{NonFinite, ReadOptions, Role};
 use crate::read::raster::OutOfRange;
 use crate::read::record::{Assumption, Certainty, Reason, What};

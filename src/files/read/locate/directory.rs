@@ -3,8 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
-
+use crate::error::Error;
 use crate::read::names::words;
 
 /// The names of the visible folders in `folder`, sorted.

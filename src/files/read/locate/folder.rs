@@ -3,12 +3,11 @@
 use std::io;
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
 use super::directory::{self, folder_of, list, material_name};
 use super::documents;
 use super::grouping::{self, Wanted};
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::located::set::{LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located, WholePicture};
 use crate::read::names::listing;

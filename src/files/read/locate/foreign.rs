@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::names::listing;
 use crate::read::options::extensions::{self, PICTURES};
 

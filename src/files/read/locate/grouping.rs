@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
+use crate::error::Error;
 use crate::read::located::set::{LabelledFile, NUMBERED, SetFiles};
 use crate::read::names::{Label, is_named_as, listing, set_labels, words};
 use crate::read::options::Role;

@@ -14,7 +14,7 @@ mod texture_set;
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 use crate::disk::open::NamedFile;
 use crate::read::located::binding::Binding;

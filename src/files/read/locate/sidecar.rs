@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
 
 use crate::disk::open::NamedFile;
 use crate::disk::{atomic, own};
+use crate::error::Error;
 use crate::read::located::binding::Binding;
 use crate::read::names::Label;
 use crate::read::options::ReadOptions;
@@ -72,7 +73,8 @@ impl Sidecar {
             let file = file
                 .as_str()
                 .ok_or_else(|| bad(format!("{map}: expected FILE or FILE:PART, found {file}")))?;
-            let binding: Binding = format!("{map}={file}").parse().map_err(|e: Error| bad(e.to_string()))?;
+            let binding: Binding =
+                format!("{map}={file}").parse().map_err(|e: CoreError| bad(e.to_string()))?;
             sidecar.bindings.push(binding.named_by(&place)?);
         }
         // One by one, so that an error can name the key.
@@ -118,7 +120,7 @@ impl Sidecar {
     /// Writes the sidecar file of the material `path`; returns its path.
     ///
     /// # Errors
-    /// [`Error::Unwritable`], also where it is a link; [`Error::Cancelled`].
+    /// [`Error::Unwritable`], also where it is a link; [`Cancelled`](Error::is_cancelled).
     pub fn save(&self, path: &Path, progress: &Progress) -> Result<PathBuf, Error> {
         // What is saved for one file of a folder is not for the others; a map stands for its folder.
         let place = if is_named_after_map(path) { Self::path_for(path) } else { own_place(path) };

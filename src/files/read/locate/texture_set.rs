@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value};
 
-use svbrdf_core::error::Error;
-
 use crate::disk::lfs;
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::located::binding::LocatedBinding;
 use crate::read::located::set::{LabelledFile, LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located};

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 
 use crate::disk::open::NamedFile;
 use crate::disk::paths::{absolute, relative};
+use crate::error::Error;
 use crate::read::options::Role;
 
 /// A binding with its file.
@@ -66,20 +67,20 @@ const ROLES: [(&str, Role); 6] = [
 ];
 
 impl FromStr for Binding {
-    type Err = Error;
+    type Err = CoreError;
 
-    fn from_str(text: &str) -> Result<Self, Error> {
+    fn from_str(text: &str) -> Result<Self, CoreError> {
         let (name, file) = text.split_once('=').unwrap_or((text, ""));
         let role = ROLES.into_iter().find(|(known, _)| *known == name).map(|(_, role)| role);
         let (Some(role), false) = (role, file.is_empty()) else {
-            return Err(Error::UnknownName {
-                what: "map",
-                found: text.to_owned(),
-                known: format!(
+            return Err(CoreError::unknown_name(
+                "map",
+                text,
+                format!(
                     "{}, each as in normal=FILE, roughness=FILE:g or roughness=0.5",
                     ROLES.map(|(n, _)| n).join(", ")
                 ),
-            });
+            ));
         };
         if let Some(values) = constant(file).filter(|values| values.len() == 1 || is_colour(role)) {
             return Ok(Self { role, file: PathBuf::new(), part: None, constant: Some(values) });

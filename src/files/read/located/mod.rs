@@ -10,7 +10,7 @@ pub(super) mod picture;
 pub(super) mod set;
 pub(super) mod surface_model;
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 use crate::disk::open::NamedFile;
 

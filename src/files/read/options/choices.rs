@@ -6,6 +6,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::choices;
+
 use svbrdf_core::error::Error;
 
 choices! {
@@ -120,11 +121,9 @@ impl FromStr for Reflectance {
 
     fn from_str(text: &str) -> Result<Self, Error> {
         let value = text.parse().ok().filter(|value| (0.0..=1.0).contains(value));
-        value.map(Self).ok_or_else(|| Error::UnknownName {
-            what: "reflectance",
-            found: text.to_owned(),
-            known: "a number from 0 to 1, such as 0.04".to_owned(),
-        })
+        value
+            .map(Self)
+            .ok_or_else(|| Error::unknown_name("reflectance", text, "a number from 0 to 1, such as 0.04"))
     }
 }
 

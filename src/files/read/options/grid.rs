@@ -65,10 +65,8 @@ impl FromStr for TileGrid {
     fn from_str(text: &str) -> Result<Self, Error> {
         let side = |text: &str| text.trim().parse().ok().filter(|n| (1..=Self::MOST).contains(n));
         let sides = text.split_once('x').and_then(|(w, h)| Some((side(w)?, side(h)?)));
-        sides.map(|(columns, rows)| Self { columns, rows }).ok_or_else(|| Error::UnknownName {
-            what: "grid of tiles",
-            found: text.to_owned(),
-            known: "COLUMNSxROWS, such as 4x1 or 2x2".to_owned(),
-        })
+        sides
+            .map(|(columns, rows)| Self { columns, rows })
+            .ok_or_else(|| Error::unknown_name("grid of tiles", text, "COLUMNSxROWS, such as 4x1 or 2x2"))
     }
 }

@@ -1,7 +1,7 @@
 //! Layers of options: those of the caller over those of a sidecar file, presets below each.
 
 use crate::changes::Remedy;
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 use super::preset::Preset;
 use super::{Albedo, Energy, NormalY, ReadOptions, Roughness, Workflow};
@@ -91,7 +91,7 @@ impl ReadOptions {
     /// These options with the one that corrects the reading.
     ///
     /// # Errors
-    /// [`Error::UnknownName`] for a value that the option does not have.
+    /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for a value that the option does not have.
     pub fn with_remedy(self, remedy: Remedy) -> Result<Self, Error> {
         Ok(remedy.to_string().parse::<Self>()?.over(self))
     }

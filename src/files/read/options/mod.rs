@@ -15,12 +15,12 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::error::Error;
 pub use choices::{Albedo, Energy, NonFinite, NormalEncoding, NormalY, Reflectance, Roughness, Workflow};
 pub use grid::TileGrid;
 pub use order::Order;
 pub use preset::Preset;
 pub use role::Role;
-use svbrdf_core::error::Error;
 
 /// How the files of a material are to be read. `None`: inferred from the files and reported; where the files do not
 /// tell, the default.

@@ -5,9 +5,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use svbrdf_core::error::Error;
-
 use super::role::Role;
+use svbrdf_core::error::Error;
 
 /// Most tiles of a material.
 const MOST: usize = 6;
@@ -89,15 +88,15 @@ impl FromStr for Order {
         if usable && (has(b'd') || has(b'b')) {
             return Ok(Self::of(word.as_bytes()));
         }
-        Err(Error::UnknownName {
-            what: "order of tiles",
-            found: text.to_owned(),
-            known: format!(
+        Err(Error::unknown_name(
+            "order of tiles",
+            text,
+            format!(
                 "{}, or other letters, each map once: n normal, d diffuse, r roughness, s specular, b base colour, \
                  m metallic, i photo",
                 Self::ALL.map(|order| order.to_string()).join(", ")
             ),
-        })
+        ))
     }
 }
 

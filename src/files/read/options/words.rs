@@ -4,9 +4,10 @@ use std::str::FromStr;
 
 use serde_json::{Map, Value};
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 
 use super::ReadOptions;
+use crate::error::Error;
 
 impl ReadOptions {
     /// The keys, in alphabetical order.
@@ -67,7 +68,7 @@ impl ReadOptions {
             "non-finite" => Self { non_finite: Some(value.parse()?), ..auto },
             _ => {
                 let (found, known) = (key.to_owned(), Self::keys().join(", "));
-                return Err(Error::UnknownName { what: "option of reading", found, known });
+                return Err(CoreError::unknown_name("option of reading", found, known).into());
             }
         })
     }
@@ -75,7 +76,7 @@ impl ReadOptions {
 
 /// A value, or the error that says which are `known`.
 fn known<T: FromStr>(what: &'static str, value: &str, known: &str) -> Result<T, Error> {
-    value.parse().map_err(|_| Error::UnknownName { what, found: value.to_owned(), known: known.to_owned() })
+    value.parse().map_err(|_| CoreError::unknown_name(what, value, known).into())
 }
 
 impl FromStr for ReadOptions {
@@ -86,7 +87,7 @@ impl FromStr for ReadOptions {
         text.split(',').try_fold(Self::AUTO, |options, word| {
             let Some((key, value)) = word.split_once('=') else {
                 let (found, known) = (word.to_owned(), "KEY=VALUE, such as albedo=srgb".to_owned());
-                return Err(Error::UnknownName { what: "option of reading", found, known });
+                return Err(CoreError::unknown_name("option of reading", found, known).into());
             };
             options.and(Self::of_word(key.trim(), value.trim())?)
         })

@@ -2,9 +2,8 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
-
 use super::layers;
+use crate::error::Error;
 use crate::read::decode::Layer;
 use crate::read::decode::pictures::DecodedBinding;
 use crate::read::located::binding::{BoundSource, LocatedBinding};

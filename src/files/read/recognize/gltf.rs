@@ -2,11 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
-
 use super::field::{Field, reflectance, separated};
 use super::roles::MapsByRole;
 use super::scaled_normals::scaled;
+use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::gltf::{GltfSurface, LocatedGltf};
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
 use super::roles::MapsByRole;
+use crate::error::Error;
 use crate::read::decode::Layer;
 use crate::read::names::{Label, listing};
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};

@@ -18,7 +18,7 @@ mod set;
 pub(super) use binding::recognized as binding;
 pub(super) use picture::material as picture;
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 use crate::read::decode::pictures::DecodedCandidate;
 use crate::read::options::{ReadOptions, Role};

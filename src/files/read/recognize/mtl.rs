@@ -3,9 +3,8 @@
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
 use super::roles::MapsByRole;
+use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlTexture, NORMALS, names_picture};
 use crate::read::measure::{NORMAL_AT_LEAST, normal_score};

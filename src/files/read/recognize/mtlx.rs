@@ -1,10 +1,9 @@
 //! Surfaces of MaterialX: maps out of the pictures and values of their inputs.
 
-use svbrdf_core::error::Error;
-
 use super::field::{Field, reflectance, separated};
 use super::mtlx_input::{LoadedInput, MtlxInputs};
 use super::roles::MapsByRole;
+use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::mtlx::{Bound, LocatedMtlx};
 use crate::read::located::surface_model::{SurfaceModel, USD_SPECULAR, USE_SPECULAR};

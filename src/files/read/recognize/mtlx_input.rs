@@ -1,9 +1,8 @@
 //! Inputs of a surface of MaterialX: their pictures and values, brought to an encoding that is known here.
 
-use svbrdf_core::error::Error;
-
 use super::field::Field;
 use super::scaled_normals::scaled;
+use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::mtlx::{Affine, Bound, BoundPicture, LocatedMtlx, Obstacle};
 use crate::read::located::picture::{LocatedPicture, PictureSource};

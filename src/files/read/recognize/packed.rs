@@ -3,9 +3,8 @@
 use std::ops::Range;
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
 use super::roles::MapsByRole;
+use crate::error::Error;
 use crate::read::measure::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
 use crate::read::options::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Role, Roughness, TileGrid};
 use crate::read::raster::Raster;

@@ -1,8 +1,7 @@
 //! A set of pictures while its maps are recognized, by names and pixels together.
 
-use svbrdf_core::error::Error;
-
 use super::roles::MapsByRole;
+use crate::error::Error;
 use crate::read::decode;
 use crate::read::located::set::{LabelledFile, LocatedSet};
 use crate::read::measure::{Channels, is_flat, normal_score};

@@ -1,8 +1,7 @@
 //! One picture that holds a whole material.
 
-use svbrdf_core::error::Error;
-
 use super::{layers, packed};
+use crate::error::Error;
 use crate::read::decode::Decoded;
 use crate::read::located::WholePicture;
 use crate::read::options::ReadOptions;

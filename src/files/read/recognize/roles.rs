@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
+use crate::error::Error;
 use crate::read::options::{Preset, ReadOptions, Role, Workflow};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};

@@ -1,9 +1,8 @@
 //! Sets of pictures, one for each map: the maps that they hold, by names and pixels together.
 
-use svbrdf_core::error::Error;
-
 use super::hints;
 use super::partial_set::{PartialSet, is_colour};
+use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
 use crate::read::measure::{NORMAL_AT_LEAST, normal_score};

@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
-
 use super::map::{StoredHeight, StoredMap};
+use crate::error::Error;
 use crate::read::options::{Albedo, Energy, NormalY, Role, Roughness};
 use crate::read::record::{Assumption, Certainty, Note, Reason, What};
 

@@ -194,7 +194,8 @@ fn start(waker: &Waker, materials: &MaterialList, query: &LossQuery) -> RunningL
             // Where the window has dropped this job, its progress ends the work.
             let _ = worker.replace(losses);
         };
-        comparison.stream(&request, &worker.progress, update).map(|_| ())
+        comparison.stream(&request, &worker.progress, update)?;
+        Ok(())
     });
     RunningLoss { key, job }
 }

@@ -1,10 +1,10 @@
 //! Loss of the current scene alone.
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Scene;
 
+use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;

@@ -1,10 +1,10 @@
 //! Study of speed against accuracy for the chosen pair, updated as it grows.
 
-use svbrdf_core::error::Error;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::study::{self, Pair, Study};
 
+use crate::error::Error;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
 use crate::model::material::list::MaterialList;
@@ -85,10 +85,11 @@ impl StudyJob {
             // The window computes its loss on the CPU.
             let (ground_truth, prediction) = (&ground_truth.material, &prediction.material);
             let pair = Pair { ground_truth, prediction, convention, gpu: None };
-            study::run(&pair, &worker.progress, |study| {
+            let study = study::run(&pair, &worker.progress, |study| {
                 // Where the window has dropped this job, its progress ends the work.
                 let _ = worker.replace(study.clone());
-            })
+            })?;
+            Ok(study)
         });
         self.running = Some(RunningStudy { key, job });
     }

@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
 
 use super::computed_maps::ComputedMaps;
+use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
@@ -108,12 +109,14 @@ fn start(work: &JobContext<'_>) -> Job<ComputedDifference> {
         let ground_truth = image(&materials[0])?;
         let predictions = materials[1..].iter().map(image);
         if kind == Difference::Flip {
-            let map = |prediction: Result<_, Error>| Ok(kind.picture(&ground_truth, &prediction?, params));
-            let maps = predictions.map(map).collect::<Result<Vec<_>, Error>>()?;
-            return ComputedMaps::new(maps, gpu.as_ref()).map(Arc::new).map(ComputedDifference::Maps);
+            let map =
+                |prediction: Result<_, CoreError>| Ok(kind.picture(&ground_truth, &prediction?, params));
+            let maps = predictions.map(map).collect::<Result<Vec<_>, CoreError>>()?;
+            return Ok(ComputedDifference::Maps(Arc::new(ComputedMaps::new(maps, gpu.as_ref())?)));
         }
-        let values = |prediction: Result<_, Error>| Ok(kind.of_images(&ground_truth, &prediction?, params));
-        let values = predictions.map(values).collect::<Result<Vec<_>, Error>>()?;
+        let values =
+            |prediction: Result<_, CoreError>| Ok(kind.of_images(&ground_truth, &prediction?, params));
+        let values = predictions.map(values).collect::<Result<Vec<_>, CoreError>>()?;
         Ok(ComputedDifference::Texels(Distributions::of(&values, kind.is_signed())))
     })
 }

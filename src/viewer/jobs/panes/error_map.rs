@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
@@ -11,6 +10,7 @@ use svbrdf_evaluate::why::error_maps;
 use svbrdf_gpu::Gpu;
 
 use super::computed_maps::ComputedMaps;
+use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
@@ -91,5 +91,5 @@ fn maps(
     let comparison = Comparison::new(materials[0], &materials[1..], *convention)?;
     let scenes = scenes.scenes(convention)?.unwrap_or_default();
     let images = error_maps(&comparison, &scenes, progress)?;
-    ComputedMaps::new(images, gpu)
+    Ok(ComputedMaps::new(images, gpu)?)
 }

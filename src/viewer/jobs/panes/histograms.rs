@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Histogram, Statistics};
 use svbrdf_core::progress::Progress;
 
+use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
@@ -85,7 +85,7 @@ fn values(
     let images = materials
         .iter()
         .map(|loaded| quantity.image(&loaded.material, scene, convention, progress))
-        .collect::<Result<Vec<_>, Error>>()?;
+        .collect::<Result<Vec<_>, _>>()?;
     let channel = |c: usize| {
         let planes: Vec<Vec<f32>> =
             images.iter().map(|image| image.pixels.iter().map(|pixel| pixel[c]).collect()).collect();

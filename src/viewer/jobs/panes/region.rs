@@ -2,7 +2,6 @@
 
 use rayon::prelude::*;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
@@ -12,6 +11,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::render::render_texel;
 
+use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;

@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::{Map, Material};
 use svbrdf_evaluate::diagnose::Change;
 
+use crate::error::Error;
 use crate::jobs::reading::upload::{Uploaded, Uploads};
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
@@ -13,6 +12,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::photograph::{PhotographComparison, Rectified};
 use svbrdf_gpu::{Gpu, Shaded};
 
+use crate::error::Error;
 use crate::jobs::photograph::keys::RectifiedKey;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
@@ -11,6 +10,7 @@ use svbrdf_evaluate::photograph::Rectified;
 use svbrdf_files::photograph::{Capture, CapturedPhotograph};
 
 use super::picture::exposure;
+use crate::error::Error;
 use crate::jobs::work::picture::Picture;
 
 /// Side of a thumbnail, in pixels.
@@ -64,7 +64,7 @@ impl Filmstrip {
 /// have one exposure: a darker photograph is darker.
 ///
 /// # Errors
-/// As [`Capture::read`], and [`Error::Cancelled`]. A photograph that cannot be read has no thumbnail.
+/// As [`Capture::read`], and [`Cancelled`](Error::is_cancelled). A photograph that cannot be read has no thumbnail.
 pub fn read(path: &Path, progress: &Progress) -> Result<Filmstrip, Error> {
     let capture = Capture::read(path)?;
     let count = capture.photographs.len().min(MOST);

@@ -9,13 +9,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 pub use compared::Photographs;
-use svbrdf_core::error::Error;
 use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_evaluate::photograph::Rectified;
 use svbrdf_files::photograph::Corners;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::{Photograph, read_photograph};
 
+use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
@@ -118,7 +118,7 @@ impl PhotographJobs {
     ) -> [Option<Error>; 2] {
         let error = self.read.follow(read_key(state), |(path, _, options)| {
             let (path, options) = (path.clone(), *options);
-            Job::start(work.waker, move |_| read_photograph(&path, &options).map(Arc::new))
+            Job::start(work.waker, move |_| Ok(Arc::new(read_photograph(&path, &options)?)))
         });
         if let Some(error) = error {
             let of_capture =
@@ -146,7 +146,7 @@ impl PhotographJobs {
         let wanted = photograph.is_some().then(|| read_key(state)).flatten();
         self.picture.follow(wanted, |_| {
             Job::start(work.waker, move |_| {
-                let photograph = photograph.ok_or_else(|| Error::Internal("no photograph".to_owned()))?;
+                let photograph = photograph.ok_or_else(|| Error::internal("no photograph"))?;
                 Ok(Arc::new(picture::picture(&photograph, longest)))
             })
         })
@@ -175,7 +175,7 @@ impl PhotographJobs {
         let wanted = RectifiedKey { read: read_key(state)?, corners, size };
         self.rectified.follow(Some(wanted), |_| {
             Job::start(work.waker, move |progress| {
-                Rectified::new(&photograph, &corners, size, progress).map(Arc::new)
+                Ok(Arc::new(Rectified::new(&photograph, &corners, size, progress)?))
             })
         })
     }

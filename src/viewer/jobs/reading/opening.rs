@@ -6,13 +6,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_gpu::Gpu;
 
 use super::read::{MaterialReader, read_with_retries, runs_of};
 use super::upload::{Uploaded, Uploads};
+use crate::error::Error;
 use crate::jobs::work::job::{Job, Worker};
 use crate::jobs::work::priority;
 use crate::jobs::work::waker::Waker;
@@ -86,7 +86,7 @@ impl Openings {
             });
             match ended {
                 None if are_wanted => self.all.push(opening),
-                Some(Err(error)) if !matches!(error, Error::Cancelled) => errors.push(error),
+                Some(Err(error)) if !error.is_cancelled() => errors.push(error),
                 _ => {}
             }
         }

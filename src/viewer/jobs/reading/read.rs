@@ -4,13 +4,15 @@ use std::io;
 use std::path::PathBuf;
 use std::time::{Duration, SystemTime};
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error as FilesError;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read;
 use svbrdf_files::samples;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep, runs_in};
 
+use crate::error::Error;
 use crate::model::material::read::{ReadMaterial, Rules};
 use svbrdf_files::source::{MaterialSource, Place};
 
@@ -35,7 +37,7 @@ pub struct MaterialReader {
 /// retries.
 ///
 /// # Errors
-/// Those of [`read::read`], and [`Error::Cancelled`].
+/// Those of [`read::read`], and [`CoreError::Cancelled`].
 pub fn read_with_retries(
     source: &MaterialSource,
     reader: &mut MaterialReader,
@@ -43,8 +45,9 @@ pub fn read_with_retries(
 ) -> Result<ReadMaterial, Error> {
     loop {
         match read(source.clone(), reader, progress) {
-            Err(Error::Cancelled) => return Err(Error::Cancelled),
-            Err(_) if progress.is_cancelled() => return Err(Error::Cancelled),
+            Err(error) if error.is_cancelled() || progress.is_cancelled() => {
+                return Err(CoreError::Cancelled.into());
+            }
             Err(_) if (reader.retries || source.run.is_some()) && is_being_written(source) => {
                 std::thread::sleep(RETRY)
             }
@@ -99,7 +102,7 @@ fn read(
             let mut all = std::iter::once(samples.ground_truth).chain(samples.predictions);
             let read = all
                 .nth(*number)
-                .ok_or_else(|| Error::Internal(format!("there is no built-in material {number}")))?;
+                .ok_or_else(|| Error::internal(format!("there is no built-in material {number}")))?;
             reader.size.get_or_insert(read.material.size());
             Ok(ReadMaterial::new(source, read))
         }
@@ -140,13 +143,13 @@ fn read_newest(
     let mut problem = None;
     for step in old.into_iter().chain(recent) {
         match read_path(step.path, source.clone(), reader, progress) {
-            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            Err(error) if error.is_cancelled() => return Err(error),
             Err(error) => problem = problem.or(Some(error)),
             read => return read,
         }
     }
     Err(problem.unwrap_or_else(|| {
         let absent = format!("no {} of {} is there", run.counter, run.name);
-        Error::unreadable(&run.folder, io::Error::new(io::ErrorKind::NotFound, absent))
+        FilesError::unreadable(&run.folder, io::Error::new(io::ErrorKind::NotFound, absent)).into()
     }))
 }

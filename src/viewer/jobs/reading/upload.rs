@@ -5,9 +5,9 @@ use std::sync::{Arc, OnceLock};
 
 use eframe::wgpu;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
 use svbrdf_files::disk::memory::{self, Reserved};
 use svbrdf_gpu::{Gpu, MaterialTextures};
 

@@ -4,12 +4,12 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep};
 
+use crate::error::Error;
 use crate::jobs::reading::read::{MaterialReader, read_with_retries};
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
@@ -133,7 +133,7 @@ fn start(waker: &Waker, of: RunLossesKey, tasks: Vec<StepTask>) -> Job<(), Compu
         worker.progress.begin(tasks.len() as u64);
         for task in tasks {
             let loss = match loss(&of, &task.source, &worker.progress) {
-                Err(Error::Cancelled) => return Err(Error::Cancelled),
+                Err(error) if error.is_cancelled() => return Err(error),
                 loss => loss.map_err(|problem| problem.to_string()),
             };
             worker.report((task.run, task.key, loss))?;
@@ -149,5 +149,5 @@ fn loss(of: &RunLossesKey, source: &MaterialSource, progress: &Progress) -> Resu
     let prediction = read_with_retries(source, &mut reader, &progress.part())?;
     let comparison = Comparison::new(truth, &[&prediction.material], of.query.convention)?;
     let outcome = comparison.run(&of.query.request, &progress.part())?;
-    outcome.losses.first().map(|loss| loss.estimate).ok_or_else(|| Error::Internal("no loss".to_owned()))
+    outcome.losses.first().map(|loss| loss.estimate).ok_or_else(|| Error::internal("no loss"))
 }

@@ -2,11 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::why::{Attribution, attribute};
 
+use crate::error::Error;
 use crate::jobs::why::one_by_one::OneByOne;
 use crate::jobs::why::pair::ComparedPair;
 
@@ -26,7 +26,7 @@ pub type AttributionJob = OneByOne<Attributed>;
 /// The attribution of the loss of a pair.
 ///
 /// # Errors
-/// [`Error::Cancelled`].
+/// [`Cancelled`](Error::is_cancelled).
 pub fn attributed(pair: &ComparedPair, seed: u64, progress: &Progress) -> Result<Attributed, Error> {
     let (start, request) = (Instant::now(), Request::Accuracy { target: ATTRIBUTION_TARGET, seed });
     let (ground_truth, prediction) = (pair.ground_truth(), pair.prediction());

@@ -2,11 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::diagnose::{Diagnosis, diagnose, floor};
 
+use crate::error::Error;
 use crate::jobs::why::one_by_one::OneByOne;
 use crate::jobs::why::pair::{ComparedPair, GroundTruthKey};
 use crate::jobs::work::job::Job;
@@ -43,7 +43,8 @@ impl DiagnosisJob {
         let error = self.floor.follow_only((first.ground_truth_key(), seed), |_| {
             let pair = first.clone();
             Job::start(waker, move |progress| {
-                floor(pair.ground_truth(), pair.ground_truth_storage(), &pair.convention, seed, progress)
+                let (material, storage) = (pair.ground_truth(), pair.ground_truth_storage());
+                Ok(floor(material, storage, &pair.convention, seed, progress)?)
             })
         });
         let floor = self.floor(first, seed).map_or(0.0, |floor| floor.mean);

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::why::{Hemisphere, hemisphere};
 
+use crate::error::Error;
 use crate::jobs::why::pair::{self, ComparedPair, PairKey};
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;

@@ -10,11 +10,11 @@ pub mod search;
 pub mod tables;
 pub mod thumbnails;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_evaluate::why::Worst;
 
+use crate::error::Error;
 use crate::jobs::why::attribution::attributed;
 use crate::jobs::work::context::JobContext;
 use crate::model::settings::why::{WhySection, WhySections};

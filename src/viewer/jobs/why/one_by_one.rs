@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 
+use crate::error::Error;
 use crate::jobs::why::pair::{ComparedPair, PairKey};
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_evaluate::Error;
 use svbrdf_evaluate::diagnose::Storage;
 
 use crate::model::material::loaded::LoadedMaterial;
@@ -77,7 +77,7 @@ impl ComparedPair {
     /// The comparison of the two, without a pilot.
     ///
     /// # Errors
-    /// [`Error::SizesDiffer`].
+    /// [`SizesDiffer`](svbrdf_core::error::Error::SizesDiffer).
     pub fn comparison(&self) -> Result<Comparison<'_, f32>, Error> {
         comparison(std::slice::from_ref(self))
     }
@@ -86,7 +86,7 @@ impl ComparedPair {
 /// The comparison of the predictions of pairs with one ground truth, without a pilot.
 ///
 /// # Errors
-/// [`Error::NoPrediction`], [`Error::SizesDiffer`].
+/// [`Error::NoPrediction`], [`SizesDiffer`](svbrdf_core::error::Error::SizesDiffer).
 pub fn comparison(pairs: &[ComparedPair]) -> Result<Comparison<'_, f32>, Error> {
     let first = pairs.first().ok_or(Error::NoPrediction)?;
     let predictions: Vec<_> = pairs.iter().map(ComparedPair::prediction).collect();

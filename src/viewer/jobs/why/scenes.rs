@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::Request;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::picture::statistics::Histogram;
 use svbrdf_evaluate::why::{Distribution, RankedScene, worst_first};
 
+use crate::error::Error;
 use crate::jobs::why::pair::{ComparedPair, PairKey};
 use crate::jobs::why::thumbnails::{self, Thumbnails};
 use crate::jobs::work::job::Job;

@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
-use svbrdf_core::error::Error;
 use svbrdf_evaluate::why::{TAIL, Worst, worst};
 
+use crate::error::Error;
 use crate::jobs::why::pair::{ComparedPair, PairKey};
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
@@ -21,7 +21,7 @@ impl SearchJob {
     pub fn start(&mut self, waker: &Waker, pair: &ComparedPair, seed: u64) {
         let (key, pair) = (pair.key, pair.clone());
         let search = move |progress: &_| {
-            worst(pair.ground_truth(), pair.prediction(), &pair.convention, seed, TAIL, progress)
+            Ok(worst(pair.ground_truth(), pair.prediction(), &pair.convention, seed, TAIL, progress)?)
         };
         self.running = Some((key, Job::start(waker, search)));
     }

@@ -4,12 +4,12 @@ use std::time::Duration;
 
 use serde_json::json;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::loss::LossOptions;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::analysis::{ANALYSES, AnyAnalysis, Subject};
 use svbrdf_evaluate::report::{Reader, Table};
 
+use crate::error::Error;
 use crate::jobs::why::one_by_one::OneByOne;
 use crate::jobs::why::pair::ComparedPair;
 use crate::jobs::work::waker::Waker;

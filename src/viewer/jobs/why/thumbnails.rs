@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
@@ -12,6 +12,7 @@ use svbrdf_core::render;
 use svbrdf_core::statistics::quantile;
 use svbrdf_evaluate::why::RankedScene;
 
+use crate::error::Error;
 use crate::jobs::why::pair::ComparedPair;
 use crate::jobs::work::picture::Picture;
 
@@ -50,7 +51,7 @@ impl Thumbnails {
 /// Renders the thumbnails of the first of `ranked`, one step of `progress` each.
 ///
 /// # Errors
-/// [`Error::Cancelled`].
+/// [`Cancelled`](Error::is_cancelled).
 pub fn make(pair: &ComparedPair, ranked: &[RankedScene], progress: &Progress) -> Result<Thumbnails, Error> {
     let materials = [reduced(pair.ground_truth())?, reduced(pair.prediction())?];
     let scenes = &ranked[..ranked.len().min(MOST)];
@@ -81,7 +82,7 @@ fn log_differences(
 }
 
 /// Every n-th texel of a large material along both sides, so that fewer than [`LARGE`] are left; a smaller material itself.
-fn reduced(material: &Material<f32>) -> Result<Material<f32>, Error> {
+fn reduced(material: &Material<f32>) -> Result<Material<f32>, CoreError> {
     let [width, height] = material.size();
     let stride = width.max(height).div_ceil(LARGE);
     let sides = [width, height].map(|side| side.div_ceil(stride));

@@ -4,11 +4,12 @@ use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
 
 use super::waker::Waker;
 use super::{panics, priority};
+use crate::error::Error;
 
 /// How often the progress of a running job is looked at.
 const LOOK_AGAIN: Duration = Duration::from_millis(250);
@@ -37,7 +38,7 @@ impl<U> Worker<U> {
     /// Reports an update, and wakes the window.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] where the job was cancelled or dropped.
+    /// [`CoreError::Cancelled`] where the job was cancelled or dropped.
     pub fn report(&self, update: U) -> Result<(), Error> {
         self.post(|updates| updates.push(update))
     }
@@ -57,7 +58,7 @@ impl<U> Worker<U> {
 
     fn post(&self, change: impl FnOnce(&mut Vec<U>)) -> Result<(), Error> {
         if self.progress.is_cancelled() {
-            return Err(Error::Cancelled);
+            return Err(CoreError::Cancelled.into());
         }
         change(&mut self.updates.lock().unwrap_or_else(PoisonError::into_inner));
         self.wake();
@@ -161,7 +162,7 @@ impl<T, U> Drop for Job<T, U> {
 }
 
 fn taken() -> Error {
-    Error::Internal("the result of a job was taken twice".to_owned())
+    Error::internal("the result of a job was taken twice")
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! Latest result for a key: slow work that follows what is displayed.
 
-use svbrdf_core::error::Error;
-
 use super::job::Job;
+use crate::error::Error;
 
 /// The result for a key, and the job for a newer one. A job for an earlier key is completed, so that there are results while
 /// something moves.
@@ -120,7 +119,7 @@ mod tests {
         for _ in 0..50 {
             let error = latest.follow(Some(1), |_| {
                 starts += 1;
-                Job::start(&Waker::default(), |_| Err(Error::Internal("planted".to_owned())))
+                Job::start(&Waker::default(), |_| Err(Error::internal("planted")))
             });
             errors += usize::from(error.is_some());
             std::thread::sleep(std::time::Duration::from_millis(2));

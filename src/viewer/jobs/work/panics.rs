@@ -1,4 +1,4 @@
-//! Panics as errors: the message and the location of a panic become an [`Error::Internal`].
+//! Panics as errors: the message and the location of a panic become an internal [`Error`].
 
 use std::any::Any;
 use std::cell::RefCell;
@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, Once, PoisonError};
 
-use svbrdf_core::error::Error;
+use crate::error::Error;
 
 /// The latest panic of any thread: one of a thread of a pool is passed on to the thread that waits for it.
 static LATEST: Mutex<Option<String>> = Mutex::new(None);
@@ -28,12 +28,12 @@ pub fn print(on: bool) {
 /// Does `work`; a panic in it is an error with its message and location.
 ///
 /// # Errors
-/// Those of the work, and [`Error::Internal`].
+/// Those of the work, and an internal one.
 pub fn caught<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     record();
     OWN.with(|own| own.borrow_mut().take());
     std::panic::catch_unwind(AssertUnwindSafe(work))
-        .unwrap_or_else(|payload| Err(Error::Internal(report(payload.as_ref()))))
+        .unwrap_or_else(|payload| Err(Error::internal(report(payload.as_ref()))))
 }
 
 /// Records panics from now on.
@@ -82,6 +82,8 @@ fn short(file: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use svbrdf_core::error::Error as CoreError;
+
     use super::*;
 
     fn caught_text(work: impl FnOnce() -> Result<(), Error>) -> String {
@@ -93,7 +95,9 @@ mod tests {
         let text = caught_text(|| panic!("planted {}", 7));
         assert!(text.contains("planted 7 (") && text.contains("panics.rs:"), "{text}");
         assert_eq!(caught(|| Ok(3)).unwrap(), 3);
-        assert!(matches!(caught(|| Err::<(), _>(Error::Cancelled)), Err(Error::Cancelled)));
+        assert!(
+            caught(|| Err::<(), _>(CoreError::Cancelled.into())).is_err_and(|error| error.is_cancelled())
+        );
     }
 
     #[test]

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{ReadOptions, Sidecar};
 
@@ -11,6 +10,7 @@ use super::loaded::{LoadedMaterial, mismatch, rename};
 use super::problem::MaterialProblem;
 use super::read::{MaterialId, ReadMaterial, Rules};
 use super::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
+use crate::error::Error;
 use svbrdf_files::source::{MaterialSource, Place};
 
 /// The materials in the window.
@@ -92,7 +92,7 @@ impl MaterialList {
     ) -> bool {
         let replaces_all = place.target == Target::Everything && place.is_first;
         match (arrival, &place.target) {
-            (Arrival::Failed(_, Error::Cancelled), _) => return false,
+            (Arrival::Failed(_, error), _) if error.is_cancelled() => return false,
             (Arrival::Failed(source, error), target) => {
                 self.mark(target, &error);
                 problems.push(MaterialProblem::NotRead { source, error, opening: place.opening });

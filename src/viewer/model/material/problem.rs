@@ -3,9 +3,9 @@
 use std::fmt;
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
 use svbrdf_files::source::{MaterialSource, Place};
+
+use crate::error::Error;
 
 /// Why a material is not in the window, or not any more.
 #[derive(Debug)]

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_files::disk::memory::Reserved;
@@ -13,6 +12,8 @@ use svbrdf_files::read::{Assumption, MapReport, Note, Read, ReadOptions};
 use svbrdf_files::steps::RunId;
 
 use svbrdf_files::source::{MaterialSource, Place};
+
+use crate::error::Error;
 
 /// What identifies the maps of a material: the reading that brought them, and the stamp of the files that were read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -156,7 +157,8 @@ impl Rules {
     /// Takes in the material at `path`; the first one sets the `size`, where there is none yet.
     ///
     /// # Errors
-    /// [`Error::Guessed`] where guesses are errors, [`Error::SizesDiffer`] where it cannot be resized.
+    /// [`Guessed`](svbrdf_files::Error::Guessed) where guesses are errors,
+    /// [`SizesDiffer`](svbrdf_core::error::Error::SizesDiffer) where it cannot be resized.
     pub fn take(
         self,
         path: &Path,

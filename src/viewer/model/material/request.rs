@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::error::Error;
 use svbrdf_files::samples;
 
 use super::loaded::LoadedMaterial;
 use super::read::{MaterialId, ReadMaterial};
+use crate::error::Error;
 use svbrdf_files::source::MaterialSource;
 
 /// Where materials go once they have been read.

@@ -70,14 +70,14 @@ impl MessageList {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::error::Error;
     use crate::model::material::problem::MaterialProblem;
     use std::path::PathBuf;
-    use svbrdf_core::error::Error;
     use svbrdf_files::source::MaterialSource;
 
     fn not_read(path: &str) -> Message {
         let source = Box::new(MaterialSource::from(PathBuf::from(path)));
-        MaterialProblem::NotRead { source, error: Error::Internal(format!("{path} is broken")), opening: 1 }
+        MaterialProblem::NotRead { source, error: Error::internal(format!("{path} is broken")), opening: 1 }
             .into()
     }
 

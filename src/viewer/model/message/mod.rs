@@ -6,11 +6,12 @@ pub mod pasted;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::error::Error;
+use svbrdf_files::Error as FilesError;
 use svbrdf_files::read::ReadOptions;
 
 use super::command::{Command, MaterialsCommand};
 use super::material::problem::MaterialProblem;
+use crate::error::Error;
 use svbrdf_files::source::MaterialSource;
 
 /// How much a message matters.
@@ -83,11 +84,11 @@ impl Message {
                 let source = MaterialSource { fit: true, ..sizes.source.clone() };
                 Some(("Fit and open", MaterialsCommand::OpenAgain(Box::new(source)).into()))
             }
-            Self::Material(MaterialProblem::NotRead { source, error: Error::Outside { .. }, .. }) => {
-                let path = self.path()?.to_owned();
-                Some(allow_outside(path, source.options))
+            Self::Material(MaterialProblem::NotRead { source, error, .. }) => {
+                error.names_outside()?;
+                Some(allow_outside(self.path()?.to_owned(), source.options))
             }
-            Self::Failed(Error::Outside { by, .. }) => Some(allow_outside(by.clone(), ReadOptions::AUTO)),
+            Self::Failed(error) => Some(allow_outside(error.names_outside()?.to_owned(), ReadOptions::AUTO)),
             _ => None,
         }
     }
@@ -112,8 +113,8 @@ impl fmt::Display for Message {
             Self::Saved(path) => write!(f, "Saved {}", path.display()),
             Self::Failed(error) | Self::Material(MaterialProblem::NotRead { error, .. }) => {
                 error.fmt(f)?;
-                match error {
-                    Error::Memory { .. } => f.write_str(" (start svbrdf with --max-memory)"),
+                match error.files() {
+                    Some(FilesError::Memory { .. }) => f.write_str(" (start svbrdf with --max-memory)"),
                     _ => Ok(()),
                 }
             }
@@ -158,7 +159,7 @@ mod tests {
             source: MaterialSource::from(PathBuf::from("small.png")),
         };
         let sizes = Box::new(sizes);
-        let saved = Error::AboveLimit { name: "Saved".to_owned(), loss: 2.0, limit: 1.0 };
+        let saved = Error::Incomplete("Saved");
         let text = "small is 128 x 64 and the ground truth large is 256 x 256";
         for (message, severity, start) in [
             (Message::Saved("a.png".into()), Severity::Success, "Saved a.png".to_owned()),
@@ -179,7 +180,7 @@ mod tests {
 
     #[test]
     fn the_limit_of_memory_comes_with_its_option() {
-        let error = || Error::Memory { what: "a.png".to_owned(), bytes: 4 << 30, limit: 1 << 30 };
+        let error = || FilesError::Memory { what: "a.png".to_owned(), bytes: 4 << 30, limit: 1 << 30 }.into();
         let source = Box::new(MaterialSource::from(PathBuf::from("a.png")));
         let not_read = MaterialProblem::NotRead { source, error: error(), opening: 1 };
         for message in [Message::Failed(error()), not_read.into()] {

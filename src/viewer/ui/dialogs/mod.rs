@@ -9,9 +9,8 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
-use svbrdf_core::error::Error;
-
 use super::loss::study::StudyWindow;
+use crate::error::Error;
 use crate::jobs::browse::Browsed;
 use crate::jobs::displayed::Displayed;
 use crate::model::command::Command;

@@ -1,6 +1,6 @@
 //! Shaded texels of one material, and how much of them is shaded in a frame.
 
-use svbrdf_core::error::Error;
+use svbrdf_files::Error;
 use svbrdf_files::disk::memory::Reserved;
 use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 

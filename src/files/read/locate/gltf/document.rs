@@ -5,11 +5,10 @@ use std::path::Path;
 use gltf::json::{Root, Value};
 use gltf::{Document, Glb};
 
-use svbrdf_core::error::Error;
-
 use crate::disk::lfs;
 use crate::disk::memory::{self, Reserved};
 use crate::disk::panics::caught;
+use crate::error::Error;
 
 /// Parts of a glTF that materials need.
 const PARTS: [&str; 7] = ["asset", "buffers", "bufferViews", "images", "materials", "samplers", "textures"];

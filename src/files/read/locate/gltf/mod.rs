@@ -10,9 +10,8 @@ use std::path::Path;
 use gltf::json::Value;
 use gltf::{Material, Texture};
 
-use svbrdf_core::error::Error;
-
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
 use crate::read::located::picture::LocatedPicture;
 use crate::read::options::{NormalY, ReadOptions, Role};

@@ -10,10 +10,9 @@ use gltf::json::Value;
 use gltf::{Document, Texture};
 use percent_encoding::percent_decode_str;
 
-use svbrdf_core::error::Error;
-
 use super::document::bad;
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::located::picture::PictureSource;
 use crate::read::record::Subject;
 

@@ -4,10 +4,9 @@ mod statement;
 
 use std::path::Path;
 
-use svbrdf_core::error::Error;
-
 use crate::disk::open::NamedFile;
 use crate::disk::{lfs, memory};
+use crate::error::Error;
 use crate::read::located::mtl::{BUMPS, LocatedMtl, MtlEntry, MtlTexture, NORMALS};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::names::Label;

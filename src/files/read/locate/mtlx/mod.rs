@@ -8,10 +8,9 @@ use std::path::Path;
 
 use roxmltree::{Document, Node};
 
-use svbrdf_core::error::Error;
-
 use crate::disk::lfs;
 use crate::disk::open::NamedFile;
+use crate::error::Error;
 use crate::read::located::mtlx::{Bound, LocatedMtlx};
 use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::located::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
