@@ -1,6 +1,7 @@
 //! The analyses that the crate declares.
 
 use pyo3::prelude::*;
+use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analysis::{AnyAnalysis, Subject};
 
 use crate::asked::Asked;
@@ -30,9 +31,7 @@ pub fn analysis(
         request: analysis.request(&asked.options()?).map_err(exception)?,
     };
     // A report is no value of several threads.
-    let views = work::run(py, progress, |progress| {
-        let report = analysis.run(&subject, options, progress)?;
-        Ok(Views::new(&*report))
-    })?;
-    views
+    work::run(py, progress, |progress| {
+        Ok::<_, EvaluateError>(Views::new(&*analysis.run(&subject, options, progress)?))
+    })?
 }
