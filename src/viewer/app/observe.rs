@@ -102,7 +102,7 @@ impl App {
             .jobs
             .why
             .attribution
-            .get(&self.pair()?, self.parts.model.settings.loss.seed)
+            .get(&self.pair()?, &self.parts.model.settings.loss.seed)
             .map(|done| &done.attribution)
     }
 

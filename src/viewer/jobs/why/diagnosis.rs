@@ -54,7 +54,7 @@ impl DiagnosisJob {
 
     /// The diagnosis of this pair.
     pub fn get(&self, pair: &ComparedPair, seed: u64) -> Option<&Diagnosed> {
-        self.diagnoses.get(pair, seed)
+        self.diagnoses.get(pair, &seed)
     }
 
     /// The loss that the ground truth of this pair cannot resolve.

@@ -67,9 +67,14 @@ impl WhyJobs {
                 query.seed,
                 attributed,
             ),
-            self.scenes.follow(waker, is_open(WhySection::Scenes), pairs.get(chosen), query.scenes),
             self.directions.follow(waker, is_open(WhySection::Directions), &pairs, query.moved, scene),
-            self.tables.follow(waker, |name| is_open(WhySection::Table(name)), (&pairs, chosen), query.seed),
+            self.tables.follow(
+                waker,
+                |name| is_open(WhySection::Table(name)),
+                (&pairs, chosen),
+                &query.scenes,
+            ),
+            self.scenes.follow(waker, is_open(WhySection::Scenes), pairs.get(chosen), query.scenes),
         ];
         errors.into_iter().flatten().collect()
     }

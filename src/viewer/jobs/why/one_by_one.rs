@@ -10,28 +10,28 @@ use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
 use crate::jobs::work::waker::Waker;
 
-/// What a result depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct ResultKey {
+/// What a result depends on: a pair, and a seed or scenes.
+#[derive(Clone, Debug, PartialEq)]
+struct ResultKey<K> {
     pair: PairKey,
-    seed: u64,
+    scenes: K,
 }
 
 /// A result per prediction.
 #[derive(Debug)]
-pub struct OneByOne<R> {
-    latest: Latest<ResultKey, R>,
+pub struct OneByOne<R, K = u64> {
+    latest: Latest<ResultKey<K>, R>,
     /// The results of open predictions.
-    done: Vec<(ResultKey, R)>,
+    done: Vec<(ResultKey<K>, R)>,
 }
 
-impl<R> Default for OneByOne<R> {
+impl<R, K> Default for OneByOne<R, K> {
     fn default() -> Self {
         Self { latest: Latest::default(), done: Vec::new() }
     }
 }
 
-impl<R: Clone + Send + 'static> OneByOne<R> {
+impl<R: Clone + Send + 'static, K: Clone + PartialEq + Send + 'static> OneByOne<R, K> {
     /// Takes over a result, and computes the next one that is missing: of the `chosen` pair first. Where they are not
     /// `displayed`, the results stay.
     pub fn follow(
@@ -39,20 +39,20 @@ impl<R: Clone + Send + 'static> OneByOne<R> {
         waker: &Waker,
         displayed: bool,
         (pairs, chosen): (&[ComparedPair], usize),
-        seed: u64,
-        compute: impl Fn(&ComparedPair, u64, &Progress) -> Result<R, Error> + Send + 'static,
+        scenes: K,
+        compute: impl Fn(&ComparedPair, K, &Progress) -> Result<R, Error> + Send + 'static,
     ) -> Option<Error> {
         if !displayed {
             self.latest.pause();
             return None;
         }
-        self.done.retain(|(key, _)| key.seed == seed && pairs.iter().any(|pair| pair.key == key.pair));
-        let missing = |pair: &&ComparedPair| self.get(pair, seed).is_none();
+        self.done.retain(|(key, _)| key.scenes == scenes && pairs.iter().any(|pair| pair.key == key.pair));
+        let missing = |pair: &&ComparedPair| self.get(pair, &scenes).is_none();
         let pair = pairs.get(chosen).into_iter().chain(pairs).find(missing)?;
-        let wanted = ResultKey { pair: pair.key, seed };
-        let error = self.latest.follow_only(wanted, |_| {
+        let wanted = ResultKey { pair: pair.key, scenes: scenes.clone() };
+        let error = self.latest.follow_only(wanted.clone(), |_| {
             let pair = pair.clone();
-            Job::start(waker, move |progress| compute(&pair, seed, progress))
+            Job::start(waker, move |progress| compute(&pair, scenes, progress))
         });
         if let Some((key, result)) = self.latest.get()
             && *key == wanted
@@ -65,9 +65,9 @@ impl<R: Clone + Send + 'static> OneByOne<R> {
     }
 
     /// The result of this pair.
-    pub fn get(&self, pair: &ComparedPair, seed: u64) -> Option<&R> {
-        let wanted = ResultKey { pair: pair.key, seed };
-        self.done.iter().find(|(key, _)| *key == wanted).map(|(_, result)| result)
+    pub fn get(&self, pair: &ComparedPair, scenes: &K) -> Option<&R> {
+        let is_wanted = |key: &ResultKey<K>| key.pair == pair.key && key.scenes == *scenes;
+        self.done.iter().find(|(key, _)| is_wanted(key)).map(|(_, result)| result)
     }
 
     /// The share of the work on a pair that is done and its time, while it goes on.

@@ -4,9 +4,9 @@ use std::time::Duration;
 
 use serde_json::json;
 
-use svbrdf_core::loss::LossOptions;
+use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::analysis::{ANALYSES, AnyAnalysis, Subject};
+use svbrdf_evaluate::analysis::{ANALYSES, AnyAnalysis, SceneOptions, Subject};
 use svbrdf_evaluate::report::{Reader, Table};
 
 use crate::error::Error;
@@ -27,7 +27,7 @@ pub struct AnalysisTable {
 
 /// The tables, by analysis.
 #[derive(Debug)]
-pub struct TableJobs(Vec<(&'static AnyAnalysis, OneByOne<AnalysisTable>)>);
+pub struct TableJobs(Vec<(&'static AnyAnalysis, OneByOne<AnalysisTable, Request>)>);
 
 impl Default for TableJobs {
     fn default() -> Self {
@@ -43,15 +43,15 @@ impl TableJobs {
         waker: &Waker,
         is_open: impl Fn(&'static str) -> bool,
         of: (&[ComparedPair], usize),
-        seed: u64,
+        scenes: &Request,
     ) -> Option<Error> {
-        let follow = |(analysis, tables): &mut (&'static AnyAnalysis, OneByOne<AnalysisTable>)| {
+        let mut errors = self.0.iter_mut().filter_map(|(analysis, tables)| {
             let analysis = *analysis;
-            tables.follow(waker, is_open(analysis.name), of, seed, move |pair, seed, progress| {
-                answer(analysis, pair, seed, progress)
+            tables.follow(waker, is_open(analysis.name), of, scenes.clone(), move |pair, scenes, progress| {
+                answer(analysis, pair, scenes, progress)
             })
-        };
-        self.0.iter_mut().filter_map(follow).next_back()
+        });
+        errors.next_back()
     }
 
     pub fn analyses(&self) -> impl Iterator<Item = &'static AnyAnalysis> {
@@ -63,20 +63,23 @@ impl TableJobs {
         &self,
         analysis: &str,
         pair: &ComparedPair,
-        seed: u64,
+        scenes: &Request,
     ) -> Result<&AnalysisTable, Option<(f32, Duration)>> {
         let (_, tables) = self.0.iter().find(|(of, _)| of.name == analysis).ok_or(None)?;
-        tables.get(pair, seed).ok_or_else(|| tables.busy())
+        tables.get(pair, scenes).ok_or_else(|| tables.busy())
     }
 }
 
 fn answer(
     analysis: &AnyAnalysis,
     pair: &ComparedPair,
-    seed: u64,
+    scenes: Request,
     progress: &Progress,
 ) -> Result<AnalysisTable, Error> {
-    let request = analysis.request(&LossOptions { seed: Some(seed), ..LossOptions::default() })?;
+    let request = match analysis.scenes.contains(&SceneOptions::Sampled) {
+        true => scenes,
+        false => analysis.request(&LossOptions { seed: scenes.seed(), ..LossOptions::default() })?,
+    };
     let (ground_truth, predictions) = (pair.ground_truth(), vec![pair.prediction()]);
     let subject = Subject { ground_truth, predictions, convention: pair.convention, request };
     let report = analysis.run(&subject, json!({}), progress)?;

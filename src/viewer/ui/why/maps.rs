@@ -36,7 +36,7 @@ pub struct MapsSection<'a> {
 
 impl MapsSection<'_> {
     pub fn ui(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let of = |pair| self.jobs.attribution.get(pair, self.settings.seed);
+        let of = |pair| self.jobs.attribution.get(pair, &self.settings.seed);
         let all: Vec<Option<&Attributed>> = self.pairs.iter().map(of).collect();
         let chosen = self.state.display.prediction;
         let axis = axis(all.iter().copied().flatten());

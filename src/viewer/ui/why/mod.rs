@@ -102,7 +102,7 @@ impl WhyPanel<'_> {
                     self.directions(ui, pair.convention.u1_max.sqrt(), textures, &mut commands)
                 }
                 WhySection::Table(analysis) => {
-                    tables::ui(ui, self.jobs.tables.get(analysis, pair, self.settings.seed))
+                    tables::ui(ui, self.jobs.tables.get(analysis, pair, &self.settings.listed_scenes()))
                 }
             });
             if header.header_response.on_hover_text(question).clicked() {
