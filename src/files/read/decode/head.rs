@@ -1,4 +1,4 @@
-//! Headers of JPEG, PNG and HDR: what the decoding libraries do not return of them, or do not limit.
+//! Headers of PNG and HDR: what the decoding libraries do not return of them, or do not limit.
 
 use std::io::{self, Read as _, Seek as _};
 
@@ -15,25 +15,6 @@ pub(crate) fn is_hdr_head_short(reader: &mut Reader<'_>) -> io::Result<bool> {
     let end = head.windows(2).position(|two| two == b"\n\n");
     let has_resolution = end.is_some_and(|end| head[end + 2..].contains(&b'\n'));
     Ok(has_resolution || (head.len() as u64) < LONGEST_HDR)
-}
-
-/// How many components the pixels of a JPEG have, 4 for CMYK; `None` where no frame begins as it should.
-pub(crate) fn jpeg_components(reader: &mut Reader<'_>) -> io::Result<Option<u8>> {
-    let mut two = [0; 2];
-    reader.read_exact(&mut two)?;
-    loop {
-        reader.read_exact(&mut two)?;
-        let [255, marker] = two else { return Ok(None) };
-        reader.read_exact(&mut two)?;
-        let length = u16::from_be_bytes(two);
-        // The frames: all of C0 to CF but the tables of C4, C8 and CC.
-        if (0xc0..=0xcf).contains(&marker) && marker % 4 != 0 || marker == 0xc0 {
-            let mut frame = [0; 6];
-            reader.read_exact(&mut frame)?;
-            return Ok(Some(frame[5]));
-        }
-        reader.seek_relative(i64::from(length) - 2)?;
-    }
 }
 
 /// The fields of a PNG before its pixels.

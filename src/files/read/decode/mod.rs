@@ -7,6 +7,7 @@ mod dds;
 mod dwa;
 pub(crate) mod exr;
 mod head;
+mod jpeg;
 mod known;
 mod ktx2;
 mod layout;

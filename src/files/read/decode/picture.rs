@@ -1,10 +1,9 @@
-//! PNG, JPEG, BMP, TGA, WebP and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
+//! PNG, BMP, TGA, WebP and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
 
 use std::io::{BufRead as _, ErrorKind, Seek as _};
 
 use image::codecs::bmp::BmpDecoder;
 use image::codecs::hdr::HdrDecoder;
-use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
 use image::codecs::tga::TgaDecoder;
 use image::codecs::webp::WebPDecoder;
@@ -13,6 +12,7 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
 use super::head::{self, PngHead};
+use super::jpeg;
 use super::known;
 use super::place::{Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone};
 use super::reader::Reader;
@@ -43,15 +43,7 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             }
             Ok(Decoded { meaning, ..decoded })
         }
-        Ok(ImageFormat::Jpeg) => {
-            let components = head::jpeg_components(&mut reader).unwrap_or(None);
-            if components == Some(4) {
-                return Err(place.bad("expected gray or RGB, found a JPEG in CMYK", "convert it to RGB"));
-            }
-            reader.rewind().map_err(unreadable)?;
-            let decoder = JpegDecoder::new(reader).map_err(|error| explain(&error, "JPEG", place))?;
-            decode_with(Box::new(decoder), "JPEG", place)
-        }
+        Ok(ImageFormat::Jpeg) => jpeg::decode(reader, place),
         Ok(ImageFormat::Hdr) => {
             if !head::is_hdr_head_short(&mut reader).map_err(unreadable)? {
                 let problem =
@@ -100,27 +92,26 @@ fn decode_with(
     decoder.set_limits(limits()).map_err(broken)?;
     let (width, height) = decoder.dimensions();
     let _reserved = place.check_size(width.into(), height.into(), decoder.total_bytes())?;
-    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
-    let notes = ignored(&mut *decoder, orientation, place);
+    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms).to_exif();
+    let notes = metadata_notes(orientation, decoder.icc_profile().ok().flatten().as_deref(), place);
     let image = caught(|| DynamicImage::from_decoder(decoder))
         .map_err(|_| place.invalid(format, "a contradiction in it"))?
         .map_err(broken)?;
     let found = image.color();
     let raster = raster(image)
         .ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))?;
-    let raster = if place.is_photograph() { raster.oriented(orientation.to_exif().into()) } else { raster };
+    let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };
     Ok(Decoded { notes, ..alone(raster) })
 }
 
-/// Metadata of the file that is ignored.
-fn ignored(decoder: &mut dyn ImageDecoder, orientation: Orientation, place: DecodedFile<'_>) -> Vec<Note> {
+/// Metadata of the file that is ignored: an orientation as in Exif, 1 for none, and a colour profile.
+pub(super) fn metadata_notes(orientation: u8, profile: Option<&[u8]>, place: DecodedFile<'_>) -> Vec<Note> {
     let mut notes = Vec::new();
     let what = place.what;
-    if orientation != Orientation::NoTransforms && !place.is_photograph() {
+    if orientation != 1 && !place.is_photograph() {
         notes.push(Note::Orientation(what));
     }
-    let profile = decoder.icc_profile().ok().flatten().filter(|_| !place.is_data());
-    if profile.is_some_and(|profile| !is_srgb(&profile)) {
+    if profile.filter(|_| !place.is_data()).is_some_and(|profile| !is_srgb(profile)) {
         notes.push(Note::Profile(what));
     }
     notes

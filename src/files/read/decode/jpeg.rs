@@ -1,0 +1,99 @@
+//! JPEG: the values that libjpeg-turbo gives, on which this field trains and evaluates.
+
+use std::io::{Read as _, Seek as _, SeekFrom};
+
+use libjpeg_turbo_rs::{Decoder, JpegError, PixelFormat};
+
+use super::picture::metadata_notes;
+use super::place::{Decoded, DecodedFile, alone};
+use super::reader::Reader;
+use crate::disk::panics::caught;
+use crate::error::Error;
+use crate::read::raster::{Raster, Samples};
+
+/// The bytes of a pixel that the decoder takes beside its result: planes of coefficients and of colours.
+const WORKING: u64 = 9;
+
+pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+    let unreadable = |error| Error::unreadable(place.path, error);
+    let length = reader.seek(SeekFrom::End(0)).map_err(unreadable)?;
+    let _reserved_for_file = place.reserve(length)?;
+    reader.rewind().map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    reader.read_to_end(&mut bytes).map_err(unreadable)?;
+    let contradiction = |_| place.invalid("JPEG", "a contradiction in it");
+    let broken = |error: JpegError| match error {
+        JpegError::UnexpectedEof => place.truncated(),
+        error => place.invalid("JPEG", error),
+    };
+    let mut decoder = caught(|| Decoder::new(&bytes)).map_err(contradiction)?.map_err(broken)?;
+    let header = decoder.header();
+    let ([width, height], count) = ([header.width, header.height], header.components.len());
+    let format = match count {
+        1 => PixelFormat::Grayscale,
+        3 => PixelFormat::Rgb,
+        4 => return Err(place.bad("expected gray or RGB, found a JPEG in CMYK", "convert it to RGB")),
+        _ => {
+            return Err(
+                place.bad(format!("expected gray or RGB, found {count} components"), "convert it to RGB")
+            );
+        }
+    };
+    let bytes_of_all = u64::from(width) * u64::from(height) * (count as u64 + WORKING);
+    let _reserved = place.check_size(width.into(), height.into(), bytes_of_all)?;
+    let orientation = decoder.exif_orientation().unwrap_or(1);
+    decoder.set_output_format(format);
+    let image = caught(|| decoder.decode_image()).map_err(contradiction)?.map_err(broken)?;
+    let notes = metadata_notes(orientation, image.icc_profile(), place);
+    let channels = Samples::interleaved(image.into_vec(), count);
+    let raster = Raster::with_alpha(width.into(), height.into(), "8-bit", channels);
+    let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };
+    Ok(Decoded { notes, ..alone(raster) })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use base64::Engine as _;
+    use base64::engine::general_purpose::STANDARD;
+
+    use super::*;
+    use crate::read::record::Subject;
+
+    /// Pictures of 10 x 7 pixels that Pillow 13.0 has written and read with libjpeg-turbo 3.2: the file, and its values.
+    const OF_PILLOW: [(&str, &str, &str); 3] = [
+        (
+            "4:2:0",
+            "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYnKSopGR8tMC0oMCUoKSj/2wBDAQcHBwoIChMKChMoGhYaKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCj/wAARCAAHAAoDASIAAhEBAxEB/8QAFgABAQEAAAAAAAAAAAAAAAAAAAMF/8QAIhAAAQMDBAMBAAAAAAAAAAAAAQIDBQAGEgQRIWETMTJS/8QAFQEBAQAAAAAAAAAAAAAAAAAABQb/xAAiEQABAgMJAAAAAAAAAAAAAAABAgMABRESEyIxQVFxgcH/2gAMAwEAAhEDEQA/ANCBgJbQ29q3zFwah48NsFj6IT++6iqyrqeUXUSTLKVnINNstYoB5xG4J2Hrkk90pR775YduWwAmleySPInVzBaS2LKTgGYrqd+I/9k=",
+            "BFMAI1wATlsAdWkXhm00jYhqe6SmI250MJCEN6GKMYY1Tos7eIk5oJNPspdqvLGdpsfOWJahYq2mVKeVTq1za7J6mK97xbeQ3byr8djb1uP0nb7RqM7REzo1AEEgA0YnMkQsXkxAe1JYj29+X2h3NVJaJUA7LEY7FV5XMGJfX2NmhGh2nmyHp4abWGtpN2RQUn9gY5FsP42NW5KVipair5ywyaK/zLzHY5BvTJpeT5xYgs+HUrutbcC4ncfGw83W3tXm4vToaMByXNhobul3j/+W",
+        ),
+        (
+            "4:2:2, progressive",
+            "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYnKSopGR8tMC0oMCUoKSj/2wBDAQcHBwoIChMKChMoGhYaKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCj/wgARCAAHAAoDASEAAhEBAxEB/8QAFQABAQAAAAAAAAAAAAAAAAAAAgT/xAAVAQEBAAAAAAAAAAAAAAAAAAADBP/aAAwDAQACEAMQAAABoBS//8QAGRAAAgMBAAAAAAAAAAAAAAAAAwQAAQIU/9oACAEBAAEFAgALhfiauf/EABsRAAEEAwAAAAAAAAAAAAAAAAEAAgMREhMh/9oACAEDAQE/AdkAxDrPF//EABsRAAIBBQAAAAAAAAAAAAAAAAECEQADIpHR/9oACAECAQE/AZWzghO+RX//xAAbEAACAQUAAAAAAAAAAAAAAAAAARMCAxExYf/aAAgBAQAGPwKpxWNGZEuJI//EABsQAAEEAwAAAAAAAAAAAAAAAAEAESExQVFh/9oACAEBAAE/IX9lKOY2iWwczBDi/9oADAMBAAIAAwAAABAf/8QAGBEBAAMBAAAAAAAAAAAAAAAAAQARUTH/2gAIAQMBAT8QaQpPXVwMn//EABsRAQABBQEAAAAAAAAAAAAAAAEhABFRYYGh/9oACAECAQE/EEdrWWRo9M8r/8QAGhABAQADAQEAAAAAAAAAAAAAAREAITFhsf/aAAgBAQABPxBTg4z6PrihwxJXcUWHNq+5/9k=",
+            "B1QAJFsASloRd2QplGcuo4BWlZyMNmGBM3ziMor/E5keLp8pV5wvgqU/oqZHtb9moteFUKlXTcRqOb5hDeAZKuIsWNpCjd5btt5j1vWOwvm2jc2qn9TMCzxBLRBgRxVqcxV2nxuSvh+x0DvdkjrcYyykUCdHWDMqLFFaRlVqcFWCllmSsl+TtnunWGaBNWBpXHdwcod2SI17YpKGjZiUsputyp/NxrriTZWROaFwTaBEjNJgTcCfZ8WrlM28udXJ1N/R0P/LQtpTPexRa+t0nP+f",
+        ),
+        (
+            "gray",
+            "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYnKSopGR8tMC0oMCUoKSj/wAALCAAHAAoBAREA/8QAFQABAQAAAAAAAAAAAAAAAAAAAwX/xAAiEAABAwMEAwEAAAAAAAAAAAABAgMFBhESAAQhYRMxMlL/2gAIAQEAAD8AoQMBLbGnt2+YuDUPHhbBY+iE/vvQqoqqnlF1EkyylZyDTbLWKAecRcE2Hrkk96//2Q==",
+            "MUBNY26GmFhyf2Nwe4+asr6FloyKlqK3xODhtsMuIi48UF96Z0o3PUdTYnJ+kmVUbn92gpSkscJ/fH2wmqa6y9rtnaa32A==",
+        ),
+    ];
+
+    fn decoded(bytes: &[u8]) -> Result<Decoded, Error> {
+        decode(Reader::of_bytes(bytes), DecodedFile { path: Path::new("m.jpg"), what: Subject::Material })
+    }
+
+    #[test]
+    fn values_are_those_of_libjpeg_turbo() {
+        for (name, file, values) in OF_PILLOW {
+            let [file, values] = [file, values].map(|text| STANDARD.decode(text).unwrap());
+            let raster = decoded(&file).unwrap().layers.remove(0).raster;
+            let channels = values.len() / 70;
+            let expected = Samples::interleaved(values, channels);
+            assert_eq!(raster, Raster::with_alpha(10, 7, "8-bit", expected), "{name}");
+            let cut = decoded(&file[..file.len() - 20]).unwrap_err().to_string();
+            assert!(cut.contains("m.jpg"), "{name}: {cut}");
+        }
+    }
+}
