@@ -31,6 +31,9 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
     decoder.read_image_to_buffer(&mut result).map_err(invalid)?;
     let (width, height) = (width as usize, height as usize);
     let layout = Interleaving { count, planar, texels: width * height };
+    if let (ColorType::YCbCr(8), DecodingResult::U8(samples)) = (colour, &mut result) {
+        layout.to_rgb(samples);
+    }
     let (channels, depth) = layout
         .samples(result)
         .ok_or_else(|| place.bad("expected 8, 16 or 32 bits for each sample, found others", "convert it"))?;
@@ -72,6 +75,27 @@ impl Interleaving {
             DecodingResult::F64(all) => (self.floats(all, |s| s as f32)?, "double"),
             _ => return None,
         })
+    }
+
+    /// Y, Cb and Cr of ITU-R BT.601, all of 0 to 255, as R, G and B: in the integers of libjpeg.
+    fn to_rgb(&self, samples: &mut [u8]) {
+        let (step, stride) = if self.planar { (1, self.texels) } else { (3, 1) };
+        for texel in 0..self.texels {
+            let [y, cb, cr] = [0, 1, 2].map(|channel| {
+                samples.get(texel * step + channel * stride).map_or(0, |sample| i32::from(*sample))
+            });
+            let (cb, cr) = (cb - 128, cr - 128);
+            let rgb = [
+                y + ((91_881 * cr + 32_768) >> 16),
+                y + ((-22_554 * cb - 46_802 * cr + 32_768) >> 16),
+                y + ((116_130 * cb + 32_768) >> 16),
+            ];
+            for (channel, value) in rgb.into_iter().enumerate() {
+                if let Some(sample) = samples.get_mut(texel * step + channel * stride) {
+                    *sample = value.clamp(0, 255) as u8;
+                }
+            }
+        }
     }
 
     fn floats<S>(&self, samples: Vec<S>, of: impl Fn(S) -> f32) -> Option<Vec<Samples>> {
