@@ -2,7 +2,8 @@
 
 use pyo3::prelude::*;
 use svbrdf_evaluate::Error as EvaluateError;
-use svbrdf_evaluate::analysis::{AnyAnalysis, Subject};
+use svbrdf_evaluate::analyses::AnyAnalysis;
+use svbrdf_evaluate::report::Subject;
 
 use crate::asked::Asked;
 use crate::errors::{Error, exception};

@@ -5,7 +5,8 @@ use clap::{Arg, ArgMatches, Args, Command, Error as ClapError, FromArgMatches, S
 use serde_json::{Map, Value};
 
 use svbrdf_core::loss::{LossOptions, Request};
-use svbrdf_evaluate::analysis::{ANALYSES, AnyAnalysis, SceneOptions, Subject};
+use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis};
+use svbrdf_evaluate::report::{SceneOptions, Subject};
 
 use super::args::scenes::{ListArgs, SampledArgs, SeedArgs, TargetErrorArgs};
 use super::args::values::{percent, whole};

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use svbrdf_evaluate::analysis::AnyAnalysis;
+use svbrdf_evaluate::analyses::AnyAnalysis;
 use svbrdf_evaluate::report::MetricsReport;
 
 use super::analysis::AnalysisJob;

@@ -2,7 +2,7 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | [`analysis`] | what has a command, a function in Python and a table in the window: declared once |
+//! | [`analyses`] | what has a command, a function in Python and a table in the window: declared once |
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
 //! | [`diagnose`] | whether exposure, alignment or reading explain a loss; what the ground truth resolves |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
@@ -13,7 +13,7 @@
 //! | [`dataset`] | methods over the materials of a data set, with a folder of results |
 //! | [`schema`] | the JSON Schema of each report |
 
-pub mod analysis;
+pub mod analyses;
 pub mod dataset;
 pub mod diagnose;
 mod error;

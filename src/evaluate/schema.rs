@@ -1,24 +1,22 @@
 //! JSON Schemas of the reports: the keys of their JSON with their types and meanings.
 
-use crate::report::{DiagnoseReport, InfoReport, LossReport, MapReport, RankReport};
-use schemars::generate::SchemaSettings;
-use schemars::transform::RecursiveTransform;
-use schemars::{JsonSchema, Schema};
-use serde_json::{Value, json};
+use crate::report::{DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, schema_of};
+use schemars::Schema;
+use serde_json::json;
 
-use crate::analysis::{ANALYSES, AnyAnalysis};
+use crate::analyses::{ANALYSES, AnyAnalysis};
 use crate::dataset::DatasetReport;
 use crate::photograph::PhotoReport;
 
 /// The schema of each other report by its name: that of its command, `dataset` for `rank --dataset`.
 const OTHERS: [(&str, fn() -> Schema); 7] = [
-    ("loss", of::<LossReport>),
-    ("rank", of::<RankReport>),
-    ("diagnose", of::<DiagnoseReport>),
-    ("map", of::<MapReport>),
-    ("photo", of::<PhotoReport>),
-    ("dataset", of::<DatasetReport>),
-    ("info", of::<InfoReport>),
+    ("loss", schema_of::<LossReport>),
+    ("rank", schema_of::<RankReport>),
+    ("diagnose", schema_of::<DiagnoseReport>),
+    ("map", schema_of::<MapReport>),
+    ("photo", schema_of::<PhotoReport>),
+    ("dataset", schema_of::<DatasetReport>),
+    ("info", schema_of::<InfoReport>),
 ];
 
 /// The names of all reports.
@@ -38,17 +36,4 @@ pub fn named(name: &str) -> Option<Schema> {
     let mut schema = (analysis.report)();
     schema.insert("x-analysis".to_owned(), words);
     Some(schema)
-}
-
-/// The schema of what is written, not of what could be read.
-pub(crate) fn of<T: JsonSchema>() -> Schema {
-    let settings = SchemaSettings::draft2020_12().for_serialize();
-    settings.with_transform(RecursiveTransform(reworded)).into_generator().into_root_schema_for::<T>()
-}
-
-/// A doc comment for readers of JSON: on one line, with null in place of `None`.
-fn reworded(schema: &mut Schema) {
-    if let Some(Value::String(text)) = schema.get_mut("description") {
-        *text = text.replace('\n', " ").replace("`None`", "null").replace("[`", "`").replace("`]", "`");
-    }
 }

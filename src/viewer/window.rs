@@ -14,14 +14,12 @@ use svbrdf_core::error::Error as CoreError;
 use svbrdf_gpu::Gpu;
 
 use super::app::device_loss::{Adapters, DeviceLosses, given_up};
-use super::app::{App, CrashGuard, Stop, Watch, display, outcome, stored_file};
+use super::app::{App, CrashGuard, NAME, Stop, Watch, display, outcome, stored_file};
 use super::jobs::work::{panics, priority};
 use super::model::message::Message;
 use super::model::settings::options::ViewerOptions;
 use crate::error::Error;
 
-/// The name of the window, and of the folder of its settings.
-const NAME: &str = "svbrdf";
 /// How long a driver has to recover before the next device is asked for.
 const PAUSE_AFTER_LOSS: Duration = Duration::from_millis(300);
 

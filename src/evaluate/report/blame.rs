@@ -4,10 +4,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
+use super::analysis::{Analysis, NoOptions, SceneOptions, Subject};
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
 use super::table::{Cell, Field, Reader, Table};
-use crate::analysis::{Analysis, NoOptions, SceneOptions, Subject};
 use crate::error::Error;
 use crate::why::{self, MapShare};
 use svbrdf_core::loss::{Estimate, Request};

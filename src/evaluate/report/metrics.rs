@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::Report;
+use super::analysis::{Analysis, SceneOptions, Subject};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Reader, Table};
-use crate::analysis::{Analysis, SceneOptions, Subject};
 use crate::error::Error;
 use crate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
 use svbrdf_core::loss::Sampling;

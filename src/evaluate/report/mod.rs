@@ -20,6 +20,7 @@
 //! # Ok::<(), svbrdf_evaluate::Error>(())
 //! ```
 
+mod analysis;
 mod blame;
 mod diagnose;
 mod heading;
@@ -37,6 +38,7 @@ mod scenes;
 mod table;
 mod worst;
 
+pub use analysis::{Analysis, NoOptions, SceneOptions, Subject, schema_of};
 pub use blame::{BlameReport, parts};
 pub use diagnose::DiagnoseReport;
 pub use heading::{Compared, position, scenes_line};

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Report;
+use super::analysis::{Analysis, SceneOptions, Subject};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Field, Reader, Table};
-use crate::analysis::{Analysis, SceneOptions, Subject};
 use crate::error::Error;
 use crate::why::{Distribution, worst_first};
 use svbrdf_core::loss::{Comparison, Outcome};

@@ -4,11 +4,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Report;
+use super::analysis::{Analysis, SceneOptions, Subject};
 use super::heading::Compared;
 use super::missed::missed;
 use super::scenes::SCENE;
 use super::table::{Cell, Field, Reader, Table};
-use crate::analysis::{Analysis, SceneOptions, Subject};
 use crate::error::Error;
 use crate::why;
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate};

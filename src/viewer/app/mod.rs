@@ -40,6 +40,9 @@ use super::ui::WindowUi;
 use super::ui::shading::gpu_view::GpuView;
 use super::ui::widgets::theme;
 
+/// The name of the program, in its title and among the programs of the desktop.
+pub(crate) const NAME: &str = "svbrdf";
+
 /// What is called in the middle of every frame.
 pub type Watch = dyn Fn(&egui::Context, &Gpu);
 
@@ -52,6 +55,8 @@ pub struct App {
     context: CurrentContext,
     /// The time of the model when its window was opened: each counts from 0.
     opened_at: f64,
+    /// The title that the window was given.
+    title: String,
     /// What egui remembered of a window whose device was lost.
     memory: Option<egui::Memory>,
 }
@@ -72,7 +77,7 @@ impl App {
         let start = parts.model.start(options);
         effects::carry_out(&mut parts, &cc.egui_ctx, start);
         let crash = CrashGuard::default();
-        Self { parts, stored, crash, context, opened_at: 0.0, memory: None }
+        Self { parts, stored, crash, context, opened_at: 0.0, title: String::new(), memory: None }
     }
 
     /// The colour below everything that is drawn.
@@ -129,10 +134,21 @@ impl App {
         self.parts.gpu.iter().for_each(|view| watch(&ctx, &view.gpu));
         let displayed = Displayed::of(&self.parts.model, &self.parts.jobs);
         let commands = self.parts.ui.draw(ui, displayed, self.parts.gpu.as_mut());
+        self.name_window(&ctx);
         self.apply_all(&ctx, commands);
         let is_photograph_settled = self.parts.jobs.photograph.is_settled(&self.parts.model.photograph);
         undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
         self.parts.ui.frame_ms = start.elapsed().as_secs_f32() * 1e3;
+    }
+
+    /// Gives the window the name of what is open.
+    fn name_window(&mut self, ctx: &egui::Context) {
+        let open = self.parts.model.materials.title();
+        let title = open.map_or_else(|| NAME.to_owned(), |open| format!("{open} - {NAME}"));
+        if title != self.title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
     }
 
     /// Lets the jobs follow the model, and takes in what they have found.

@@ -4,7 +4,6 @@ use std::io::{Read as _, Seek as _, SeekFrom};
 
 use libjpeg_turbo_rs::{Decoder, JpegError, PixelFormat};
 
-use super::picture::metadata_notes;
 use super::place::{Decoded, DecodedFile, alone};
 use super::reader::Reader;
 use crate::disk::panics::caught;
@@ -44,7 +43,7 @@ pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     let orientation = decoder.exif_orientation().unwrap_or(1);
     decoder.set_output_format(format);
     let image = caught(|| decoder.decode_image()).map_err(contradiction)?.map_err(broken)?;
-    let notes = metadata_notes(orientation, image.icc_profile(), place);
+    let notes = place.metadata_notes(orientation, image.icc_profile());
     let channels = Samples::interleaved(image.into_vec(), count);
     let raster = Raster::with_alpha(width.into(), height.into(), "8-bit", channels);
     let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };

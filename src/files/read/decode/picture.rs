@@ -93,7 +93,7 @@ fn decode_with(
     let (width, height) = decoder.dimensions();
     let _reserved = place.check_size(width.into(), height.into(), decoder.total_bytes())?;
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms).to_exif();
-    let notes = metadata_notes(orientation, decoder.icc_profile().ok().flatten().as_deref(), place);
+    let notes = place.metadata_notes(orientation, decoder.icc_profile().ok().flatten().as_deref());
     let image = caught(|| DynamicImage::from_decoder(decoder))
         .map_err(|_| place.invalid(format, "a contradiction in it"))?
         .map_err(broken)?;
@@ -102,25 +102,6 @@ fn decode_with(
         .ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))?;
     let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };
     Ok(Decoded { notes, ..alone(raster) })
-}
-
-/// Metadata of the file that is ignored: an orientation as in Exif, 1 for none, and a colour profile.
-pub(super) fn metadata_notes(orientation: u8, profile: Option<&[u8]>, place: DecodedFile<'_>) -> Vec<Note> {
-    let mut notes = Vec::new();
-    let what = place.what;
-    if orientation != 1 && !place.is_photograph() {
-        notes.push(Note::Orientation(what));
-    }
-    if profile.filter(|_| !place.is_data()).is_some_and(|profile| !is_srgb(profile)) {
-        notes.push(Note::Profile(what));
-    }
-    notes
-}
-
-/// Whether an ICC profile calls itself sRGB, in ASCII or UTF-16.
-fn is_srgb(profile: &[u8]) -> bool {
-    let contains = |name: &[u8]| profile.windows(name.len()).any(|bytes| bytes == name);
-    contains(b"sRGB") || contains(b"s\0R\0G\0B")
 }
 
 /// The most that the decoder may allocate. The size of the image is checked apart, for a message with numbers.

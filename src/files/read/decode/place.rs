@@ -100,6 +100,19 @@ impl DecodedFile<'_> {
         self.reserve(bytes)
     }
 
+    /// Metadata of the file that is ignored: an orientation as in Exif, 1 for none, and a colour profile.
+    pub(super) fn metadata_notes(self, orientation: u8, profile: Option<&[u8]>) -> Vec<Note> {
+        let mut notes = Vec::new();
+        let what = self.what;
+        if orientation != 1 && !self.is_photograph() {
+            notes.push(Note::Orientation(what));
+        }
+        if profile.filter(|_| !self.is_data()).is_some_and(|profile| !is_srgb(profile)) {
+            notes.push(Note::Profile(what));
+        }
+        notes
+    }
+
     /// Puts memory aside while the file is decoded.
     ///
     /// # Errors
@@ -107,6 +120,12 @@ impl DecodedFile<'_> {
     pub(super) fn reserve(self, bytes: u64) -> Result<Reserved, Error> {
         memory::reserve(bytes, || format!("{}: {}", self.path.display(), self.what))
     }
+}
+
+/// Whether an ICC profile calls itself sRGB, in ASCII or UTF-16.
+fn is_srgb(profile: &[u8]) -> bool {
+    let contains = |name: &[u8]| profile.windows(name.len()).any(|bytes| bytes == name);
+    contains(b"sRGB") || contains(b"s\0R\0G\0B")
 }
 
 pub(crate) fn alone(layer: impl Into<Layer>) -> Decoded {

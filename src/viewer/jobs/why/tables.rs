@@ -6,8 +6,8 @@ use serde_json::json;
 
 use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::analysis::{ANALYSES, AnyAnalysis, SceneOptions, Subject};
-use svbrdf_evaluate::report::{Reader, Table};
+use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis};
+use svbrdf_evaluate::report::{Reader, SceneOptions, Subject, Table};
 
 use crate::error::Error;
 use crate::jobs::why::one_by_one::OneByOne;

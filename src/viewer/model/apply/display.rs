@@ -53,7 +53,11 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
         DisplayCommand::Zoom { factor, at } => frame(model, |framed| framed.zoomed(factor, at)),
         DisplayCommand::Pan(by) => frame(model, |framed| framed.panned(by)),
         DisplayCommand::Fit => fit(state),
-        DisplayCommand::OneToOne => frame(model, |framed| framed.at_scale(1.0)),
+        DisplayCommand::OneToOne => {
+            // Repeated, a texel takes half the side.
+            let scale = if state.display.tiled { 2.0 } else { 1.0 };
+            frame(model, |framed| framed.at_scale(scale));
+        }
         DisplayCommand::Reset => {
             *state = state.reset();
             model.exposed = Exposed::Pending;

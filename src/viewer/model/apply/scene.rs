@@ -4,8 +4,8 @@ use super::exposure;
 use crate::model::Model;
 use crate::model::command::effect::Effect;
 use crate::model::command::{MaterialsCommand, SceneCommand};
-use crate::model::message::Message;
 use crate::model::message::pasted::{Pasted, pasted, scene_text};
+use crate::model::message::{Message, PasteProblem};
 use crate::model::view::endpoint;
 
 pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
@@ -44,6 +44,7 @@ pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
             return vec![Effect::CopyText { text: scene_text(*scene), what: "the scene as JSON" }];
         }
         SceneCommand::Paste(text) => return paste(model, &text),
+        SceneCommand::PastePicture => model.report([Message::NotPasted(PasteProblem::Picture)]),
     }
     Vec::new()
 }

@@ -118,6 +118,8 @@ pub enum SceneCommand {
     Copy,
     /// Takes the scene, or opens the files, that this text of the clipboard names.
     Paste(String),
+    /// Says why the picture on the clipboard is not taken.
+    PastePicture,
 }
 
 /// What the panes show, and how.

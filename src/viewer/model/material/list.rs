@@ -28,6 +28,17 @@ impl MaterialList {
         self.all.first()
     }
 
+    /// What is open, in a few words; `None` where nothing is.
+    pub fn title(&self) -> Option<String> {
+        let (ground_truth, predictions) = self.all.split_first()?;
+        let name = ground_truth.name();
+        Some(match predictions {
+            [] => name.to_owned(),
+            [one] => format!("{name}, {}", one.name()),
+            several => format!("{name}, {} predictions", several.len()),
+        })
+    }
+
     pub fn predictions(&self) -> &[LoadedMaterial] {
         self.all.get(1..).unwrap_or_default()
     }

@@ -53,6 +53,8 @@ pub enum Message {
 pub enum PasteProblem {
     /// It is neither a scene nor paths of files.
     NoScene,
+    /// It is a picture.
+    Picture,
     /// It has a scene that cannot be rendered, for this reason.
     Unusable(String),
 }
@@ -119,6 +121,10 @@ impl fmt::Display for Message {
                 }
             }
             Self::Material(problem) => problem.fmt(f),
+            Self::NotPasted(PasteProblem::Picture) => f.write_str(
+                "The clipboard holds a picture, whose encoding nothing tells. Save it as a file and open that; a copied file \
+                or its path can be pasted.",
+            ),
             Self::NotPasted(PasteProblem::NoScene) => f.write_str(
                 "Not pasted: the clipboard holds neither a scene nor paths of files. Copy a scene from this window or \
                  from a scene file, or files of materials.",

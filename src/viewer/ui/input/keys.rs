@@ -144,6 +144,7 @@ fn event_command(event: &egui::Event) -> Option<Command> {
     match event {
         egui::Event::Copy => Some(SceneCommand::Copy.into()),
         egui::Event::Paste(text) => Some(SceneCommand::Paste(text.clone()).into()),
+        egui::Event::PasteImage(_) => Some(SceneCommand::PastePicture.into()),
         egui::Event::Text(text) if text == "?" => Some(WindowCommand::ShowHelp(true).into()),
         _ => None,
     }

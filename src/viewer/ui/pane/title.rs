@@ -14,6 +14,8 @@ use crate::ui::widgets::theme;
 
 /// Width of the button that shows the prediction itself again, in points.
 const BACK: f32 = 96.0;
+/// Least width of a title with the loss, in points.
+const LEAST: f32 = 150.0;
 /// Width of the colour of a prediction, in points.
 const SWATCH: f32 = 14.0;
 
@@ -41,7 +43,8 @@ pub fn title_bar(
         ui.visuals().text_color()
     };
     let loss = prediction.and_then(|index| scenery.losses?.get(index)).filter(|_| !replaced);
-    let loss = loss.map(|loss| significant(&loss.estimate)[0].clone());
+    let loss =
+        loss.filter(|_| rect.width() >= LEAST).map(|loss| format!("loss {}", significant(&loss.estimate)[0]));
     let swatch = prediction.map(|index| theme::series(index, ui.visuals().dark_mode));
     let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
     if let Some(colour) = swatch {

@@ -33,6 +33,9 @@ use crate::ui::widgets::theme;
 /// A view steeper than this above the plane (its sine) is one from straight above.
 const STEEP: f64 = 0.999;
 
+/// Side of a pane below which handles would cover its picture, in points: they are shown under the pointer.
+const HANDLES: f32 = 120.0;
+
 /// What panes are drawn with.
 #[derive(Debug)]
 pub struct PaneTools<'a> {
@@ -137,7 +140,12 @@ impl Viewport {
         let grid = scenery.materials[0].grid();
         let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
         if let Some(cell) = cells.first() {
-            self.pane_pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
+            let pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
+            if pixels != self.pane_pixels {
+                // The status line was drawn before.
+                ui.ctx().request_repaint();
+            }
+            self.pane_pixels = pixels;
         }
         if let Err(problem) = self.shade(ui, gpu, uploads, scenery, &contents) {
             note(ui, area, &problem);
@@ -230,7 +238,8 @@ impl Viewport {
         };
         gpu.paint(&painter, rect, number, drawn, params);
         self.paint_marks(&painter, scenery, content, placed);
-        if state.display.quantity == Quantity::Rendering && scenery.handles {
+        let has_room = rect.size().min_elem() >= HANDLES || ui.rect_contains_pointer(rect);
+        if state.display.quantity == Quantity::Rendering && scenery.handles && has_room {
             handles::paint_endpoints(&painter, rect, &camera, state, scenery.view_handle);
         }
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {

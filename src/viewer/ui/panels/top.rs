@@ -284,6 +284,7 @@ impl<'a> TopBar<'a> {
         let theme = if self.dark { "Light theme" } else { "Dark theme" };
         if ui.button(theme).on_hover_text("Colours of the window").clicked() {
             commands.push(WindowCommand::SetDark(!self.dark).into());
+            ui.close();
         }
         ui.menu_button("UI scale", |ui| {
             for percent in [75, 100, 125, 150, 175, 200, 250, 300] {
@@ -291,6 +292,7 @@ impl<'a> TopBar<'a> {
                 let is_current = (self.scale - scale).abs() < 1e-3;
                 if ui.selectable_label(is_current, format!("{percent}%")).clicked() {
                     commands.push(WindowCommand::SetScale(scale).into());
+                    ui.close();
                 }
             }
         })
