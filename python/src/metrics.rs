@@ -8,7 +8,7 @@ use svbrdf_core::loss::check_same_size;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::metrics::{RenderedScenes, of_maps, of_matfusion, of_renderings};
 use svbrdf_evaluate::report::{Compared, MetricsReport};
-use svbrdf_files::read;
+use svbrdf_files::read::MaterialPath;
 
 use crate::asked::Asked;
 use crate::errors::exception;
@@ -68,7 +68,8 @@ pub fn matfusion(
         (Some(path), Some(options)) => {
             let options = &read_options(options)?;
             work::run(py, progress, |progress| {
-                read::read_as_stored::<f64>(Path::new(path), options, progress).map(|(planes, _)| planes)
+                let path = MaterialPath::new(Path::new(path), options);
+                path.planes_as_stored::<f64>(progress).map(|(planes, _)| planes)
             })
         }
         _ => Err(PyValueError::new_err(
