@@ -13,7 +13,7 @@ use graph::{Arrow, CRATES, Tree, circles};
 
 /// From the bottom to the top. A module belongs to the longest name that it begins with; files of one layer may use one
 /// another.
-const LAYERS: [&[&str]; 20] = [
+const LAYERS: [&[&str]; 22] = [
     &["core/choices", "core/error", "core/progress", "core/text"],
     &["core/math"],
     &["core/statistics"],
@@ -25,10 +25,12 @@ const LAYERS: [&[&str]; 20] = [
     &["core/loss"],
     &["core/lib"],
     &["files"],
+    &["evaluate/error"],
     &["evaluate/diagnose", "evaluate/metrics", "evaluate/rank", "evaluate/study", "evaluate/why"],
     &["evaluate"],
     &["page"],
     &["gpu"],
+    &["viewer/error"],
     &["viewer/model"],
     &["viewer/jobs"],
     &["viewer"],

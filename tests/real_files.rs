@@ -8,7 +8,7 @@ use serde_json::Value;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
-use svbrdf_files::read::{Binding, Certainty, Read, ReadOptions, read_bound};
+use svbrdf_files::read::{Binding, Certainty, MaterialPath, Read, ReadOptions};
 use svbrdf_needs::needs;
 
 fn real() -> PathBuf {
@@ -96,7 +96,7 @@ fn real_files_are_read_as_their_formats_specify() {
     for (name, case) in cases {
         let path = real().join(case["path"].as_str().unwrap());
         let (options, bindings) = options(case);
-        let read = read_bound::<f32>(&path, &bindings, &options, &Progress::default());
+        let read = MaterialPath::new(&path, &options).bound(&bindings).read::<f32>(&Progress::default());
         // A doubt is needless where the values are right all the same.
         if let Ok(read) = &read
             && differences(case, &read.material).is_empty()

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_evaluate::metrics::of_matfusion;
 use svbrdf_evaluate::report::MetricsReport;
-use svbrdf_files::read;
+use svbrdf_files::read::MaterialPath;
 
 use crate::asked::Asked;
 use crate::errors::exception;
@@ -35,7 +35,8 @@ pub fn matfusion(
         (Some(path), Some(options)) => {
             let options = &read_options(options)?;
             work::run(py, progress, |progress| {
-                read::read_as_stored::<f64>(Path::new(path), options, progress).map(|(planes, _)| planes)
+                let path = MaterialPath::new(Path::new(path), options);
+                path.planes_as_stored::<f64>(progress).map(|(planes, _)| planes)
             })
         }
         _ => Err(PyValueError::new_err(

@@ -9,7 +9,7 @@ use svbrdf_evaluate::metrics::{Metric, matfusion_renderings, of_matfusion};
 use svbrdf_evaluate::report::MetricsReport;
 use svbrdf_files::Error;
 use svbrdf_files::export::write_npy;
-use svbrdf_files::read;
+use svbrdf_files::read::MaterialPath;
 use svbrdf_files::source::{MaterialSource, Place};
 
 use super::job::MaterialJob;
@@ -71,7 +71,9 @@ fn opened(job: &MaterialJob) -> Result<Vec<ProtocolMaterial>, CommandError> {
     let stored = |(source, material): (&MaterialSource, &Material<f64>)| -> Result<_, CommandError> {
         let (name, size) = (material.name().to_owned(), material.size());
         let planes = match &source.place {
-            Place::Path(path) => read::read_as_stored(path, &source.options, &Progress::default())?.0,
+            Place::Path(path) => {
+                MaterialPath::new(path, &source.options).planes_as_stored(&Progress::default())?.0
+            }
             Place::BuiltIn(_) => material.planes().clone(),
         };
         Ok(ProtocolMaterial { name, planes, size })

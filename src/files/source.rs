@@ -18,7 +18,7 @@ use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
 use crate::error::Error;
-use crate::read::{self, Read, ReadOptions};
+use crate::read::{MaterialPath, Read, ReadOptions};
 use crate::samples;
 use crate::session::SessionMaterial;
 use crate::steps::RunId;
@@ -83,14 +83,12 @@ impl MaterialSource {
     /// Reads the material, in its own size; each file is one step of `progress`.
     ///
     /// # Errors
-    /// As [`read::read`]; [`Error::NoSuchBuiltIn`].
+    /// As [`MaterialPath::read`]; [`Error::NoSuchBuiltIn`].
     pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
-        let read: Read<T> = match &self.place {
-            Place::BuiltIn(number) => samples::load_one(*number),
-            Place::Path(path) => match &self.chosen {
-                Some(options) => read::read_as(path, options, progress),
-                None => read::read(path, &self.options, progress),
-            },
+        let read: Read<T> = match (&self.place, &self.chosen) {
+            (Place::BuiltIn(number), _) => samples::load_one(*number),
+            (Place::Path(path), Some(options)) => MaterialPath::new(path, options).alone().read(progress),
+            (Place::Path(path), None) => MaterialPath::new(path, &self.options).read(progress),
         }?;
         Ok(match &self.name {
             Some(name) => Read { material: read.material.renamed(name.clone()), ..read },
@@ -115,9 +113,8 @@ impl MaterialSource {
 
     /// The names that it may have once it is read, found without its pixels; at least one.
     pub fn possible_names(&self) -> Vec<String> {
-        self.name
-            .clone()
-            .map_or_else(|| read::possible_names(self.location(), &self.options), |name| vec![name])
+        let of_files = || MaterialPath::new(self.location(), &self.options).possible_names();
+        self.name.clone().map_or_else(of_files, |name| vec![name])
     }
 }
 

@@ -1,6 +1,6 @@
 //! Options of reading that a user specifies.
 
-use svbrdf_files::read::{Binding, Energy, NormalEncoding, Workflow, read_bound};
+use svbrdf_files::read::{Binding, Energy, MaterialPath, NormalEncoding, Workflow};
 
 use super::*;
 
@@ -172,7 +172,7 @@ fn the_code_of_normals_can_be_said() {
 
 fn bound(path: &Path, bindings: &[String]) -> Result<Read<f64>, Error> {
     let bindings: Vec<Binding> = bindings.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
-    read_bound(path, &bindings, &ReadOptions::AUTO, &Progress::default())
+    MaterialPath::new(path, &ReadOptions::AUTO).bound(&bindings).read(&Progress::default())
 }
 
 #[test]

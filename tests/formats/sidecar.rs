@@ -1,6 +1,6 @@
 //! Sidecar files: options saved beside a material.
 
-use svbrdf_files::read::{Binding, Sidecar, read_as, read_bound};
+use svbrdf_files::read::{Binding, MaterialPath, Sidecar};
 
 use super::*;
 
@@ -37,7 +37,8 @@ fn what_is_kept_beside_a_file_holds_until_something_else_is_said() {
         (chosen(&other, What::Roughness), why(&other, What::Roughness).as_str()),
         ("r", "as specified")
     );
-    let alone = read_as::<f64>(&path, &ReadOptions::AUTO, &Progress::default()).unwrap();
+    let alone =
+        MaterialPath::new(&path, &ReadOptions::AUTO).alone().read::<f64>(&Progress::default()).unwrap();
     assert!(worst(&alone.material) > 0.1);
     assert_eq!(alone.saved.roughness, Some(Roughness::Gloss));
 }
@@ -95,7 +96,9 @@ fn maps_can_be_kept_in_a_folder() {
     assert_eq!(Sidecar::path_for(&folder.path().join("normal.png")), folder.path().join("svbrdf.json"));
     assert_eq!(Sidecar::path_for(&folder.path().join("other.png")), folder.path().join("svbrdf.json"));
     let said = format!("roughness={}", folder.path().join("normal.png").display()).parse().unwrap();
-    let read = read_bound::<f64>(folder.path(), &[said], &ReadOptions::AUTO, &Progress::default()).unwrap();
+    let bindings = [said];
+    let path = MaterialPath::new(folder.path(), &ReadOptions::AUTO).bound(&bindings);
+    let read = path.read::<f64>(&Progress::default()).unwrap();
     assert!(
         read.notes.iter().any(|n| n.to_string().contains("normal.png, as specified")),
         "{:?}",

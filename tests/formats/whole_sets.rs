@@ -2,7 +2,7 @@
 
 use image::{Rgba, RgbaImage};
 
-use svbrdf_files::read::{Binding, Preset, Role, read_bound};
+use svbrdf_files::read::{Binding, MaterialPath, Preset, Role};
 
 use super::*;
 
@@ -183,7 +183,10 @@ fn a_map_may_be_specified_as_a_constant_and_its_file_is_not_called_unused() {
     gray(folder.path(), "Properties.png", 0.3);
     let read = |text: &str| {
         let bindings: Vec<Binding> = vec![text.parse().unwrap()];
-        read_bound::<f64>(folder.path(), &bindings, &ReadOptions::AUTO, &Progress::default()).unwrap()
+        MaterialPath::new(folder.path(), &ReadOptions::AUTO)
+            .bound(&bindings)
+            .read::<f64>(&Progress::default())
+            .unwrap()
     };
     let constant = read("roughness=0.5");
     assert!((constant.material.texel(9).roughness - 0.5).abs() < 1e-6);
@@ -196,7 +199,10 @@ fn a_map_may_be_specified_as_a_constant_and_its_file_is_not_called_unused() {
     for wrong in ["roughness=1,1,1", "normal=0.5,0.5,1"] {
         let file: Binding = wrong.parse().unwrap();
         assert!(
-            read_bound::<f64>(folder.path(), &[file], &ReadOptions::AUTO, &Progress::default()).is_err(),
+            MaterialPath::new(folder.path(), &ReadOptions::AUTO)
+                .bound(&[file])
+                .read::<f64>(&Progress::default())
+                .is_err(),
             "{wrong} is a file that is not there"
         );
     }

@@ -13,7 +13,7 @@ use svbrdf_evaluate::report::distinct_names;
 use svbrdf_files::Error;
 use svbrdf_files::disk::memory::Reserved;
 use svbrdf_files::disk::open::is_pipe_at;
-use svbrdf_files::read::{self, Assumption, Binding, Read, ReadOptions};
+use svbrdf_files::read::{Assumption, Binding, MaterialPath, Read, ReadOptions};
 use svbrdf_files::samples;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::{MaterialSource, Place};
@@ -242,7 +242,7 @@ impl OneMaterial {
         let NamedPath { name, path } = &self.material;
         note_pipe(path);
         let read: Read<T> = watched(&format!("reading {}", path.display()), |progress| {
-            read::read_bound(path, &self.bindings, &self.options, progress)
+            MaterialPath::new(path, &self.options).bound(&self.bindings).read(progress)
         })?;
         if self.strict {
             read.refuse_guesses(path)?;

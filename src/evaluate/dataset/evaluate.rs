@@ -22,7 +22,7 @@ use super::record::{
 use super::remark::Remark;
 use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
 use svbrdf_files::disk::atomic::SOFTWARE;
-use svbrdf_files::read::{self, Dependencies, Neighbours, ReadOptions};
+use svbrdf_files::read::{self, Dependencies, MaterialPath, Neighbours, ReadOptions};
 
 /// The results of a run over a data set.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,7 +110,7 @@ impl Run<'_> {
 
     /// Those of a material, where there is a results folder and the material can be located.
     fn dependencies(&self, path: &Path, options: &ReadOptions) -> Option<Dependencies> {
-        self.results.as_ref().and_then(|_| Dependencies::of(path, options).ok())
+        self.results.as_ref().and_then(|_| MaterialPath::new(path, options).dependencies().ok())
     }
 
     /// What the result of a prediction depends on; `None` where it cannot be known before it is computed.

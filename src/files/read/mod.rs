@@ -9,6 +9,10 @@
 //! | `interpret` | stored maps and evidence | linear maps |
 //! | `assemble` | linear maps | a [`Material`], with the [record](Read) of its reading |
 //!
+//! A path enters as a [`MaterialPath`]: its sidecar file completes what is specified, and what is used of both goes with it through
+//! all stages. [`read()`] is the short form; [`read_bytes`] begins with a picture in memory, at `recognize`; a photograph, which is no
+//! material, is [decoded](read_photograph) alone.
+//!
 //! `docs/formats.md` lists every form that opens. Colour chunks are ignored. [`ReadOptions`] specify how values are stored; the
 //! rest is inferred from names and pixels, and recorded as an [`Assumption`].
 
@@ -64,104 +68,87 @@ use gather::map_report;
 use located::{Located, WholePicture};
 use stored::StoredMaterial;
 
-/// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them.
-///
-/// Each file is one step of `progress`.
+/// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them; its sidecar file
+/// completes `options`. The short form of [`MaterialPath::read`].
 ///
 /// # Errors
-/// [`Error::Unreadable`] where there is no such file or folder, [`Error::BadImage`] where a file is no image, is
-/// broken or too large, [`Error::NotAMaterial`] where a map is missing, claimed twice or gray though it is the
-/// normal map, [`Error::NotPacked`] where a picture is no packed image, [`Error::MapSizesDiffer`] where maps differ in
-/// shape, [`Error::NotFinite`] at NaN and infinity, [`Error::NoSuchExemplar`], [`Error::BadSidecar`],
-/// [`Cancelled`](Error::is_cancelled).
+/// As [`MaterialPath::read`].
 pub fn read<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
-    read_bound(path, &[], options, progress)
+    MaterialPath::new(path, options).read(progress)
 }
 
-/// As [`read`], with the maps of `bindings` in place of those at `path`.
-///
-/// # Errors
-/// As [`read`].
-pub fn read_bound<T: Real>(
-    path: &Path,
-    bindings: &[Binding],
-    options: &ReadOptions,
-    progress: &Progress,
-) -> Result<Read<T>, Error> {
-    let saved = Sidecar::load(path)?;
-    let used = saved.clone().overridden_by(options, bindings);
-    read_with(path, &saved, &used, progress)
+/// A path with a material, and how it is specified: whatever is read from files begins here.
+#[derive(Clone, Copy, Debug)]
+pub struct MaterialPath<'a> {
+    path: &'a Path,
+    options: ReadOptions,
+    bindings: &'a [Binding],
+    is_alone: bool,
 }
 
-/// As [`read`], but with exactly these `options`: the sidecar file is not used.
-///
-/// # Errors
-/// As [`read`].
-pub fn read_as<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) -> Result<Read<T>, Error> {
-    let saved = Sidecar::load(path)?;
-    let used = Sidecar { options: *options, ..saved.clone() };
-    read_with(path, &saved, &used, progress)
-}
-
-/// The planes of a material and their (width, height), as [`read`], but with normals of the lengths that are stored, and, without
-/// an option, diffuse as stored, whatever renderer it was made for: what the released code of a publication reads.
-///
-/// # Errors
-/// As [`read`]. Values are not checked as those of a [`Material`] are.
-pub fn read_as_stored<T: Real>(
-    path: &Path,
-    options: &ReadOptions,
-    progress: &Progress,
-) -> Result<(Planes<T>, [usize; 2]), Error> {
-    let saved = Sidecar::load(path)?;
-    let options = ReadOptions { energy: options.energy.or(Some(Energy::Scaled)), ..*options };
-    let used = saved.clone().overridden_by(&options, &[]);
-    let options = &used.options.with_preset();
-    let stored = stored(locate::locate(path, &saved, &used)?, options, progress)?;
-    let evidence = gather::evidences(&stored, options);
-    let mut linear = interpret::interpret(stored, evidence, options)?;
-    Ok((assemble::planes(&mut linear, options), linear.size))
-}
-
-fn read_with<T: Real>(
-    path: &Path,
-    saved: &Sidecar,
-    used: &Sidecar,
-    progress: &Progress,
-) -> Result<Read<T>, Error> {
-    let options = &used.options.with_preset();
-    let located = locate::locate(path, saved, used)?;
-    let mut read = finish(stored(located, options, progress)?, options)?;
-    (read.options, read.saved) = (used.options, saved.options);
-    if *saved != Sidecar::default() {
-        let file = Sidecar::path_for(path);
-        saved.attribute(&file, &used.options, &mut read.assumptions, &mut read.notes);
-        read.files.push(file);
+impl<'a> MaterialPath<'a> {
+    /// The material at `path`, whose sidecar file completes `options`.
+    pub fn new(path: &'a Path, options: &ReadOptions) -> Self {
+        Self { path, options: *options, bindings: &[], is_alone: false }
     }
-    read.files.iter().for_each(|file| inputs::protect(file));
-    Ok(read)
-}
 
-/// What the reading of a material depends on, but for [`Neighbours`]: only the pixels tell whether these count.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Dependencies {
-    /// In hexadecimal: of the options, of what was located by names, listings and documents, and of the content of the sidecar
-    /// file and of `files`.
-    pub sha256: String,
-    /// Every file that may be decoded.
-    pub files: Vec<PathBuf>,
-}
+    /// With the maps of `bindings` in place of those at the path.
+    #[must_use]
+    pub fn bound(self, bindings: &'a [Binding]) -> Self {
+        Self { bindings, ..self }
+    }
 
-impl Dependencies {
-    /// Those of the material at `path`.
+    /// With exactly these options: of the sidecar file only the maps count.
+    #[must_use]
+    pub fn alone(self) -> Self {
+        Self { is_alone: true, ..self }
+    }
+
+    /// Reads the material. Each file is one step of `progress`.
+    ///
+    /// # Errors
+    /// [`Error::Unreadable`] where there is no such file or folder, [`Error::BadImage`] where a file is no image, is
+    /// broken or too large, [`Error::NotAMaterial`] where a map is missing, claimed twice or gray though it is the
+    /// normal map, [`Error::NotPacked`] where a picture is no packed image, [`Error::MapSizesDiffer`] where maps differ in
+    /// shape, [`Error::NotFinite`] at NaN and infinity, [`Error::NoSuchExemplar`], [`Error::BadSidecar`],
+    /// [`Cancelled`](Error::is_cancelled).
+    pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
+        let LocatedPath { saved, used, located } = self.located()?;
+        let options = &used.options.with_preset();
+        let mut read = finish(stored(located, options, progress)?, options)?;
+        (read.options, read.saved) = (used.options, saved.options);
+        if saved != Sidecar::default() {
+            let file = Sidecar::path_for(self.path);
+            saved.attribute(&file, &used.options, &mut read.assumptions, &mut read.notes);
+            read.files.push(file);
+        }
+        read.files.iter().for_each(|file| inputs::protect(file));
+        Ok(read)
+    }
+
+    /// The planes of the material and their (width, height), as [`Self::read`], but with normals of the lengths that are stored, and,
+    /// without an option, diffuse as stored, whatever renderer it was made for: what the released code of a publication reads.
+    ///
+    /// # Errors
+    /// As [`Self::read`]. Values are not checked as those of a [`Material`] are.
+    pub fn planes_as_stored<T: Real>(&self, progress: &Progress) -> Result<(Planes<T>, [usize; 2]), Error> {
+        let energy = self.options.energy.or(Some(Energy::Scaled));
+        let scaled = Self { options: ReadOptions { energy, ..self.options }, ..*self };
+        let LocatedPath { used, located, .. } = scaled.located()?;
+        let options = &used.options.with_preset();
+        let stored = stored(located, options, progress)?;
+        let evidence = gather::evidences(&stored, options);
+        let mut linear = interpret::interpret(stored, evidence, options)?;
+        Ok((assemble::planes(&mut linear, options), linear.size))
+    }
+
+    /// What its reading depends on.
     ///
     /// # Errors
     /// Where the material cannot be located, or one of the files not be read.
-    pub fn of(path: &Path, options: &ReadOptions) -> Result<Self, Error> {
-        let saved = Sidecar::load(path)?;
-        let used = saved.clone().overridden_by(options, &[]);
-        let located = locate::locate(path, &saved, &used)?;
-        let sidecar = Sidecar::path_for(path);
+    pub fn dependencies(&self) -> Result<Dependencies, Error> {
+        let LocatedPath { saved, used, located } = self.located()?;
+        let sidecar = Sidecar::path_for(self.path);
         let mut hash = Sha256::new();
         hash.update(format!("{sidecar:?} {saved:?} {used:?} {located:?}"));
         let mut files = Vec::new();
@@ -169,20 +156,51 @@ impl Dependencies {
             hash.update(file.digest()?);
             files.push(file.path().to_owned());
         }
-        Ok(Self { sha256: hexadecimal(hash), files })
+        Ok(Dependencies { sha256: hexadecimal(hash), files })
+    }
+
+    /// The names that the material may have once it is read, found without its pixels; at least one.
+    pub fn possible_names(&self) -> Vec<String> {
+        let used = self.used(&Sidecar::load(self.path).unwrap_or_default()).options;
+        let found = locate::names(self.path, &used).unwrap_or_default();
+        if found.is_empty() {
+            vec![self.path.file_stem().unwrap_or(self.path.as_os_str()).to_string_lossy().into_owned()]
+        } else {
+            found
+        }
+    }
+
+    /// What is used of what is specified here and `saved` in the sidecar file.
+    fn used(&self, saved: &Sidecar) -> Sidecar {
+        let used = saved.clone().overridden_by(&self.options, self.bindings);
+        if self.is_alone { Sidecar { options: self.options, ..used } } else { used }
+    }
+
+    fn located(&self) -> Result<LocatedPath, Error> {
+        let saved = Sidecar::load(self.path)?;
+        let used = self.used(&saved);
+        let located = locate::locate(self.path, &saved, &used)?;
+        Ok(LocatedPath { saved, used, located })
     }
 }
 
-/// The names that the material at `path` may have once it is read, found without its pixels; at least one.
-pub fn possible_names(path: &Path, options: &ReadOptions) -> Vec<String> {
-    let saved = Sidecar::load(path).unwrap_or_default();
-    let used = saved.overridden_by(options, &[]).options;
-    let found = locate::names(path, &used).unwrap_or_default();
-    if found.is_empty() {
-        vec![path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()]
-    } else {
-        found
-    }
+/// A [`MaterialPath`], located.
+struct LocatedPath {
+    /// The content of the sidecar file.
+    saved: Sidecar,
+    /// What is specified, and saved where nothing is specified.
+    used: Sidecar,
+    located: Located,
+}
+
+/// What the reading of a material depends on, but for [`Neighbours`]: only the pixels tell whether these count.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Dependencies {
+    /// In hexadecimal: of the options, of what was located by names, listings and documents, and of the content of the sidecar file and
+    /// of `files`.
+    pub sha256: String,
+    /// Every file that may be decoded.
+    pub files: Vec<PathBuf>,
 }
 
 /// Reads a packed or layered image from memory; `name` is the name of the material.

@@ -17,7 +17,7 @@ use svbrdf_files::source::{MaterialSource, Place};
 /// Follows the folders of the training runs in the window.
 pub(super) fn follow(parts: &mut Parts) {
     let all = &parts.model.materials.all;
-    let ids: Vec<RunId> = all.iter().filter_map(|one| one.read.run.clone()).collect();
+    let ids: Vec<RunId> = all.iter().filter_map(|one| one.read.source.run.clone()).collect();
     let mut folders: Vec<PathBuf> = ids.iter().map(|id| id.folder.clone()).collect();
     folders.sort();
     folders.dedup();
@@ -41,8 +41,8 @@ fn open_new_runs(parts: &mut Parts, open: &[RunId], news: &RunNews) {
     let runs: Vec<RunId> =
         parts.jobs.training.scan.runs(&news.folder).iter().map(|run| run.id.clone()).collect();
     let is_in_folder =
-        |one: &&LoadedMaterial| one.read.run.as_ref().is_some_and(|run| run.folder == news.folder);
-    let like = parts.model.materials.all.iter().find(is_in_folder).map(|one| one.read.source());
+        |one: &&LoadedMaterial| one.read.source.run.as_ref().is_some_and(|run| run.folder == news.folder);
+    let like = parts.model.materials.all.iter().find(is_in_folder).map(|one| one.read.reopened());
     for run in runs {
         let is_new = parts.model.training.known.insert(run.clone()) && !open.contains(&run);
         let opens = is_new && news.before.is_some() && parts.model.settings.watch;
@@ -90,7 +90,7 @@ fn read_step(parts: &mut Parts, index: usize, step: &TrainingStep) {
 
 /// The training run of the material at this index.
 fn run_at(parts: &Parts, index: usize) -> Option<RunId> {
-    parts.model.materials.all.get(index).and_then(|one| one.read.run.clone())
+    parts.model.materials.all.get(index).and_then(|one| one.read.source.run.clone())
 }
 
 /// Reads a step of the run at this index. At the newest one, the window follows the run again.
@@ -134,9 +134,9 @@ fn follow_step_losses(parts: &mut Parts) {
     };
     let training = &mut jobs.training;
     let run = |one: &LoadedMaterial| {
-        let id = one.read.run.as_ref()?;
+        let id = one.read.source.run.as_ref()?;
         let run = training.scan.runs(&id.folder).iter().find(|run| run.id == *id)?;
-        Some(WantedRun { run, source: one.read.source().of_set() })
+        Some(WantedRun { run, source: one.read.reopened().of_set() })
     };
     let runs: Vec<_> = model.materials.predictions().iter().filter_map(run).collect();
     training.losses.follow(&jobs.waker, of, &runs, wanted);

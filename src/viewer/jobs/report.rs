@@ -60,7 +60,8 @@ impl ReportInputs {
     }
 
     fn html(self, path: &Path, progress: &Progress) -> Result<String, Error> {
-        let named = |(read, name): &(Arc<ReadMaterial>, String)| read.material.clone().renamed(name.clone());
+        let named =
+            |(read, name): &(Arc<ReadMaterial>, String)| read.material().clone().renamed(name.clone());
         let materials: Vec<Material<f32>> = self.materials.iter().map(named).collect();
         let materials: Vec<&Material<f32>> = materials.iter().collect();
         let findings = match materials.as_slice() {
@@ -83,9 +84,9 @@ impl ReportInputs {
 }
 
 /// The assumptions and notes of reading a material.
-fn reading(read: &ReadMaterial) -> Vec<String> {
-    let assumptions = read.assumptions.iter().map(ToString::to_string);
-    assumptions.chain(read.notes.iter().map(ToString::to_string)).collect()
+fn reading(ReadMaterial { record, .. }: &ReadMaterial) -> Vec<String> {
+    let assumptions = record.assumptions.iter().map(ToString::to_string);
+    assumptions.chain(record.notes.iter().map(ToString::to_string)).collect()
 }
 
 /// The command that makes the report at `path`, of a session beside it.

@@ -59,7 +59,7 @@ pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let (all, mut provenance) = (materials(displayed.materials()), provenance(displayed, content));
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = Destination::new(&path)?;
-        let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
+        let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
         let Provenance { scene, convention, exposure_ev, .. } = &provenance;
         let Pictures { images, content } =
             content.pictures(&all, scene, convention, *exposure_ev, progress)?;
@@ -95,7 +95,7 @@ pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let strip = Strip { columns, convention: state.convention(), exposure_ev: state.exposure_ev, crops };
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = PngDestination::new(&path)?;
-        let all: Vec<&Material<f32>> = all.iter().map(|loaded| &loaded.material).collect();
+        let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
         let picture = strip.picture(&all, &names, progress)?;
         destination.write(&picture, &strip.entries(&names), progress)?;
         Ok(path)

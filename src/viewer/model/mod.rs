@@ -15,7 +15,7 @@ pub mod session;
 pub mod settings;
 pub mod view;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::read::ReadOptions;
@@ -85,10 +85,10 @@ impl Model {
 
     /// The files of the materials, of the photograph and of the scenes, which nothing that is saved may replace.
     pub fn files(&self) -> impl Iterator<Item = &Path> {
-        let materials = self.materials.all.iter().flat_map(|material| &material.read.files);
+        let materials = self.materials.all.iter().flat_map(|material| &material.read.record.files);
         let photograph = self.photograph.source().map(|photograph| photograph.path.as_path());
         let scenes = self.settings.loss.file_scenes().map(|file| file.path.as_path());
-        materials.map(|(file, _)| file.as_path()).chain(photograph).chain(scenes)
+        materials.map(PathBuf::as_path).chain(photograph).chain(scenes)
     }
 
     /// Adds messages.

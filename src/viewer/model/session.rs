@@ -52,13 +52,20 @@ impl Model {
     /// The current session.
     pub fn session(&self) -> Session {
         let materials = self.materials.all.iter().map(|one| {
-            let (path, built_in) = match &one.read.place {
+            let (path, built_in) = match &one.read.source.place {
                 Place::Path(path) => (Some(std::path::absolute(path).unwrap_or_else(|_| path.clone())), None),
                 Place::BuiltIn(number) => (None, Some(*number)),
             };
-            let read = if built_in.is_some() { ReadOptions::AUTO } else { one.read.options };
-            let steps = one.read.run.is_some();
-            SessionMaterial { name: one.read.name.clone(), path, built_in, read, fit: one.read.fit, steps }
+            let read = if built_in.is_some() { ReadOptions::AUTO } else { one.read.record.options };
+            let steps = one.read.source.run.is_some();
+            SessionMaterial {
+                name: one.read.source.name.clone(),
+                path,
+                built_in,
+                read,
+                fit: one.read.source.fit,
+                steps,
+            }
         });
         let view = &self.view;
         let convention = view.convention.clone();

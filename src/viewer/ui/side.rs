@@ -127,7 +127,7 @@ fn unsure_reading(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Option<Command
 }
 
 fn unsure_guesses(displayed: Displayed<'_>) -> usize {
-    let all = displayed.model.materials.all.iter().flat_map(|one| &one.read.assumptions);
+    let all = displayed.model.materials.all.iter().flat_map(|one| &one.read.record.assumptions);
     all.filter(|assumption| assumption.certainty == Certainty::Unsure).count()
 }
 

@@ -178,7 +178,8 @@ fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
         window.get_by_label("Read with normal y down").click();
         window.run_steps(3);
         wait(&mut window, "the file to be read again", |app| {
-            !app.is_reading() && app.parts.model.materials.all[1].read.options.normal_y == Some(NormalY::Down)
+            !app.is_reading()
+                && app.parts.model.materials.all[1].read.record.options.normal_y == Some(NormalY::Down)
         });
         let [truth, read] = [0, 1].map(|index| window.state().materials().nth(index).unwrap().clone());
         let far = |a: &Material<f32>, b: &Material<f32>| {

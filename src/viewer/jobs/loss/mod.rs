@@ -179,7 +179,7 @@ impl LossJob {
 
 fn start(waker: &Waker, materials: &MaterialList, query: &LossQuery) -> RunningLoss {
     let key = key(materials, query);
-    let named = |s: &LoadedMaterial| s.read.material.clone().renamed(s.name());
+    let named = |s: &LoadedMaterial| s.material().clone().renamed(s.name());
     let materials: Vec<Material<f32>> = materials.all.iter().map(named).collect();
     let LossQuery { request, convention } = query.clone();
     let of = key.clone();

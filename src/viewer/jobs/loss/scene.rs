@@ -32,7 +32,7 @@ impl SceneLossJob {
         self.0.follow(wanted, |key| {
             let (materials, request) = (work.materials(), Request::Listed(vec![key.scene]));
             Job::start(work.waker, move |progress| {
-                let materials: Vec<&Material<f32>> = materials.iter().map(|l| &l.material).collect();
+                let materials: Vec<&Material<f32>> = materials.iter().map(|l| l.material()).collect();
                 let comparison = Comparison::new(materials[0], &materials[1..], convention)?;
                 let outcome = comparison.run(&request, progress)?;
                 Ok(outcome.losses.iter().map(|loss| loss.estimate.mean).collect())

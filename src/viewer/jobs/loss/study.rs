@@ -83,7 +83,7 @@ impl StudyJob {
         let convention = *convention;
         let job = Job::stream(waker, Progress::default(), move |worker| {
             // The window computes its loss on the CPU.
-            let (ground_truth, prediction) = (&ground_truth.material, &prediction.material);
+            let (ground_truth, prediction) = (ground_truth.material(), prediction.material());
             let pair = Pair { ground_truth, prediction, convention, gpu: None };
             let study = study::run(&pair, &worker.progress, |study| {
                 // Where the window has dropped this job, its progress ends the work.

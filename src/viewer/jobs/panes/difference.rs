@@ -105,7 +105,7 @@ fn start(work: &JobContext<'_>) -> Job<ComputedDifference> {
     let params = DifferenceParams { epsilon: convention.epsilon, exposure_ev: state.exposure_ev };
     Job::start(work.waker, move |progress| {
         let image =
-            |loaded: &Arc<ReadMaterial>| quantity.image(&loaded.material, &scene, &convention, progress);
+            |loaded: &Arc<ReadMaterial>| quantity.image(loaded.material(), &scene, &convention, progress);
         let ground_truth = image(&materials[0])?;
         let predictions = materials[1..].iter().map(image);
         if kind == Difference::Flip {

@@ -87,7 +87,7 @@ fn maps(
     gpu: Option<&Gpu>,
     progress: &Progress,
 ) -> Result<ComputedMaps, Error> {
-    let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| &loaded.material).collect();
+    let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| loaded.material()).collect();
     let comparison = Comparison::new(materials[0], &materials[1..], *convention)?;
     let scenes = scenes.scenes(convention)?.unwrap_or_default();
     let images = error_maps(&comparison, &scenes, progress)?;

@@ -84,7 +84,7 @@ fn values(
 ) -> Result<Values, Error> {
     let images = materials
         .iter()
-        .map(|loaded| quantity.image(&loaded.material, scene, convention, progress))
+        .map(|loaded| quantity.image(loaded.material(), scene, convention, progress))
         .collect::<Result<Vec<_>, _>>()?;
     let channel = |c: usize| {
         let planes: Vec<Vec<f32>> =

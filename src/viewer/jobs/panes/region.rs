@@ -53,7 +53,7 @@ impl RegionJob {
             let materials = work.materials();
             let (region, quantity, scene) = (key.region, key.quantity, key.scene);
             Job::start(work.waker, move |_| {
-                let materials = materials.iter().map(|loaded| &loaded.material);
+                let materials = materials.iter().map(|loaded| loaded.material());
                 Ok(numbers(materials, region, quantity, &scene, &convention))
             })
         })

@@ -52,7 +52,7 @@ impl ReplacementJob {
             let (replacement, gpu) = (key.replacement, work.gpu.cloned());
             Job::start(work.waker, move |_| {
                 let read = Arc::new(replacement.made(&pair)?);
-                let uploaded = gpu.map(|gpu| Arc::new(Uploaded::all(&gpu, &read.material)));
+                let uploaded = gpu.map(|gpu| Arc::new(Uploaded::all(&gpu, read.material())));
                 Ok((read, uploaded))
             })
         });
@@ -100,7 +100,7 @@ fn key(materials: &[LoadedMaterial], state: &ViewState) -> Option<ReplacementKey
 impl Replacement {
     /// The replacement made of a ground truth and a prediction.
     fn made(self, [ground_truth, prediction]: &[Arc<ReadMaterial>; 2]) -> Result<ReadMaterial, Error> {
-        let (truth, predicted) = (&ground_truth.material, &prediction.material);
+        let (truth, predicted) = (ground_truth.material(), prediction.material());
         let mixed = |base: &Material<f32>, other, map| base.with_maps_of(other, |of| of == map);
         let material = match self {
             Self::Mixture { map, only_right: true } => mixed(predicted, truth, map)?,

@@ -94,7 +94,7 @@ pub fn compare(
     let corrected = key.falloff.then(|| rectified.clone().without_falloff(&key.scene));
     let rectified = corrected.as_ref().unwrap_or(rectified);
     let one =
-        |loaded: &Arc<ReadMaterial>| rectified.compare(&loaded.material, &key.scene, convention, progress);
+        |loaded: &Arc<ReadMaterial>| rectified.compare(loaded.material(), &key.scene, convention, progress);
     let comparisons = materials.iter().map(one).collect::<Result<Vec<_>, _>>()?;
     let values: Vec<_> = comparisons.iter().map(|compared| compared.differences(key.kind)).collect();
     let distributions = Distributions::of(&values, key.kind.is_signed());

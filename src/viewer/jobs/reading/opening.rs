@@ -229,7 +229,7 @@ impl OpeningWork {
         let Some(gpu) = &self.gpu else { return };
         // What is displayed stays when the rest is cancelled, and becomes whole.
         for (read, uploaded) in rests {
-            uploaded.complete(gpu, &read.material);
+            uploaded.complete(gpu, read.material());
             worker.wake();
         }
     }
@@ -267,7 +267,7 @@ impl OpeningWork {
             Err(error) => return worker.report((Arrival::Failed(Box::new(source), error), None)),
         };
         let Some(gpu) = &self.gpu else { return worker.report((Arrival::Read(read), None)) };
-        let uploaded = Arc::new((self.upload)(gpu, &read.material));
+        let uploaded = Arc::new((self.upload)(gpu, read.material()));
         worker.report((Arrival::Read(read.clone()), Some((read.id, uploaded.clone()))))?;
         // Where that thread has panicked, this one does as well when it has read everything.
         let _ = rests.send((read, uploaded));
@@ -289,7 +289,7 @@ mod tests {
         let mut read = samples::load::<f32>().unwrap().ground_truth;
         read.material = read.material.resized([1024, 515]).unwrap();
         let read = Arc::new(ReadMaterial::new(MaterialSource::built_in(0), read));
-        let uploaded = Arc::new(Uploaded::start(&gpu, &read.material));
+        let uploaded = Arc::new(Uploaded::start(&gpu, read.material()));
         let (rests, rest) = mpsc::channel();
         rests.send((read, uploaded.clone())).unwrap();
         drop(rests);

@@ -8,8 +8,6 @@ use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error as FilesError;
 use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::read;
-use svbrdf_files::samples;
 use svbrdf_files::steps::{RunId, TrainingRun, TrainingStep, runs_in};
 
 use crate::error::Error;
@@ -37,7 +35,7 @@ pub struct MaterialReader {
 /// retries.
 ///
 /// # Errors
-/// Those of [`read::read`], and [`CoreError::Cancelled`].
+/// Those of [`MaterialSource::read`], and [`CoreError::Cancelled`].
 pub fn read_with_retries(
     source: &MaterialSource,
     reader: &mut MaterialReader,
@@ -97,12 +95,8 @@ fn read(
     progress: &Progress,
 ) -> Result<ReadMaterial, Error> {
     match &source.place {
-        Place::BuiltIn(number) => {
-            let samples = samples::load::<f32>()?;
-            let mut all = std::iter::once(samples.ground_truth).chain(samples.predictions);
-            let read = all
-                .nth(*number)
-                .ok_or_else(|| Error::internal(format!("there is no built-in material {number}")))?;
+        Place::BuiltIn(_) => {
+            let read = source.read(progress)?;
             reader.size.get_or_insert(read.material.size());
             Ok(ReadMaterial::new(source, read))
         }
@@ -122,11 +116,8 @@ fn read_path(
     reader: &mut MaterialReader,
     progress: &Progress,
 ) -> Result<ReadMaterial, Error> {
-    let read = match &source.chosen {
-        Some(options) => read::read_as::<f32>(&path, options, progress)?,
-        None => read::read::<f32>(&path, &source.options, progress)?,
-    };
     let source = MaterialSource { place: Place::Path(path.clone()), ..source };
+    let read = source.read(progress)?;
     reader.rules.take(&path, source, read, &mut reader.size)
 }
 

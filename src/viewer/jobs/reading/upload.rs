@@ -159,7 +159,7 @@ impl Uploads {
         }
         let gpu = gpu.clone();
         self.again = Some(Job::stream(waker, Progress::default(), move |worker| {
-            let send = |read: &Arc<ReadMaterial>| Arc::new(Uploaded::all(&gpu, &read.material));
+            let send = |read: &Arc<ReadMaterial>| Arc::new(Uploaded::all(&gpu, read.material()));
             missing.iter().try_for_each(|read| worker.report((read.id, send(read))))
         }));
     }

@@ -47,7 +47,7 @@ impl FileWatch {
         let ids: Vec<MaterialId> = materials.all.iter().map(LoadedMaterial::id).collect();
         if self.watcher.is_none() || self.ids != ids {
             let watcher = self.watcher.get_or_insert_with(|| Watcher::start(waker, INTERVAL));
-            watcher.watch(materials.all.iter().map(|one| (one.id(), one.read.files.clone())).collect());
+            watcher.watch(materials.all.iter().map(|one| (one.id(), one.read.files())).collect());
             self.ids = ids;
         }
         let changes = self.watcher.iter().flat_map(Watcher::changes);

@@ -144,10 +144,10 @@ fn start(waker: &Waker, of: RunLossesKey, tasks: Vec<StepTask>) -> Job<(), Compu
 }
 
 fn loss(of: &RunLossesKey, source: &MaterialSource, progress: &Progress) -> Result<Estimate, Error> {
-    let truth = &of.ground_truth.material;
+    let truth = of.ground_truth.material();
     let mut reader = MaterialReader { rules: of.rules, size: Some(truth.size()), retries: true };
     let prediction = read_with_retries(source, &mut reader, &progress.part())?;
-    let comparison = Comparison::new(truth, &[&prediction.material], of.query.convention)?;
+    let comparison = Comparison::new(truth, &[prediction.material()], of.query.convention)?;
     let outcome = comparison.run(&of.query.request, &progress.part())?;
     outcome.losses.first().map(|loss| loss.estimate).ok_or_else(|| Error::internal("no loss"))
 }

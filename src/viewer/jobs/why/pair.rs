@@ -55,11 +55,11 @@ impl ComparedPair {
     }
 
     pub fn ground_truth(&self) -> &Material<f32> {
-        &self.materials[0].material
+        self.materials[0].material()
     }
 
     pub fn prediction(&self) -> &Material<f32> {
-        &self.materials[1].material
+        self.materials[1].material()
     }
 
     pub fn ground_truth_key(&self) -> GroundTruthKey {

@@ -11,9 +11,9 @@ use svbrdf_files::source::Place;
 /// Computes the exposure where its state asks for it. Called in every frame.
 pub fn follow(model: &mut Model) {
     let Some(ground_truth) = model.materials.ground_truth() else { return };
-    let is_here = |place: &Place| model.materials.all.iter().any(|one| one.read.place == *place);
+    let is_here = |place: &Place| model.materials.all.iter().any(|one| one.read.source.place == *place);
     let now = Exposed::For {
-        ground_truth: ground_truth.read.place.clone(),
+        ground_truth: ground_truth.read.source.place.clone(),
         scene: model.view.scene,
         convention: model.view.convention.clone(),
     };

@@ -12,7 +12,7 @@ pub(super) fn apply(model: &mut Model, command: TrainingCommand) -> Vec<Effect> 
         TrainingCommand::Move(by) => vec![Effect::MoveStep(by)],
         TrainingCommand::Keep(index) => {
             let source =
-                model.materials.all.get(index).map(|one| MaterialSource { run: None, ..one.read.source() });
+                model.materials.all.get(index).map(|one| MaterialSource { run: None, ..one.read.reopened() });
             let request = source.map(|source| ReadRequest::new(vec![source], Target::Predictions));
             request.map(Effect::Read).into_iter().collect()
         }

@@ -45,13 +45,13 @@ impl MaterialList {
 
     /// Whether there are only built-in materials, which the first opened material replaces.
     pub fn only_built_in(&self) -> bool {
-        self.all.iter().all(|one| matches!(one.read.place, Place::BuiltIn(_)))
+        self.all.iter().all(|one| matches!(one.read.source.place, Place::BuiltIn(_)))
     }
 
     /// How materials are read that are added to those in the window: as the last of them that comes from a file.
     pub fn read_of_added(&self) -> ReadOptions {
-        let from_files = self.all.iter().rev().find(|one| matches!(one.read.place, Place::Path(_)));
-        from_files.map_or(ReadOptions::AUTO, |one| ReadOptions { exemplar: None, ..one.read.options })
+        let from_files = self.all.iter().rev().find(|one| matches!(one.read.source.place, Place::Path(_)));
+        from_files.map_or(ReadOptions::AUTO, |one| ReadOptions { exemplar: None, ..one.read.record.options })
     }
 
     /// Whether the files of a material hold something else by now, so that results of the materials are stale.
@@ -67,14 +67,14 @@ impl MaterialList {
 
     /// What it takes to open this set of materials again.
     pub fn sources(&self) -> Vec<MaterialSource> {
-        self.all.iter().map(|one| one.read.source().of_set()).collect()
+        self.all.iter().map(|one| one.read.reopened().of_set()).collect()
     }
 
     /// The request that makes these the materials in the window. Those that are there already are not read again.
     pub fn restore(&self, sources: &[MaterialSource]) -> ReadRequest {
         let mut there = self.all.clone();
         let is = |material: &LoadedMaterial, source: &MaterialSource| {
-            let there = material.read.source();
+            let there = material.read.reopened();
             there == *source || there.of_set() == *source
         };
         let item = |source: &MaterialSource| match there.iter().position(|one| is(one, source)) {
@@ -142,7 +142,7 @@ impl MaterialList {
         if let Some(sizes) = self.ground_truth().and_then(|ground_truth| mismatch(ground_truth, &read)) {
             return problems.push(MaterialProblem::Refused(Box::new(sizes)));
         }
-        if let Place::Path(path) = &read.place {
+        if let Place::Path(path) = &read.source.place {
             self.read.push(path.clone());
         }
         self.all.push(LoadedMaterial::new(read));
@@ -184,10 +184,10 @@ impl MaterialList {
     /// The request that reads the material at `index` again, with changes of its source; `None` for a built-in one.
     fn again(&self, index: usize, change: impl FnOnce(&mut MaterialSource)) -> Option<ReadRequest> {
         let material = self.all.get(index)?;
-        if matches!(material.read.place, Place::BuiltIn(_)) {
+        if matches!(material.read.source.place, Place::BuiltIn(_)) {
             return None;
         }
-        let (mut source, target) = (material.read.source(), Target::Again(material.id()));
+        let (mut source, target) = (material.read.reopened(), Target::Again(material.id()));
         change(&mut source);
         Some(ReadRequest::new(vec![source], target))
     }
@@ -198,8 +198,8 @@ impl MaterialList {
     /// Those of [`Sidecar`].
     pub fn save_assumptions(&self, index: usize) -> Result<Option<ReadRequest>, Error> {
         let Some(material) = self.all.get(index) else { return Ok(None) };
-        let Place::Path(path) = &material.read.place else { return Ok(None) };
-        Sidecar { options: material.read.options, ..Sidecar::load(path)? }
+        let Place::Path(path) = &material.read.source.place else { return Ok(None) };
+        Sidecar { options: material.read.record.options, ..Sidecar::load(path)? }
             .save(path, &Progress::default())?;
         Ok(self.again(index, |source| (source.options, source.chosen) = (ReadOptions::AUTO, None)))
     }

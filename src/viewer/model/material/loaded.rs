@@ -20,7 +20,7 @@ pub struct LoadedMaterial {
 
 impl LoadedMaterial {
     pub fn new(read: Arc<ReadMaterial>) -> Self {
-        let name = read.material.name().to_owned();
+        let name = read.material().name().to_owned();
         Self { read, problem: None, name }
     }
 
@@ -35,11 +35,11 @@ impl LoadedMaterial {
     }
 
     pub fn material(&self) -> &Material<f32> {
-        &self.read.material
+        self.read.material()
     }
 
     pub fn grid(&self) -> Grid {
-        self.read.material.grid()
+        self.material().grid()
     }
 
     pub fn name(&self) -> &str {
@@ -72,13 +72,13 @@ pub fn rename(materials: &mut [LoadedMaterial]) {
 
 /// The two sizes, where `prediction` has another size than the ground truth.
 pub fn mismatch(ground_truth: &LoadedMaterial, prediction: &ReadMaterial) -> Option<SizeMismatch> {
-    let [gt, material] = [ground_truth.material(), &prediction.material];
+    let [gt, material] = [ground_truth.material(), prediction.material()];
     (gt.size() != material.size()).then(|| SizeMismatch {
         prediction: material.name().to_owned(),
         prediction_size: material.size(),
         ground_truth: gt.name().to_owned(),
         ground_truth_size: gt.size(),
-        source: prediction.source(),
+        source: prediction.reopened(),
     })
 }
 

@@ -1,14 +1,12 @@
 //! Read material: the four maps of a material, with all that was learnt in reading them.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::diagnose::Storage;
-use svbrdf_files::disk::memory::Reserved;
 use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::read::{Assumption, MapReport, Note, Read, ReadOptions};
+use svbrdf_files::read::{Note, Read};
 use svbrdf_files::steps::RunId;
 
 use svbrdf_files::source::{MaterialSource, Place};
@@ -30,117 +28,75 @@ impl MaterialId {
         Self { reading, stamp: Stamp::default() }
     }
 
-    fn new(files: &[(PathBuf, Option<Stamp>)]) -> Self {
+    fn new(stamps: &[Option<Stamp>]) -> Self {
         static READINGS: AtomicU64 = AtomicU64::new(0);
-        let stamps = files.iter().filter_map(|(_, stamp)| *stamp);
-        let stamp = stamps.fold(Stamp::default(), Stamp::with);
+        let stamp = stamps.iter().flatten().copied().fold(Stamp::default(), Stamp::with);
         Self { reading: READINGS.fetch_add(1, Ordering::Relaxed), stamp }
     }
 }
 
-/// A material that has been read.
+/// A material that has been read, and where it comes from.
 #[derive(Debug)]
 pub struct ReadMaterial {
     pub id: MaterialId,
-    /// The name that it is given; `None` for that of its files.
-    pub name: Option<String>,
-    pub place: Place,
-    /// The options specified when it was opened.
-    pub specified: ReadOptions,
-    /// The options it was read with: those specified or saved, and those chosen since.
-    pub options: ReadOptions,
-    /// The options saved in its sidecar file.
-    pub saved: ReadOptions,
-    /// Whether it is resized to the ground truth.
-    pub fit: bool,
-    /// The training run that it is a step of.
-    pub run: Option<RunId>,
-    pub material: Material<f32>,
+    /// Where it comes from, and how it was specified when it was opened.
+    pub source: MaterialSource,
+    /// Its maps, and how they were read.
+    pub record: Read<f32>,
     /// How its maps are stored, for its diagnosis.
     pub storage: Storage,
-    /// Remarks on the reading.
-    pub notes: Vec<Note>,
-    pub assumptions: Vec<Assumption>,
-    /// Each map as stored.
-    pub maps: Vec<MapReport>,
-    /// The files that were read, each with its stamp.
-    pub files: Vec<(PathBuf, Option<Stamp>)>,
-    /// The memory of the material. It counts towards the limit while this lives.
-    pub memory: Arc<Reserved>,
+    /// The stamps of the files that were read, in their order.
+    stamps: Vec<Option<Stamp>>,
 }
 
 impl ReadMaterial {
     /// The material of what was read from `source`.
-    pub fn new(source: MaterialSource, read: Read<f32>) -> Self {
-        let storage = read.storage();
-        let files: Vec<_> =
-            read.files.into_iter().map(|path| (Stamp::of(&path), path)).map(|(s, p)| (p, s)).collect();
-        let Read { material, assumptions, notes, maps, options, saved, memory, .. } = read;
-        let MaterialSource { name, place, options: specified, fit, run, .. } = source;
-        let id = MaterialId::new(&files);
-        Self {
-            id,
-            name,
-            place,
-            specified,
-            options,
-            saved,
-            fit,
-            run,
-            material,
-            storage,
-            notes,
-            assumptions,
-            maps,
-            files,
-            memory,
-        }
+    pub fn new(source: MaterialSource, record: Read<f32>) -> Self {
+        let storage = record.storage();
+        let stamps: Vec<_> = record.files.iter().map(|path| Stamp::of(path)).collect();
+        Self { id: MaterialId::new(&stamps), source, record, storage, stamps }
+    }
+
+    pub fn material(&self) -> &Material<f32> {
+        &self.record.material
     }
 
     /// The path it was read from; empty for a built-in one.
     pub fn path(&self) -> &Path {
-        match &self.place {
-            Place::BuiltIn(_) => Path::new(""),
-            Place::Path(path) => path,
-        }
+        self.source.location()
+    }
+
+    /// The files that were read, each with its stamp.
+    pub fn files(&self) -> Vec<(PathBuf, Option<Stamp>)> {
+        self.record.files.iter().cloned().zip(self.stamps.iter().copied()).collect()
     }
 
     /// This material with other maps, which no file holds.
     pub fn with_material(&self, material: Material<f32>) -> Self {
-        let Self { name, place, specified, options, saved, fit, run, .. } = self;
-        Self {
-            id: MaterialId::new(&[]),
-            name: name.clone(),
-            place: place.clone(),
-            specified: *specified,
-            options: *options,
-            saved: *saved,
-            fit: *fit,
-            run: run.clone(),
+        let record = Read {
             material,
-            storage: self.storage.clone(),
-            notes: Vec::new(),
             assumptions: Vec::new(),
+            notes: Vec::new(),
             maps: Vec::new(),
             files: Vec::new(),
-            memory: self.memory.clone(),
-        }
+            ..self.record.clone()
+        };
+        let (source, storage) = (self.source.clone(), self.storage.clone());
+        Self { id: MaterialId::new(&[]), source, record, storage, stamps: Vec::new() }
     }
 
     /// The training run that it is a step of, and the number of the step.
     pub fn step(&self) -> Option<(&RunId, u64)> {
         let (_, number) = RunId::of_step(self.path())?;
-        Some((self.run.as_ref()?, number))
+        Some((self.source.run.as_ref()?, number))
     }
 
     /// What it takes to open it again.
-    pub fn source(&self) -> MaterialSource {
+    pub fn reopened(&self) -> MaterialSource {
+        let Read { options, saved, .. } = self.record;
         let is_chosen =
-            matches!(self.place, Place::Path(_)) && self.options != self.specified.over(self.saved);
-        let chosen = is_chosen.then_some(self.options);
-        let (place, run) = (self.place.clone(), self.run.clone());
-        let (name, options, fit) = (self.name.clone(), self.specified, self.fit);
-        MaterialSource { name, place, options, chosen, fit, run }
+            matches!(self.source.place, Place::Path(_)) && options != self.source.options.over(saved);
+        MaterialSource { chosen: is_chosen.then_some(options), ..self.source.clone() }
     }
 }
 

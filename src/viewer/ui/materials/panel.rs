@@ -69,8 +69,8 @@ impl MaterialsPanel<'_> {
 
 /// The button that saves the chosen assumptions, where they are not the saved ones.
 fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands: &mut Vec<Command>) {
-    let (Place::Path(path), loaded) = (&material.read.place, &material.read) else { return };
-    if loaded.options == loaded.saved {
+    let (Place::Path(path), record) = (&material.read.source.place, &material.read.record) else { return };
+    if record.options == record.saved {
         return;
     }
     let button = ui.button("Save assumptions");
@@ -88,7 +88,7 @@ fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, comma
 
 /// The names of a file of several materials, to choose one.
 fn chooser(ui: &mut egui::Ui, material: &LoadedMaterial, read: &mut ReadOptions) {
-    let names = material.read.notes.iter().find_map(|note| match note {
+    let names = material.read.record.notes.iter().find_map(|note| match note {
         Note::Materials { names, index } => Some((names, *index)),
         _ => None,
     });
@@ -150,7 +150,7 @@ fn section(
     findings: &[&Finding],
     commands: &mut Vec<Command>,
 ) {
-    let loaded = &material.read;
+    let (record, place) = (&material.read.record, &material.read.source.place);
     let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
     let colour = if index == 0 { theme::ground_truth(ui.visuals()) } else { ui.visuals().text_color() };
     ui.horizontal(|ui| {
@@ -165,39 +165,41 @@ fn section(
             }
         }
     });
-    let [width, height] = loaded.material.size();
+    let [width, height] = record.material.size();
     ui.add(egui::Label::new(RichText::new(material.name()).strong()).truncate());
-    let place = match &loaded.place {
+    let location = match place {
         Place::BuiltIn(_) => "built in".to_owned(),
         Place::Path(path) => path.display().to_string(),
     };
-    ui.add(egui::Label::new(RichText::new(format!("{width} x {height}, {place}")).small().weak()).truncate());
+    ui.add(
+        egui::Label::new(RichText::new(format!("{width} x {height}, {location}")).small().weak()).truncate(),
+    );
     if let Some(problem) = &material.problem {
         ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
     }
-    for one in assumptions::lines(&loaded.assumptions) {
+    for one in assumptions::lines(&record.assumptions) {
         line(ui, &one);
     }
     commands.extend(findings.iter().flat_map(|finding| finding_line(ui, index, material, finding)));
     // Which file is which map stands in "As stored".
-    for note in loaded.notes.iter().filter(|note| !note.is_routine()) {
+    for note in record.notes.iter().filter(|note| !note.is_routine()) {
         let text = RichText::new(note.to_string()).small();
         ui.label(if note.changes_look() { text.color(ui.visuals().warn_fg_color) } else { text });
     }
-    if matches!(loaded.place, Place::Path(_)) {
-        let mut read = loaded.options;
+    if matches!(place, Place::Path(_)) {
+        let mut read = record.options;
         chooser(ui, material, &mut read);
         let change = ui.collapsing("Change...", |ui| {
-            read_options(ui, material.name(), &mut read, &loaded.assumptions);
+            read_options(ui, material.name(), &mut read, &record.assumptions);
         });
         change.header_response.on_hover_text("Say how its files are to be read");
-        if read != loaded.options {
+        if read != record.options {
             commands.push(MaterialsCommand::ReadAs { index, read }.into());
         }
         save_button(ui, index, material, commands);
     }
     let stored = ui.collapsing("As stored", |ui| {
-        for map in &loaded.maps {
+        for map in &record.maps {
             ui.label(RichText::new(map.to_string()).small());
         }
     });

@@ -11,8 +11,8 @@ use svbrdf_files::source::Place;
 /// Whether a material can be read again with the option: one of a file that does not have it yet.
 pub fn is_offered(material: &LoadedMaterial, remedy: Remedy) -> bool {
     let read = &material.read;
-    let with = read.options.with_remedy(remedy);
-    matches!(read.place, Place::Path(_)) && with.is_ok_and(|with| with != read.options)
+    let with = read.record.options.with_remedy(remedy);
+    matches!(read.source.place, Place::Path(_)) && with.is_ok_and(|with| with != read.record.options)
 }
 
 /// The button for the material at `index`; a click reads it again, and shows it as it is read.
@@ -30,7 +30,7 @@ pub fn remedy_button(
         material.name()
     );
     let clicked = button.on_hover_text(hover).clicked();
-    match material.read.options.with_remedy(remedy) {
+    match material.read.record.options.with_remedy(remedy) {
         Ok(read) if clicked => {
             vec![DisplayCommand::Correct(None).into(), MaterialsCommand::ReadAs { index, read }.into()]
         }
