@@ -110,7 +110,8 @@ fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     wait(&mut window, "the losses", |app| app.losses().is_some());
     window.run_steps(2);
     let size = window.state().picture_size();
-    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, egui::Key::C);
+    let (key, modifiers) = (egui::Key::C, Modifiers::COMMAND | Modifiers::SHIFT);
+    window.event(egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers });
     // Each frame has its own output: the copy is in one of them.
     let mut copied = None;
     for _ in 0..20 {

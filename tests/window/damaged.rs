@@ -12,9 +12,9 @@ use super::soak::below;
 use super::*;
 
 /// Sessions of the usual run.
-const SESSIONS: u64 = 60;
+const SESSIONS: u64 = 40;
 /// Windows that get random settings, as loaded at the start.
-const WINDOWS: u64 = 8;
+const WINDOWS: u64 = 4;
 
 /// The places of all values that contain no others.
 fn leaves(value: &Value, place: &str, found: &mut Vec<String>) {

@@ -31,6 +31,12 @@ fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
     let panned = window.state().parts.model.view.clone();
     assert_eq!(panned.scene, moved.scene);
     assert_panned(&window, rect, [0.1, -0.1]);
+    // On a map, the left button pans, too.
+    press(&mut window, egui::Key::F);
+    press(&mut window, egui::Key::M);
+    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
+    assert_eq!(window.state().parts.model.view.scene, panned.scene);
+    assert_panned(&window, rect, [0.1, -0.1]);
 }
 
 #[needs(adapter)]

@@ -75,7 +75,7 @@ fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
 }
 
 /// The program `svbrdf` of the same build: cargo gives its path to the tests of its own package only.
-fn program() -> PathBuf {
+pub fn program() -> PathBuf {
     let test = std::env::current_exe().unwrap();
     let program =
         test.parent().unwrap().with_file_name("svbrdf").with_extension(std::env::consts::EXE_EXTENSION);

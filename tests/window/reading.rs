@@ -88,13 +88,6 @@ fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
     window.run_steps(30);
     apply(&mut window, DisplayCommand::Redo);
     wait(&mut window, "the built-in pair", |app| app.names().len() == 3);
-    wait(&mut window, "the end of reading", |app| !app.is_reading());
-    window.run_steps(30);
-    apply(&mut window, MaterialsCommand::Close(2));
-    window.run_steps(30);
-    assert_eq!(window.state().names().len(), 2);
-    apply(&mut window, DisplayCommand::Undo);
-    wait(&mut window, "the closed prediction", |app| app.names().len() == 3);
 }
 
 #[needs(adapter)]

@@ -42,11 +42,24 @@ fn saved_renderings_are_what_is_selected() {
 
 #[needs(adapter)]
 #[test]
-fn a_saved_strip_has_the_rectangle_as_a_crop() {
+fn a_saved_strip_is_that_of_the_session_and_has_the_rectangle_as_a_crop() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
-    let [plain, cropped] = ["plain.png", "cropped.png"].map(|name| folder.path().join(name));
+    let [plain, cropped, session] =
+        ["plain.png", "cropped.png", "a.svbrdf-session.json"].map(|name| folder.path().join(name));
+    let rect = pane(&window, GROUND_TRUTH);
+    drag_primary(&mut window, rect, vec2(0.7, 0.3), vec2(0.2, 0.8));
     save(&mut window, SaveKind::Strip, &plain);
+    save(&mut window, SaveKind::Session, &session);
+    let strip = |arguments: &[&Path]| {
+        let path = folder.path().join("strip.png");
+        let mut command = crate::surroundings::command(super::loss_panel::program());
+        let output = command.arg("strip").args(arguments).arg("-o").arg(&path).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        image::open(path).unwrap()
+    };
+    assert!(strip(&[&session]) == image::open(&plain).unwrap());
+    assert!(strip(&[]) != image::open(&plain).unwrap(), "a planted fault: another light");
     let region = Region { first: [40, 60], last: [71, 79] };
     apply(&mut window, InspectionCommand::SetRegion(Some(region)));
     save(&mut window, SaveKind::Strip, &cropped);

@@ -39,14 +39,3 @@ fn the_difference_to_the_chosen_prediction_has_its_sign_and_its_verdict() {
     let label = difference(&window, "\u{2191} worse");
     assert!(gives(&label, -mean), "{label}, expected {}", -mean);
 }
-
-#[needs(adapter)]
-#[test]
-fn what_cannot_be_told_apart_is_said_so() {
-    let mut window = by_scenes();
-    enter(&mut window, "Near-field scenes", "2");
-    enter(&mut window, "Distant scenes", "2");
-    wait(&mut window, "the loss", |app| app.losses().is_some());
-    window.get_by_label_contains("no significant difference");
-    assert!(!has(&window, "\u{2193} better"));
-}

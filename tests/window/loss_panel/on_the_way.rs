@@ -18,7 +18,7 @@ fn shown(window: &Window<'_>) -> Vec<String> {
 
 #[needs(adapter)]
 #[test]
-fn an_accuracy_is_asked_for_and_kept() {
+fn an_accuracy_is_asked_for_and_kept_and_a_time_gives_a_loss_with_its_interval() {
     let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     click(&mut window, "Accuracy");
@@ -32,12 +32,7 @@ fn an_accuracy_is_asked_for_and_kept() {
         assert!(loss.per_scene.len() > 9, "+-6% of these takes more than 9 scenes");
     }
     assert!(!has(&window, "Not within"));
-}
 
-#[needs(adapter)]
-#[test]
-fn a_time_gives_a_loss_with_its_interval() {
-    let mut window = by_scenes();
     click(&mut window, "Time");
     enter(&mut window, "Time", "20");
     assert_eq!(window.state().parts.model.settings.loss.time_ms, 20);

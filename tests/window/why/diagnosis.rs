@@ -76,7 +76,7 @@ fn lines(window: &Window<'_>) -> Vec<String> {
 
 #[needs(adapter)]
 #[test]
-fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_prediction() {
+fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_folded() {
     let (_folder, mut window) = diagnosed();
     let found = wait_for_diagnosis(&mut window);
     let materials: Vec<Material<f32>> = window.state().materials().cloned().collect();
@@ -86,22 +86,44 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_predictio
     let pair = [&materials[0], &materials[1]];
     let expected = diagnose(pair, storages.each_ref(), &PRINTED, floor, 0, &Progress::default()).unwrap();
     assert_eq!(found, expected);
-    let marked: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
-    assert_eq!(marked, [Hypothesis::NormalY]);
-    let lines = lines(&window);
-    assert_eq!(lines.len(), found.findings.len(), "{lines:?}");
+    let hypotheses: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
+    assert_eq!(hypotheses, [Hypothesis::NormalY]);
+    let all = lines(&window);
+    assert_eq!(all.len(), found.findings.len(), "{all:?}");
     let share = 100.0 * found.marked().next().unwrap().share.unwrap();
-    assert_eq!(lines[0], format!("Normal Y flipped: {share:.1}% of the loss, marked"));
-    assert!(lines[1..].iter().all(|line| !line.ends_with("marked")), "{lines:?}");
+    assert_eq!(all[0], format!("Normal Y flipped: {share:.1}% of the loss, marked"));
+    assert!(all[1..].iter().all(|line| !line.ends_with("marked")), "{all:?}");
     window.get_by_label_contains("Reading the normals with Y down would lower the loss by");
-    // The other prediction, whose error is none of these.
+    // Folded, those without a mark are behind one line.
+    unfold(&mut window, false);
+    let marked = lines(&window);
+    assert_eq!(marked.len(), 1, "{marked:?}");
+    assert!(marked[0].starts_with("Normal Y flipped: ") && marked[0].ends_with("marked"), "{marked:?}");
+    let others = found.findings.len() - 1;
+    let header = format!("{others} other explanations: none marked");
+    let below = window.get_by_label("Which map").rect().top();
+    click(&mut window, &header);
+    assert_eq!(lines(&window).len(), 1 + others);
+    assert!(window.get_by_label("Which map").rect().top() > below + 17.0 * others as f32);
+    click(&mut window, &header);
+    assert_eq!(lines(&window), marked);
+    // The other prediction, whose error is none of these: the line that explains most.
     let other = "Diagnosis of darker: no mark";
     see(&mut window, other);
     window.get_by_label_contains("Diagnosis of flipped: Normal Y ");
     click(&mut window, other);
     assert_eq!(window.state().parts.model.view.display.prediction, 1);
     window.get_by_label("No error of exposure, alignment or reading explains 10% of the loss.");
-    assert!(window.query_by_label_contains("Read with").is_none());
+    assert!(!has(&window, "Read with"));
+    let found = window.state().diagnosis().unwrap();
+    let shares =
+        found.findings.iter().filter(|finding| finding.p.is_some()).filter_map(|finding| finding.share);
+    let most = 100.0 * shares.fold(f64::NEG_INFINITY, f64::max);
+    let first = lines(&window);
+    assert!(
+        first.len() == 1 && first[0].ends_with(&format!(": {most:.1}% of the loss")),
+        "{first:?}, {most}"
+    );
 }
 
 #[needs(adapter)]
@@ -154,9 +176,12 @@ fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
     let material = |window: &Window<'_>, index| window.state().materials().nth(index).unwrap().clone();
     let (truth, wrong) = (material(&window, 0), material(&window, 1));
     for place in ["Why", "Files"] {
+        let offer = "Reading the normals with Y down would lower the loss by";
+        tab(&mut window, "Why");
+        see(&mut window, offer);
         window.run_steps(30);
         tab(&mut window, place);
-        see(&mut window, "Reading the normals with Y down would lower the loss by");
+        window.get_by_label_contains(offer);
         click(&mut window, "Read with normal y down");
         wait(&mut window, "the file to be read again", |app| {
             !app.is_reading() && app.parts.model.materials.all[1].read.options.normal_y == Some(NormalY::Down)
@@ -173,38 +198,6 @@ fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
             !app.is_reading() && *app.materials().nth(1).unwrap() == wrong
         });
     }
-}
-
-#[needs(adapter)]
-#[test]
-fn the_lines_without_a_mark_are_behind_one_line() {
-    let (_folder, mut window) = diagnosed();
-    unfold(&mut window, false);
-    let found = wait_for_diagnosis(&mut window);
-    window.run_steps(3);
-    let marked = lines(&window);
-    assert_eq!(marked.len(), 1, "{marked:?}");
-    assert!(marked[0].starts_with("Normal Y flipped: ") && marked[0].ends_with("marked"), "{marked:?}");
-    let others = found.findings.len() - 1;
-    let header = format!("{others} other explanations: none marked");
-    let below = window.get_by_label("Which map").rect().top();
-    click(&mut window, &header);
-    assert_eq!(lines(&window).len(), 1 + others);
-    assert!(window.get_by_label("Which map").rect().top() > below + 17.0 * others as f32);
-    click(&mut window, &header);
-    assert_eq!(lines(&window), marked);
-    // Without a mark: the one that explains most.
-    see(&mut window, "Diagnosis of darker: no mark");
-    click(&mut window, "Diagnosis of darker: no mark");
-    let found = window.state().diagnosis().unwrap();
-    let shares =
-        found.findings.iter().filter(|finding| finding.p.is_some()).filter_map(|finding| finding.share);
-    let most = 100.0 * shares.fold(f64::NEG_INFINITY, f64::max);
-    let first = lines(&window);
-    assert!(
-        first.len() == 1 && first[0].ends_with(&format!(": {most:.1}% of the loss")),
-        "{first:?}, {most}"
-    );
 }
 
 #[needs(adapter)]

@@ -81,13 +81,8 @@ fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of
     }
     // The map of the lights does not depend on the light.
     assert!(is_same(&wait_for_map(&mut window), &map));
-}
 
-#[needs(adapter)]
-#[test]
-fn predictions_are_side_by_side_with_their_difference_and_choosing_one_turns_its_sign() {
-    let mut window = opened();
-    let map = wait_for_map(&mut window);
+    // Predictions are side by side with their difference, whose sign turns with the chosen one.
     let rects = |window: &Window<'_>| {
         let of = |text: &str| window.get_by_label(&format!("Loss over light directions{text}")).rect();
         [of(""), of(" of 2"), of(" of the difference to 2")]

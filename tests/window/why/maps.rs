@@ -34,7 +34,10 @@ fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_co
     assert_ne!(first, second, "a planted fault");
     let other = "roughness of wrong roughness: 60.1% of the loss";
     see(&mut window, other);
-    press(&mut window, egui::Key::Num2);
+    click(&mut window, other);
+    let display = &window.state().parts.model.view.display;
+    assert_eq!((display.prediction, display.isolated), (1, Some(Map::Roughness)), "a click chooses it");
+    press(&mut window, egui::Key::Escape);
     assert_eq!(window.state().attribution(), Some(&second), "it is not computed again");
     window.get_by_label("roughness: 60.1% of the loss");
     window.get_by_label("normal of blurred normals: 80.9% of the loss");
@@ -76,17 +79,6 @@ fn isolate(window: &mut Window<'_>, map: &str) {
         labels.find(|label| label.starts_with(&start) && label.ends_with("of the loss"))
     };
     click(window, &row.expect("the row of the map"));
-}
-
-#[needs(adapter)]
-#[test]
-fn a_click_on_a_bar_of_another_prediction_chooses_it() {
-    let mut window = opened();
-    wait_for_attribution(&mut window);
-    window.get_by_label_contains("diffuse of wrong roughness: ").click();
-    window.run_steps(3);
-    let display = &window.state().parts.model.view.display;
-    assert_eq!((display.prediction, display.isolated), (1, Some(Map::Diffuse)));
 }
 
 /// Waits until the pane of this prediction has this title.

@@ -20,28 +20,11 @@ fn wait_for_scenes(window: &mut Window<'_>) -> Vec<RankedScene> {
 
 #[needs(adapter)]
 #[test]
-fn the_listed_scenes_are_those_of_the_core_and_a_click_loads_one() {
+fn the_listed_scenes_and_their_thumbnails_are_those_of_the_core_and_a_click_loads_one() {
     let mut window = opened();
     let listed = wait_for_scenes(&mut window);
     assert_eq!(listed, expected(1));
     assert!(listed.is_sorted_by(|a, b| a.losses[0] >= b.losses[0]) && listed.len() == 192);
-    let before = window.state().parts.model.view.scene;
-    click(&mut window, &format!("Scene 2: {:.4}", listed[1].losses[0]));
-    assert_eq!(window.state().parts.model.view.scene, listed[1].scene);
-    let here = wait_for_scene_losses(&mut window)[0];
-    assert!((here / listed[1].losses[0] - 1.0).abs() < 1e-6, "{here}, listed {}", listed[1].losses[0]);
-    undo(&mut window);
-    assert_eq!(window.state().parts.model.view.scene, before);
-    press(&mut window, egui::Key::Num2);
-    assert_eq!(wait_for_scenes(&mut window), expected(2));
-    assert_ne!(expected(2), listed, "a planted fault");
-}
-
-#[needs(adapter)]
-#[test]
-fn a_thumbnail_has_the_mean_of_its_scene() {
-    let mut window = opened();
-    let listed = wait_for_scenes(&mut window);
     let (_, thumbnails) = window.state().listed_scenes().unwrap();
     assert_eq!(thumbnails.len(), 96);
     let mean = |pixels: &[f32]| pixels.iter().map(|v| f64::from(*v)).sum::<f64>() / pixels.len() as f64;
@@ -56,35 +39,24 @@ fn a_thumbnail_has_the_mean_of_its_scene() {
     assert!(!has(&window, "Scene 31: "));
     click(&mut window, "Fewer scenes");
     assert!(!has(&window, "Scene 11: "));
-}
-
-#[needs(adapter)]
-#[test]
-fn the_search_finds_the_scene_of_the_core_and_shows_it() {
-    let mut window = opened();
-    window.get_by_label("Find worst scene").click();
-    window.run_steps(2);
-    wait(&mut window, "the worst scene", |app| app.worst().is_some());
-    let materials = materials();
-    let expected = worst(&materials[0], &materials[1], &PRINTED, 0, TAIL, &Progress::default()).unwrap();
-    assert_eq!(window.state().worst(), Some(&expected));
-    assert_eq!(window.state().parts.model.view.scene, expected.scene);
-    window.get_by_label_contains(&format!("{} scenes tried", expected.evaluations));
-    let times = expected.loss / expected.mean.mean;
-    window.get_by_label(&format!("{:.4}, {times:.1} x the mean", expected.loss));
+    let before = window.state().parts.model.view.scene;
+    click(&mut window, &format!("Scene 2: {:.4}", listed[1].losses[0]));
+    assert_eq!(window.state().parts.model.view.scene, listed[1].scene);
     let here = wait_for_scene_losses(&mut window)[0];
-    assert!((here / expected.loss - 1.0).abs() < 1e-6, "{here}, found {}", expected.loss);
-    // That of one prediction is not that of another.
+    assert!((here / listed[1].losses[0] - 1.0).abs() < 1e-6, "{here}, listed {}", listed[1].losses[0]);
+    undo(&mut window);
+    assert_eq!(window.state().parts.model.view.scene, before);
     press(&mut window, egui::Key::Num2);
-    assert_eq!(window.state().worst(), None);
+    assert_eq!(wait_for_scenes(&mut window), expected(2));
+    assert_ne!(expected(2), listed, "a planted fault");
 }
 
 #[needs(adapter)]
 #[test]
-fn a_cancelled_search_leaves_the_scene() {
+fn the_search_finds_the_scene_of_the_core_and_shows_it_unless_it_is_cancelled() {
     let mut window = opened();
     // The list does not push the button away under the click.
-    wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
+    wait_for_scenes(&mut window);
     let before = window.state().parts.model.view.scene;
     for cancel in [
         |window: &mut Window<'_>| press(window, egui::Key::Escape),
@@ -99,4 +71,18 @@ fn a_cancelled_search_leaves_the_scene() {
         assert_eq!((window.state().worst(), window.state().parts.model.view.scene), (None, before));
         assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
     }
+    window.get_by_label("Find worst scene").click();
+    wait(&mut window, "the worst scene", |app| app.worst().is_some());
+    let materials = materials();
+    let expected = worst(&materials[0], &materials[1], &PRINTED, 0, TAIL, &Progress::default()).unwrap();
+    assert_eq!(window.state().worst(), Some(&expected));
+    assert_eq!(window.state().parts.model.view.scene, expected.scene);
+    window.get_by_label_contains(&format!("{} scenes tried", expected.evaluations));
+    let times = expected.loss / expected.mean.mean;
+    window.get_by_label(&format!("{:.4}, {times:.1} x the mean", expected.loss));
+    let here = wait_for_scene_losses(&mut window)[0];
+    assert!((here / expected.loss - 1.0).abs() < 1e-6, "{here}, found {}", expected.loss);
+    // That of one prediction is not that of another.
+    press(&mut window, egui::Key::Num2);
+    assert_eq!(window.state().worst(), None);
 }
