@@ -357,17 +357,6 @@ fn pixels(window: &mut Window<'_>, rect: egui::Rect) -> image::RgbaImage {
     image::imageops::crop_imm(&picture, x, y, w, h).to_image()
 }
 
-fn brightness(picture: &image::RgbaImage, centre: Vec2) -> f64 {
-    let (cx, cy) = (centre.x * picture.width() as f32, centre.y * picture.height() as f32);
-    let near = |x: u32, y: u32| (x as f32 - cx).hypot(y as f32 - cy) < 40.0;
-    let all: Vec<f64> = picture
-        .enumerate_pixels()
-        .filter(|(x, y, _)| near(*x, *y))
-        .map(|(_, _, p)| p.0[..3].iter().map(|v| f64::from(*v)).sum())
-        .collect();
-    all.iter().sum::<f64>() / all.len() as f64
-}
-
 /// A file as a window system drops it.
 #[derive(Debug)]
 struct Dropped(PathBuf);
