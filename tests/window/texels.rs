@@ -4,6 +4,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::read::{Albedo, ReadOptions};
 use svbrdf_files::session::window::Framing;
 use svbrdf_files::source::MaterialSource;
+use svbrdf_viewer::model::view::state::Projection;
 
 use super::*;
 
@@ -45,23 +46,69 @@ pub(super) fn zoom(window: &mut Window<'_>, at: Pos2, notches: f32) {
 }
 
 /// The window on that material, which shows a quantity in one pane, and the folder of its maps.
-fn opened<'a>(quantity: Quantity) -> (Window<'a>, egui::Rect, tempfile::TempDir) {
+fn opened<'a>(quantity: Quantity, scale: f32) -> (Window<'a>, egui::Rect, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = window(numbered(folder.path()));
+    let mut window = scaled_window(numbered(folder.path()), scale);
     window.state_mut().parts.model.view.display.quantity = quantity;
     window.run_steps(2);
-    let rect = pane(&window, &format!("GROUND TRUTH  {}", window.state().names()[0]));
+    let rect = numbered_pane(&window);
     (window, rect, folder)
+}
+
+fn numbered_pane(window: &Window<'_>) -> egui::Rect {
+    pane(window, &format!("GROUND TRUTH  {}", window.state().names()[0]))
 }
 
 fn held(window: &mut Window<'_>, modifiers: Modifiers) {
     window.event(egui::Event::ModifiersChanged(modifiers));
 }
 
+/// Compares the readout with the colour on the screen at many pixels; returns how many lay on the material.
+fn check_readout(window: &mut Window<'_>, scale: f32, what: &str) -> usize {
+    let rect = numbered_pane(window);
+    hover(window, Pos2::ZERO);
+    let picture = window.render().unwrap();
+    let mut on_material = 0;
+    for i in 0..16 {
+        for j in 0..9 {
+            let share = vec2((i as f32 + 0.37) / 16.0, (j as f32 + 0.53) / 9.0);
+            // The middle of a pixel.
+            let pixel = ((rect.min + rect.size() * share).to_vec2() * scale).floor();
+            let colour = picture.get_pixel(pixel.x as u32, pixel.y as u32).0;
+            hover(window, ((pixel + vec2(0.5, 0.5)) / scale).to_pos2());
+            let expected = texel_of([colour[0], colour[1], colour[2]]);
+            assert_eq!(texel_read(window), expected, "{what}: pixel {pixel:?} has the colour {colour:?}");
+            on_material += usize::from(expected.is_some());
+        }
+    }
+    on_material
+}
+
+#[needs(adapter)]
+#[test]
+fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_projection() {
+    for scale in [1.25, 2.0] {
+        let (mut window, _, _folder) = opened(Quantity::Diffuse, scale);
+        for projection in [Projection::Flat, Projection::Perspective] {
+            window.state_mut().parts.model.view.display.projection = projection;
+            window.state_mut().parts.model.view.scene.view = [0.7, -0.9, 2.0];
+            window.run_steps(2);
+            // Not so far that the numbers of texels are drawn on them.
+            for (notches, corner) in [(0.0, [0.5, 0.5]), (5.0, [0.1, 0.15]), (5.0, [0.93, 0.9])] {
+                press(&mut window, egui::Key::F);
+                let rect = numbered_pane(&window);
+                zoom(&mut window, rect.min + rect.size() * vec2(corner[0], corner[1]), notches);
+                let what = format!("scale {scale}, {projection:?}, {notches} notches");
+                assert!(check_readout(&mut window, scale, &what) > 20, "{what}: little of it is in sight");
+            }
+        }
+    }
+}
+
 #[needs(adapter)]
 #[test]
 fn roughness_in_false_colours_has_the_colour_of_its_value_and_a_repeated_map_begins_in_the_middle() {
-    let (mut window, rect, _folder) = opened(Quantity::Roughness);
+    let (mut window, rect, _folder) = opened(Quantity::Roughness, 1.0);
     press(&mut window, egui::Key::V);
     let picture = pixels(&mut window, rect);
     let found = picture.get_pixel(picture.width() / 3, picture.height() / 2).0;
@@ -76,7 +123,7 @@ fn roughness_in_false_colours_has_the_colour_of_its_value_and_a_repeated_map_beg
 #[needs(adapter)]
 #[test]
 fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
-    let (mut window, rect, _folder) = opened(Quantity::Diffuse);
+    let (mut window, rect, _folder) = opened(Quantity::Diffuse, 1.0);
     hover(&mut window, Pos2::ZERO);
     for (side, has_numbers) in [(30.0, false), (44.0, false), (52.0, true), (90.0, true)] {
         let centre = SIZE.map(|side| side as f32 / 2.0);
