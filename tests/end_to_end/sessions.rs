@@ -41,10 +41,10 @@ fn a_session_gives_the_pixels_and_the_numbers_of_its_window() {
     let program = desktop.open(&["worn_tiles.png", "wrong_roughness.png"]);
     // Another light, another exposure.
     let before = desktop.wait_until_still();
-    desktop.xdotool("mousemove 200 300");
+    desktop.xdotool("mousemove 260 260");
     desktop.xdotool("mousedown 1");
-    desktop.xdotool("mousemove 260 220");
-    desktop.xdotool("mousemove 330 180");
+    desktop.xdotool("mousemove 230 340");
+    desktop.xdotool("mousemove 200 420");
     desktop.xdotool("mouseup 1");
     desktop.wait("the light to follow the drag", |picture| changed(picture, &before) > 20_000);
     desktop.keys(&["e", "e"]);

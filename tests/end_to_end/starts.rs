@@ -51,17 +51,6 @@ fn settings_that_are_a_pipe_are_moved_aside() {
 
 #[needs(f32_adapter, desktop)]
 #[test]
-fn ctrl_and_plus_leave_a_window_that_starts_again() {
-    let desktop = Desktop::start();
-    for _ in 0..2 {
-        let mut program = desktop.open(&[]);
-        (0..40).for_each(|_| desktop.xdotool("key ctrl+plus"));
-        assert!(program.0.try_wait().unwrap().is_none(), "the program still runs");
-    }
-}
-
-#[needs(f32_adapter, desktop)]
-#[test]
 fn a_stale_wayland_display_beside_an_x11_one_is_passed_over() {
     let desktop = Desktop::start();
     // A socket that nobody listens at any more.

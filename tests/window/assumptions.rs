@@ -73,11 +73,8 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     });
     let switched = material(window.state(), 1);
     let decode = |v: f32| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
-    for (old, new) in
-        materials[1].planes().diffuse.iter().flatten().zip(switched.planes().diffuse.iter().flatten())
-    {
-        assert!((decode(*old) - new).abs() < 1e-6, "{old} became {new}");
-    }
+    let [stored, decoded] = [&materials[1], &switched].map(|m| m.planes().diffuse.iter().flatten());
+    assert!(stored.zip(decoded).all(|(old, new)| (decode(*old) - new).abs() < 1e-6));
     assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
     assert_eq!(material(window.state(), 0), materials[0]);
     assert!(loss(&mut window) > 0.1);
