@@ -12,7 +12,7 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
 
-use measured::{ALLOWED, Pair, allowed, built_in, holds, made};
+use measured::{Pair, allowed, built_in, holds, made};
 
 /// Seeds of a cell of the short tests.
 const SEEDS: u64 = 100;
@@ -94,15 +94,6 @@ fn intervals_that_are_too_narrow_or_too_wide_are_seen() {
         });
         assert!(!covers(MORE_SEEDS, seen.coverage), "{factor}: {seen:?}");
     }
-}
-
-#[test]
-fn the_bound_of_few_seeds_is_that_of_the_binomial_distribution() {
-    assert_eq!(allowed(SEEDS), [85.0, 100.0]);
-    let [least, most] = allowed(5 * SEEDS);
-    assert!((89.0..91.0).contains(&least) && (98.5..99.0).contains(&most), "{least} to {most}");
-    let [least, most] = allowed(1_000_000);
-    assert!((least - ALLOWED[0]).abs() < 0.1 && (most - ALLOWED[1]).abs() < 0.1, "{least} to {most}");
 }
 
 #[test]

@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use image::RgbImage;
-use svbrdf_needs::{has, needs};
+use svbrdf_needs::has;
 
 use crate::support::desktop::{Desktop, Running, changed, colours};
 use crate::support::gpu::STALE_BUILD;
@@ -23,7 +23,10 @@ impl Desktop {
 
     /// Starts `svbrdf` on these arguments in the folder, and waits for the materials to be drawn.
     fn open(&self, arguments: &[&str]) -> Running {
-        let mut command = self.svbrdf();
+        self.run(self.svbrdf(), arguments)
+    }
+
+    fn run(&self, mut command: Command, arguments: &[&str]) -> Running {
         let log = std::fs::File::create(self.folder.path().join("log")).unwrap();
         command.args(arguments).current_dir(self.folder.path()).stdout(Stdio::null()).stderr(log);
         let program = command.spawn().map(Running).unwrap();
@@ -72,29 +75,4 @@ fn the_build_knows_whether_the_window_can_be_tested() {
     let there = ["Xvfb", "xdotool", "import"].iter().all(|program| installed(program));
     assert_eq!(has!(desktop), there, "{STALE_BUILD}");
     assert!(there || std::env::var_os("CI").is_none(), "CI must have Xvfb, xdotool and import");
-}
-
-#[needs(f32_adapter, desktop)]
-#[test]
-fn the_window_opens_follows_the_mouse_and_obeys_a_key() {
-    let desktop = Desktop::start();
-    let log = std::fs::File::create(desktop.folder.path().join("log")).unwrap();
-    let program = desktop.svbrdf().stdout(Stdio::null()).stderr(log).spawn().map(Running).unwrap();
-    // An empty screen has one colour, the window without materials a few hundred.
-    desktop.wait("the built-in pair to be drawn", |p| colours(p) > 3000);
-    let before = desktop.wait_until_still();
-
-    desktop.xdotool("mousemove 200 300");
-    desktop.xdotool("mousedown 1");
-    desktop.xdotool("mousemove 260 220");
-    desktop.xdotool("mousemove 330 180");
-    desktop.xdotool("mouseup 1");
-    let after = desktop.wait("the light to follow the drag", |p| changed(p, &before) > 20_000);
-
-    desktop.xdotool("search --sync --name svbrdf windowfocus");
-    desktop.xdotool("key m");
-    desktop.wait("the normal map to be shown", |p| changed(p, &after) > 60_000);
-
-    let mut program = program;
-    assert!(program.0.try_wait().unwrap().is_none(), "the program still runs");
 }

@@ -164,12 +164,22 @@ fn sizes_that_no_vector_divides() {
     }
 }
 
+/// The plain loss, and the fused one at each instruction set.
+fn backends() -> Vec<(&'static str, Box<dyn Backend<f32>>)> {
+    let plain: Box<dyn Backend<f32>> = Box::new(Plain);
+    let fused = levels().into_iter().map(|(name, level)| (name, Box::new(at(level)) as _));
+    [("plain", plain)].into_iter().chain(fused).collect()
+}
+
 #[test]
-fn equal_materials_have_no_loss() {
+fn equal_materials_have_no_loss_and_a_loss_is_symmetric() {
     let c = &convention::PRINTED;
-    let gt = random(9, [130, 7], 0.9, 0.0);
-    for (name, level) in levels() {
-        assert_eq!(fused(level, &gt, &gt, &scenes(6, 3, c), c), (0.0, vec![0.0; 9]), "{name}");
+    let (x, y) = (random(9, [130, 7], 0.9, 0.0), random(8, [130, 7], 0.9, 0.0));
+    let scenes = scenes(6, 3, c);
+    for (name, backend) in backends() {
+        let of = |x, y| losses(&*backend, x, &[y], &scenes, c).unwrap().remove(0);
+        assert_eq!((of(&x, &x).estimate.mean, of(&x, &x).per_scene), (0.0, vec![0.0; 9]), "{name}");
+        assert!(of(&x, &y).estimate.mean > 0.0 && of(&x, &y).per_scene == of(&y, &x).per_scene, "{name}");
     }
 }
 
@@ -177,14 +187,16 @@ fn equal_materials_have_no_loss() {
 fn threads_change_no_bit() {
     let c = &convention::GUIDED_2020;
     let (gt, prediction) = (random(10, [200, 150], 0.5, 0.0), random(11, [200, 150], 0.5, 0.0));
-    let scenes = scenes(50, 30, c);
-    let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| fused(Level::best(), &gt, &prediction, &scenes, c))
-    };
-    let one = with(1);
-    for threads in [2, 3, 5] {
-        assert_eq!(one, with(threads), "{threads} threads");
+    let (few, many) = (scenes(4, 2, c), scenes(50, 30, c));
+    for (backend, scenes) in [(&Plain as &dyn Backend<f32>, &few), (&at(Level::best()), &many)] {
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| losses(backend, &gt, &[&prediction], scenes, c).unwrap())
+        };
+        let one = with(1);
+        for threads in [2, 3, 5] {
+            assert_eq!(one, with(threads), "{threads} threads");
+        }
     }
 }
 
@@ -195,13 +207,13 @@ fn batches_change_no_bit() {
     let gt = random(12, size, 0.5, 0.0);
     let predictions = [random(13, size, 0.5, 0.0), random(14, size, 0.5, 0.1), gt.clone()];
     let scenes = scenes(70, 20, c);
-    for (name, level) in levels() {
+    for (name, backend) in backends() {
+        let of = |predictions: &[_], scenes: &[_]| losses(&*backend, &gt, predictions, scenes, c).unwrap();
         let all: Vec<_> = predictions.iter().collect();
-        let together = losses(&at(level), &gt, &all, &scenes, c).unwrap();
-        for (prediction, together) in predictions.iter().zip(&together) {
-            let alone = fused(level, &gt, prediction, &scenes, c).1;
+        for (prediction, together) in predictions.iter().zip(of(&all, &scenes)) {
+            let alone = of(&[prediction], &scenes).remove(0).per_scene;
             assert_eq!(together.per_scene, alone, "{name}: predictions together and alone");
-            let one_by_one = scenes.iter().map(|s| fused(level, &gt, prediction, &[*s], c).0);
+            let one_by_one = scenes.iter().map(|s| of(&[prediction], &[*s])[0].estimate.mean);
             assert!(one_by_one.eq(alone), "{name}: scenes together and alone");
         }
     }

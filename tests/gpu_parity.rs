@@ -6,25 +6,19 @@ mod display;
 mod drafts;
 mod loss;
 
-use std::sync::LazyLock;
-
-use glam::{DVec3, Vec3};
-use serde::Deserialize;
+use glam::DVec3;
 
 use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::{self, Model, Texel};
 use svbrdf_core::model::convention::{self, Convention, PRINTED};
 use svbrdf_core::model::scene::{self, Kind, Scene};
-use svbrdf_core::progress::Progress;
-use svbrdf_core::render;
-use svbrdf_files::samples;
 use svbrdf_gpu::Gpu;
 use svbrdf_needs::needs;
 
 use crate::support::compare::{Worst, compare_rgb_with};
 use crate::support::gpu::{bumpy, gpu, gpu_f32};
-use crate::support::points::{Point, U, error_bound, exact, points};
-use crate::support::tolerance::{GOLDEN_POINTS, GOLDEN_POINTS_F32_KAPPA, POINT_ULPS, RENDERING_ULPS};
+use crate::support::points::{Point, error_bound, exact, points};
+use crate::support::tolerance::{POINT_ULPS, RENDERING_ULPS};
 
 const SEED: u64 = 1;
 const COUNT: usize = 200_000;
@@ -53,13 +47,6 @@ impl InF64 {
     }
 }
 
-/// The points of both comparisons, with their radiances in each convention.
-static POINTS: LazyLock<(Vec<Point>, [InF64; 4])> = LazyLock::new(|| {
-    let points = points(SEED, COUNT);
-    let columns = convention::ALL.map(|convention| InF64::new(convention, &points, POINT_ULPS));
-    (points, columns)
-});
-
 fn probe(gpu: &Gpu, convention: &Convention, points: &[Point]) -> Vec<[f32; 3]> {
     gpu.probe(&Model::from(convention), points).expect("the probe runs")
 }
@@ -68,22 +55,11 @@ fn probe(gpu: &Gpu, convention: &Convention, points: &[Point]) -> Vec<[f32; 3]> 
 #[test]
 fn the_shader_agrees_with_f64_at_random_and_extreme_points() {
     let gpu = gpu();
-    let (points, columns) = &*POINTS;
-    for column in columns {
-        let got = probe(gpu, &column.convention, points);
-        let worst = column.compare(&got).unwrap_or_else(|e| panic!("{e}"));
-        println!("{}: worst share of the bound {:.3}", column.convention.name, worst.share);
-    }
-}
-
-#[test]
-fn f32_on_the_cpu_agrees_with_f64_at_the_same_points() {
-    let (points, columns) = &*POINTS;
-    for column in columns {
-        let model = Model::from(&column.convention);
-        let in_f32 = |(t, l, v): &Point| brdf::render(&model, t, Vec3::from(*l), Vec3::from(*v));
-        let got: Vec<[f32; 3]> = points.iter().map(in_f32).collect();
-        column.compare(&got).unwrap_or_else(|e| panic!("{e}"));
+    let points = points(SEED, COUNT);
+    for convention in convention::ALL {
+        let in_f64 = InF64::new(convention, &points, POINT_ULPS);
+        let worst = in_f64.compare(&probe(gpu, &convention, &points)).unwrap_or_else(|e| panic!("{e}"));
+        println!("{}: worst share of the bound {:.3}", convention.name, worst.share);
     }
 }
 
@@ -126,60 +102,6 @@ fn the_comparison_with_f64_goes_red_on_planted_faults() {
     in_f64.compare(&got).expect_err("another convention");
 }
 
-#[derive(Deserialize)]
-struct Golden {
-    rows: Vec<Row>,
-}
-
-/// A point computed with 60 digits by an outside program.
-#[derive(Deserialize)]
-struct Row {
-    n: [f64; 3],
-    l: [f64; 3],
-    v: [f64; 3],
-    r: f64,
-    d: [f64; 3],
-    s: [f64; 3],
-    check: String,
-    /// Null where nothing but a finite number is required.
-    expected: Option<[f64; 3]>,
-    kappa: Option<f64>,
-}
-
-impl Row {
-    fn point(&self) -> Point {
-        let texel = Texel {
-            normal: DVec3::from(self.n).normalize().as_vec3(),
-            diffuse: self.d.map(|x| x as f32),
-            specular: self.s.map(|x| x as f32),
-            roughness: self.r as f32,
-        };
-        (texel, self.l.map(|x| x as f32), self.v.map(|x| x as f32))
-    }
-}
-
-#[needs(adapter)]
-#[test]
-fn the_shader_agrees_with_the_golden_points() {
-    let gpu = gpu();
-    let golden: Golden = serde_json::from_str(include_str!("points.json")).expect("golden points");
-    let points: Vec<Point> = golden.rows.iter().map(Row::point).collect();
-    let got = probe(gpu, &PRINTED, &points);
-    assert!(got.iter().flatten().all(|x| x.is_finite() && *x >= 0.0));
-    let told = |kappa: f64| kappa <= GOLDEN_POINTS_F32_KAPPA;
-    let usable = |row: &Row| row.check == "ok" && row.kappa.is_some_and(told);
-    let rows: Vec<_> = golden.rows.iter().zip(got).filter(|(row, _)| usable(row)).collect();
-    assert!(rows.len() > 100, "only {} of {} rows are used", rows.len(), golden.rows.len());
-    let expected: Vec<[f64; 3]> = rows.iter().filter_map(|(row, _)| row.expected).collect();
-    let got: Vec<[f32; 3]> = rows.iter().map(|(_, got)| *got).collect();
-    let bound = |index: usize, _: usize, expected: f64| {
-        let kappa: f64 = rows[index].0.kappa.unwrap_or(1.0);
-        GOLDEN_POINTS * kappa.max(1.0) * U * expected + f64::from(f32::MIN_POSITIVE)
-    };
-    let worst = compare_rgb_with(&got, &expected, bound).unwrap_or_else(|e| panic!("{e}"));
-    println!("{} rows, worst share of the bound {:.3}", rows.len(), worst.share);
-}
-
 /// The texels and directions of a rendering, as the f32 CPU path has them.
 fn points_of(material: &Material<f32>, scene: &Scene) -> Vec<Point> {
     let (width, height) = (material.width(), material.height());
@@ -220,37 +142,6 @@ fn renderings_agree_with_the_cpu_texel_by_texel() {
         }
     }
     println!("worst share of the bound {worst:.3}");
-}
-
-#[needs(f32_adapter)]
-#[test]
-fn renderings_of_the_built_in_materials_agree_with_the_cpu_texel_by_texel() {
-    let gpu = gpu_f32();
-    let built_in = samples::load::<f32>().expect("built in");
-    for read in std::iter::once(&built_in.ground_truth).chain(&built_in.predictions) {
-        for scene in scene::sample(SEED, 1, 1, &PRINTED) {
-            let image = gpu.render(&read.material, &scene, &PRINTED).expect("rendered");
-            let points = points_of(&read.material, &scene);
-            InF64::new(PRINTED, &points, RENDERING_ULPS)
-                .compare(&image.pixels)
-                .unwrap_or_else(|e| panic!("{}, {scene:?}: {e}", read.material.name()));
-        }
-    }
-}
-
-#[needs(f32_adapter)]
-#[test]
-fn a_rendering_on_the_gpu_is_about_the_one_on_the_cpu() {
-    let gpu = gpu_f32();
-    let material = bumpy(40, 30);
-    let scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.5, 0.2, 0.8] };
-    let on_gpu = gpu.render(&material, &scene, &PRINTED).expect("rendered");
-    let on_cpu = render::render(&material, &scene, &PRINTED, &Progress::default()).expect("rendered");
-    let mean = |image: &svbrdf_core::image::Image<f32>| {
-        image.pixels.iter().flatten().map(|&x| f64::from(x)).sum::<f64>()
-    };
-    let ratio = mean(&on_gpu) / mean(&on_cpu);
-    assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
 }
 
 #[needs(f32_adapter)]

@@ -7,9 +7,8 @@ mod plot;
 use glam::DVec3;
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
-use rayon::ThreadPoolBuilder;
 
-use svbrdf_core::loss::{Compute, Loss, Plain};
+use svbrdf_core::loss::Plain;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::{Real, Vec3, Vector as _};
 use svbrdf_core::model::brdf::{self, Model, Texel};
@@ -59,15 +58,6 @@ impl Random {
         };
         Material::new("random", width, height, planes).unwrap()
     }
-}
-
-fn losses_of<T: Compute>(ground_truth: &Material<T>, predictions: &[&Material<T>]) -> Vec<Loss> {
-    let scenes = sample(7, 4, 2, &PRINTED);
-    losses(&Plain, ground_truth, predictions, &scenes, &PRINTED).unwrap()
-}
-
-fn loss_of<T: Compute>(ground_truth: &Material<T>, prediction: &Material<T>) -> f64 {
-    losses_of(ground_truth, &[prediction])[0].estimate.mean
 }
 
 /// The worst relative change, in units of u, of what `reflected` gives when light and view are swapped.
@@ -177,28 +167,14 @@ fn nothing_is_reflected_of_a_light_below_the_texel_or_the_plane() {
 }
 
 #[test]
-fn a_material_has_no_loss_against_itself() {
-    let x = Random::of_seed(3).material::<f32>(31, 17);
-    assert_eq!(loss_of(&x, &x), 0.0);
-    assert_eq!(loss_of(&x.cast::<f64>(), &x.cast()), 0.0);
-}
-
-#[test]
-fn the_loss_is_symmetric() {
-    let mut random = Random::of_seed(4);
-    let (x, y) = (random.material::<f32>(31, 17), random.material::<f32>(31, 17));
-    assert!(loss_of(&x, &y) > 0.0);
-    assert_eq!(loss_of(&x, &y), loss_of(&y, &x));
-}
-
-#[test]
 fn the_loss_grows_with_the_perturbation() {
     let mut random = Random::of_seed(5);
     let (truth, other) = (random.material::<f64>(24, 24), random.material::<f64>(24, 24));
     let map_names = ["normal", "diffuse", "specular", "roughness"];
     for (map, name) in map_names.into_iter().enumerate() {
         let perturbed = [0.01, 0.02, 0.05, 0.1, 0.2, 0.4].map(|t| blend(&truth, &other, map, t));
-        let losses = losses_of(&truth, &perturbed.each_ref());
+        let losses =
+            losses(&Plain, &truth, &perturbed.each_ref(), &sample(7, 4, 2, &PRINTED), &PRINTED).unwrap();
         let means: Vec<f64> = losses.iter().map(|loss| loss.estimate.mean).collect();
         assert!(means[0] > 0.0 && means.is_sorted_by(|a, b| a < b), "{name}: {means:?}");
     }
@@ -216,28 +192,6 @@ fn blend(a: &Material<f64>, b: &Material<f64>, map: usize, t: f64) -> Material<f
         _ => planes.roughness = mix(&planes.roughness, &b.roughness),
     }
     Material::new("blended", a.width(), a.height(), planes).unwrap()
-}
-
-#[test]
-fn the_number_of_threads_changes_neither_loss_nor_rendering() {
-    let mut random = Random::of_seed(6);
-    let (x, y) = (random.material::<f32>(129, 97), random.material::<f32>(129, 97));
-    let scene = sample(1, 1, 0, &PRINTED)[0];
-    let results = [1, 2, 3, 5].map(|threads| {
-        let pool = ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let rendering = || render(&x, &scene, &PRINTED, &Progress::default()).unwrap();
-        pool.install(|| (losses_of(&x, &[&y]), rendering()))
-    });
-    assert!(results.iter().all(|result| *result == results[0]));
-}
-
-#[test]
-fn a_batch_of_predictions_has_the_losses_of_each_alone() {
-    let mut random = Random::of_seed(8);
-    let truth = random.material::<f32>(33, 140);
-    let predictions = [(); 3].map(|()| random.material::<f32>(33, 140));
-    let alone = predictions.each_ref().map(|p| losses_of(&truth, &[p]).remove(0));
-    assert_eq!(losses_of(&truth, &predictions.each_ref()), alone);
 }
 
 #[test]

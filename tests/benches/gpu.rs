@@ -9,19 +9,15 @@
 mod support;
 
 use divan::counter::ItemsCount;
-use glam::Vec3;
 
 use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render;
-use svbrdf_gpu::{
-    DisplayMode, DisplayParams, Encoding, Gpu, GpuLosses, MaterialTextures, ShadeParams, Shaded, Shading,
-};
+use svbrdf_gpu::{Encoding, Gpu, GpuLosses, MaterialTextures, ShadeParams, Shaded, Shading};
 
 const SIDES: [usize; 3] = [256, 1024, 2048];
 /// Most that a mean over a picture or a loss may be off the CPU's in f32, relative.
@@ -100,37 +96,13 @@ fn shade(bencher: divan::Bencher<'_, '_>, side: usize) {
     picture.assert_shaded();
 }
 
-/// The whole material, a texel a pixel, seen from above.
-fn display_params() -> DisplayParams {
-    let camera = Camera {
-        origin: Vec3::Z,
-        origin_right: Vec3::new(1.0, 0.0, 0.0),
-        origin_up: Vec3::new(0.0, 1.0, 0.0),
-        direction: Vec3::NEG_Z,
-        direction_right: Vec3::ZERO,
-        direction_up: Vec3::ZERO,
-    };
-    DisplayParams {
-        camera,
-        exposure_ev: 0.0,
-        mode: DisplayMode::Value,
-        difference: None,
-        encoding: Encoding::Radiance,
-        show_clipping: false,
-        epsilon: 0.01,
-        tiled: false,
-        false_colour: false,
-        nearest: false,
-        background: [0.0; 3],
-    }
-}
-
 #[divan::bench(args = SIDES, sample_count = 20)]
 fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
     let picture = Picture::new(side);
     picture.shade(&picture.upload());
     let (gpu, shaded) = (picture.gpu, &picture.target);
-    let screen = support::Screen::new(gpu, [side as u32; 2], shaded, shaded, &display_params());
+    let params = support::from_above([1.0; 2], Encoding::Radiance);
+    let screen = support::Screen::new(gpu, [side as u32; 2], shaded, shaded, &params);
     bencher.counter(ItemsCount::new(side * side)).bench_local(|| {
         screen.draw(gpu);
         picture.wait();

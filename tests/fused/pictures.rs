@@ -7,7 +7,7 @@ use svbrdf_core::render::{render, render_f32};
 
 use super::*;
 use crate::support::compare::{Worst, compare_rgb_with};
-use crate::support::points::{error_bound, points};
+use crate::support::points::error_bound;
 use crate::support::tolerance::FUSED_ULPS;
 
 fn at(level: Level, material: &Material<f32>, scene: &Scene, c: &Convention) -> Image<f32> {
@@ -49,22 +49,6 @@ fn check(what: &str, material: &Material<f32>, scenes: &[Scene]) {
     }
 }
 
-/// Texels that are now random, now at an edge of the domain.
-fn edges(seed: u64, [width, height]: [usize; 2]) -> Material<f32> {
-    let mut planes = Planes::default();
-    for (texel, _, _) in points(seed, width * height) {
-        for (plane, value) in planes.normal.iter_mut().zip(texel.normal.to_array()) {
-            plane.push(value);
-        }
-        for channel in 0..3 {
-            planes.diffuse[channel].push(texel.diffuse[channel]);
-            planes.specular[channel].push(texel.specular[channel]);
-        }
-        planes.roughness.push(texel.roughness);
-    }
-    Material::new("edges", width, height, planes).unwrap()
-}
-
 /// Sampled scenes, and some with light and view where it matters.
 fn all_scenes() -> Vec<Scene> {
     let mut all = scenes(6, 4, &convention::PRINTED);
@@ -84,7 +68,6 @@ fn all_scenes() -> Vec<Scene> {
 #[test]
 fn every_texel_of_a_picture_is_as_close_to_f64_as_its_condition_allows() {
     check("random", &random(21, [83, 41], 0.5, 1.0 / 255.0), &all_scenes());
-    check("edges", &edges(22, [67, 31]), &all_scenes());
 }
 
 #[test]
@@ -97,10 +80,12 @@ fn pictures_of_sizes_that_no_vector_divides() {
 #[test]
 fn threads_change_no_bit_of_a_picture() {
     let material = random(24, [200, 150], 0.5, 0.0);
-    for scene in scenes(1, 1, &convention::PRINTED) {
+    let scenes = scenes(1, 1, &convention::PRINTED);
+    for (scene, plain) in scenes.iter().flat_map(|scene| [(scene, false), (scene, true)]) {
+        let render = if plain { render::<f32> } else { render_f32 };
         let with = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let picture = || render_f32(&material, &scene, &convention::PRINTED, &Progress::default());
+            let picture = || render(&material, scene, &convention::PRINTED, &Progress::default());
             pool.install(picture).unwrap()
         };
         let one = with(1);

@@ -9,12 +9,11 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shading};
+use svbrdf_gpu::{DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shading};
 use svbrdf_needs::{has, needs};
 
-use crate::support::gpu::{STALE_BUILD, bumpy, find_gpu, gpu, picture};
+use crate::support::gpu::{STALE_BUILD, bumpy, find_gpu, from_above, gpu, picture};
 
 #[needs(adapter)]
 #[test]
@@ -106,29 +105,10 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
     let target = shading.target(&half, [2, 2]).expect("created");
     let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering };
     shading.draw(&half, &textures, &params, &target);
-    let camera = Camera {
-        origin: Vec3::Z,
-        origin_right: Vec3::new(1.0, 0.0, 0.0),
-        origin_up: Vec3::new(0.0, 1.0, 0.0),
-        direction: Vec3::NEG_Z,
-        direction_right: Vec3::ZERO,
-        direction_up: Vec3::ZERO,
-    };
-    let params = DisplayParams {
-        camera,
-        // Brings the largest 16-bit number, and nothing larger, just below 1.
-        exposure_ev: -16.0,
-        mode: DisplayMode::Value,
-        difference: None,
-        encoding: Encoding::Radiance,
-        show_clipping: true,
-        epsilon: 0.01,
-        tiled: false,
-        false_colour: false,
-        nearest: false,
-        background: [0.0; 3],
-    };
-    let picture = picture(&half, [2, 2], &target, &target, &params);
+    // Brings the largest 16-bit number, and nothing larger, just below 1.
+    let exposed =
+        DisplayParams { exposure_ev: -16.0, show_clipping: true, ..from_above([1.0; 2], Encoding::Radiance) };
+    let picture = picture(&half, [2, 2], &target, &target, &exposed);
     assert!(picture.at(0, 0).iter().all(|&level| level >= 254), "{:?}", picture.at(0, 0));
 }
 

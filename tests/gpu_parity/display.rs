@@ -13,10 +13,8 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 use svbrdf_needs::needs;
 
-use crate::support::gpu::{Picture, bumpy, gpu, gpu_f32, picture};
+use crate::support::gpu::{BACKGROUND, Picture, bumpy, from_above, gpu, gpu_f32, picture};
 use crate::support::tolerance::SCREEN_LEVELS;
-
-const BACKGROUND: [f32; 3] = [0.2, 0.4, 0.6];
 
 /// Light and view straight above.
 const ABOVE: Scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] };
@@ -29,38 +27,10 @@ fn shaded(gpu: &Gpu, material: &Material<f32>, quantity: Quantity) -> Shaded {
     target
 }
 
-/// Straight down on a rectangle around `centre`.
-fn flat(centre: [f32; 2], half_width: f32, half_height: f32) -> Camera {
-    Camera {
-        origin: Vec3::new(centre[0], centre[1], 1.0),
-        origin_right: Vec3::new(half_width, 0.0, 0.0),
-        origin_up: Vec3::new(0.0, half_height, 0.0),
-        direction: Vec3::NEG_Z,
-        direction_right: Vec3::ZERO,
-        direction_up: Vec3::ZERO,
-    }
-}
-
-/// The whole map, to the outer edges of its texels.
-fn whole([width, height]: [usize; 2]) -> Camera {
-    let scale = width.saturating_sub(1).max(1) as f32;
-    flat([0.0; 2], width as f32 / scale, height as f32 / scale)
-}
-
-fn params(camera: Camera, quantity: Quantity) -> DisplayParams {
-    DisplayParams {
-        camera,
-        exposure_ev: 0.0,
-        mode: DisplayMode::Value,
-        difference: None,
-        encoding: Encoding::from(quantity),
-        show_clipping: false,
-        epsilon: 0.01,
-        tiled: false,
-        false_colour: false,
-        nearest: false,
-        background: BACKGROUND,
-    }
+/// The whole map of a quantity, to the outer edges of its texels.
+fn whole(size: [usize; 2], quantity: Quantity) -> DisplayParams {
+    let half = |side: usize| side as f32 / size[0].saturating_sub(1).max(1) as f32;
+    from_above(size.map(half), Encoding::from(quantity))
 }
 
 fn srgb(linear: f64) -> f64 {
@@ -103,7 +73,7 @@ fn known_values_are_encoded_as_the_standard_says() {
     for (value, as_albedo, as_data) in known {
         for (shown, level) in [(Quantity::Diffuse, as_albedo), (Quantity::Roughness, as_data)] {
             let shaded = shaded(gpu, &gray(value), shown);
-            let picture = picture(gpu, [4, 4], &shaded, &shaded, &params(whole([4, 4]), shown));
+            let picture = picture(gpu, [4, 4], &shaded, &shaded, &whole([4, 4], shown));
             assert!(picture.at(1, 1)[0].abs_diff(level) <= SCREEN_LEVELS, "{value}: {:?}", picture.at(1, 1));
         }
     }
@@ -117,7 +87,7 @@ fn radiance_is_exposed_before_it_is_encoded() {
     let on_gpu = gpu.render(&material, &ABOVE, &PRINTED).expect("rendered").pixels[0];
     let shaded = shaded(gpu, &material, Quantity::Rendering);
     for exposure_ev in [-3.0_f32, 0.0, 1.0, 2.0] {
-        let params = DisplayParams { exposure_ev, ..params(whole([4, 4]), Quantity::Rendering) };
+        let params = DisplayParams { exposure_ev, ..whole([4, 4], Quantity::Rendering) };
         let picture = picture(gpu, [4, 4], &shaded, &shaded, &params);
         let expected = on_gpu.map(|x| srgb(f64::from(x * exposure_ev.exp2())));
         assert!(close(picture.at(2, 1), levels(expected)), "{exposure_ev}: {:?}", picture.at(2, 1));
@@ -133,7 +103,7 @@ fn every_texel_is_crisp_and_in_its_place_when_magnified() {
         let shaded = shaded(gpu, &material, Quantity::Diffuse);
         for zoom in [1, 2, 3, 7] {
             let pane = size.map(|side| (side * zoom) as u32);
-            let picture = picture(gpu, pane, &shaded, &shaded, &params(whole(size), Quantity::Diffuse));
+            let picture = picture(gpu, pane, &shaded, &shaded, &whole(size, Quantity::Diffuse));
             let expected = |column: usize, row: usize| {
                 Some(levels(diffuse(&material, column / zoom, row / zoom).map(srgb)))
             };
@@ -149,7 +119,7 @@ fn the_comparison_of_pictures_goes_red_on_planted_faults() {
     let gpu = gpu();
     let material = bumpy(6, 6);
     let shaded = shaded(gpu, &material, Quantity::Diffuse);
-    let picture = picture(gpu, [6, 6], &shaded, &shaded, &params(whole([6, 6]), Quantity::Diffuse));
+    let picture = picture(gpu, [6, 6], &shaded, &shaded, &whole([6, 6], Quantity::Diffuse));
     let planted = |from: fn(usize, usize) -> (usize, usize)| {
         let texel = |(column, row): (usize, usize)| levels(diffuse(&material, column, row).map(srgb));
         faults(&picture, |column, row| Some(texel(from(column, row))))
@@ -176,7 +146,8 @@ fn a_perspective_view_shows_what_the_camera_says() {
     let (size, pane) = ([6, 4], [200, 160]);
     let material = bumpy(size[0], size[1]);
     let shaded = shaded(gpu, &material, Quantity::Diffuse);
-    let picture = picture(gpu, pane, &shaded, &shaded, &params(camera, Quantity::Diffuse));
+    let picture =
+        picture(gpu, pane, &shaded, &shaded, &DisplayParams { camera, ..whole(size, Quantity::Diffuse) });
     let background = levels(BACKGROUND.map(f64::from));
     let expected = |column: usize, row: usize| {
         let x = (2 * column + 1) as f32 / pane[0] as f32 - 1.0;
@@ -225,7 +196,7 @@ fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
     {
         let material = bumpy(size[0], size[1]);
         let shaded = shaded(gpu, &material, Quantity::Diffuse);
-        let params = params(whole(size), Quantity::Diffuse);
+        let params = whole(size, Quantity::Diffuse);
         let picture = picture(gpu, pane.map(|side| side as u32), &shaded, &shaded, &params);
         let faults = faults(&picture, |c, r| Some(levels(box_average(&material, pane, c, r).map(srgb))));
         assert!(faults.is_empty(), "{size:?} in {pane:?}: {faults:#?}");
@@ -238,7 +209,7 @@ fn a_very_large_map_is_averaged_with_a_stride() {
     let gpu = gpu();
     let material = bumpy(400, 400);
     let shaded = shaded(gpu, &material, Quantity::Diffuse);
-    let picture = picture(gpu, [4, 4], &shaded, &shaded, &params(whole([400, 400]), Quantity::Diffuse));
+    let picture = picture(gpu, [4, 4], &shaded, &shaded, &whole([400, 400], Quantity::Diffuse));
     for (column, row) in [(0, 0), (3, 0), (0, 3), (3, 3)] {
         let expected = levels(box_average(&material, [4, 4], column, row).map(srgb));
         let got = picture.at(column, row);
@@ -254,7 +225,7 @@ fn a_wipe_shows_the_reference_on_the_left() {
     let white = shaded(gpu, &gray(1.0), Quantity::Diffuse);
     let black = shaded(gpu, &gray(0.0), Quantity::Diffuse);
     for (x, reference_columns) in [(-1.0, 0), (-0.5, 2), (0.0, 4), (0.5, 6), (1.0, 8)] {
-        let params = DisplayParams { mode: DisplayMode::Wipe(x), ..params(whole([4, 4]), Quantity::Diffuse) };
+        let params = DisplayParams { mode: DisplayMode::Wipe(x), ..whole([4, 4], Quantity::Diffuse) };
         let picture = picture(gpu, [8, 8], &white, &black, &params);
         let expected = |column: usize, _| Some([if column < reference_columns { 0 } else { 255 }; 3]);
         assert_eq!(faults(&picture, expected), Vec::<String>::new(), "wipe at {x}");
@@ -267,8 +238,7 @@ fn clipped_pixels_are_striped_on_demand() {
     let gpu = gpu();
     let striped = |value: f32, exposure_ev: f32, show_clipping: bool| {
         let shaded = shaded(gpu, &gray(value), Quantity::Rendering);
-        let params =
-            DisplayParams { exposure_ev, show_clipping, ..params(whole([4, 4]), Quantity::Rendering) };
+        let params = DisplayParams { exposure_ev, show_clipping, ..whole([4, 4], Quantity::Rendering) };
         let picture = picture(gpu, [16, 16], &shaded, &shaded, &params);
         picture.pixels.iter().filter(|p| p[0] != p[1] || p[1] != p[2]).count()
     };
@@ -285,7 +255,7 @@ fn a_draft_shows_the_nearest_texel_where_a_pixel_covers_several() {
     let material = bumpy(size[0], size[1]);
     let shaded = shaded(gpu, &material, Quantity::Diffuse);
     let faults = |nearest| {
-        let params = DisplayParams { nearest, ..params(whole(size), Quantity::Diffuse) };
+        let params = DisplayParams { nearest, ..whole(size, Quantity::Diffuse) };
         let picture = picture(gpu, [5, 3], &shaded, &shaded, &params);
         faults(&picture, |column, row| {
             Some(levels(diffuse(&material, 3 * column + 1, 3 * row + 1).map(srgb)))

@@ -1,6 +1,6 @@
 //! Algorithm 1 on the device against f64 on the CPU.
 
-use std::sync::OnceLock;
+use std::sync::LazyLock;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Loss, Plain, Request};
@@ -17,37 +17,19 @@ use crate::support::gpu::{bumpy, gpu};
 use crate::support::losses::losses;
 use crate::support::tolerance::{GPU_LOSS, GPU_LOSS_SCENE};
 
-/// Computes losses on the adapter of the tests.
-struct Computer {
-    losses: &'static GpuLosses,
+/// The loss on the adapter of the tests.
+fn on_gpu() -> &'static GpuLosses {
+    static LOSSES: LazyLock<GpuLosses> = LazyLock::new(|| GpuLosses::new(gpu()).expect("the loss compiles"));
+    &LOSSES
 }
 
-impl Computer {
-    fn get() -> Self {
-        static LOSSES: OnceLock<GpuLosses> = OnceLock::new();
-        let losses = LOSSES.get_or_init(|| GpuLosses::new(gpu()).expect("the loss compiles"));
-        Self { losses }
-    }
-
-    fn try_losses(
-        &self,
-        ground_truth: &Material<f32>,
-        predictions: &[&Material<f32>],
-        scenes: &[Scene],
-        convention: &Convention,
-    ) -> Result<Vec<Loss>, Error> {
-        losses(self.losses, ground_truth, predictions, scenes, convention)
-    }
-
-    fn losses(
-        &self,
-        ground_truth: &Material<f32>,
-        predictions: &[&Material<f32>],
-        scenes: &[Scene],
-        convention: &Convention,
-    ) -> Vec<Loss> {
-        self.try_losses(ground_truth, predictions, scenes, convention).expect("the loss is computed")
-    }
+fn of(
+    ground_truth: &Material<f32>,
+    predictions: &[&Material<f32>],
+    scenes: &[Scene],
+    convention: &Convention,
+) -> Vec<Loss> {
+    losses(on_gpu(), ground_truth, predictions, scenes, convention).expect("the loss is computed")
 }
 
 fn scenes(near: usize, distant: usize, convention: &Convention) -> Vec<Scene> {
@@ -91,7 +73,6 @@ fn larger(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 #[needs(adapter)]
 #[test]
 fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
-    let computer = Computer::get();
     let samples = samples::load::<f32>().expect("built in");
     let ground_truth = &samples.ground_truth.material;
     let mut worst = [0.0; 2];
@@ -100,7 +81,7 @@ fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
         for prediction in &samples.predictions {
             let prediction = &prediction.material;
             let want = in_f64(ground_truth, &[prediction], &scenes, &convention).remove(0);
-            let got = computer.losses(ground_truth, &[prediction], &scenes, &convention);
+            let got = of(ground_truth, &[prediction], &scenes, &convention);
             assert_eq!(got[0].prediction, prediction.name());
             let off = compare(&got, want.estimate.mean, &want.per_scene)
                 .unwrap_or_else(|e| panic!("{}, {}: {e}", prediction.name(), convention.name));
@@ -113,7 +94,6 @@ fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
 #[needs(adapter, shared)]
 #[test]
 fn losses_are_the_golden_ones() {
-    let computer = Computer::get();
     let mut worst = [0.0; 2];
     for case in golden_loss::cases() {
         let [ground_truth, prediction] =
@@ -121,7 +101,7 @@ fn losses_are_the_golden_ones() {
         let scenes: Vec<Scene> = serde_json::from_value(case["scenes"].clone()).expect("scenes");
         for convention in convention::ALL {
             let golden = golden_loss::expected(&case, &convention).unwrap_or_else(|e| panic!("{e}"));
-            let got = computer.losses(&ground_truth, &[&prediction], &scenes, &convention);
+            let got = of(&ground_truth, &[&prediction], &scenes, &convention);
             let off = compare(&got, golden.loss, &golden.per_scene)
                 .unwrap_or_else(|e| panic!("{}, {}: {e}", prediction.name(), convention.name));
             worst = larger(worst, off);
@@ -142,13 +122,12 @@ fn changed(width: usize, height: usize) -> Material<f32> {
 #[needs(adapter)]
 #[test]
 fn odd_sizes_are_summed_to_the_last_texel() {
-    let computer = Computer::get();
     // The last two are one texel more than a block, and more than a band.
     for [width, height] in [[1, 1], [7, 3], [3, 7], [129, 1], [1, 129], [17, 241], [1049, 1001]] {
         let (ground_truth, prediction) = (bumpy(width, height), changed(width, height));
         let scenes = scenes(1, 1, &PRINTED);
         let want = in_f64(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
-        let got = computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED);
+        let got = of(&ground_truth, &[&prediction], &scenes, &PRINTED);
         compare(&got, want.estimate.mean, &want.per_scene)
             .unwrap_or_else(|e| panic!("{width} x {height}: {e}"));
     }
@@ -157,11 +136,10 @@ fn odd_sizes_are_summed_to_the_last_texel() {
 #[needs(adapter)]
 #[test]
 fn equal_materials_have_no_loss_at_all() {
-    let computer = Computer::get();
     for convention in convention::ALL {
         let material = bumpy(65, 67);
         let scenes = scenes(4, 3, &convention);
-        let loss = computer.losses(&material, &[&material], &scenes, &convention).remove(0);
+        let loss = of(&material, &[&material], &scenes, &convention).remove(0);
         assert_eq!((loss.estimate.mean, loss.estimate.standard_error), (0.0, Some(0.0)));
         assert!(loss.per_scene.iter().all(|&scene| scene == 0.0));
     }
@@ -170,7 +148,6 @@ fn equal_materials_have_no_loss_at_all() {
 #[needs(adapter)]
 #[test]
 fn mirrors_and_grazing_lights_have_finite_losses() {
-    let computer = Computer::get();
     let uniform = |roughness, specular| {
         let texel = svbrdf_core::model::brdf::Texel {
             normal: glam::Vec3::Z,
@@ -180,15 +157,15 @@ fn mirrors_and_grazing_lights_have_finite_losses() {
         };
         Material::uniform("uniform", 9, 9, &texel).expect("valid")
     };
-    let of = |kind, light| Scene { kind, view: [0.0, 0.0, 1.0], light };
+    let scene = |kind, light| Scene { kind, view: [0.0, 0.0, 1.0], light };
     let scenes = [
-        of(Kind::Near, [0.0, 0.0, 1.0]),
-        of(Kind::Near, [0.9, 0.9, 1e-6]),
-        of(Kind::Distant, [1.0, 0.0, 1e-6]),
+        scene(Kind::Near, [0.0, 0.0, 1.0]),
+        scene(Kind::Near, [0.9, 0.9, 1e-6]),
+        scene(Kind::Distant, [1.0, 0.0, 1e-6]),
     ];
     for [a, b] in [[0.0, 1.0], [0.0, 0.0], [1.0, 0.0]] {
         let (ground_truth, prediction) = (uniform(a, 1.0), uniform(b, 0.5));
-        let loss = computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
+        let loss = of(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
         assert!(loss.per_scene.iter().all(|x| x.is_finite() && *x >= 0.0), "{loss:?}");
     }
 }
@@ -196,10 +173,9 @@ fn mirrors_and_grazing_lights_have_finite_losses() {
 #[needs(adapter)]
 #[test]
 fn the_same_bits_come_out_every_time() {
-    let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(200, 100), changed(200, 100));
     let scenes = scenes(6, 3, &PRINTED);
-    let once = || computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED);
+    let once = || of(&ground_truth, &[&prediction], &scenes, &PRINTED);
     let first = once();
     assert!((0..5).all(|_| once() == first));
 }
@@ -207,29 +183,27 @@ fn the_same_bits_come_out_every_time() {
 #[needs(adapter)]
 #[test]
 fn several_predictions_have_the_losses_that_each_has_alone() {
-    let computer = Computer::get();
     let (ground_truth, other, scenes) = (bumpy(90, 70), changed(90, 70), scenes(3, 2, &PRINTED));
     // More than one pass takes.
     let predictions = [&other, &ground_truth, &other, &other, &ground_truth, &other];
-    let together = computer.losses(&ground_truth, &predictions, &scenes, &PRINTED);
+    let together = of(&ground_truth, &predictions, &scenes, &PRINTED);
     assert_eq!(together.len(), predictions.len());
     for (prediction, loss) in predictions.into_iter().zip(&together) {
-        let alone = computer.losses(&ground_truth, &[prediction], &scenes, &PRINTED);
+        let alone = of(&ground_truth, &[prediction], &scenes, &PRINTED);
         assert_eq!(&alone[0], loss);
     }
-    assert!(computer.losses(&ground_truth, &[], &scenes, &PRINTED).is_empty());
+    assert!(of(&ground_truth, &[], &scenes, &PRINTED).is_empty());
 }
 
 #[needs(adapter)]
 #[test]
 fn many_scenes_have_the_losses_that_each_has_alone() {
-    let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(5, 4), changed(5, 4));
     // More than one step takes.
     let scenes = scenes(2000, 100, &PRINTED);
-    let loss = computer.losses(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
+    let loss = of(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
     for i in [0, 1, 1999, 2000, 2047, 2048, 2099] {
-        let alone = computer.losses(&ground_truth, &[&prediction], &scenes[i..=i], &PRINTED);
+        let alone = of(&ground_truth, &[&prediction], &scenes[i..=i], &PRINTED);
         assert_eq!(alone[0].per_scene, [loss.per_scene[i]], "scene {i}");
     }
 }
@@ -237,12 +211,11 @@ fn many_scenes_have_the_losses_that_each_has_alone() {
 #[needs(adapter)]
 #[test]
 fn a_cancelled_loss_ends_at_its_next_step() {
-    let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(8, 8), changed(8, 8));
     let scenes = scenes(6000, 0, &PRINTED);
     let progress = Progress::default();
     let comparison = Comparison::new(&ground_truth, &[&prediction], PRINTED).expect("of one size");
-    let comparison = comparison.on(computer.losses);
+    let comparison = comparison.on(on_gpu());
     let run = || comparison.run(&Request::Listed(scenes.clone()), &progress);
     run().expect("not cancelled yet");
     let (done, total) = progress.counts();
@@ -255,10 +228,9 @@ fn a_cancelled_loss_ends_at_its_next_step() {
 #[needs(adapter)]
 #[test]
 fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
-    let computer = Computer::get();
     let (material, other) = (bumpy(8, 8), bumpy(8, 9));
     let refused = |prediction, scenes: &[Scene]| {
-        computer.try_losses(&material, &[prediction], scenes, &PRINTED).expect_err("refused")
+        losses(on_gpu(), &material, &[prediction], scenes, &PRINTED).expect_err("refused")
     };
     let fine = scenes(1, 0, &PRINTED);
     let below = Scene { light: [0.0, 0.0, -1.0], ..fine[0] };
@@ -270,12 +242,11 @@ fn what_cannot_be_computed_is_refused_as_on_the_cpu() {
 #[needs(adapter)]
 #[test]
 fn the_comparison_of_losses_goes_red_on_planted_faults() {
-    let computer = Computer::get();
     let (ground_truth, prediction) = (bumpy(64, 48), changed(64, 48));
     let scenes = scenes(3, 2, &PRINTED);
     let want = in_f64(&ground_truth, &[&prediction], &scenes, &PRINTED).remove(0);
     let against = |gt: &Material<f32>, prediction: &Material<f32>, scenes: &[Scene], convention| {
-        let got = computer.losses(gt, &[prediction], scenes, convention);
+        let got = of(gt, &[prediction], scenes, convention);
         compare(&got, want.estimate.mean, &want.per_scene)
     };
     let faulty = |change: fn(&mut Planes<f32>)| {

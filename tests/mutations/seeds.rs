@@ -1,22 +1,14 @@
 //! Seeds of the fuzz targets in `tests/fuzz/`, and the inputs that these have found, which stay tests.
 
-use exr::prelude::Compression;
 use svbrdf_core::model::scene::SceneFile;
 use svbrdf_files::photograph::Capture;
 use svbrdf_files::read::read_photograph;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::{Session, SessionMaterial};
 
-use super::listings::{GLTF_OF_EXTENSIONS, GLTF_OF_GLOSS, OPEN_PBR, USD};
-use super::pictures::{palette, palette_bmp};
+use super::listings::{SIDECAR, listings};
 use super::*;
-use crate::formats::decoders::{ETC1S, blocks};
-use crate::scene_files::{GLTF_PBR, STANDARD_SURFACE, glb, gltf_text, mtl};
-use crate::support::pictures::{compressed, layered, multi_part, npy, npz};
-use crate::support::textures::{bc1_block, dds_blocks, dds_dx10, dds_plain};
-
-const SIDECAR: &str = r#"{"albedo": "srgb", "dielectric-f0": 0.05, "grid": "4x1", "order": "ndrs", "flip-v": true,
-    "exemplar": 0, "maps": {"roughness": "n.png:g"}, "preset": "gao"}"#;
+use crate::scene_files::mtl;
 
 const SCENES: &str = r#"{"scenes": [{"light": [0.1, 0.2, 1.5], "view": [0, 0, 2], "kind": "near"},
     {"light": [0.1, 0.2, 1.5e0], "view": [-0.3, 0, 2], "kind": "distant"}]}"#;
@@ -28,44 +20,7 @@ const CALIBRATION: &str = r#"{"target_dir": "target", "im_size": 6.8, "idx": [1,
     "light_pos": [[-3, 3, 16], [0, 3, 16]], "light_pow": [1500, 1500, 1500]}"#;
 
 fn pictures() -> Vec<Vec<u8>> {
-    use Compression::{B44, B44A, DWAA, DWAB, PIZ, PXR24, RLE, Uncompressed, ZIP1, ZIP16};
-    let eight = packed("NDRS", 4, |_, v| v);
-    let [sixteen, float]: [DynamicImage; 2] = [eight.to_rgb16().into(), eight.to_rgb32f().into()];
-    let rgba = eight.to_rgba8();
-    let numbers = eight.to_rgb32f();
-    let bc1: Vec<u8> = (0..64).flat_map(|block| bc1_block([block / 2, block, 31 - block / 2])).collect();
-    let blocks_of_16: Vec<u8> = (0..64_u8).flat_map(|k| [k | 1; 16].map(|b| b.wrapping_mul(37))).collect();
-    let mut all: Vec<Vec<u8>> = [
-        (&eight, ImageFormat::Png),
-        (&sixteen, ImageFormat::Png),
-        (&eight, ImageFormat::Jpeg),
-        (&float, ImageFormat::Hdr),
-        (&eight, ImageFormat::Tiff),
-        (&sixteen, ImageFormat::Tiff),
-        (&float, ImageFormat::Tiff),
-        (&eight, ImageFormat::Bmp),
-        (&eight, ImageFormat::WebP),
-    ]
-    .map(|(image, format)| encoded(image, format))
-    .into();
-    let exr = [Uncompressed, RLE, ZIP1, ZIP16, PIZ, PXR24, B44, B44A, DWAA(None), DWAB(None)];
-    all.extend(exr.map(|compression| written(|path| compressed(path, compression))));
-    all.extend([
-        palette(),
-        palette_bmp(),
-        dds_plain(rgba.width(), rgba.height(), rgba.as_raw()),
-        dds_blocks(64, 16, b"DXT1", &bc1),
-        dds_blocks(64, 16, b"DXT3", &blocks_of_16),
-        dds_blocks(64, 16, b"DXT5", &blocks_of_16),
-        dds_dx10(64, 16, 98, &blocks_of_16),
-        blocks().1,
-        ETC1S.to_vec(),
-        written(|path| layered(path, true)),
-        written(multi_part),
-        npy([u64::from(numbers.height()), u64::from(numbers.width()), 3], numbers.as_raw()),
-        written(npz),
-    ]);
-    all
+    super::pictures::pictures().into_iter().map(|(_, bytes)| bytes).collect()
 }
 
 fn session() -> String {
@@ -84,19 +39,20 @@ fn text(text: &str) -> Vec<u8> {
 
 /// The seeds of each target.
 fn seeds() -> Vec<(&'static str, Vec<Vec<u8>>)> {
-    let (folder, _) = mtl::wall("");
-    vec![
+    let listing = |target| {
+        let of_target = listings().into_iter().filter(move |(kind, _)| *kind == target);
+        (target, of_target.map(|(_, bytes)| bytes).collect())
+    };
+    let mut all: Vec<_> = ["mtlx", "mtl", "gltf", "glb"].into_iter().map(listing).collect();
+    all.extend([
         ("picture", pictures()),
         ("photograph", pictures()),
         ("scene_file", vec![text(SCENES)]),
         ("capture", [CAPTURE, CALIBRATION].map(text).into()),
-        ("mtlx", [GLTF_PBR, STANDARD_SURFACE, OPEN_PBR, USD].map(text).into()),
-        ("mtl", vec![text(mtl::PBR)]),
-        ("gltf", vec![gltf_text(), text(GLTF_OF_EXTENSIONS), text(GLTF_OF_GLOSS)]),
-        ("glb", vec![glb(folder.path())]),
         ("sidecar", vec![text(SIDECAR)]),
         ("session", vec![text(&session())]),
-    ]
+    ]);
+    all
 }
 
 /// Opens what a target opens, beside the maps in `folder`.

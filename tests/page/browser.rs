@@ -204,6 +204,26 @@ impl Page {
         self.evaluate(&format!("{frames}.then(() => ({expression}))"))
     }
 
+    pub fn number(&mut self, expression: &str) -> f64 {
+        self.after_frame(expression).as_f64().unwrap()
+    }
+
+    pub fn click(&mut self, id: &str) {
+        self.evaluate(&format!("document.getElementById({id:?}).click()"));
+    }
+
+    /// Enters a value into a field, or chooses it.
+    pub fn input(&mut self, id: &str, value: &str) {
+        self.evaluate(&format!(
+            "(() => {{ const e = document.getElementById({id:?}); e.value = {value:?}; e.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()"
+        ));
+    }
+
+    /// The materials in the panes.
+    pub fn panes(&mut self) -> Value {
+        self.after_frame("window.svbrdf.figure.panes().map(pane => pane.material)")
+    }
+
     /// The middle of an element in the window, after it is scrolled there.
     pub fn place(&mut self, selector: &str) -> [f64; 2] {
         let rectangle = self.evaluate(&format!(
@@ -213,14 +233,20 @@ impl Page {
         [0, 1].map(|i| rectangle[i].as_f64().unwrap())
     }
 
+    /// An event of the mouse, or of what `more` says.
+    pub fn mouse(&mut self, kind: &str, [x, y]: [f64; 2], more: Value) {
+        let mut params = json!({ "type": kind, "x": x, "y": y, "clickCount": 1 });
+        params.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        self.send("Input.dispatchMouseEvent", params);
+    }
+
     /// A drag of the mouse in three moves.
     pub fn drag(&mut self, button: &str, modifiers: u32, from: [f64; 2], to: [f64; 2]) {
         let buttons =
             [("left", 1), ("right", 2), ("middle", 4)].into_iter().find(|(name, _)| *name == button);
         let buttons = buttons.unwrap().1;
-        let mut event = |kind: &str, [x, y]: [f64; 2], buttons: u32| {
-            let params = json!({ "type": kind, "x": x, "y": y, "button": button, "buttons": buttons, "clickCount": 1, "modifiers": modifiers });
-            self.send("Input.dispatchMouseEvent", params);
+        let mut event = |kind: &str, at, buttons: u32| {
+            self.mouse(kind, at, json!({ "button": button, "buttons": buttons, "modifiers": modifiers }));
         };
         event("mouseMoved", from, 0);
         event("mousePressed", from, buttons);

@@ -20,14 +20,25 @@ fn state(page: &mut Page, member: &str) -> Value {
     page.after_frame(&format!("window.svbrdf.figure.state.{member}"))
 }
 
+fn number(page: &mut Page, member: &str) -> f64 {
+    state(page, member).as_f64().unwrap()
+}
+
 fn near(found: &Value, expected: [f64; 2]) -> bool {
     (0..2).all(|i| (found[i].as_f64().unwrap() - expected[i]).abs() < 0.02)
+}
+
+/// The figure as it begins, and its [`pane`].
+fn start(page: &mut Page) -> ([f64; 2], f64) {
+    page.evaluate("Object.assign(window.svbrdf.figure.state, window.svbrdf.figure.start())");
+    page.evaluate("window.svbrdf.figure.set({})");
+    pane(page)
 }
 
 /// The middle of the first pane, and half of its side, of a square material.
 fn pane(page: &mut Page) -> ([f64; 2], f64) {
     page.place("#canvas");
-    let found = page.evaluate(
+    let found = page.after_frame(
         "(() => { const c = document.getElementById('canvas').getBoundingClientRect(); const b = window.svbrdf.figure.boxes()[0]; \
          return [c.left + b.x + b.width / 2, c.top + b.y + b.height / 2, Math.min(b.width, b.height) / 2 / 1.03 * 47 / 48]; })()",
     );
@@ -35,11 +46,20 @@ fn pane(page: &mut Page) -> ([f64; 2], f64) {
     ([at(0), at(1)], at(2))
 }
 
+/// That the readouts of all panes begin so.
+fn assert_readouts(page: &mut Page, begin: &str) {
+    let texts = page.after_frame("[...document.querySelectorAll('.readout')].map(e => e.textContent)");
+    let begins = |text: &Value| text.as_str().unwrap().starts_with(begin);
+    assert!(texts.as_array().unwrap().len() == 3 && texts.as_array().unwrap().iter().all(begins), "{texts}");
+}
+
 #[needs(browser)]
 #[test]
-fn the_mouse_moves_light_view_picture_and_wipe() {
+fn mouse_fingers_and_pen_move_light_view_picture_and_wipe() {
     let mut page = open();
-    let ([x, y], unit) = pane(&mut page);
+    let ([x, y], unit) = start(&mut page);
+    page.mouse("mouseMoved", [x, y], json!({}));
+    assert_readouts(&mut page, "(2");
     page.drag("left", 0, [x, y], [x + 0.5 * unit, y - 0.25 * unit]);
     assert!(near(&state(&mut page, "scene.light"), [0.5, 0.25]));
     page.drag("right", 0, [x, y], [x - 0.5 * unit, y + 0.25 * unit]);
@@ -47,70 +67,54 @@ fn the_mouse_moves_light_view_picture_and_wipe() {
     page.drag("left", SHIFT, [x, y], [x + 0.1 * unit, y]);
     assert!(near(&state(&mut page, "scene.view"), [0.1, 0.0]));
     let wheel = |page: &mut Page, modifiers: u32| {
-        let params = json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": -100, "modifiers": modifiers });
-        page.send("Input.dispatchMouseEvent", params);
+        page.mouse("mouseWheel", [x, y], json!({ "deltaX": 0, "deltaY": -100, "modifiers": modifiers }));
     };
     wheel(&mut page, 0);
-    assert!((state(&mut page, "zoom").as_f64().unwrap() - 1.15).abs() < 1e-9);
+    assert!((number(&mut page, "zoom") - 1.15).abs() < 1e-9);
     wheel(&mut page, SHIFT);
-    assert!((state(&mut page, "scene.light[2]").as_f64().unwrap() - 1.32).abs() < 1e-9);
+    assert!((number(&mut page, "scene.light[2]") - 1.32).abs() < 1e-9);
     page.drag("middle", 0, [x, y], [x + 40.0, y]);
-    assert!(state(&mut page, "pan[0]").as_f64().unwrap() > 0.1);
+    assert!(number(&mut page, "pan[0]") > 0.1);
     page.evaluate("window.svbrdf.figure.set({ projection: 'perspective' })");
     page.drag("right", 0, [x, y], [x + 60.0, y]);
-    assert!(state(&mut page, "scene.view[0]").as_f64().unwrap() < -0.2);
-    page.evaluate("Object.assign(window.svbrdf.figure.state, window.svbrdf.figure.start())");
-    page.evaluate("window.svbrdf.figure.set({ layout: 'wipe' })");
-    let boxes = page.after_frame("window.svbrdf.figure.boxes()[0].width");
-    let ([x, y], _) = pane(&mut page);
-    page.drag("left", 0, [x, y], [x + 0.2 * boxes.as_f64().unwrap(), y]);
-    assert!((state(&mut page, "wipe").as_f64().unwrap() - 0.7).abs() < 0.01);
-    assert_eq!(state(&mut page, "scene.light"), json!([0.4, 0.5, 1.2]));
-}
+    assert!(number(&mut page, "scene.view[0]") < -0.2);
 
-#[needs(browser)]
-#[test]
-fn fingers_move_light_and_view_and_zoom() {
-    let mut page = open();
-    let ([x, y], unit) = pane(&mut page);
+    start(&mut page);
+    page.evaluate("window.svbrdf.figure.set({ layout: 'wipe' })");
+    let width = page.number("window.svbrdf.figure.boxes()[0].width");
+    let ([x, y], _) = pane(&mut page);
+    page.drag("left", 0, [x, y], [x + 0.2 * width, y]);
+    assert!((number(&mut page, "wipe") - 0.7).abs() < 0.01);
+    assert_eq!(state(&mut page, "scene.light"), json!([0.4, 0.5, 1.2]));
+
+    let ([x, y], unit) = start(&mut page);
     page.touch(&[[[x, y], [x - 0.5 * unit, y - 0.5 * unit]]]);
     assert!(near(&state(&mut page, "scene.light"), [-0.5, 0.5]));
     page.touch(&[[[x - 40.0, y], [x - 80.0, y]], [[x + 40.0, y], [x + 80.0, y]]]);
-    assert!((state(&mut page, "zoom").as_f64().unwrap() - 2.0).abs() < 0.1);
-    let before = state(&mut page, "scene.view[1]").as_f64().unwrap();
+    assert!((number(&mut page, "zoom") - 2.0).abs() < 0.1);
+    let before = number(&mut page, "scene.view[1]");
     page.touch(&[[[x - 40.0, y], [x - 40.0, y - 60.0]], [[x + 40.0, y], [x + 40.0, y - 60.0]]]);
-    assert!(state(&mut page, "scene.view[1]").as_f64().unwrap() > before + 0.05);
+    assert!(number(&mut page, "scene.view[1]") > before + 0.05);
     assert_eq!(state(&mut page, "scene.light[2]"), json!(1.2));
     // The numbers of the last texel stay after the finger.
-    let readouts = page.after_frame("[...document.querySelectorAll('.readout')].map(e => e.textContent)");
-    assert!(
-        readouts.as_array().unwrap().iter().all(|text| text.as_str().unwrap().starts_with('(')),
-        "{readouts}"
-    );
-}
+    assert_readouts(&mut page, "(");
 
-#[needs(browser)]
-#[test]
-fn a_pen_moves_the_light_and_a_finger_holds_the_ground_truth() {
-    let mut page = open();
-    let ([x, y], unit) = pane(&mut page);
+    let ([x, y], unit) = start(&mut page);
     for (kind, share, buttons) in
         [("mousePressed", 0.0, 1), ("mouseMoved", 0.5, 1), ("mouseReleased", 0.5, 0)]
     {
-        let params = json!({ "type": kind, "x": x + share * unit, "y": y, "button": "left", "buttons": buttons, "clickCount": 1,
-            "pointerType": "pen" });
-        page.send("Input.dispatchMouseEvent", params);
+        let pen = json!({ "button": "left", "buttons": buttons, "pointerType": "pen" });
+        page.mouse(kind, [x + share * unit, y], pen);
     }
     assert!(near(&state(&mut page, "scene.light"), [0.5, 0.0]));
-    let shown = "window.svbrdf.figure.panes().map(pane => pane.material)";
     let [x, y] = page.place("#peek");
     page.send(
         "Input.dispatchTouchEvent",
         json!({ "type": "touchStart", "touchPoints": [{ "x": x, "y": y }] }),
     );
-    assert_eq!(page.after_frame(shown), json!([0, 0, 0]));
+    assert_eq!(page.panes(), json!([0, 0, 0]), "a finger holds the ground truth");
     page.send("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
-    assert_eq!(page.after_frame(shown), json!([0, 1, 2]));
+    assert_eq!(page.panes(), json!([0, 1, 2]));
 }
 
 #[needs(browser)]
@@ -142,9 +146,9 @@ fn keys_do_what_they_do_in_the_window() {
     assert!(near(&state(&mut page, "scene.light"), [0.45, 0.5]));
     assert!(near(&state(&mut page, "scene.view"), [0.0, 0.05]));
     page.key("keyDown", "g", 0);
-    assert_eq!(page.after_frame("window.svbrdf.figure.panes().map(pane => pane.material)"), json!([0, 0, 0]));
+    assert_eq!(page.panes(), json!([0, 0, 0]));
     page.key("keyUp", "g", 0);
-    assert_eq!(page.after_frame("window.svbrdf.figure.panes().map(pane => pane.material)"), json!([0, 1, 2]));
+    assert_eq!(page.panes(), json!([0, 1, 2]));
     page.press("0", 0);
     assert_eq!(
         page.after_frame("Math.round(window.svbrdf.figure.state.zoom * 100) === Math.round(100 * 1.03 * 48 / Math.min(window.svbrdf.figure.boxes()[0].width, window.svbrdf.figure.boxes()[0].height))"),
@@ -154,7 +158,7 @@ fn keys_do_what_they_do_in_the_window() {
 
 #[needs(browser)]
 #[test]
-fn every_control_is_reached_by_tab_has_a_name_and_changes_the_figure() {
+fn every_control_is_reached_by_tab_and_changes_the_figure_and_the_page_requests_nothing() {
     let mut page = open();
     page.evaluate("document.body.focus(); document.activeElement.blur()");
     let mut reached = Vec::new();
@@ -162,27 +166,10 @@ fn every_control_is_reached_by_tab_has_a_name_and_changes_the_figure() {
         page.press("Tab", 0);
         reached.push(page.evaluate("document.activeElement.id"));
     }
-    for id in [
-        "quantity",
-        "difference",
-        "layout",
-        "prediction",
-        "near",
-        "projection",
-        "drag",
-        "exposure",
-        "peek",
-        "fit",
-        "reset",
-        "canvas",
-    ] {
+    let ids = "quantity difference layout prediction near projection drag exposure peek fit reset canvas";
+    for id in ids.split(' ') {
         assert!(reached.contains(&json!(id)), "{id} is not among {reached:?}");
     }
-    let unnamed = page.evaluate(
-        "[...document.querySelectorAll('input, select, button, canvas[tabindex], img')].filter(e => \
-         !(e.getAttribute('aria-label') || e.closest('label')?.textContent.trim() || e.textContent.trim() || e.alt)).map(e => e.id)",
-    );
-    assert_eq!(unnamed, json!([]));
     let cases = [
         ("quantity", "roughness", "quantity", json!("roughness")),
         ("layout", "single", "layout", json!("single")),
@@ -195,38 +182,18 @@ fn every_control_is_reached_by_tab_has_a_name_and_changes_the_figure() {
         ("view-0", "-0.3", "scene.view[0]", json!(-0.3)),
     ];
     for (id, value, member, expected) in cases {
-        page.evaluate(&format!(
-            "(() => {{ const e = document.getElementById({id:?}); e.value = {value:?}; e.dispatchEvent(new Event('input', {{ bubbles: true }})); }})()"
-        ));
+        page.input(id, value);
         assert_eq!(state(&mut page, member), expected, "{id}");
     }
-    page.evaluate("document.getElementById('difference').click()");
+    page.click("difference");
     assert_eq!(state(&mut page, "difference"), json!(true));
     assert_eq!(page.evaluate("document.getElementById('legend').hidden"), json!(false));
     let before = state(&mut page, "ranges.absolute");
-    page.evaluate("document.getElementById('auto').click()");
+    page.click("auto");
     assert_ne!(state(&mut page, "ranges.absolute"), before);
-    page.evaluate("document.getElementById('reset').click()");
+    page.click("reset");
     assert_eq!(state(&mut page, "quantity"), json!("rendering"));
-}
 
-#[needs(browser)]
-#[test]
-fn a_readout_is_in_every_pane() {
-    let mut page = open();
-    let ([x, y], _) = pane(&mut page);
-    page.send("Input.dispatchMouseEvent", json!({ "type": "mouseMoved", "x": x, "y": y }));
-    let texts = page.after_frame("[...document.querySelectorAll('.readout')].map(e => e.textContent)");
-    assert_eq!(texts.as_array().unwrap().len(), 3);
-    for text in texts.as_array().unwrap() {
-        assert!(text.as_str().unwrap().starts_with("(2"), "{texts}");
-    }
-}
-
-#[needs(browser)]
-#[test]
-fn the_page_requests_nothing_and_its_policy_admits_nothing() {
-    let mut page = open();
     let (requests, complaints) = page.traffic();
     assert!(requests.len() >= 2 && complaints.is_empty(), "{requests:?} {complaints:?}");
     let inside = |address: &String| {
@@ -250,20 +217,17 @@ fn the_page_requests_nothing_and_its_policy_admits_nothing() {
 fn a_window_without_room_for_all_predictions_has_the_chosen_one_beside_the_ground_truth() {
     let materials: Vec<_> = (1..=16).map(noise).collect();
     let mut page = Page::open(&figure(&materials, PRINTED), [360, 640]);
-    let panes = |page: &mut Page| page.after_frame("window.svbrdf.figure.panes().map(pane => pane.material)");
-    assert_eq!(panes(&mut page), json!([0, 1]));
+    assert_eq!(page.panes(), json!([0, 1]));
     page.evaluate("document.getElementById('canvas').focus()");
     page.press("3", 0);
-    assert_eq!(panes(&mut page), json!([0, 3]));
-    page.evaluate(
-        "(() => { const e = document.getElementById('prediction'); e.value = '14'; e.dispatchEvent(new Event('input')); })()",
-    );
-    assert_eq!(panes(&mut page), json!([0, 15]));
+    assert_eq!(page.panes(), json!([0, 3]));
+    page.input("prediction", "14");
+    assert_eq!(page.panes(), json!([0, 15]));
     let status = page.evaluate(
         "new Promise(done => setTimeout(() => done(document.getElementById('status').textContent), 600))",
     );
     assert!(status.as_str().unwrap().ends_with("There is room for one prediction."), "{status}");
     let size = json!({ "width": 1360, "height": 860, "deviceScaleFactor": 1, "mobile": false });
     page.send("Emulation.setDeviceMetricsOverride", size);
-    assert_eq!(panes(&mut page).as_array().unwrap().len(), 16);
+    assert_eq!(page.panes().as_array().unwrap().len(), 16);
 }

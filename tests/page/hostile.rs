@@ -3,27 +3,19 @@
 use serde_json::json;
 
 use svbrdf_core::loss::Request;
-use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
-use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
-use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_needs::needs;
-use svbrdf_page::{Findings, Repetition, Report, View};
+use svbrdf_page::{Findings, Repetition, Report};
 
 use super::browser::Page;
 use super::noise;
 
-const NAMES: [&str; 2] = [
+pub const NAMES: [&str; 2] = [
     "</script><img src=x onerror=window.hit=1><!--<script>",
     "\"'><svg onload=window.hit=1>{{data}}\u{202e}&lt;",
 ];
-
-/// A whole report of materials with hostile names.
-pub fn report() -> String {
-    report_of(NAMES)
-}
 
 /// A whole report of materials with these names.
 pub fn report_of(names: [&str; 2]) -> String {
@@ -31,26 +23,19 @@ pub fn report_of(names: [&str; 2]) -> String {
     let progress = Progress::default();
     let request = Request::Accuracy { target: 0.05, seed: 0 };
     let findings = Findings::new(&truth, &[&prediction], PRINTED, &request, &progress).unwrap();
-    let materials: [&Material<f32>; 2] = [&truth, &prediction];
+    let materials = [&truth, &prediction];
     let report = Report {
-        materials: &materials,
-        convention: PRINTED,
-        view: View {
-            scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
-            exposure_ev: 0.0,
-            display: SessionDisplay::default(),
-        },
         findings: Some(findings),
         readings: names.map(|name| vec![name.to_owned()]).to_vec(),
         repetition: Some(Repetition { command: names.concat(), session: Some(names.map(str::to_owned)) }),
-        max_bytes: 10_000_000,
+        ..super::report(&materials, PRINTED)
     };
     report.page(&progress).unwrap().html
 }
 
 #[test]
 fn hostile_names_add_no_elements() {
-    let html = report();
+    let html = report_of(NAMES);
     let count = |text: &str| html.matches(text).count();
     assert_eq!(
         [count("<script"), count("</script"), count("<img src=x"), count("<svg onload")],
@@ -63,7 +48,7 @@ fn hostile_names_add_no_elements() {
 #[needs(browser)]
 #[test]
 fn hostile_names_run_nothing_and_are_read_as_lines() {
-    let mut page = Page::open(&report(), [900, 900]);
+    let mut page = Page::open(&report_of(NAMES), [900, 900]);
     assert_eq!(page.after_frame("window.hit === undefined"), json!(true));
     assert_eq!(page.evaluate("window.svbrdf.figure.materials.map(m => m.name)"), json!(NAMES.map(line)));
     let title = page.evaluate("document.querySelector('.pane .title').textContent");

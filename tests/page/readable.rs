@@ -64,40 +64,34 @@ fn unnamed(page: &mut Page) -> (Vec<Value>, usize) {
     (all.iter().filter(|node| !has_name(node)).map(|node| (**node).clone()).collect(), all.len())
 }
 
-fn pages() -> [Page; 2] {
-    [
-        Page::open(&hostile::report(), [1000, 900]),
-        Page::open_until(&ranking::page(), [1000, 900], ranking::READY),
-    ]
+/// A report of these materials and a ranking in a window of this size, unfolded and with differences.
+fn pages(names: [&str; 2], size: [u32; 2]) -> [Page; 2] {
+    let mut pages = [
+        Page::open(&hostile::report_of(names), size),
+        Page::open_until(&ranking::page(), size, ranking::READY),
+    ];
+    for page in &mut pages {
+        page.evaluate("document.querySelectorAll('details').forEach(e => { e.open = true; })");
+        page.evaluate("window.svbrdf?.figure.set({ difference: true })");
+    }
+    pages
 }
 
 #[needs(browser)]
 #[test]
-fn texts_have_contrast_in_light_and_dark() {
-    for mut page in pages() {
-        page.evaluate("document.querySelectorAll('details').forEach(e => { e.open = true; })");
-        if page.evaluate("!!window.svbrdf") == json!(true) {
-            page.evaluate("window.svbrdf.figure.set({ difference: true })");
-        }
+fn texts_have_contrast_in_light_and_dark_and_what_is_used_has_a_name() {
+    for mut page in pages(hostile::NAMES, [1000, 900]) {
         for scheme in ["light", "dark"] {
             page.scheme(scheme);
             page.evaluate("new Promise(done => setTimeout(done, 400))");
             let (weak, all) = weak(&mut page);
             assert!(weak.is_empty() && all > 20, "{scheme}: {weak:?} of {all}");
         }
-        // A weak text is found.
-        page.evaluate("document.querySelector('h1').style.color = '#777'");
-        assert_eq!(self::weak(&mut page).0.len(), 1);
-    }
-}
-
-#[needs(browser)]
-#[test]
-fn everything_that_is_used_has_a_name() {
-    for mut page in pages() {
         let (unnamed, all) = unnamed(&mut page);
         assert!(unnamed.is_empty() && all > 10, "{unnamed:?} of {all}");
-        // A button without a name is found.
+        // A weak text and a button without a name are found.
+        page.evaluate("document.querySelector('h1').style.color = '#777'");
+        assert_eq!(self::weak(&mut page).0.len(), 1);
         page.evaluate("document.body.append(document.createElement('button'))");
         assert_eq!(self::unnamed(&mut page).0.len(), 1);
     }
@@ -116,14 +110,7 @@ const MISPLACED: &str = "(() => { const found = []; const width = document.docum
 #[test]
 fn long_names_fit_a_phone_and_every_target_a_fingertip() {
     let long = "a_long_name".repeat(11);
-    let report = hostile::report_of([&long, &long]);
-    let mut pages =
-        [Page::open(&report, [360, 640]), Page::open_until(&ranking::page(), [360, 640], ranking::READY)];
-    for page in &mut pages {
-        page.evaluate("document.querySelectorAll('details').forEach(e => { e.open = true; })");
-        if page.evaluate("!!window.svbrdf") == json!(true) {
-            page.evaluate("window.svbrdf.figure.set({ difference: true })");
-        }
+    for mut page in pages([&long, &long], [360, 640]) {
         let found = page.evaluate(&format!("new Promise(done => setTimeout(() => done({MISPLACED}), 400))"));
         assert_eq!(found, json!([]));
         // A button that is too small and a text that is too wide are found.

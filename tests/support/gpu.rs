@@ -3,7 +3,8 @@
 use std::sync::OnceLock;
 
 use svbrdf_core::material::{Material, Planes};
-use svbrdf_gpu::{DisplayParams, DisplayPass, Gpu, Pane, PanePlace, Shaded};
+use svbrdf_core::picture::camera::Camera;
+use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayPass, Encoding, Gpu, Pane, PanePlace, Shaded};
 
 /// What to do where the tests and the build disagree on what is there.
 pub const STALE_BUILD: &str =
@@ -52,6 +53,34 @@ pub fn bumpy(width: usize, height: usize) -> Material<f32> {
         roughness: plane(&|u, v| (0.5 + 0.5 * (5.0 * u + 11.0 * v).sin()).powi(2)),
     };
     Material::new("bumpy", width, height, planes).expect("a valid material")
+}
+
+/// The colour beside the material.
+pub const BACKGROUND: [f32; 3] = [0.2, 0.4, 0.6];
+
+/// What is displayed straight from above of a rectangle around the origin.
+pub fn from_above([half_width, half_height]: [f32; 2], encoding: Encoding) -> DisplayParams {
+    let camera = Camera {
+        origin: [0.0, 0.0, 1.0].into(),
+        origin_right: [half_width, 0.0, 0.0].into(),
+        origin_up: [0.0, half_height, 0.0].into(),
+        direction: [0.0, 0.0, -1.0].into(),
+        direction_right: [0.0; 3].into(),
+        direction_up: [0.0; 3].into(),
+    };
+    DisplayParams {
+        camera,
+        exposure_ev: 0.0,
+        mode: DisplayMode::Value,
+        difference: None,
+        encoding,
+        show_clipping: false,
+        epsilon: 0.01,
+        tiled: false,
+        false_colour: false,
+        nearest: false,
+        background: BACKGROUND,
+    }
 }
 
 /// An 8-bit picture, RGBA, row 0 on top.

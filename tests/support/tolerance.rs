@@ -96,10 +96,6 @@ pub const FUSED_SIMILAR: f64 = 2e-6;
 /// The same where every texel is in the peak of a highlight of r = 1/255: a rounding of a direction is 0.4% of its
 /// width. Worst measured 1.2e-8, over 16,384 texels.
 pub const FUSED_PEAK: f64 = 3e-7;
-/// The same in the peak of a mirror 40 to 100 widths of the lobe away, where D falls with the fourth power of the angle: half
-/// an ulp of the 2.5e-4 of l, 1.5e-11, is up to 4e-5 of the angle, 1.5e-4 of D and 8e-6 of a loss of 18. Worst measured
-/// 7.8e-6; without the cross product 1.1e-3.
-pub const FUSED_MIRROR: f64 = 2e-5;
 /// The same for mirrors, grazing normals and lights in the plane. Worst measured 2.5e-6 (a loss of 0.001).
 pub const FUSED_EXTREME: f64 = 1e-5;
 /// Errors of losses below it are taken relative to it: the logarithms' arguments are f32, whose rounding stays.

@@ -9,8 +9,7 @@ fn the_turntable_turns_the_view_until_space_pauses_it() {
     let before = window.state().parts.model.view.scene;
     more(&mut window);
     let place = window.get_by_label("Turntable").rect();
-    window.get_by_label("Turntable").click();
-    window.run_steps(4);
+    click(&mut window, "Turntable");
     assert_eq!(window.get_by_label("Turntable").rect(), place, "a second click stops it");
     let first = window.state().parts.model.view.scene;
     window.run_steps(4);
@@ -22,11 +21,9 @@ fn the_turntable_turns_the_view_until_space_pauses_it() {
     let paused = window.state().parts.model.view.scene;
     window.run_steps(6);
     assert_eq!(window.state().parts.model.view.scene, paused);
-    window.get_by_label("Resume").click();
-    window.run_steps(4);
+    click(&mut window, "Resume");
     assert!(window.state().parts.model.view.scene.view != paused.view);
-    window.get_by_label("Turntable").click();
-    window.run_steps(4);
+    click(&mut window, "Turntable");
     let stopped = window.state().parts.model.view.scene;
     window.run_steps(4);
     assert_eq!(window.state().parts.model.view.scene, stopped);

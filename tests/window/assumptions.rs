@@ -1,27 +1,27 @@
 //! The drop-downs of assumptions: what they switch is switched in the material, the panes and the loss.
 
-use std::path::PathBuf;
-
-use eframe::egui::accesskit::Role;
-
 use svbrdf_core::material::Material;
 use svbrdf_files::read::{Albedo, ReadOptions};
-use svbrdf_files::samples::generate;
 use svbrdf_files::source::MaterialSource;
 use svbrdf_viewer::model::command::SceneCommand;
 
+use super::materials::strips;
 use super::*;
 
 /// The built-in ground truth as two files, `truth` and `guess`.
 fn two_strips() -> (tempfile::TempDir, [PathBuf; 2]) {
     let folder = tempfile::tempdir().unwrap();
-    let side = generate::SIDE as u32;
-    let pixels = generate::pack(&generate::ground_truth());
-    let paths = ["truth.png", "guess.png"].map(|name| folder.path().join(name));
-    for path in &paths {
-        image::save_buffer(path, &pixels, 4 * side, side, image::ColorType::Rgb8).unwrap();
-    }
+    let paths = strips(folder.path(), ["truth.png", "guess.png"]);
     (folder, paths)
+}
+
+/// A window on files with its tab open, high enough for all panels.
+fn opened<'a>(paths: impl IntoIterator<Item = PathBuf>) -> Window<'a> {
+    let mut window = on_files(paths);
+    tab(&mut window, "Files");
+    window.set_size(vec2(1200.0, 2000.0));
+    window.run_steps(3);
+    window
 }
 
 /// Unfolds the drop-downs of every material.
@@ -33,17 +33,10 @@ fn change(window: &mut Window<'_>) {
     }
 }
 
-/// A window on both, high enough for all panels, once their loss is there.
-fn on_two_strips<'a>([truth, guess]: [PathBuf; 2]) -> Window<'a> {
-    let options = ViewerOptions {
-        ground_truth: Some(truth.into()),
-        predictions: vec![guess.into()],
-        ..ViewerOptions::default()
-    };
-    let mut window = window(options);
-    tab(&mut window, "Files");
-    window.set_size(vec2(1200.0, 2000.0));
-    wait(&mut window, "the loss", |app| app.losses().is_some());
+/// A window on both, once their loss is there.
+fn on_two_strips<'a>(paths: [PathBuf; 2]) -> Window<'a> {
+    let mut window = opened(paths);
+    loss(&mut window);
     change(&mut window);
     window
 }
@@ -51,10 +44,7 @@ fn on_two_strips<'a>([truth, guess]: [PathBuf; 2]) -> Window<'a> {
 /// Clicks the drop-down `name`, then `choice` in it; not before the loss is there, whose panel moves those below.
 fn choose(window: &mut Window<'_>, name: &str, choice: &str) {
     loss(window);
-    window.get_by_role_and_label(Role::ComboBox, name).click();
-    window.run_steps(4);
-    window.get_by_label(choice).click();
-    window.run_steps(2);
+    super::choose(window, name, choice);
 }
 
 fn material(app: &App, index: usize) -> Material<f32> {
@@ -83,11 +73,8 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     });
     let switched = material(window.state(), 1);
     let decode = |v: f32| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
-    for (old, new) in
-        materials[1].planes().diffuse.iter().flatten().zip(switched.planes().diffuse.iter().flatten())
-    {
-        assert!((decode(*old) - new).abs() < 1e-6, "{old} became {new}");
-    }
+    let [stored, decoded] = [&materials[1], &switched].map(|m| m.planes().diffuse.iter().flatten());
+    assert!(stored.zip(decoded).all(|(old, new)| (decode(*old) - new).abs() < 1e-6));
     assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
     assert_eq!(material(window.state(), 0), materials[0]);
     assert!(loss(&mut window) > 0.1);
@@ -141,12 +128,7 @@ fn a_click_on_another_workflow_changes_the_material() {
     put("metallic.png", 255);
     put("roughness.png", 128);
     put("specular.png", 99);
-    let options =
-        ViewerOptions { ground_truth: Some(folder.path().to_owned().into()), ..ViewerOptions::default() };
-    let mut window = window(options);
-    tab(&mut window, "Files");
-    window.set_size(vec2(1200.0, 2000.0));
-    window.run_steps(3);
+    let mut window = opened([folder.path().to_owned()]);
     change(&mut window);
     let name = window.state().names()[0].clone();
     let diffuse = |app: &App| app.materials().next().unwrap().planes().diffuse[0][0];
@@ -154,10 +136,7 @@ fn a_click_on_another_workflow_changes_the_material() {
     for (choice, metallic) in
         [("workflow metallic", true), ("workflow specular", false), ("auto: infer workflow", false)]
     {
-        window.get_by_role_and_label(Role::ComboBox, &format!("workflow of {name}")).click();
-        window.run_steps(4);
-        window.get_by_label(choice).click();
-        window.run_steps(2);
+        super::choose(&mut window, &format!("workflow of {name}"), choice);
         wait(&mut window, choice, |app| !app.is_reading() && (diffuse(app) == 0.0) == metallic);
     }
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
@@ -171,20 +150,11 @@ fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
     let tile =
         |x: u32, _| image::Rgb(if (32..64).contains(&x) { [128, 128, 255] } else { [(x % 32) as u8; 3] });
     image::RgbImage::from_fn(3 * 32, 16, tile).save(&path).unwrap();
-    let options = ViewerOptions { ground_truth: Some(path.into()), ..ViewerOptions::default() };
-    let mut window = window(options);
-    tab(&mut window, "Files");
-    window.set_size(vec2(1200.0, 2000.0));
-    window.run_steps(3);
+    let mut window = opened([path]);
     change(&mut window);
     assert_eq!(material(window.state(), 0).size(), [16, 16]);
-    let enter = |window: &mut Window<'_>, name: &str, text: &str| {
-        window.get_by_role_and_label(Role::SpinButton, name).click();
-        window.run_steps(2);
-        window.get_by_role_and_label(Role::SpinButton, name).type_text(text);
-        press(window, egui::Key::Enter);
-    };
-    choose_order(&mut window, "order of wide", "order dnr");
+    super::choose(&mut window, "order of wide", "order dnr");
+    wait(&mut window, "the order", |app| !app.is_reading());
     enter(&mut window, "columns of tiles of wide", "3");
     wait(&mut window, "the wide tiles", |app| app.materials().next().unwrap().size() == [32, 16]);
     let specular = |app: &App| app.materials().next().unwrap().planes().specular[0][0];
@@ -193,15 +163,6 @@ fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
     wait(&mut window, "another F0", |app| specular(app) == 0.08);
     enter(&mut window, "columns of tiles of wide", "0");
     wait(&mut window, "square tiles again", |app| app.materials().next().unwrap().size() == [16, 16]);
-}
-
-/// Clicks a drop-down and one of its choices, where there is no loss to wait for.
-fn choose_order(window: &mut Window<'_>, name: &str, choice: &str) {
-    window.get_by_role_and_label(Role::ComboBox, name).click();
-    window.run_steps(4);
-    window.get_by_label(choice).click();
-    window.run_steps(2);
-    wait(window, choice, |app| !app.is_reading());
 }
 
 #[needs(adapter)]
@@ -216,14 +177,10 @@ fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
     wait(&mut window, "the material to be read again", |app| *app.materials().nth(1).unwrap() != before);
     let gloss = material(window.state(), 1);
     assert!(!kept.exists());
-    window.get_by_label("Save assumptions of guess").click();
-    window.run_steps(2);
+    click(&mut window, "Save assumptions of guess");
     wait(&mut window, "the material to be opened again", |app| !app.is_reading());
-    let text = std::fs::read_to_string(&kept).unwrap();
-    assert_eq!(
-        serde_json::from_str::<serde_json::Value>(&text).unwrap(),
-        serde_json::json!({"roughness": "gloss"})
-    );
+    let text: serde_json::Value = serde_json::from_slice(&std::fs::read(&kept).unwrap()).unwrap();
+    assert_eq!(text, serde_json::json!({"roughness": "gloss"}));
     window.get_by_label("Roughness: gloss: as saved in guess.svbrdf.json");
     assert!(window.query_by_label("Save assumptions of guess").is_none(), "it is kept");
 
@@ -232,7 +189,7 @@ fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
     assert!(material(window.state(), 1) == gloss);
     choose(&mut window, "roughness of guess", "auto: infer roughness");
     wait(&mut window, "auto", |app| *app.materials().nth(1).unwrap() == before);
-    window.get_by_label("Save assumptions of guess").click();
+    click(&mut window, "Save assumptions of guess");
     wait(&mut window, "the material to be opened again", |app| !app.is_reading());
     assert_eq!(std::fs::read_to_string(&kept).unwrap(), "{}\n");
     assert!(material(window.state(), 1) == before);
@@ -256,7 +213,7 @@ fn what_the_maps_hold_is_listed_on_a_click() {
 fn built_in_materials_are_not_reported_as_specified() {
     let mut window = built_in();
     tab(&mut window, "Files");
-    assert!(window.query_all_by_label_contains("as specified").next().is_none());
+    assert!(!has(&window, "as specified"));
     assert!(window.query_all_by_label_contains("the built-in materials are stored in this way").count() >= 3);
 }
 
@@ -268,8 +225,7 @@ fn a_pasted_material_is_read_as_those_that_are_open() {
     let options =
         ViewerOptions { ground_truth: Some(MaterialSource::path(truth, read)), ..ViewerOptions::default() };
     let mut window = window(options);
-    let ctx = window.ctx.clone();
-    window.state_mut().apply(&ctx, SceneCommand::Paste(guess.display().to_string()).into());
+    apply(&mut window, SceneCommand::Paste(guess.display().to_string()));
     wait(&mut window, "the pasted prediction", |app| app.names().len() == 2);
     assert_eq!(loss(&mut window), 0.0, "a material beside itself");
 }

@@ -1,19 +1,20 @@
 //! The corners of the material in a photograph, dragged by their handles.
 
+use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::photograph::flash;
 use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand};
 use svbrdf_viewer::model::view::state::Layout;
 
-use super::photograph::{CORNERS, FOV, SIZE, agrees, apply, expected_of, opened, source};
+use super::photograph::{CORNERS, FOV, SIZE, agrees, expected_of, opened, source};
 use super::*;
 
 const TITLE: &str = "PHOTOGRAPH  photo.npy  as it was taken";
 
 /// Opens the section of the corners, by which the photograph is shown as it was taken.
 fn edit(window: &mut Window<'_>) {
-    window.get_by_label("Corners of the material").click();
-    window.run_steps(12);
+    click(window, "Corners of the material");
+    window.run_steps(8);
     window.get_by_label(&format!("Title {TITLE}"));
 }
 
@@ -35,7 +36,7 @@ fn scale(window: &Window<'_>) -> f64 {
 /// Drags from a point of the window by `by`, in points.
 fn drag_by(window: &mut Window<'_>, from: Pos2, by: Vec2) {
     let screen = egui::Rect::from_min_size(Pos2::ZERO, vec2(1.0, 1.0));
-    drag(window, egui::PointerButton::Primary, screen, from.to_vec2(), from.to_vec2() + by);
+    drag_primary(window, screen, from.to_vec2(), from.to_vec2() + by);
 }
 
 fn is_near(found: [[f64; 2]; 4], expected: [[f64; 2]; 4]) -> bool {
@@ -70,16 +71,10 @@ fn a_dragged_handle_moves_its_corner_and_undo_brings_it_back() {
     // A press and a move within one frame, as on a slow adapter.
     let at = handle(&window, "Top right").center();
     let by = vec2(-24.0, 18.0);
-    let press = |pos, pressed| egui::Event::PointerButton {
-        pos,
-        button: egui::PointerButton::Primary,
-        pressed,
-        modifiers: egui::Modifiers::NONE,
-    };
-    let events = [egui::Event::PointerMoved(at), press(at, true), egui::Event::PointerMoved(at + by)];
+    let events = [egui::Event::PointerMoved(at), primary(at, true), egui::Event::PointerMoved(at + by)];
     window.input_mut().events.extend(events);
     window.run_steps(3);
-    window.event(press(at + by, false));
+    window.event(primary(at + by, false));
     window.run_steps(3);
     let at_once = corners(&window);
     let expected = [276.0 + f64::from(by.x) / scale, 10.0 + f64::from(by.y) / scale];
@@ -125,8 +120,8 @@ fn the_whole_photograph_is_shown_in_every_layout_until_the_corners_are_done() {
         apply(&mut window, DisplayCommand::SetLayout(layout));
         window.run_steps(6);
         let rect = window.get_by_label("Corner pane").rect();
-        window.event(egui::Event::PointerMoved(rect.left_top() + vec2(3.0, 3.0)));
-        window.run_steps(6);
+        hover(&mut window, rect.left_top() + vec2(3.0, 3.0));
+        window.run_steps(4);
         assert_eq!(texel_read(&window), None, "there are no texels in it");
         let seen = pixels(&mut window, rect);
         let at = |[x, y]: [f64; 2]| {
@@ -144,15 +139,12 @@ fn the_whole_photograph_is_shown_in_every_layout_until_the_corners_are_done() {
     window.run_steps(12);
     assert!(window.query_by_label("Corner pane").is_none());
     assert!(window.query_by_label("Top left corner").is_none());
-    assert!(window.query_all_by_label_contains("as it was taken").count() == 0);
+    assert!(!has(&window, "as it was taken"));
     // A saved picture of the view has the photograph as it is compared.
     assert_eq!(corners(&window), CORNERS, "nothing has moved");
 
     // From a map, it goes to renderings, which are compared with the photograph.
     press(&mut window, egui::Key::M);
     edit(&mut window);
-    assert_eq!(
-        window.state().parts.model.view.display.quantity,
-        svbrdf_core::picture::quantity::Quantity::Rendering
-    );
+    assert_eq!(window.state().parts.model.view.display.quantity, Quantity::Rendering);
 }

@@ -7,7 +7,7 @@ use super::*;
 struct Planted;
 
 impl egui::DroppedFile for Planted {
-    fn path(&self) -> &std::path::Path {
+    fn path(&self) -> &Path {
         panic!("a planted fault")
     }
 
@@ -18,10 +18,15 @@ impl egui::DroppedFile for Planted {
 
 #[needs(adapter)]
 #[test]
-fn a_panic_in_a_frame_closes_the_window_and_draws_no_frame_again() {
+fn a_panic_in_a_frame_closes_the_window_draws_no_frame_again_and_stores_no_settings() {
+    let stored = |window: &mut Window<'_>| {
+        let mut memory = super::materials::Memory::default();
+        eframe::App::save(window.state_mut(), &mut memory);
+        ["settings", "recent"].map(|key| memory.0.contains_key(key))
+    };
     let mut window = built_in();
-    assert!(!window.state().has_crashed());
-    window.input_mut().dropped_files.push(std::sync::Arc::new(Planted));
+    assert!(!window.state().has_crashed() && stored(&mut window) == [true, true]);
+    window.input_mut().dropped_files.push(Arc::new(Planted));
     window.step();
     assert!(window.state().has_crashed());
     let commands = &window.output().viewport_output[&egui::ViewportId::ROOT].commands;
@@ -30,20 +35,5 @@ fn a_panic_in_a_frame_closes_the_window_and_draws_no_frame_again() {
     window.key_press(egui::Key::E);
     window.step();
     assert_eq!(window.state().parts.model.view.exposure_ev, exposure, "no frame is drawn after it");
-}
-
-#[needs(adapter)]
-#[test]
-fn the_settings_of_a_frame_that_panicked_are_not_stored() {
-    let stored = |window: &mut Window<'_>| {
-        let mut memory = super::damaged::Memory::default();
-        eframe::App::save(window.state_mut(), &mut memory);
-        ["settings", "recent"].map(|key| memory.0.contains_key(key))
-    };
-    let mut window = built_in();
-    assert_eq!(stored(&mut window), [true, true]);
-    window.input_mut().dropped_files.push(std::sync::Arc::new(Planted));
-    window.step();
-    assert!(window.state().has_crashed());
     assert_eq!(stored(&mut window), [false, true]);
 }

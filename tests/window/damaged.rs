@@ -1,8 +1,5 @@
 //! Settings and sessions with random values: no window crashes on them.
 
-use std::collections::HashMap;
-use std::sync::Arc;
-
 use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
 use serde_json::{Value, json};
@@ -10,13 +7,14 @@ use svbrdf_files::session::Session;
 use svbrdf_viewer::app::storage::Stored;
 use svbrdf_viewer::model::Model;
 
+use super::materials::Memory;
 use super::soak::below;
 use super::*;
 
 /// Sessions of the usual run.
-const SESSIONS: u64 = 60;
+const SESSIONS: u64 = 40;
 /// Windows that get random settings, as loaded at the start.
-const WINDOWS: u64 = 8;
+const WINDOWS: u64 = 4;
 
 /// The places of all values that contain no others.
 fn leaves(value: &Value, place: &str, found: &mut Vec<String>) {
@@ -32,19 +30,9 @@ fn leaves(value: &Value, place: &str, found: &mut Vec<String>) {
 /// A session with one or two values replaced: a number mostly by another number.
 fn damaged(session: &Value, random: &mut ChaCha8Rng) -> Value {
     let numbers = [0.0, -0.0, -1.0, 0.5, 1e-30, 1e9, -1e9, 1e39, 1e308].map(|number| json!(number));
-    let others = [
-        json!(0),
-        json!(-1),
-        json!(4_294_967_296_u64),
-        json!(u64::MAX),
-        json!(i64::MIN),
-        json!(true),
-        json!(null),
-        json!(""),
-        json!("\u{202e}".repeat(300)),
-        json!([]),
-        json!({}),
-    ];
+    let mut others = [0, -1, 4_294_967_296, i64::MIN].map(|number| json!(number)).to_vec();
+    others.extend([json!(u64::MAX), json!(true), json!(null), json!([]), json!({})]);
+    others.extend(["".to_owned(), "\u{202e}".repeat(300)].map(|text| json!(text)));
     let (mut damaged, mut places) = (session.clone(), Vec::new());
     leaves(session, "", &mut places);
     for _ in 0..=below(random, 2) {
@@ -82,7 +70,7 @@ fn sessions_of_random_values_open_or_are_refused() {
             Ok(_) => opened += 1,
             Err(error) => assert!(error.to_string().contains(path.to_str().unwrap()), "{error}"),
         }
-        window.input_mut().dropped_files = vec![Arc::new(Dropped(path))];
+        drop_files(&mut window, [path]);
         window.run_steps(2);
         wait(&mut window, "the session", |app| !app.is_reading());
         assert!(!window.state().has_crashed(), "{text}");
@@ -94,59 +82,20 @@ fn sessions_of_random_values_open_or_are_refused() {
     assert!((5..SESSIONS - 5).contains(&opened), "{opened} of {SESSIONS} sessions can be read");
 }
 
-/// What egui stores of a program, in memory.
-#[derive(Default)]
-pub(super) struct Memory(pub(super) HashMap<String, String>);
-
-impl eframe::Storage for Memory {
-    fn get_string(&self, key: &str) -> Option<String> {
-        self.0.get(key).cloned()
-    }
-
-    fn set_string(&mut self, key: &str, value: String) {
-        self.0.insert(key.to_owned(), value);
-    }
-
-    fn remove_string(&mut self, key: &str) {
-        self.0.remove(key);
-    }
-
-    fn flush(&mut self) {}
-}
-
 /// `text` with about half of its numbers replaced.
 fn with_other_numbers(text: &str, random: &mut ChaCha8Rng) -> String {
-    const NUMBERS: [&str; 12] = [
-        "0",
-        "0.0",
-        "-1",
-        "-1.0",
-        "0.5",
-        "1e9",
-        "-1e30",
-        "NaN",
-        "inf",
-        "-inf",
-        "1e-30",
-        "18446744073709551615",
-    ];
+    let numbers: Vec<&str> =
+        "0 0.0 -1 -1.0 0.5 1e9 -1e30 NaN inf -inf 1e-30 18446744073709551615".split(' ').collect();
     let mut result = String::new();
     for (index, token) in text.split_inclusive([':', ',', '(', ')', '[', ']']).enumerate() {
         let (word, end) =
             token.split_at(token.len() - token.ends_with([':', ',', '(', ')', '[', ']']) as usize);
         let is_number = index > 0 && word.trim().parse::<f64>().is_ok();
         let replaced = is_number && below(random, 2) == 0;
-        result += if replaced { NUMBERS[below(random, NUMBERS.len())] } else { word };
+        result += if replaced { numbers[below(random, numbers.len())] } else { word };
         result += end;
     }
     result
-}
-
-/// The model that is loaded from these stored texts.
-fn loaded(stored: &Memory) -> Model {
-    let mut model = Model::default();
-    Stored::load(Some(stored), &mut model);
-    model
 }
 
 #[needs(adapter)]
@@ -159,21 +108,16 @@ fn no_window_crashes_on_settings_of_random_numbers() {
         let stored = Memory(
             usual.0.iter().map(|(key, text)| (key.clone(), with_other_numbers(text, &mut random))).collect(),
         );
-        let model = loaded(&stored);
+        let mut model = Model::default();
+        Stored::load(Some(&stored), &mut model);
         changed += usize::from(model.settings != Model::default().settings);
-        let mut window = started_on(model);
+        let mut window = built_in();
+        window.ctx.set_zoom_factor(model.settings.ui_scale);
+        window.state_mut().parts.model.settings = model.settings;
         window.run_steps(5);
         window.render().unwrap();
         let app = window.state();
         assert!(!app.has_crashed() && app.names().len() == 3, "{:?}: {:?}", stored.0, app.messages());
     }
     assert!(changed > 0, "no number was changed");
-}
-
-/// The window with the settings of `model`, on the built-in pair.
-fn started_on<'a>(model: Model) -> Window<'a> {
-    let mut window = built_in();
-    window.ctx.set_zoom_factor(model.settings.ui_scale);
-    window.state_mut().parts.model.settings = model.settings;
-    window
 }

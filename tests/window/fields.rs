@@ -1,6 +1,5 @@
 //! Number fields: one that nobody edited writes nothing.
 
-use egui::accesskit::Role;
 use svbrdf_core::loss::{Ask, Texels};
 use svbrdf_viewer::model::settings::Tab;
 use svbrdf_viewer::model::view::state::AutoExposure;
@@ -62,6 +61,16 @@ fn tab_through_all_fields_changes_no_number() {
     assert_eq!(window.state().parts.model.view.display.auto_exposure, AutoExposure::Once);
 }
 
+/// Types texts into a field, one after the other.
+fn type_x(window: &mut Window<'_>, texts: &[&str]) {
+    window.get_by_role_and_label(Role::SpinButton, "Light x").click();
+    window.run_steps(3);
+    for text in texts {
+        window.event(egui::Event::Text((*text).to_owned()));
+        window.run_steps(2);
+    }
+}
+
 #[needs(adapter)]
 #[test]
 fn what_is_typed_into_a_field_is_written_in_full_however_it_is_left() {
@@ -69,22 +78,14 @@ fn what_is_typed_into_a_field_is_written_in_full_however_it_is_left() {
         let mut window = precise();
         let field = |window: &Window<'_>| window.get_by_role_and_label(Role::SpinButton, "Light x").rect();
         let at = field(&window).center();
-        window.get_by_role_and_label(Role::SpinButton, "Light x").click();
-        window.run_steps(3);
-        window.event(egui::Event::Text("0.12345678".to_owned()));
-        window.run_steps(2);
+        type_x(&mut window, &["0.12345678"]);
         press(&mut window, leave);
         assert_eq!(window.state().parts.model.view.scene.light[0], 0.123_456_78, "{leave:?}");
         // The very text that the field shows of another number.
         window.state_mut().parts.model.view.scene.light[0] = -0.08779578655958176;
         window.run_steps(3);
         assert!(field(&window).contains(at));
-        window.get_by_role_and_label(Role::SpinButton, "Light x").click();
-        window.run_steps(3);
-        window.event(egui::Event::Text("-0.08".to_owned()));
-        window.run_steps(2);
-        window.event(egui::Event::Text("8".to_owned()));
-        window.run_steps(2);
+        type_x(&mut window, &["-0.08", "8"]);
         press(&mut window, leave);
         assert_eq!(window.state().parts.model.view.scene.light[0], -0.088, "{leave:?}");
     }

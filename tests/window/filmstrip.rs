@@ -10,7 +10,8 @@ use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::PhotographOptions;
 use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand};
 
-use super::photograph::{agrees, apply, expected_of, materials, wait_for_it};
+use super::materials::materials;
+use super::photograph::{agrees, expected_of, wait_for_it};
 use super::*;
 
 fn scene(k: usize) -> Scene {
@@ -125,21 +126,13 @@ fn a_photograph_that_cannot_be_read_leaves_the_capture_open_and_its_reason_on_th
     std::fs::write(&broken, "not an array").unwrap();
     let mut window = opened(&folder);
     window.get_by_label("Photograph 3: 2.npy").click();
-    let card = |window: &Window<'_>| window.query_by_label_contains("2.npy: ").is_some();
-    for _ in 0..2000 {
-        window.step();
-        if card(&window) {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(5));
-    }
-    assert!(card(&window), "the reason");
+    see(&mut window, "2.npy: ");
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
     window.get_by_label("Photograph 3 of 5 of the capture");
     // The others are there, and this one once its file is mended.
     window.get_by_label("Photograph 2: 1.npy").click();
     wait_for_it(&mut window);
-    assert!((factor(&window) - 0.5).abs() < 1e-6 && !card(&window));
+    assert!((factor(&window) - 0.5).abs() < 1e-6 && !has(&window, "2.npy: "));
     std::fs::write(&broken, good).unwrap();
     window.get_by_label("Photograph 3: 2.npy").click();
     window.run_steps(3);

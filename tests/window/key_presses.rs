@@ -1,6 +1,8 @@
 //! Keys and their commands.
 
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_viewer::model::Model;
+use svbrdf_viewer::model::command::LossCommand;
 use svbrdf_viewer::model::view::state::{AutoExposure, Layout, Projection};
 use svbrdf_viewer::ui::input::keys;
 
@@ -10,49 +12,46 @@ use super::*;
 #[test]
 fn every_letter_does_what_the_help_says() {
     let mut window = built_in();
-    let expect = |window: &mut Window<'_>, key, what: &str, holds: &dyn Fn(&App) -> bool| {
-        press(window, key);
-        assert!(holds(window.state()), "{key:?}: {what}");
-    };
-    expect(&mut window, egui::Key::C, "wipe", &|a| a.parts.model.view.display.layout == Layout::Wipe);
-    expect(&mut window, egui::Key::C, "single", &|a| a.parts.model.view.display.layout == Layout::Single);
-    expect(&mut window, egui::Key::C, "side by side", &|a| {
-        a.parts.model.view.display.layout == Layout::SideBySide
-    });
-    expect(&mut window, egui::Key::D, "difference", &|a| a.parts.model.view.display.difference);
-    expect(&mut window, egui::Key::D, "value", &|a| !a.parts.model.view.display.difference);
-    expect(&mut window, egui::Key::M, "normal", &|a| a.parts.model.view.display.quantity == Quantity::Normal);
-    expect(&mut window, egui::Key::P, "perspective", &|a| {
-        a.parts.model.view.display.projection == Projection::Perspective
-    });
     let automatic = window.state().parts.model.view.exposure_ev;
-    expect(&mut window, egui::Key::E, "brighter", &|a| a.parts.model.view.exposure_ev == automatic + 0.5);
-    expect(&mut window, egui::Key::Num2, "second prediction", &|a| {
-        a.parts.model.view.display.prediction == 1
-    });
-    expect(&mut window, egui::Key::L, "clipping", &|a| a.parts.model.view.display.show_clipping);
-    expect(&mut window, egui::Key::H, "highlight", &|a| a.parts.model.settings.highlight_follows);
-    expect(&mut window, egui::Key::R, "reset", &|a| {
-        a.parts.model.view.exposure_ev == automatic && !a.parts.model.view.display.show_clipping
-    });
-    expect(&mut window, egui::Key::B, "no panel", &|a| !a.parts.model.settings.side_panel);
-    press(&mut window, egui::Key::E);
-    expect(&mut window, egui::Key::N, "automatic exposure", &|a| {
-        a.parts.model.view.exposure_ev == automatic
-            && a.parts.model.view.display.auto_exposure == AutoExposure::Once
-    });
-    expect(&mut window, egui::Key::T, "repeated", &|a| a.parts.model.view.display.tiled);
-    expect(&mut window, egui::Key::J, "histograms", &|a| a.parts.model.settings.histograms);
-    expect(&mut window, egui::Key::V, "false colours", &|a| a.parts.model.view.display.false_colour);
-    expect(&mut window, egui::Key::Num0, "a texel per pixel", &|a| {
-        a.parts.model.view.display.framing.is_some_and(|framing| framing.pixels_per_texel == 1.0)
-    });
-    expect(&mut window, egui::Key::F, "fitted", &|a| a.parts.model.view.display.framing.is_none());
-    // There are two predictions.
-    for key in [egui::Key::Num3, egui::Key::Num5, egui::Key::Num8, egui::Key::Num9] {
-        expect(&mut window, key, "no such prediction", &|a| a.parts.model.view.display.prediction == 1);
+    type Holds = fn(&Model, f32) -> bool;
+    let cases: [(egui::Key, &str, Holds); 25] = [
+        (egui::Key::C, "wipe", |m, _| m.view.display.layout == Layout::Wipe),
+        (egui::Key::C, "single", |m, _| m.view.display.layout == Layout::Single),
+        (egui::Key::C, "side by side", |m, _| m.view.display.layout == Layout::SideBySide),
+        (egui::Key::D, "difference", |m, _| m.view.display.difference),
+        (egui::Key::D, "value", |m, _| !m.view.display.difference),
+        (egui::Key::M, "normal", |m, _| m.view.display.quantity == Quantity::Normal),
+        (egui::Key::P, "perspective", |m, _| m.view.display.projection == Projection::Perspective),
+        (egui::Key::E, "brighter", |m, automatic| m.view.exposure_ev == automatic + 0.5),
+        (egui::Key::Num2, "second prediction", |m, _| m.view.display.prediction == 1),
+        (egui::Key::L, "clipping", |m, _| m.view.display.show_clipping),
+        (egui::Key::H, "highlight", |m, _| m.settings.highlight_follows),
+        (egui::Key::R, "reset", |m, automatic| {
+            m.view.exposure_ev == automatic && !m.view.display.show_clipping
+        }),
+        (egui::Key::B, "no panel", |m, _| !m.settings.side_panel),
+        (egui::Key::E, "brighter", |m, automatic| m.view.exposure_ev == automatic + 0.5),
+        (egui::Key::N, "automatic exposure", |m, automatic| {
+            m.view.exposure_ev == automatic && m.view.display.auto_exposure == AutoExposure::Once
+        }),
+        (egui::Key::T, "repeated", |m, _| m.view.display.tiled),
+        (egui::Key::J, "histograms", |m, _| m.settings.histograms),
+        (egui::Key::V, "false colours", |m, _| m.view.display.false_colour),
+        (egui::Key::Num0, "a texel per pixel", |m, _| {
+            m.view.display.framing.is_some_and(|framing| framing.pixels_per_texel == 1.0)
+        }),
+        (egui::Key::F, "fitted", |m, _| m.view.display.framing.is_none()),
+        // There are two predictions.
+        (egui::Key::Num3, "no such prediction", |m, _| m.view.display.prediction == 1),
+        (egui::Key::Num5, "no such prediction", |m, _| m.view.display.prediction == 1),
+        (egui::Key::Num8, "no such prediction", |m, _| m.view.display.prediction == 1),
+        (egui::Key::Num9, "no such prediction", |m, _| m.view.display.prediction == 1),
+        (egui::Key::Num1, "first prediction", |m, _| m.view.display.prediction == 0),
+    ];
+    for (key, what, holds) in cases {
+        press(&mut window, key);
+        assert!(holds(&window.state().parts.model, automatic), "{key:?}: {what}");
     }
-    expect(&mut window, egui::Key::Num1, "first prediction", &|a| a.parts.model.view.display.prediction == 0);
 }
 
 #[needs(adapter)]
@@ -91,41 +90,21 @@ fn undo_and_redo_go_through_the_changes() {
     let before = window.state().parts.model.view.exposure_ev;
     press(&mut window, egui::Key::E);
     window.run_steps(30);
-    let redo = [
-        (egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z),
-        (egui::Modifiers::COMMAND, egui::Key::Y),
-    ];
+    let redo = [(Modifiers::COMMAND | Modifiers::SHIFT, egui::Key::Z), (Modifiers::COMMAND, egui::Key::Y)];
     for (modifiers, key) in redo {
-        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-        window.run_steps(3);
+        press_with(&mut window, Modifiers::COMMAND, egui::Key::Z);
         assert_eq!(window.state().parts.model.view.exposure_ev, before);
-        window.key_press_modifiers(modifiers, key);
-        window.run_steps(3);
+        press_with(&mut window, modifiers, key);
         assert_eq!(window.state().parts.model.view.exposure_ev, before + 0.5, "{key:?}");
     }
 }
 
 #[needs(adapter)]
 #[test]
-fn letters_typed_into_a_field_are_no_commands() {
-    let mut window = built_in();
-    window.get_by_label("Open").click();
-    window.run_steps(4);
-    let before = window.state().parts.model.view.clone();
-    let field = "Files, folders or name prefixes, one a line:";
-    window.get_by_role_and_label(egui::accesskit::Role::MultilineTextInput, field).type_text("mcexp");
-    press(&mut window, egui::Key::M);
-    assert_eq!(window.state().parts.model.view, before);
-}
-
-#[needs(adapter)]
-#[test]
 fn escape_closes_an_open_drop_down_and_nothing_else() {
     let mut window = built_in();
-    let (ctx, command) = (window.ctx.clone(), svbrdf_viewer::model::command::LossCommand::ShowStudy(true));
-    window.state_mut().apply(&ctx, command.into());
-    window.run_steps(3);
-    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Convention").click();
+    apply(&mut window, LossCommand::ShowStudy(true));
+    window.get_by_role_and_label(Role::ComboBox, "Convention").click();
     window.run_steps(4);
     window.get_by_label("guided-2020");
     press(&mut window, egui::Key::Escape);

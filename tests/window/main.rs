@@ -21,6 +21,7 @@ mod key_presses;
 mod loss_panel;
 mod lost_window;
 mod mapping;
+mod materials;
 mod outside;
 mod panels;
 mod photograph;
@@ -51,12 +52,20 @@ mod pictures;
 #[path = "../support/surroundings.rs"]
 mod surroundings;
 
-use eframe::egui::{self, Pos2, Vec2, vec2};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{self, Modifiers, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
+use svbrdf_core::picture::colour_map::difference_to_display;
+use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_needs::needs;
 use svbrdf_viewer::ViewerOptions;
 use svbrdf_viewer::app::App;
+use svbrdf_viewer::model::command::{Command, WindowCommand};
+use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
 type Window<'a> = Harness<'a, App>;
 
@@ -84,9 +93,18 @@ fn scaled_window<'a>(options: ViewerOptions, scale: f32) -> Window<'a> {
 
 /// Runs frames until `done`, or fails after a generous while.
 fn wait(window: &mut Window<'_>, what: &str, done: impl Fn(&App) -> bool) {
+    wait_in(window, what, |window| done(window.state()));
+}
+
+/// Runs frames until something that contains `text` is there.
+fn see(window: &mut Window<'_>, text: &str) {
+    wait_in(window, text, |window| window.query_all_by_label_contains(text).next().is_some());
+}
+
+fn wait_in(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
     for _ in 0..6000 {
         window.step();
-        if done(window.state()) {
+        if done(window) {
             window.run_steps(3);
             return;
         }
@@ -95,28 +113,53 @@ fn wait(window: &mut Window<'_>, what: &str, done: impl Fn(&App) -> bool) {
     panic!("waited in vain for {what}");
 }
 
+/// Frames with time between them, in which work goes on behind the window.
+fn rest(window: &mut Window<'_>, frames: usize) {
+    for _ in 0..frames {
+        window.step();
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+}
+
+fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
+    let (ctx, command) = (window.ctx.clone(), command.into());
+    window.state_mut().apply(&ctx, command);
+    window.run_steps(2);
+}
+
 fn built_in<'a>() -> Window<'a> {
     window(ViewerOptions::default())
+}
+
+/// The window on the materials of these files, the ground truth first.
+fn on_files<'a>(paths: impl IntoIterator<Item = PathBuf>) -> Window<'a> {
+    window(options_of(paths))
+}
+
+fn options_of(paths: impl IntoIterator<Item = PathBuf>) -> ViewerOptions {
+    let mut paths = paths.into_iter();
+    ViewerOptions {
+        ground_truth: paths.next().map(Into::into),
+        predictions: paths.map(Into::into).collect(),
+        ..ViewerOptions::default()
+    }
 }
 
 /// The built-in pair, with the loss over the 6 + 3 scenes of the papers.
 fn by_scenes<'a>() -> Window<'a> {
     let mut window = built_in();
-    window.get_by_label("Scenes").click();
-    window.run_steps(4);
+    click(&mut window, "Scenes");
     window
 }
 
 /// Opens the menu of light and view.
 fn more(window: &mut Window<'_>) {
-    window.get_by_label("More of light and view").click();
-    window.run_steps(4);
+    click(window, "More of light and view");
 }
 
 /// Opens a tab of the side panel.
 fn tab(window: &mut Window<'_>, name: &str) {
-    window.get_by_label(&format!("Tab {name}")).click();
-    window.run_steps(4);
+    click(window, &format!("Tab {name}"));
 }
 
 fn pane(window: &Window<'_>, title: &str) -> egui::Rect {
@@ -124,6 +167,119 @@ fn pane(window: &Window<'_>, title: &str) -> egui::Rect {
 }
 
 const GROUND_TRUTH: &str = "GROUND TRUTH  worn tiles";
+const PREDICTIONS: [&str; 2] = ["1  blurred normals", "2  wrong roughness"];
+
+fn click(window: &mut Window<'_>, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(4);
+}
+
+fn has(window: &Window<'_>, text: &str) -> bool {
+    window.query_all_by_label_contains(text).next().is_some()
+}
+
+/// Types `text` into the number called `name`.
+fn enter(window: &mut Window<'_>, name: &str, text: &str) {
+    window.get_by_role_and_label(Role::SpinButton, name).click();
+    window.run_steps(2);
+    window.get_by_role_and_label(Role::SpinButton, name).type_text(text);
+    press(window, egui::Key::Enter);
+}
+
+/// Clicks the drop-down `name`, then `choice` in it.
+fn choose(window: &mut Window<'_>, name: &str, choice: &str) {
+    window.get_by_role_and_label(Role::ComboBox, name).click();
+    window.run_steps(4);
+    window.get_by_label(choice).click();
+    window.run_steps(4);
+}
+
+/// Undoes by its keys what was done long enough ago to be a state to return to.
+fn undo(window: &mut Window<'_>) {
+    window.run_steps(30);
+    press_with(window, Modifiers::COMMAND, egui::Key::Z);
+}
+
+fn press_with(window: &mut Window<'_>, modifiers: Modifiers, key: egui::Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(3);
+}
+
+/// Replaces the text of the field that has the focus.
+fn retype(window: &mut Window<'_>, text: &str) {
+    press_with(window, Modifiers::COMMAND, egui::Key::A);
+    window.event(egui::Event::Text(text.to_owned()));
+    window.run_steps(2);
+}
+
+/// Saves, and dismisses the message that says so.
+fn save(window: &mut Window<'_>, kind: SaveKind, path: &Path) {
+    let size = window.state().picture_size();
+    save_as(window, SaveRequest { kind, path: path.to_owned(), size, handles: true });
+}
+
+fn save_as(window: &mut Window<'_>, request: SaveRequest) {
+    let message = format!("Saved {}", request.path.display());
+    apply(window, WindowCommand::Save(request));
+    wait(window, "the file", |app| !app.messages().is_empty());
+    assert_eq!(window.state().messages(), [message]);
+    apply(window, WindowCommand::DismissMessages);
+}
+
+/// Whether the bytes of a file contain a text.
+fn file_contains(path: &Path, text: &str) -> bool {
+    std::fs::read(path).unwrap().windows(text.len()).any(|window| window == text.as_bytes())
+}
+
+/// The width of an EXR, and its pixels.
+fn read_exr(path: &Path) -> (usize, Vec<[f32; 3]>) {
+    let read = exr::prelude::read_first_rgba_layer_from_file(
+        path,
+        |size, _| (size.width(), vec![[0f32; 3]; size.area()]),
+        |(width, pixels), at, (r, g, b, _): (f32, f32, f32, f32)| {
+            pixels[at.y() * *width + at.x()] = [r, g, b]
+        },
+    );
+    read.unwrap().layer_data.channel_data.pixels
+}
+
+/// Drops files on the window.
+fn drop_files(window: &mut Window<'_>, paths: impl IntoIterator<Item = PathBuf>) {
+    window.input_mut().dropped_files = paths.into_iter().map(|path| Arc::new(Dropped(path)) as _).collect();
+}
+
+/// The statistics of the displayed differences, once they are there.
+fn statistics(window: &mut Window<'_>) -> Vec<Statistics> {
+    wait(window, "the statistics", |app| app.difference_statistics().is_some());
+    window.state().difference_statistics().unwrap().iter().map(|one| one.unwrap()).collect()
+}
+
+/// Asserts that magnified texels of the pane `title` have the readout of the `start` of a column, and the colours, of `values`.
+fn assert_texels(window: &mut Window<'_>, title: &str, start: &str, values: &[f32]) {
+    let range = window.state().difference_range() as f32;
+    let rect = pane(window, title);
+    let mut reads = Vec::new();
+    for share in [vec2(0.12, 0.17), vec2(0.83, 0.31), vec2(0.21, 0.88), vec2(0.62, 0.93)] {
+        let at = rect.min + rect.size() * share;
+        hover(window, at);
+        window.run_steps(2);
+        let [x, y] = texel_read(window).unwrap();
+        let value = values[y * 256 + x];
+        assert_eq!(column(window, start), format!("{start}{value:8.4}"), "{title} at {x}, {y}");
+        reads.push((at, value));
+    }
+    hover(window, egui::pos2(600.0, 20.0));
+    window.run_steps(2);
+    let seen = pixels(window, rect);
+    let far = |at: Pos2, value: f32| {
+        let [x, y] = [at.x - rect.left().floor(), at.y - rect.top().floor()];
+        let (found, expected) =
+            (seen.get_pixel(x as u32, y as u32).0, difference_to_display(value, range, false));
+        (0..3).map(|c| found[c].abs_diff(expected[c])).max().unwrap()
+    };
+    assert!(reads.iter().all(|(at, value)| far(*at, *value) <= 3), "{title}: {reads:?}");
+    assert!(reads.iter().any(|(at, value)| far(*at, 2.0 * value + 0.1) > 20), "a planted fault");
+}
 
 fn press(window: &mut Window<'_>, key: egui::Key) {
     window.key_press(key);
@@ -148,21 +304,33 @@ fn texel_read(window: &Window<'_>) -> Option<[usize; 2]> {
     Some([column.parse().unwrap(), row.parse().unwrap()])
 }
 
+fn pointer(pos: Pos2, button: egui::PointerButton, pressed: bool) -> egui::Event {
+    egui::Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }
+}
+
+fn primary(pos: Pos2, pressed: bool) -> egui::Event {
+    pointer(pos, egui::PointerButton::Primary, pressed)
+}
+
+fn wheel(delta: Vec2, unit: egui::MouseWheelUnit, modifiers: Modifiers) -> egui::Event {
+    let (phase, source) = (egui::TouchPhase::Move, egui::MouseWheelSource::Wheel);
+    egui::Event::MouseWheel { unit, delta, phase, source, modifiers }
+}
+
+/// Drags with the primary button.
+fn drag_primary(window: &mut Window<'_>, rect: egui::Rect, from: Vec2, to: Vec2) {
+    drag(window, egui::PointerButton::Primary, rect, from, to);
+}
+
 /// Drags with a button from one point of the pane to another, both as shares of its size.
 fn drag(window: &mut Window<'_>, button: egui::PointerButton, rect: egui::Rect, from: Vec2, to: Vec2) {
     let at = |share: Vec2| rect.min + rect.size() * share;
-    let event = |pos: Pos2, pressed| egui::Event::PointerButton {
-        pos,
-        button,
-        pressed,
-        modifiers: egui::Modifiers::NONE,
-    };
     for event in [
         egui::Event::PointerMoved(at(from)),
-        event(at(from), true),
+        pointer(at(from), button, true),
         egui::Event::PointerMoved(at((from + to) * 0.5)),
         egui::Event::PointerMoved(at(to)),
-        event(at(to), false),
+        pointer(at(to), button, false),
     ] {
         window.event(event);
         window.run_steps(2);
@@ -189,23 +357,12 @@ fn pixels(window: &mut Window<'_>, rect: egui::Rect) -> image::RgbaImage {
     image::imageops::crop_imm(&picture, x, y, w, h).to_image()
 }
 
-fn brightness(picture: &image::RgbaImage, centre: Vec2) -> f64 {
-    let (cx, cy) = (centre.x * picture.width() as f32, centre.y * picture.height() as f32);
-    let near = |x: u32, y: u32| (x as f32 - cx).hypot(y as f32 - cy) < 40.0;
-    let all: Vec<f64> = picture
-        .enumerate_pixels()
-        .filter(|(x, y, _)| near(*x, *y))
-        .map(|(_, _, p)| p.0[..3].iter().map(|v| f64::from(*v)).sum())
-        .collect();
-    all.iter().sum::<f64>() / all.len() as f64
-}
-
 /// A file as a window system drops it.
 #[derive(Debug)]
-struct Dropped(std::path::PathBuf);
+struct Dropped(PathBuf);
 
 impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &std::path::Path {
+    fn path(&self) -> &Path {
         &self.0
     }
 

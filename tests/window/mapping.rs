@@ -10,7 +10,7 @@ use svbrdf_viewer::model::inspection::{Inspection, Region};
 use svbrdf_viewer::model::view::state::{Layout, Projection};
 
 use super::soak::below;
-use super::texels::{SIZE, numbered, texel_of, wheel};
+use super::texels::{SIZE, numbered, texel_of, zoom};
 use super::*;
 
 /// Views that are tried.
@@ -62,7 +62,7 @@ fn middle([x, y]: [u32; 2]) -> Pos2 {
 fn rectangle(window: &mut Window<'_>, from: [u32; 2], to: [u32; 2]) -> Region {
     press(window, egui::Key::Q);
     let screen = egui::Rect::from_min_size(Pos2::ZERO, vec2(1.0, 1.0));
-    drag(window, egui::PointerButton::Primary, screen, middle(from).to_vec2(), middle(to).to_vec2());
+    drag_primary(window, screen, middle(from).to_vec2(), middle(to).to_vec2());
     window.state().parts.model.inspection.region.expect("a rectangle was drawn")
 }
 
@@ -92,7 +92,7 @@ fn random_pane(window: &mut Window<'_>, random: &mut ChaCha8Rng) -> egui::Rect {
         window.query_all_by_label_contains("Pane ").map(|node| node.rect()).collect();
     let pane = panes[below(random, panes.len())];
     let at = pane.min + pane.size() * vec2(0.3 + 0.4 * unit(random), 0.45 + 0.1 * unit(random));
-    wheel(window, at, below(random, 7) as f32);
+    zoom(window, at, below(random, 7) as f32);
     pane
 }
 

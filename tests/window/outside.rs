@@ -1,8 +1,5 @@
 //! Files that name others by absolute paths: refused, and allowed by a button that names the path.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
 use super::*;
 
 /// A glTF file that names its picture by an absolute path, and the picture, elsewhere.
@@ -25,7 +22,7 @@ fn a_file_outside_is_not_read_before_the_window_has_asked_and_named_it() {
     let [folder, elsewhere] = [(); 2].map(|()| tempfile::tempdir().unwrap());
     let (file, picture) = gltf(folder.path(), elsewhere.path());
     let mut window = built_in();
-    window.input_mut().dropped_files = vec![Arc::new(Dropped(file))];
+    drop_files(&mut window, [file]);
     wait(&mut window, "the question", |app| !app.messages().is_empty());
     let message = window.state().messages().remove(0);
     assert!(message.contains(picture.to_str().unwrap()), "{message}");

@@ -1,34 +1,24 @@
 //! A photograph in the place of the ground truth.
 
-use std::path::{Path, PathBuf};
-
-use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 use svbrdf_evaluate::photograph::{PhotographComparison, Rectified, flash};
 use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::{Transfer, read_photograph};
-use svbrdf_files::samples;
 use svbrdf_files::scene_file::PhotographLight;
 use svbrdf_files::session::Session;
-use svbrdf_viewer::model::command::{Command, DisplayCommand, PhotographCommand, WindowCommand};
-use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand};
 
+use super::materials::materials;
 use super::*;
 
 pub(super) const FOV: f64 = 60.0;
 pub(super) const CORNERS: [[f64; 2]; 4] = [[20.0, 10.0], [276.0, 10.0], [276.0, 266.0], [20.0, 266.0]];
 /// Of the photograph: 4 times as bright as the rendering of the ground truth, beside it a frame.
 pub(super) const SIZE: [usize; 2] = [300, 280];
-
-pub(super) fn materials() -> Vec<Material<f32>> {
-    let samples = samples::load::<f32>().unwrap();
-    [samples.ground_truth].into_iter().chain(samples.predictions).map(|read| read.material).collect()
-}
 
 /// Writes the photograph; some of its pixels are not finite.
 pub(super) fn photograph(folder: &Path) -> PathBuf {
@@ -41,8 +31,12 @@ pub(super) fn photograph(folder: &Path) -> PathBuf {
     };
     let values: Vec<f32> = (0..SIZE[0] * SIZE[1]).flat_map(at).collect();
     let path = folder.join("photo.npy");
-    std::fs::write(&path, pictures::npy([SIZE[1] as u64, SIZE[0] as u64, 3], &values)).unwrap();
+    write(&path, &values);
     path
+}
+
+fn write(path: &Path, values: &[f32]) {
+    std::fs::write(path, pictures::npy([SIZE[1] as u64, SIZE[0] as u64, 3], values)).unwrap();
 }
 
 pub(super) fn source(path: &Path) -> SessionPhotograph {
@@ -78,12 +72,6 @@ pub(super) fn agrees(window: &Window<'_>, core: &[PhotographComparison]) -> bool
     bits(window.state().against_photograph().unwrap()) == bits(core)
 }
 
-pub(super) fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
-    let (ctx, command) = (window.ctx.clone(), command.into());
-    window.state_mut().apply(&ctx, command);
-    window.run_steps(2);
-}
-
 pub(super) fn wait_for_it(window: &mut Window<'_>) {
     wait(window, "the photograph", |app| {
         app.against_photograph().is_some() && app.difference_statistics().is_some()
@@ -99,10 +87,6 @@ pub(super) fn opened<'a>() -> (Window<'a>, tempfile::TempDir) {
     apply(&mut window, PhotographCommand::Open { photograph, light });
     wait_for_it(&mut window);
     (window, folder)
-}
-
-fn statistics(window: &Window<'_>) -> Vec<svbrdf_core::picture::statistics::Statistics> {
-    window.state().difference_statistics().unwrap().iter().map(|one| one.unwrap()).collect()
 }
 
 #[needs(adapter)]
@@ -126,11 +110,9 @@ fn renderings_are_compared_with_the_photograph_as_the_core_does() {
         apply(&mut window, DisplayCommand::SetDifference(kind));
         wait_for_it(&mut window);
         let all: Vec<_> = core.iter().map(|one| one.statistics(kind).unwrap()).collect();
-        assert_eq!(statistics(&window), all, "{kind:?}");
-        assert!(
-            all[0].mean.abs() < 1e-4 && all[1].p95 > 1e-3 && all[0].not_finite == 100,
-            "{kind:?}: {all:?}"
-        );
+        assert_eq!(statistics(&mut window), all, "{kind:?}");
+        let [truth, other] = [&all[0], &all[1]];
+        assert!(truth.mean.abs() < 1e-4 && truth.not_finite == 100 && other.p95 > 1e-3, "{kind:?}: {all:?}");
         window.get_by_label(&format!("Title GROUND TRUTH  worn tiles: {}", kind.name()));
         window.get_by_label(&format!("Title 2  wrong roughness: {}", kind.name()));
     }
@@ -142,9 +124,8 @@ fn renderings_are_compared_with_the_photograph_as_the_core_does() {
 
     // Without it, the ground truth is compared with again.
     apply(&mut window, PhotographCommand::Close);
-    wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
-    assert!(statistics(&window).len() == 2 && window.state().against_photograph().is_none());
-    assert_eq!(window.query_all_by_label_contains("PHOTOGRAPH").count(), 0);
+    assert!(statistics(&mut window).len() == 2 && window.state().against_photograph().is_none());
+    assert!(!has(&window, "PHOTOGRAPH"));
     window.get_by_label("Pane GROUND TRUTH  worn tiles");
 }
 
@@ -157,34 +138,15 @@ fn panes_and_readout_have_the_numbers_of_the_photograph() {
     press(&mut window, egui::Key::Num0);
     apply(&mut window, DisplayCommand::Zoom { factor: 4.0, at: [0.0, 0.0] });
     wait_for_it(&mut window);
-    let range = window.state().difference_range();
-    for (slot, title) in [(0, GROUND_TRUTH), (1, "1  blurred normals"), (2, "2  wrong roughness")] {
-        let rect = pane(&window, title);
-        let mut reads = Vec::new();
-        for share in [vec2(0.12, 0.17), vec2(0.83, 0.31), vec2(0.21, 0.88), vec2(0.62, 0.93)] {
-            let at = rect.min + rect.size() * share;
-            window.event(egui::Event::PointerMoved(at));
-            window.run_steps(3);
-            let [x, y] = texel_read(&window).unwrap();
-            let value = core[slot].differences(Difference::Log)[y * 256 + x];
-            let name = if slot == 0 { "gt ".to_owned() } else { format!("{slot} ") };
-            let value_text = format!("{name}{:8.4}", value);
-            assert_eq!(column(&window, &name), value_text, "{title} at {x}, {y}");
-            // The photograph stands at the exposure of the chosen prediction.
-            let photo = core[1].photograph.pixels[y * 256 + x].map(|v| format!("{v:8.4}")).join(" ");
-            assert_eq!(column(&window, "photo "), format!("photo {photo}"), "{x}, {y}");
-            reads.push((at, value));
-        }
-        window.event(egui::Event::PointerMoved(egui::pos2(600.0, 20.0)));
-        window.run_steps(3);
-        let seen = pixels(&mut window, rect);
-        for (at, value) in reads {
-            let [x, y] = [at.x - rect.left().floor(), at.y - rect.top().floor()];
-            let found = seen.get_pixel(x as u32, y as u32).0;
-            let expected = difference_to_display(value, range as f32, false);
-            let off = (0..3).map(|c| found[c].abs_diff(expected[c])).max().unwrap();
-            assert!(off <= 4, "{title}: {found:?} at {at:?}, expected {expected:?}");
-        }
+    for (slot, title) in [GROUND_TRUTH, PREDICTIONS[0], PREDICTIONS[1]].into_iter().enumerate() {
+        let start = if slot == 0 { "gt ".to_owned() } else { format!("{slot} ") };
+        assert_texels(&mut window, title, &start, &core[slot].differences(Difference::Log));
+        // The photograph stands at the exposure of the chosen prediction.
+        let at = pane(&window, title).center();
+        hover(&mut window, at);
+        let [x, y] = texel_read(&window).unwrap();
+        let photo = core[1].photograph.pixels[y * 256 + x].map(|v| format!("{v:8.4}")).join(" ");
+        assert_eq!(column(&window, "photo "), format!("photo {photo}"), "{x}, {y}");
     }
 }
 
@@ -195,26 +157,9 @@ fn saved_differences_are_those_from_the_photograph_and_a_session_keeps_it() {
     let core = expected(&folder.path().join("photo.npy"), false);
     press(&mut window, egui::Key::D);
     wait_for_it(&mut window);
-    let mut save = |what, name: &str| {
-        let path = folder.path().join(name);
-        apply(
-            &mut window,
-            WindowCommand::Save(SaveRequest { kind: what, path: path.clone(), size: [0; 2], handles: true }),
-        );
-        wait(&mut window, "the file", |app| !app.messages().is_empty());
-        assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
-        apply(&mut window, WindowCommand::DismissMessages);
-        path
-    };
-    let picture = save(SaveKind::Renderings, "log.exr");
-    let saved = exr::prelude::read_first_rgba_layer_from_file(
-        &picture,
-        |size, _| (size.width(), vec![[0f32; 3]; size.area()]),
-        |(width, pixels), at, (r, g, b, _): (f32, f32, f32, f32)| {
-            pixels[at.y() * *width + at.x()] = [r, g, b]
-        },
-    );
-    let (width, saved) = saved.unwrap().layer_data.channel_data.pixels;
+    let [picture, session] = ["log.exr", "a.svbrdf-session.json"].map(|name| folder.path().join(name));
+    save(&mut window, SaveKind::Renderings, &picture);
+    let (width, saved) = read_exr(&picture);
     let gap = svbrdf_files::export::GAP;
     assert_eq!(width, 3 * 256 + 2 * gap);
     let mut left_out = 0;
@@ -224,19 +169,18 @@ fn saved_differences_are_those_from_the_photograph_and_a_session_keeps_it() {
         left_out += usize::from(found[0].is_nan());
     }
     assert_eq!(left_out, 100);
-    let bytes = std::fs::read(&picture).unwrap();
-    let says = |text: &[u8]| bytes.windows(text.len()).any(|window| window == text);
-    assert!(says(b"log difference of renderings p from") && says(b"photo.npy as g"));
+    assert!(file_contains(&picture, "log difference of renderings p from"));
+    assert!(file_contains(&picture, "photo.npy as g"));
 
-    let session = save(SaveKind::Session, "a.svbrdf-session.json");
-    assert!(std::fs::read_to_string(&session).unwrap().contains("\"path\": \"photo.npy\""));
+    save(&mut window, SaveKind::Session, &session);
+    assert!(file_contains(&session, r#""path": "photo.npy""#));
     let session = Session::read(&session).unwrap();
     assert_eq!(session.photograph, Some(source(&folder.path().join("photo.npy"))));
     let options = ViewerOptions { session: Some(session), ..ViewerOptions::default() };
     let mut again = super::window(options);
     wait_for_it(&mut again);
     assert!(agrees(&again, &core));
-    assert_eq!(statistics(&again).len(), 3);
+    assert_eq!(statistics(&mut again).len(), 3);
 }
 
 #[needs(adapter)]
@@ -245,16 +189,12 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
     let folder = tempfile::tempdir().unwrap();
     let path = photograph(folder.path());
     let mut window = built_in();
-    window.get_by_label("Menu").click();
-    window.run_steps(4);
-    window.get_by_label("Open photograph...").click();
-    window.run_steps(4);
-    window.input_mut().dropped_files =
-        [path.clone()].into_iter().map(|path| std::sync::Arc::new(Dropped(path)) as _).collect();
+    click(&mut window, "Menu");
+    click(&mut window, "Open photograph...");
+    drop_files(&mut window, [path.clone()]);
     window.run_steps(3);
-    window.get_by_label("Flash at the camera, field of view").click();
-    window.run_steps(3);
-    window.get_by_role_and_label(egui::Role::Button, "Open photograph").click();
+    click(&mut window, "Flash at the camera, field of view");
+    window.get_by_role_and_label(Role::Button, "Open photograph").click();
     window.run_steps(3);
     wait_for_it(&mut window);
     assert_eq!(window.state().parts.model.view.scene, flash(45.0).unwrap());
@@ -307,7 +247,7 @@ fn a_photograph_that_was_replaced_is_read_again_when_it_is_opened_again() {
         .chunks_exact(4)
         .map(|bytes| 0.5 * f32::from_le_bytes(bytes.try_into().unwrap()))
         .collect();
-    std::fs::write(&path, pictures::npy([SIZE[1] as u64, SIZE[0] as u64, 3], &values)).unwrap();
+    write(&path, &values);
     let time = std::time::SystemTime::now() + std::time::Duration::from_secs(5);
     std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
     let open = PhotographCommand::Open { photograph: source(&path), light: None };

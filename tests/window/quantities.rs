@@ -4,12 +4,12 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::picture::statistics::{Histogram, Statistics};
+use svbrdf_core::picture::statistics::Histogram;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
-use svbrdf_files::samples;
 use svbrdf_viewer::model::view::state::ViewState;
 
+use super::materials::materials;
 use super::*;
 
 /// How far numbers from f32 may be off, in units of 1 + the number.
@@ -17,8 +17,6 @@ const CLOSE: f64 = 1e-4;
 
 /// The quantity of every texel of the built-in materials, the ground truth first.
 fn values(quantity: Quantity) -> Vec<Vec<[f64; 3]>> {
-    let samples = samples::load::<f32>().unwrap();
-    let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
     let scene = ViewState::default().scene;
     let of = |material: Material<f64>| match quantity {
         Quantity::Rendering => {
@@ -36,7 +34,7 @@ fn values(quantity: Quantity) -> Vec<Vec<[f64; 3]>> {
             })
             .collect(),
     };
-    all.map(|read| of(read.material.cast())).collect()
+    materials().iter().map(|material| of(material.cast())).collect()
 }
 
 /// The difference of one texel, written out.
@@ -65,7 +63,7 @@ fn is_close(measured: f64, expected: f64) -> bool {
 }
 
 /// The quantile of sorted values, interpolated between its two neighbours as NumPy does.
-pub fn quantile(sorted: &[f64], probability: f64) -> f64 {
+fn quantile(sorted: &[f64], probability: f64) -> f64 {
     let place = probability * (sorted.len() - 1) as f64;
     let [low, high] = [place.floor(), place.ceil()].map(|place| sorted[place as usize]);
     low * (1.0 - place.fract()) + high * place.fract()

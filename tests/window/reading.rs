@@ -1,36 +1,21 @@
 //! Reading on the worker, files that change, undo of the set of materials, and messages.
 
-use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use image::imageops::{FilterType, resize};
 use svbrdf_files::read::ReadOptions;
-use svbrdf_files::samples::generate;
-use svbrdf_viewer::model::command::{Command, DisplayCommand, MaterialsCommand};
+use svbrdf_viewer::model::command::{DisplayCommand, MaterialsCommand};
 
+use super::materials::{SIDE, strip};
 use super::*;
 
 /// Writes the built-in ground truth as a strip, enlarged.
-fn strip(path: &Path, times: u32) -> PathBuf {
-    let side = generate::SIDE as u32;
-    let pixels = generate::pack(&generate::ground_truth());
-    let picture = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
-    let picture = image::imageops::resize(
-        &picture,
-        4 * side * times,
-        side * times,
-        image::imageops::FilterType::Nearest,
-    );
-    picture.save(path).unwrap();
-    path.to_owned()
+fn write(path: &Path, times: u32) {
+    resize(&strip(), 4 * SIDE * times, SIDE * times, FilterType::Nearest).save(path).unwrap();
 }
 
-fn open(paths: Vec<PathBuf>) -> Command {
-    MaterialsCommand::Open { paths, replace: true, read: ReadOptions::AUTO }.into()
-}
-
-pub(super) fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
-    let (ctx, command) = (window.ctx.clone(), command.into());
-    window.state_mut().apply(&ctx, command);
+fn open(paths: Vec<PathBuf>) -> MaterialsCommand {
+    MaterialsCommand::Open { paths, replace: true, read: ReadOptions::AUTO }
 }
 
 /// The time until the window wants to be drawn again.
@@ -42,12 +27,13 @@ fn repaint_delay(window: &Window<'_>) -> Duration {
 #[test]
 fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_second_is_read() {
     let folder = tempfile::tempdir().unwrap();
-    let paths: Vec<_> = (0..4).map(|i| strip(&folder.path().join(format!("m{i}.png")), 4)).collect();
+    let paths: Vec<_> = (0..4).map(|i| folder.path().join(format!("m{i}.png"))).collect();
+    paths.iter().for_each(|path| write(path, 4));
     let mut window = built_in();
     // The loss of the built-in pair is computed while it is shown.
     wait(&mut window, "the loss", |app| app.losses().is_some());
     apply(&mut window, open(paths));
-    window.run_steps(4);
+    window.run_steps(2);
     let (mut first_alone, mut longest) = (false, Duration::ZERO);
     while window.state().is_reading() {
         window.step();
@@ -64,13 +50,9 @@ fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_secon
 /// A window on the files of a ground truth and one prediction.
 fn window_of_files() -> (tempfile::TempDir, [PathBuf; 2], Window<'static>) {
     let folder = tempfile::tempdir().unwrap();
-    let paths = ["gt.png", "p.png"].map(|name| strip(&folder.path().join(name), 1));
-    let options = ViewerOptions {
-        ground_truth: Some(paths[0].clone().into()),
-        predictions: vec![paths[1].clone().into()],
-        ..ViewerOptions::default()
-    };
-    let window = window(options);
+    let paths = ["gt.png", "p.png"].map(|name| folder.path().join(name));
+    paths.iter().for_each(|path| write(path, 1));
+    let window = on_files(paths.clone());
     (folder, paths, window)
 }
 
@@ -106,13 +88,6 @@ fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
     window.run_steps(30);
     apply(&mut window, DisplayCommand::Redo);
     wait(&mut window, "the built-in pair", |app| app.names().len() == 3);
-    wait(&mut window, "the end of reading", |app| !app.is_reading());
-    window.run_steps(30);
-    apply(&mut window, MaterialsCommand::Close(2));
-    window.run_steps(30);
-    assert_eq!(window.state().names().len(), 2);
-    apply(&mut window, DisplayCommand::Undo);
-    wait(&mut window, "the closed prediction", |app| app.names().len() == 3);
 }
 
 #[needs(adapter)]
@@ -126,11 +101,9 @@ fn messages_take_no_room_from_the_panes() {
     }
     assert_eq!(pane(&window, GROUND_TRUTH), before);
     let message = window.state().messages()[0].clone();
-    window.get_by_label(&format!("Dismiss: {message}")).click();
-    window.run_steps(3);
+    click(&mut window, &format!("Dismiss: {message}"));
     assert_eq!(window.state().messages().len(), 2);
-    window.get_by_label("Dismiss all").click();
-    window.run_steps(3);
+    click(&mut window, "Dismiss all");
     assert!(window.state().messages().is_empty());
 }
 
@@ -139,20 +112,16 @@ fn messages_take_no_room_from_the_panes() {
 fn a_prediction_replaced_by_one_of_another_size_makes_its_loss_stale() {
     let (_folder, paths, mut window) = window_of_files();
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    let stale = |window: &Window<'_>| {
-        let rows = window.query_all_by_label_contains("1 (stale)  p").count();
-        let titles = window.query_all_by_label_contains("p  (stale)").count();
-        [rows, titles].map(|count| count > 0)
-    };
+    let stale = |window: &Window<'_>| ["1 (stale)  p", "p  (stale)"].map(|text| has(window, text));
     assert_eq!(stale(&window), [false, false]);
     apply(&mut window, MaterialsCommand::SetWatch(true));
     window.run_steps(3);
-    strip(&paths[1], 2);
+    write(&paths[1], 2);
     wait(&mut window, "the refusal", |app| app.messages().iter().any(|text| text.starts_with("Not opened")));
     window.run_steps(3);
     assert_eq!(stale(&window), [true, true], "the loss and the pane are of a file that is no more");
     window.get_by_label("Stale: materials or settings have changed.");
-    strip(&paths[1], 1);
+    write(&paths[1], 1);
     wait(&mut window, "the file of the right size", |app| app.problems()[1].is_none());
     wait(&mut window, "its loss", |app| app.losses().is_some());
     window.run_steps(3);

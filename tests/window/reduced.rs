@@ -1,7 +1,5 @@
 //! Materials for which the adapter has no room: every n-th texel is displayed, and losses use all.
 
-use std::sync::Arc;
-
 use svbrdf_viewer::jobs::reading::upload::Uploaded;
 
 use super::*;

@@ -1,22 +1,14 @@
 //! Saving a report.
 
-use std::path::Path;
-
 use svbrdf_core::loss::Ask;
 use svbrdf_files::session::Session;
-use svbrdf_viewer::model::command::{Command, DisplayCommand, LossCommand, SceneCommand, WindowCommand};
-use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf_viewer::model::command::{DisplayCommand, LossCommand, SceneCommand};
 use svbrdf_viewer::model::view::state::Layout;
 
 use super::*;
 
-fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
-    let (ctx, command) = (window.ctx.clone(), command.into());
-    window.state_mut().apply(&ctx, command);
-    window.run_steps(2);
-}
-
-fn save(window: &mut Window<'_>, path: &Path) {
+/// Begins to save.
+fn start(window: &mut Window<'_>, path: &Path) {
     let (kind, path) = (SaveKind::Report, path.to_owned());
     apply(window, WindowCommand::Save(SaveRequest { kind, path, size: [0; 2], handles: true }));
 }
@@ -44,9 +36,7 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     apply(&mut window, DisplayCommand::SetRange(Some(0.75)));
     wait(&mut window, "the losses", |app| app.losses().is_some());
     let losses: Vec<f64> = window.state().losses().unwrap().iter().map(|loss| loss.estimate.mean).collect();
-    save(&mut window, &path);
-    wait(&mut window, "the report", |app| !app.messages().is_empty());
-    assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
+    save(&mut window, SaveKind::Report, &path);
     let html = std::fs::read_to_string(&path).unwrap();
     let data: serde_json::Value = serde_json::from_str(between(&html, r#"id="data">"#, "</script>")).unwrap();
     let start = &data["start"];
@@ -78,15 +68,13 @@ fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
     let mut settings = window.state().parts.model.settings.loss.clone();
     (settings.ask, settings.target_percent) = (Ask::Accuracy, 0.05);
     apply(&mut window, LossCommand::SetSettings(settings));
-    window.get_by_label("Save").click();
-    window.run_steps(4);
-    window.get_by_label("Report").click();
-    window.run_steps(4);
-    save(&mut window, &path);
+    click(&mut window, "Save");
+    click(&mut window, "Report");
+    start(&mut window, &path);
     wait(&mut window, "some progress", |app| {
         app.parts.jobs.saving.as_ref().is_some_and(|job| job.fraction() > 0.0)
     });
-    window.get_by_label("Cancel saving").click();
+    click(&mut window, "Cancel saving");
     wait(&mut window, "the end", |app| app.parts.jobs.saving.is_none());
     window.get_by_label("Save file");
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
@@ -98,7 +86,7 @@ fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
 fn a_report_is_html() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
-    save(&mut window, &folder.path().join("report.png"));
+    start(&mut window, &folder.path().join("report.png"));
     wait(&mut window, "the refusal", |app| !app.messages().is_empty());
     assert!(window.state().messages()[0].contains("NAME.html"), "{:?}", window.state().messages());
 }

@@ -1,37 +1,19 @@
 //! Saving the view, renderings, strips and sessions.
 
-use std::path::{Path, PathBuf};
-
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::read::ReadOptions;
+use svbrdf_files::read::{NormalY, ReadOptions};
 use svbrdf_files::session::Session;
 use svbrdf_viewer::model::command::{
-    Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
+    DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand,
 };
 use svbrdf_viewer::model::inspection::Region;
-use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 use svbrdf_viewer::model::view::state::{Layout, Projection};
 
+use super::materials::strips;
 use super::*;
-
-fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
-    let (ctx, command) = (window.ctx.clone(), command.into());
-    window.state_mut().apply(&ctx, command);
-    window.run_steps(2);
-}
-
-fn save(window: &mut Window<'_>, what: SaveKind, path: &Path, size: [u32; 2]) {
-    apply(
-        window,
-        WindowCommand::Save(SaveRequest { kind: what, path: path.to_owned(), size, handles: true }),
-    );
-    wait(window, "the file", |app| !app.messages().is_empty());
-    assert_eq!(window.state().messages(), [format!("Saved {}", path.display())]);
-    apply(window, WindowCommand::DismissMessages);
-}
 
 #[needs(adapter)]
 #[test]
@@ -43,15 +25,14 @@ fn saved_renderings_are_what_is_selected() {
     apply(&mut window, DisplayCommand::ShowDifference(true));
     apply(&mut window, DisplayCommand::SetRange(Some(20.0)));
     apply(&mut window, DisplayCommand::SetExposure(3.0));
-    save(&mut window, SaveKind::Renderings, &path, [0; 2]);
+    save(&mut window, SaveKind::Renderings, &path);
     let got = image::open(&path).unwrap().to_rgb8();
     let materials: Vec<_> = window.state().materials().collect();
     let difference = ColouredDifference { kind: Difference::Angle, range: Some(20.0) };
     let shown = PictureContent { quantity: Quantity::Normal, difference: Some(difference) };
-    let (scene, convention) =
-        (window.state().parts.model.view.scene, window.state().parts.model.view.convention());
-    let pictures = shown.pictures(&materials, &scene, &convention, 3.0, &Progress::default()).unwrap();
-    let image = &pictures.images[0];
+    let view = &window.state().parts.model.view;
+    let pictures = shown.pictures(&materials, &view.scene, &view.convention(), 3.0, &Progress::default());
+    let image = &pictures.unwrap().images[0];
     for (i, rgb) in image.pixels.iter().enumerate() {
         let (x, y) = (i % image.width, i / image.width);
         assert_eq!(got.get_pixel(x as u32, y as u32).0, shown.colour(*rgb, 0.0), "{x}, {y}");
@@ -61,20 +42,31 @@ fn saved_renderings_are_what_is_selected() {
 
 #[needs(adapter)]
 #[test]
-fn a_saved_strip_has_the_rectangle_as_a_crop() {
+fn a_saved_strip_is_that_of_the_session_and_has_the_rectangle_as_a_crop() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
-    let [plain, cropped] = ["plain.png", "cropped.png"].map(|name| folder.path().join(name));
-    save(&mut window, SaveKind::Strip, &plain, [0; 2]);
+    let [plain, cropped, session] =
+        ["plain.png", "cropped.png", "a.svbrdf-session.json"].map(|name| folder.path().join(name));
+    let rect = pane(&window, GROUND_TRUTH);
+    drag_primary(&mut window, rect, vec2(0.7, 0.3), vec2(0.2, 0.8));
+    save(&mut window, SaveKind::Strip, &plain);
+    save(&mut window, SaveKind::Session, &session);
+    let strip = |arguments: &[&Path]| {
+        let path = folder.path().join("strip.png");
+        let mut command = crate::surroundings::command(super::loss_panel::program());
+        let output = command.arg("strip").args(arguments).arg("-o").arg(&path).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        image::open(path).unwrap()
+    };
+    assert!(strip(&[&session]) == image::open(&plain).unwrap());
+    assert!(strip(&[]) != image::open(&plain).unwrap(), "a planted fault: another light");
     let region = Region { first: [40, 60], last: [71, 79] };
     apply(&mut window, InspectionCommand::SetRegion(Some(region)));
-    save(&mut window, SaveKind::Strip, &cropped, [0; 2]);
+    save(&mut window, SaveKind::Strip, &cropped);
     let width = |path: &Path| image::open(path).unwrap().width();
     // 7 times as large, for 252 pixels beside each of 6 cells of 256: with frames and gaps.
     assert_eq!(width(&cropped) - width(&plain), 6 * (32 * 7 + 2 * 2 + 4));
-    let bytes = std::fs::read(&cropped).unwrap();
-    let text = b"40,60,32,20";
-    assert!(bytes.windows(text.len()).any(|window| window == text));
+    assert!(file_contains(&cropped, "40,60,32,20"));
 }
 
 #[needs(adapter)]
@@ -82,19 +74,20 @@ fn a_saved_strip_has_the_rectangle_as_a_crop() {
 fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
+    // A grid of 2 x 2 panes.
+    window.set_size(vec2(1360.0, 860.0));
     apply(&mut window, DisplayCommand::ShowDifference(true));
-    wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
+    statistics(&mut window);
     apply(&mut window, DisplayCommand::Zoom { factor: 2.0, at: [0.2, 0.1] });
     apply(&mut window, WindowCommand::ShowSave(true));
     apply(&mut window, WindowCommand::ShowSave(false));
     let size = window.state().picture_size();
     let path = folder.path().join("view.png");
-    save(&mut window, SaveKind::View, &path, size);
+    save(&mut window, SaveKind::View, &path);
     window.run_steps(8);
     let saved = image::open(&path).unwrap().to_rgb8();
     assert_eq!([saved.width(), saved.height()], size);
-    let rect = pane(&window, GROUND_TRUTH);
-    let top = rect.top() - 24.0;
+    let top = pane(&window, GROUND_TRUTH).top() - 24.0;
     let area = egui::Rect::from_min_size(egui::pos2(0.0, top), vec2(size[0] as f32, size[1] as f32));
     let seen = pixels(&mut window, area);
     // The tests' window is transparent where the real one has its background: premultiplied colours over that.
@@ -109,14 +102,16 @@ fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
     let different = saved.pixels().zip(seen.pixels()).filter(|pair| far(*pair)).count();
     let all = (size[0] * size[1]) as usize;
     assert!(different < all / 100, "{different} of {all} pixels differ");
-    let bytes = std::fs::read(&path).unwrap();
     for text in ["svbrdf:layout", "side by side", "svbrdf:zoom", "log difference of rendering"] {
-        assert!(bytes.windows(text.len()).any(|window| window == text.as_bytes()), "{text}");
+        assert!(file_contains(&path, text), "{text}");
     }
     let large = folder.path().join("large.png");
-    save(&mut window, SaveKind::View, &large, [size[0] * 2, size[1] * 2]);
+    let [width, height] = size.map(|side| 2 * side);
+    let request =
+        SaveRequest { kind: SaveKind::View, path: large.clone(), size: [width, height], handles: true };
+    save_as(&mut window, request);
     let large = image::open(&large).unwrap().to_rgb8();
-    assert_eq!([large.width(), large.height()], size.map(|side| side * 2));
+    assert_eq!([large.width(), large.height()], [width, height]);
     // The same picture, larger: not the same one in a corner.
     let small = image::imageops::thumbnail(&large, size[0], size[1]);
     let near = saved
@@ -127,30 +122,12 @@ fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
     assert!(mean < 12.0, "it differs by {mean} on average");
 }
 
-/// Two strips in a folder.
-fn strips(folder: &Path) -> [PathBuf; 2] {
-    let side = svbrdf_files::samples::generate::SIDE as u32;
-    let pixels = svbrdf_files::samples::generate::pack(&svbrdf_files::samples::generate::ground_truth());
-    let strip = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
-    ["gt.png", "p.png"].map(|name| {
-        let path = folder.join(name);
-        strip.save(&path).unwrap();
-        path
-    })
-}
-
 #[needs(adapter)]
 #[test]
 fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let folder = tempfile::tempdir().unwrap();
-    let [gt, p] = strips(folder.path());
-    let options = ViewerOptions {
-        ground_truth: Some(gt.into()),
-        predictions: vec![p.into()],
-        ..ViewerOptions::default()
-    };
-    let mut first = window(options);
-    let read = ReadOptions { normal_y: Some(svbrdf_files::read::NormalY::Down), ..ReadOptions::AUTO };
+    let mut first = on_files(strips(folder.path(), ["gt.png", "p.png"]));
+    let read = ReadOptions { normal_y: Some(NormalY::Down), ..ReadOptions::AUTO };
     apply(&mut first, MaterialsCommand::ReadAs { index: 1, read });
     wait(&mut first, "the other assumption", |app| !app.is_reading());
     apply(&mut first, DisplayCommand::SetLayout(Layout::Wipe));
@@ -165,7 +142,7 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     settings.near = 17;
     apply(&mut first, LossCommand::SetSettings(settings));
     let path = folder.path().join("a.svbrdf-session.json");
-    save(&mut first, SaveKind::Session, &path, [0; 2]);
+    save(&mut first, SaveKind::Session, &path);
     let (state, materials) =
         (first.state().parts.model.view.clone(), first.state().materials().cloned().collect::<Vec<_>>());
     assert!(state.display.projection == Projection::Perspective && state.exposure_ev == 1.5);
@@ -196,22 +173,11 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
 #[test]
 fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
     let mut window = built_in();
-    window.get_by_label("Save").click();
-    window.run_steps(4);
-    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::A);
-    window.run_steps(2);
-    window.event(egui::Event::Text("no/such/folder/view.png".to_owned()));
-    window.run_steps(2);
-    window.get_by_label("Save file").click();
-    for _ in 0..500 {
-        window.step();
-        if window.query_by_label_contains("its folder does not exist").is_some() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-    window.get_by_label_contains("its folder does not exist");
-    let field = window.get_by_role_and_label(egui::accesskit::Role::TextInput, "To file:");
+    click(&mut window, "Save");
+    retype(&mut window, "no/such/folder/view.png");
+    click(&mut window, "Save file");
+    see(&mut window, "its folder does not exist");
+    let field = window.get_by_role_and_label(Role::TextInput, "To file:");
     assert_eq!(field.value().as_deref(), Some("no/such/folder/view.png"));
     assert!(window.state().messages().is_empty());
 }
@@ -224,10 +190,7 @@ fn a_view_is_saved_with_or_without_the_sun_and_the_eye() {
     let size = window.state().picture_size();
     let suns = [true, false].map(|handles| {
         let path = folder.path().join(format!("{handles}.png"));
-        let request = SaveRequest { kind: SaveKind::View, path: path.clone(), size, handles };
-        apply(&mut window, WindowCommand::DismissMessages);
-        apply(&mut window, WindowCommand::Save(request));
-        wait(&mut window, "the file", |app| !app.messages().is_empty());
+        save_as(&mut window, SaveRequest { kind: SaveKind::View, path: path.clone(), size, handles });
         let picture = image::open(&path).unwrap().to_rgb8();
         picture.pixels().filter(|pixel| pixel.0 == [0xff, 0xd2, 0x4a]).count()
     });
@@ -239,13 +202,11 @@ fn a_view_is_saved_with_or_without_the_sun_and_the_eye() {
 fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
     let mut window = built_in();
     let at = pane(&window, GROUND_TRUTH).center();
-    window.event(egui::Event::PointerMoved(at));
-    window.run_steps(2);
+    hover(&mut window, at);
     press(&mut window, egui::Key::I);
     more(&mut window);
     let mut height = |button: &str, message: &str| {
-        window.get_by_label(button).click();
-        window.run_steps(4);
+        click(&mut window, button);
         window.get_by_label(message).rect().height()
     };
     let short = height("Copy scene", "Copied the scene as JSON");
@@ -256,30 +217,24 @@ fn a_longer_message_after_a_shorter_one_stays_on_one_line() {
 #[test]
 fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
     let folder = tempfile::tempdir().unwrap();
-    let [gt, p] = strips(folder.path());
+    let [gt, p] = strips(folder.path(), ["gt.png", "p.png"]);
     let scenes = folder.path().join("scenes.json");
     let text = r#"{"scenes": [{"kind": "near", "view": [0, 0, 2], "light": [0.1, 0, 2]}]}"#;
     std::fs::write(&scenes, text).unwrap();
-    let [ground_truth, predictions] = [gt.clone(), p.clone()];
     let mut window = window(ViewerOptions {
-        ground_truth: Some(ground_truth.into()),
-        predictions: vec![predictions.into()],
         scenes: Some(svbrdf_files::scene_file::read_named(&scenes).unwrap()),
-        ..ViewerOptions::default()
+        ..options_of([gt.clone(), p.clone()])
     });
     let all = [gt, p, scenes];
-    let before: Vec<_> = all.iter().map(|path| std::fs::read(path).unwrap()).collect();
+    let bytes = || all.each_ref().map(|path| std::fs::read(path).unwrap());
+    let before = bytes();
     let size = window.state().picture_size();
     for (number, kind) in [SaveKind::View, SaveKind::Strip, SaveKind::Scenes].into_iter().enumerate() {
         let path = all[number].clone();
-        apply(
-            &mut window,
-            Command::from(WindowCommand::Save(SaveRequest { kind, path, size, handles: true })),
-        );
+        apply(&mut window, WindowCommand::Save(SaveRequest { kind, path, size, handles: true }));
         wait(&mut window, "the refusal", |app| app.messages().len() > number);
         let message = window.state().messages().last().unwrap().clone();
         assert!(message.contains("which the result is made from"), "{message}");
     }
-    let after: Vec<_> = all.iter().map(|path| std::fs::read(path).unwrap()).collect();
-    assert!(before == after, "a file was replaced");
+    assert!(before == bytes(), "a file was replaced");
 }

@@ -1,18 +1,13 @@
 //! Scene files: the scenes of the loss, from a file and to one.
 
-use std::path::{Path, PathBuf};
-
-use svbrdf_core::loss::{Comparison, Outcome, Request};
-use svbrdf_core::model::convention::PRINTED;
-use svbrdf_core::model::scene::Scene;
-use svbrdf_core::progress::Progress;
+use svbrdf_core::loss::Request;
+use svbrdf_core::model::named_scenes::flash_9;
 use svbrdf_files::read::ReadOptions;
-use svbrdf_files::samples;
 use svbrdf_files::scene_file;
-use svbrdf_viewer::model::command::{DisplayCommand, LossCommand, MaterialsCommand, WindowCommand};
-use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf_files::session::Session;
+use svbrdf_viewer::model::command::{DisplayCommand, LossCommand, MaterialsCommand};
 
-use super::reading::apply;
+use super::materials::losses;
 use super::*;
 
 const CAPTURE: &str = r#"{"im_size": 4, "camera_pos": [[-3, 3, 16], [0, 3, 16], [3, 1, 16]],
@@ -23,30 +18,9 @@ fn open(window: &mut Window<'_>, path: &Path) {
     apply(window, MaterialsCommand::Open { paths, replace: false, read });
 }
 
-/// What was stored last.
-#[derive(Default)]
-struct Memory(String);
-
-impl eframe::Storage for Memory {
-    fn get_string(&self, _: &str) -> Option<String> {
-        Some(self.0.clone())
-    }
-
-    fn set_string(&mut self, _: &str, value: String) {
-        self.0 = value;
-    }
-
-    fn remove_string(&mut self, _: &str) {}
-
-    fn flush(&mut self) {}
-}
-
-/// What the core gives for these scenes and the built-in predictions.
-fn expected(scenes: &[Scene]) -> Outcome {
-    let samples = samples::load::<f32>().unwrap();
-    let predictions: Vec<_> = samples.predictions.iter().map(|read| &read.material).collect();
-    let comparison = Comparison::new(&samples.ground_truth.material, &predictions, PRINTED).unwrap();
-    comparison.run(&Request::Listed(scenes.to_vec()), &Progress::default()).unwrap()
+/// Whether the loss is over so many listed scenes.
+fn is_over(count: usize) -> impl Fn(&App) -> bool {
+    move |app| app.losses().is_some_and(|losses| losses[0].per_scene.len() == count)
 }
 
 fn capture(folder: &tempfile::TempDir) -> PathBuf {
@@ -64,24 +38,20 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     let mut window = built_in();
     window.run_steps(30);
     open(&mut window, &path);
-    let is_of_file = |app: &App| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 3);
-    wait(&mut window, "the loss over the file", is_of_file);
-    assert_eq!(window.state().losses().unwrap(), expected(&scenes).losses);
+    wait(&mut window, "the loss over the file", is_over(3));
+    assert_eq!(window.state().losses().unwrap(), losses(&Request::Listed(scenes)));
     window.get_by_label("3 scenes of render.json");
     assert_eq!(window.state().names().len(), 3, "the materials stay");
-    let mut stored = Memory::default();
-    eframe::App::save(window.state_mut(), &mut stored);
-    assert!(!stored.0.contains("render.json"), "the next start begins without them: {}", stored.0);
     let listed = |app: &App| app.listed_scenes().is_some_and(|(scenes, _)| scenes.len() == 3);
     tab(&mut window, "Why");
     wait(&mut window, "the list of the file", listed);
     tab(&mut window, "Loss");
-    window.get_by_label("Remove scenes").click();
-    window.run_steps(30);
+    click(&mut window, "Remove scenes");
+    window.run_steps(26);
     assert!(window.query_by_label("3 scenes of render.json").is_none());
     assert!(window.state().parts.model.settings.loss.file.is_none());
     apply(&mut window, DisplayCommand::Undo);
-    wait(&mut window, "the loss over the file", is_of_file);
+    wait(&mut window, "the loss over the file", is_over(3));
     apply(&mut window, LossCommand::RemoveFileScenes);
     wait(&mut window, "the loss to +-1%", |app| app.losses().is_some());
 
@@ -103,41 +73,28 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     tab(&mut window, "Why");
     wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
     let ranked = window.state().listed_scenes().unwrap().0.to_vec();
+    wait(&mut window, "the loss", is_over(9));
+    let mean = ranked.iter().map(|ranked| ranked.losses[0]).sum::<f64>() / 9.0;
+    let loss = window.state().losses().unwrap()[0].estimate.mean;
+    assert!(ranked.len() == 9 && (mean / loss - 1.0).abs() < 1e-12, "{mean} and {loss}");
     let path = folder.path().join("scenes.json");
-    apply(
-        &mut window,
-        WindowCommand::Save(SaveRequest {
-            kind: SaveKind::Scenes,
-            path: path.clone(),
-            size: [0; 2],
-            handles: true,
-        }),
-    );
-    wait(&mut window, "the file", |app| app.messages().iter().any(|text| text.starts_with("Saved")));
+    save(&mut window, SaveKind::Scenes, &path);
     let saved = scene_file::read(&path).unwrap();
     assert_eq!(saved, ranked.iter().map(|ranked| ranked.scene).collect::<Vec<_>>());
     let json: serde_json::Value = serde_json::from_slice(&std::fs::read(&path).unwrap()).unwrap();
-    let losses: Vec<f64> = ranked.iter().map(|ranked| ranked.losses[0]).collect();
-    assert_eq!(json["results"][0]["losses"], serde_json::json!(losses));
+    let of_chosen: Vec<f64> = ranked.iter().map(|ranked| ranked.losses[0]).collect();
+    assert_eq!(json["results"][0]["losses"], serde_json::json!(of_chosen));
     assert_eq!(json["results"].as_array().unwrap().len(), 1, "of the chosen prediction");
 
     open(&mut window, &path);
     wait(&mut window, "the scenes of the file", |app| app.parts.model.settings.loss.file_scenes().is_some());
     let session = folder.path().join("a.svbrdf-session.json");
-    apply(
-        &mut window,
-        WindowCommand::Save(SaveRequest {
-            kind: SaveKind::Session,
-            path: session.clone(),
-            size: [0; 2],
-            handles: true,
-        }),
-    );
-    wait(&mut window, "the session", |_| session.exists());
-    let session = svbrdf_files::session::Session::read(&session).unwrap();
-    let mut other = super::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });
-    wait(&mut other, "the loss", |app| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 9));
-    assert_eq!(other.state().losses().unwrap(), expected(&saved).losses);
+    apply(&mut window, WindowCommand::DismissMessages);
+    save(&mut window, SaveKind::Session, &session);
+    let session = Some(Session::read(&session).unwrap());
+    let mut other = super::window(ViewerOptions { session, ..ViewerOptions::default() });
+    wait(&mut other, "the loss", is_over(9));
+    assert_eq!(other.state().losses().unwrap(), losses(&Request::Listed(saved)));
 }
 
 #[needs(adapter)]
@@ -146,27 +103,23 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     let folder = tempfile::tempdir().unwrap();
     let path = capture(&folder);
     let scenes = scene_file::read_named(&path).unwrap();
-    let of_file = |app: &App| app.losses().is_some_and(|losses| losses[0].per_scene.len() == 3);
     let options = ViewerOptions { scenes: Some(scenes.clone()), ..ViewerOptions::default() };
     let mut window = super::window(options);
-    wait(&mut window, "the loss over the file", of_file);
-    assert_eq!(window.state().losses().unwrap(), expected(&scenes.scenes).losses);
+    wait(&mut window, "the loss over the file", is_over(3));
+    assert_eq!(window.state().losses().unwrap(), losses(&Request::Listed(scenes.scenes)));
     window.get_by_label("3 scenes of render.json");
 
     let mut window = built_in();
     let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples/worn_tiles.png");
-    let dropped =
-        [material.clone(), path.clone(), material].map(|path| std::sync::Arc::new(Dropped(path)) as _);
-    window.input_mut().dropped_files = dropped.into();
-    wait(&mut window, "materials and scenes", |app| app.names().len() == 2 && of_file(app));
+    drop_files(&mut window, [material.clone(), path.clone(), material]);
+    wait(&mut window, "materials and scenes", |app| app.names().len() == 2 && is_over(3)(app));
     assert_eq!(window.state().messages(), ["The loss is over the 3 scenes of render.json"]);
 
     // Two of them are refused, and those of before stay.
     let other = folder.path().join("other.json");
     std::fs::write(&other, CAPTURE).unwrap();
     apply(&mut window, WindowCommand::DismissMessages);
-    let two = [path, other].map(|path| std::sync::Arc::new(Dropped(path)) as _);
-    window.input_mut().dropped_files = two.into();
+    drop_files(&mut window, [path, other]);
     wait(&mut window, "the refusal", |app| !app.messages().is_empty());
     let messages = window.state().messages();
     assert!(messages[0].contains("expected one scene file, found"), "{messages:?}");
@@ -176,16 +129,12 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
 #[needs(adapter)]
 #[test]
 fn scenes_with_a_name_are_those_of_the_loss_until_they_are_removed() {
-    use svbrdf_core::model::named_scenes::flash_9;
     let mut window = by_scenes();
-    window.get_by_label("Named...").click();
-    window.run_steps(4);
-    window.get_by_label("flash-9").click();
-    window.run_steps(4);
+    click(&mut window, "Named...");
+    click(&mut window, "flash-9");
     let request = |window: &Window<'_>| window.state().parts.model.settings.loss.request();
-    assert_eq!(request(&window), svbrdf_core::loss::Request::Listed(flash_9().into()));
+    assert_eq!(request(&window), Request::Listed(flash_9().into()));
     window.get_by_label("9 scenes of flash-9");
-    window.get_by_label("Remove scenes").click();
-    window.run_steps(4);
-    assert!(matches!(request(&window), svbrdf_core::loss::Request::Accuracy { .. }));
+    click(&mut window, "Remove scenes");
+    assert!(matches!(request(&window), Request::Accuracy { .. }));
 }

@@ -1,7 +1,5 @@
 //! The pictures of the window in the README and docs.
 
-use std::path::Path;
-
 use image::codecs::jpeg::JpegEncoder;
 
 use svbrdf_core::model::convention::PRINTED;
@@ -11,11 +9,11 @@ use svbrdf_core::render::render_f32;
 use svbrdf_evaluate::photograph::flash;
 use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::ReadOptions;
-use svbrdf_files::samples::{self, generate};
+use svbrdf_files::samples::generate;
 use svbrdf_files::scene_file::PhotographLight;
 use svbrdf_viewer::model::command::{MaterialsCommand, PhotographCommand, TrainingCommand};
 
-use super::photograph::apply;
+use super::materials::{SIDE, materials, strip};
 use super::*;
 
 /// Size of a picture, in pixels.
@@ -41,10 +39,10 @@ fn opened<'a>() -> Window<'a> {
     window.set_size(SIZE);
     window.run_steps(4);
     tab(&mut window, "Why");
-    window.get_by_label("Would something trivial explain it?").click();
-    window.run_steps(12);
-    window.get_by_label("Light and view").click();
-    window.run_steps(12);
+    for section in ["Would something trivial explain it?", "Light and view"] {
+        click(&mut window, section);
+        window.run_steps(8);
+    }
     wait(&mut window, "the attribution", |app| app.attribution().is_some());
     wait(&mut window, "the thumbnails", |app| app.listed_scenes().is_some());
     wait(&mut window, "the directions", |app| app.direction_map().is_some_and(|map| map.side == 64));
@@ -100,21 +98,17 @@ fn the_pictures_of_the_readme() {
 fn the_picture_of_a_diagnosis() {
     let folder = tempfile::tempdir().unwrap();
     let [truth, flipped] = ["worn tiles.png", "Y down.png"].map(|name| folder.path().join(name));
-    let side = generate::SIDE as u32;
-    let mut strip =
-        image::RgbImage::from_raw(4 * side, side, generate::pack(&generate::ground_truth())).unwrap();
+    let mut strip = strip();
     strip.save(&truth).unwrap();
     for (x, _, pixel) in strip.enumerate_pixels_mut() {
-        pixel.0[1] = if x < side { 255 - pixel.0[1] } else { pixel.0[1] };
+        pixel.0[1] = if x < SIDE { 255 - pixel.0[1] } else { pixel.0[1] };
     }
     strip.save(&flipped).unwrap();
     let mut window = built_in();
     window.set_size(SIZE);
     let read = ReadOptions { order: Some("ndrs".parse().unwrap()), ..ReadOptions::AUTO };
     let read = ReadOptions { preset: Some("deschaintre".parse().unwrap()), ..read };
-    let ctx = window.ctx.clone();
-    let open = MaterialsCommand::Open { paths: vec![truth, flipped], replace: true, read };
-    window.state_mut().apply(&ctx, open.into());
+    apply(&mut window, MaterialsCommand::Open { paths: vec![truth, flipped], replace: true, read });
     wait(&mut window, "the materials", |app| app.names() == ["worn tiles", "Y down"]);
     tab(&mut window, "Why");
     wait(&mut window, "the diagnosis", |app| app.diagnosis().is_some());
@@ -127,7 +121,6 @@ fn the_picture_of_a_diagnosis() {
 fn write_steps(folder: &Path, name: &str, start: f64, settles: f64) {
     let (truth, wrong) = (generate::ground_truth(), generate::wrong_roughness(&generate::ground_truth()));
     let blurred = generate::blurred_normals(&truth);
-    let side = generate::SIDE as u32;
     let [truth, wrong, blurred] = [truth, wrong, blurred].map(|planes| generate::pack(&planes));
     for number in 1..=10_u32 {
         // A course with a little noise, of which some steps are a setback.
@@ -137,7 +130,7 @@ fn write_steps(folder: &Path, name: &str, start: f64, settles: f64) {
             let [t, w, b] = [truth[i], wrong[i], blurred[i]].map(f64::from);
             (t + off * (w - t) + off * (b - t)).clamp(0.0, 255.0).round() as u8
         };
-        let picture = image::RgbImage::from_raw(4 * side, side, (0..truth.len()).map(mixed).collect());
+        let picture = image::RgbImage::from_raw(4 * SIDE, SIDE, (0..truth.len()).map(mixed).collect());
         picture.unwrap().save(folder.join(format!("run/{name}_step{:06}.png", 500 * number))).unwrap();
     }
 }
@@ -146,20 +139,11 @@ fn write_steps(folder: &Path, name: &str, start: f64, settles: f64) {
 fn training() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("run")).unwrap();
-    let truth = folder.path().join("worn tiles.png");
-    std::fs::copy(
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples/worn_tiles.png"),
-        &truth,
-    )
-    .unwrap();
+    let [truth, run] = ["worn tiles.png", "run"].map(|name| folder.path().join(name));
+    strip().save(&truth).unwrap();
     write_steps(folder.path(), "baseline", 0.9, 0.25);
     write_steps(folder.path(), "ours", 1.0, 0.05);
-    let predictions = vec![folder.path().join("run").into()];
-    let mut window = super::window(ViewerOptions {
-        ground_truth: Some(truth.into()),
-        predictions,
-        ..ViewerOptions::default()
-    });
+    let mut window = on_files([truth, run]);
     window.set_size(SIZE);
     wait(&mut window, "both runs", |app| app.names().len() == 3 && app.training_runs().len() == 2);
     apply(&mut window, MaterialsCommand::SetWatch(true));
@@ -173,14 +157,14 @@ fn training() {
 }
 
 /// A photograph of the ground truth from the side, on a gray table, and the corners of the material in it.
-fn photograph_from_the_side(folder: &Path) -> (std::path::PathBuf, [[f64; 2]; 4]) {
+fn photograph_from_the_side(folder: &Path) -> (PathBuf, [[f64; 2]; 4]) {
     const WIDTH: u32 = 900;
     const HEIGHT: u32 = 760;
     /// Samples along the side of the material.
     const SAMPLES: usize = 1600;
     let corners = [[190.0, 90.0], [790.0, 60.0], [840.0, 650.0], [100.0, 690.0]];
-    let material = samples::load::<f32>().unwrap().ground_truth.material;
-    let rendering = render_f32(&material, &flash(45.0).unwrap(), &PRINTED, &Progress::default()).unwrap();
+    let rendering =
+        render_f32(&materials()[0], &flash(45.0).unwrap(), &PRINTED, &Progress::default()).unwrap();
     let gray = |x: u32, y: u32| 92 + ((x * 13 + y * 7) % 11) as u8;
     let mut picture = image::RgbImage::from_fn(WIDTH, HEIGHT, |x, y| image::Rgb([gray(x, y); 3]));
     // The projective map of the unit square to the corners (Heckbert 1989).

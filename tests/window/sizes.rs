@@ -3,12 +3,10 @@
 use rand::SeedableRng as _;
 use rand::rngs::ChaCha8Rng;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_viewer::model::command::WindowCommand;
 use svbrdf_viewer::model::inspection::Region;
 use svbrdf_viewer::model::settings::Tab;
 use svbrdf_viewer::model::view::state::{Layout, Projection};
 
-use super::photograph::apply;
 use super::soak::below;
 use super::*;
 
@@ -17,7 +15,7 @@ const SCALES: [f32; 7] = [0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// Sizes in pixels that every state is shown at, each at the least and the greatest scale.
 const SMALL: [[f32; 2]; 4] = [[10.0, 10.0], [10.0, 900.0], [1400.0, 10.0], [640.0, 420.0]];
 /// Random sizes of every state.
-const RANDOM: usize = 8;
+const RANDOM: usize = 4;
 
 /// Shows the window at a size in pixels and a scale.
 fn resize(window: &mut Window<'_>, [width, height]: [f32; 2], scale: f32) {
@@ -107,21 +105,19 @@ fn tabs_are_drawn_at_every_size_and_scale() {
 fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     for opened in ["Open", "Save"] {
-        window.get_by_label(opened).click();
-        window.run_steps(6);
+        click(&mut window, opened);
         check(&mut window, opened);
         press(&mut window, egui::Key::Escape);
     }
-    window.get_by_label("Menu").click();
-    window.run_steps(4);
+    click(&mut window, "Menu");
     check(&mut window, "menu");
     press(&mut window, egui::Key::Escape);
     apply(&mut window, WindowCommand::ShowHelp(true));
     check(&mut window, "help");
     apply(&mut window, WindowCommand::ShowHelp(false));
     for number in 0..4 {
-        let path = std::path::PathBuf::from(format!("no/such/{}/material {number}.png", "folder".repeat(20)));
-        window.input_mut().dropped_files = vec![std::sync::Arc::new(Dropped(path))];
+        let path = format!("no/such/{}/material {number}.png", "folder".repeat(20));
+        drop_files(&mut window, [path.into()]);
         window.run_steps(2);
     }
     wait(&mut window, "the messages", |app| !app.is_reading() && app.messages().len() > 1);
@@ -133,8 +129,8 @@ fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
 fn a_photograph_is_drawn_at_every_size_and_scale() {
     let (mut window, _folder) = super::photograph::opened();
     check(&mut window, "a photograph");
-    window.get_by_label("Corners of the material").click();
-    window.run_steps(12);
+    click(&mut window, "Corners of the material");
+    window.run_steps(8);
     check(&mut window, "its corners");
 }
 
@@ -144,16 +140,12 @@ fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_brings_it_back() {
     let mut window = built_in();
     for (key, expected) in [(egui::Key::Plus, 4.0), (egui::Key::Minus, 0.5)] {
         for _ in 0..60 {
-            window.key_press_modifiers(egui::Modifiers::COMMAND, key);
+            window.key_press_modifiers(Modifiers::COMMAND, key);
             window.step();
         }
         window.run_steps(3);
-        assert_eq!(
-            (window.ctx.zoom_factor(), window.state().parts.model.settings.ui_scale),
-            (expected, expected)
-        );
+        assert_eq!([window.ctx.zoom_factor(), window.state().parts.model.settings.ui_scale], [expected; 2]);
     }
-    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Num0);
-    window.run_steps(3);
+    press_with(&mut window, Modifiers::COMMAND, egui::Key::Num0);
     assert_eq!(window.state().parts.model.settings.ui_scale, 1.0);
 }

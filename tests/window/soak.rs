@@ -1,10 +1,6 @@
 //! Long use: a seeded monkey presses, drags, scrolls, types and clicks everything, while files change underneath.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
-use egui::{Key, Modifiers, PointerButton};
-use egui_kittest::kittest::NodeT as _;
+use egui::{Key, PointerButton};
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
 
@@ -14,51 +10,6 @@ use super::*;
 const EVENTS: usize = 500;
 /// Most pixels of textures of panels and fonts, of which an egui window of this size needs a few million.
 const MOST_TEXTURE_PIXELS: usize = 40_000_000;
-
-const KEYS: [Key; 42] = [
-    Key::M,
-    Key::E,
-    Key::N,
-    Key::C,
-    Key::D,
-    Key::P,
-    Key::T,
-    Key::J,
-    Key::V,
-    Key::L,
-    Key::H,
-    Key::B,
-    Key::X,
-    Key::F,
-    Key::R,
-    Key::I,
-    Key::Q,
-    Key::G,
-    Key::Z,
-    Key::Y,
-    Key::O,
-    Key::S,
-    Key::F1,
-    Key::Comma,
-    Key::Period,
-    Key::Escape,
-    Key::Enter,
-    Key::Tab,
-    Key::Space,
-    Key::Num0,
-    Key::Num1,
-    Key::Num2,
-    Key::Num3,
-    Key::Plus,
-    Key::Minus,
-    Key::ArrowUp,
-    Key::ArrowDown,
-    Key::ArrowLeft,
-    Key::ArrowRight,
-    Key::Home,
-    Key::Backspace,
-    Key::Delete,
-];
 
 /// What a person types into fields.
 const TEXTS: [&str; 8] = ["0.5", "-1e9", "NaN", "12", "no/such/file.png", "\u{202e}abc", "", "1, 2, 3"];
@@ -116,26 +67,12 @@ fn place(window: &Window<'_>, random: &mut ChaCha8Rng) -> Pos2 {
     egui::pos2(size.x * share(), size.y * share())
 }
 
-/// The middle of a control.
+/// The middle of a control or of a field.
 fn control(window: &Window<'_>, random: &mut ChaCha8Rng) -> Pos2 {
-    use egui::accesskit::Role;
-    let is_control = |role: Role| {
-        matches!(
-            role,
-            Role::Button
-                | Role::CheckBox
-                | Role::RadioButton
-                | Role::ComboBox
-                | Role::Slider
-                | Role::SpinButton
-                | Role::TextInput
-                | Role::MultilineTextInput
-                | Role::Link
-                | Role::Tab
-        )
-    };
-    let controls = window.root().children_recursive().filter(|node| is_control(node.accesskit_node().role()));
-    let all: Vec<Pos2> = controls.map(|node| node.rect().center()).collect();
+    let fields = [Role::TextInput, Role::MultilineTextInput, Role::Link];
+    let fields = fields.into_iter().flat_map(|role| window.query_all_by_role(role));
+    let mut all: Vec<Pos2> = super::bar::controls(window).into_iter().map(|(_, at)| at).collect();
+    all.extend(fields.map(|node| node.rect().center()));
     if all.is_empty() { place(window, random) } else { all[below(random, all.len())] }
 }
 
@@ -149,16 +86,11 @@ fn modifiers(random: &mut ChaCha8Rng) -> Modifiers {
     }
 }
 
-fn pointer(window: &mut Window<'_>, pos: Pos2, button: PointerButton, pressed: bool) {
-    let modifiers = Modifiers::NONE;
-    window.event(egui::Event::PointerButton { pos, button, pressed, modifiers });
-}
-
-fn click(window: &mut Window<'_>, at: Pos2, button: PointerButton) {
+fn click_at(window: &mut Window<'_>, at: Pos2, button: PointerButton) {
     window.event(egui::Event::PointerMoved(at));
-    pointer(window, at, button, true);
+    window.event(pointer(at, button, true));
     window.step();
-    pointer(window, at, button, false);
+    window.event(pointer(at, button, false));
 }
 
 /// One event, and its name.
@@ -168,43 +100,37 @@ fn event(window: &mut Window<'_>, files: &Files, random: &mut ChaCha8Rng) -> Str
             [below(random, 4)];
     match below(random, 20) {
         0..=5 => {
-            let (key, with) = (KEYS[below(random, KEYS.len())], modifiers(random));
+            let (key, with) = (Key::ALL[below(random, Key::ALL.len())], modifiers(random));
             window.key_press_modifiers(with, key);
             format!("{with:?} {key:?}")
         }
         6..=9 => {
             let at = control(window, random);
-            click(window, at, PointerButton::Primary);
+            click_at(window, at, PointerButton::Primary);
             format!("control at {at:?}")
         }
         10 => {
             let at = place(window, random);
-            click(window, at, button);
+            click_at(window, at, button);
             format!("{button:?} at {at:?}")
         }
         11..=14 => {
             let (from, to) = (place(window, random), place(window, random));
             window.event(egui::Event::PointerMoved(from));
-            pointer(window, from, button, true);
+            window.event(pointer(from, button, true));
             for share in [0.3, 0.7, 1.0] {
                 window.step();
                 window.event(egui::Event::PointerMoved(from + (to - from) * share));
             }
             window.step();
-            pointer(window, to, button, false);
+            window.event(pointer(to, button, false));
             format!("drag {button:?} {from:?} {to:?}")
         }
         15 | 16 => {
             let at = place(window, random);
             window.event(egui::Event::PointerMoved(at));
             let delta = vec2(0.0, [-120.0, -10.0, 10.0, 120.0][below(random, 4)]);
-            window.event(egui::Event::MouseWheel {
-                unit: egui::MouseWheelUnit::Point,
-                delta,
-                phase: egui::TouchPhase::Move,
-                source: egui::MouseWheelSource::Wheel,
-                modifiers: modifiers(random),
-            });
+            window.event(wheel(delta, egui::MouseWheelUnit::Point, modifiers(random)));
             format!("wheel {delta:?}")
         }
         17 => {
@@ -227,34 +153,20 @@ fn event(window: &mut Window<'_>, files: &Files, random: &mut ChaCha8Rng) -> Str
 /// Opens the materials again, as a person does after the window has lost all of them.
 fn reopen(window: &mut Window<'_>, files: &Files) {
     (0..3).for_each(|index| files.write(index, 0.0));
-    window.input_mut().dropped_files =
-        files.names.iter().map(|path| Arc::new(Dropped(path.clone())) as _).collect();
+    drop_files(window, files.names.clone());
 }
 
-/// What must not grow.
-fn check(window: &Window<'_>) {
-    let app = window.state();
-    assert!(!app.has_crashed(), "a frame has panicked");
+/// Pixels of the textures of panels and fonts.
+fn texture_pixels(window: &Window<'_>) -> usize {
     let textures = window.ctx.tex_manager();
-    let pixels: usize = textures.read().allocated().map(|(_, meta)| meta.size[0] * meta.size[1]).sum();
-    assert!(pixels < MOST_TEXTURE_PIXELS, "{pixels} pixels in textures");
-    assert!(app.messages().len() < 60, "{} messages", app.messages().len());
-}
-
-/// A window on files that nothing is saved beside but what the monkey saves itself.
-fn opened<'a>(files: &Files) -> Window<'a> {
-    let [truth, predictions @ ..] = &files.names[..] else { unreachable!() };
-    window(ViewerOptions {
-        ground_truth: Some(truth.clone().into()),
-        predictions: predictions.iter().cloned().map(Into::into).collect(),
-        ..ViewerOptions::default()
-    })
+    textures.read().allocated().map(|(_, meta)| meta.size[0] * meta.size[1]).sum()
 }
 
 /// Plays `count` events; `look` is called after each.
 fn play(seed: u64, count: usize, mut look: impl FnMut(&mut Window<'_>, usize)) {
     let files = Files::new();
-    let mut window = opened(&files);
+    // Nothing is saved beside them but what the monkey saves itself.
+    let mut window = on_files(files.names.clone());
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut last = Vec::new();
     for number in 0..count {
@@ -267,7 +179,8 @@ fn play(seed: u64, count: usize, mut look: impl FnMut(&mut Window<'_>, usize)) {
         // Nothing is written where the tests run.
         window.state_mut().parts.ui.dialogs.save = None;
         if number % 100 == 99 {
-            check(&window);
+            let (pixels, messages) = (texture_pixels(&window), window.state().messages().len());
+            assert!(pixels < MOST_TEXTURE_PIXELS && messages < 60, "{pixels} pixels, {messages} messages");
             if window.state().names().len() < 2 {
                 reopen(&mut window, &files);
             }
@@ -302,17 +215,11 @@ fn memory_reaches_a_plateau_in_long_use() {
     let mut measured = Vec::new();
     play(7, events, |window, number| {
         if number % 250 == 0 {
-            let app = window.state();
-            let textures = window.ctx.tex_manager();
-            let pixels: usize =
-                textures.read().allocated().map(|(_, meta)| meta.size[0] * meta.size[1]).sum();
             let memory = resident();
             println!(
-                "{number} events, {:.0} s: {memory:.0} MB, {:.1} million pixels of textures, {} materials, {} messages",
-                start.elapsed().as_secs_f64(),
-                pixels as f64 / 1e6,
-                app.names().len(),
-                app.messages().len(),
+                "{number} events, {:?}: {memory:.0} MB, {} pixels",
+                start.elapsed(),
+                texture_pixels(window)
             );
             measured.push(memory);
         }

@@ -7,19 +7,14 @@ use super::*;
 use crate::pictures::packed;
 
 /// The window on two materials of 4 x 4 texels.
-fn tiny<'a>(folder: &std::path::Path) -> Window<'a> {
+fn tiny<'a>(folder: &Path) -> Window<'a> {
     let write = |name: &str, brightness: f64| {
         let path = folder.join(name);
         let encode = |map, value| if map == 'D' { brightness * value } else { value };
         packed("NDRS", 4, encode).save(&path).unwrap();
         path
     };
-    let options = ViewerOptions {
-        ground_truth: Some(write("gt.png", 1.0).into()),
-        predictions: vec![write("a.png", 0.5).into()],
-        ..ViewerOptions::default()
-    };
-    window(options)
+    on_files([write("gt.png", 1.0), write("a.png", 0.5)])
 }
 
 #[needs(adapter)]
@@ -27,19 +22,15 @@ fn tiny<'a>(folder: &std::path::Path) -> Window<'a> {
 fn a_click_on_a_point_of_the_study_sets_the_loss_to_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tiny(folder.path());
-    window.get_by_label("Menu").click();
-    window.run_steps(4);
-    window.get_by_label("Study: time against error...").click();
-    window.run_steps(3);
+    click(&mut window, "Menu");
+    click(&mut window, "Study: time against error...");
     wait(&mut window, "the first points", |app| app.study().is_some_and(|(study, _)| study.points.len() > 4));
     // While it grows, points move.
-    window.get_by_label("Cancel study").click();
-    window.run_steps(3);
+    click(&mut window, "Cancel study");
     window.get_by_label("Measure again");
     let options = window.state().study().unwrap().0.points[2].choice.options();
     assert_eq!(options, "--sampler sobol --near 64 --distant 32 --texels 128");
-    window.get_by_label(&options).click();
-    window.run_steps(3);
+    click(&mut window, &options);
     let loss = &window.state().parts.model.settings.loss;
     assert_eq!((loss.near, loss.distant, loss.sampler), (64, 32, Sampler::Sobol));
     assert_eq!(loss.texels, Texels::Sampled(128));

@@ -1,25 +1,20 @@
 //! Training runs: the steps of one prediction.
 
-use std::path::{Path, PathBuf};
-
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{ReadOptions, read};
-use svbrdf_files::samples::generate;
 use svbrdf_viewer::model::command::{MaterialsCommand, TrainingCommand};
 
-use super::reading::apply;
+use super::materials::SIDE;
 use super::*;
 
 /// The built-in ground truth as a strip, with a roughness that is off by `off`.
 fn strip(off: u8) -> Vec<u8> {
-    let side = generate::SIDE as u32;
-    let pixels = generate::pack(&generate::ground_truth());
-    let mut picture = image::RgbImage::from_raw(4 * side, side, pixels).unwrap();
+    let mut picture = super::materials::strip();
     for (x, _, pixel) in picture.enumerate_pixels_mut() {
-        if x / side == 2 {
+        if x / SIDE == 2 {
             pixel.0 = pixel.0.map(|value| value.saturating_add(off));
         }
     }
@@ -40,12 +35,7 @@ fn window_of_run() -> (tempfile::TempDir, Window<'static>) {
     for (number, off) in [(100, 90), (200, 60), (300, 30)] {
         std::fs::write(step(folder.path(), number), strip(off)).unwrap();
     }
-    let options = ViewerOptions {
-        ground_truth: Some(folder.path().join("gt.png").into()),
-        predictions: vec![folder.path().join("run").into()],
-        ..ViewerOptions::default()
-    };
-    let mut window = window(options);
+    let mut window = on_files(["gt.png", "run"].map(|name| folder.path().join(name)));
     wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 300"]);
     (folder, window)
 }
@@ -140,12 +130,7 @@ fn a_young_step_that_is_shown_stays() {
         std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
     }
     std::fs::write(folder.path().join("gt.png"), strip(0)).unwrap();
-    let options = ViewerOptions {
-        ground_truth: Some(folder.path().join("gt.png").into()),
-        predictions: vec![folder.path().join("run").into()],
-        ..ViewerOptions::default()
-    };
-    let mut window = window(options);
+    let mut window = on_files(["gt.png", "run"].map(|name| folder.path().join(name)));
     wait(&mut window, "the newest step", |app| app.names() == ["gt", "pred, step 200"]);
     wait(&mut window, "both steps", |app| {
         assert_eq!(app.names(), ["gt", "pred, step 200"]);

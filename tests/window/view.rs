@@ -4,10 +4,6 @@ use svbrdf_viewer::model::view::state::Layout;
 
 use super::*;
 
-fn length(p: [f64; 3]) -> f64 {
-    p.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
 #[needs(adapter)]
 #[test]
 fn the_wipe_line_wins_over_the_handle_of_the_view() {
@@ -18,17 +14,14 @@ fn the_wipe_line_wins_over_the_handle_of_the_view() {
     let rect = window.get_by_label(title).rect();
     let before = window.state().parts.model.view.scene;
     // The eye is in the middle, and so is the line.
-    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.3, 0.5));
+    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.3, 0.5));
     assert_eq!(window.state().parts.model.view.scene, before, "neither light nor view has moved");
     let wipe = window.state().parts.model.view.display.wipe;
     assert!((wipe - 0.3).abs() < 0.01, "the line is at {wipe}");
     // Without the line there, the same drag moves the view.
-    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.6, 0.5));
-    assert!(
-        window.state().parts.model.view.scene.view[0] > 0.1,
-        "{:?}",
-        window.state().parts.model.view.scene
-    );
+    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.6, 0.5));
+    let scene = window.state().parts.model.view.scene;
+    assert!(scene.view[0] > 0.1, "{scene:?}");
 }
 
 #[needs(adapter)]
@@ -37,11 +30,10 @@ fn a_hidden_handle_of_the_view_is_not_grabbed() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
     more(&mut window);
-    window.get_by_label("View handle").click();
-    window.run_steps(4);
+    click(&mut window, "View handle");
     press(&mut window, egui::Key::Escape);
     let before = window.state().parts.model.view.scene;
-    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.4, 0.4));
+    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.4, 0.4));
     let after = window.state().parts.model.view.scene;
     assert_eq!(after.view, before.view);
     assert_ne!(after.light, before.light);
@@ -49,63 +41,28 @@ fn a_hidden_handle_of_the_view_is_not_grabbed() {
 
 #[needs(adapter)]
 #[test]
-fn a_left_drag_pans_a_map_and_leaves_the_light() {
-    let mut window = built_in();
-    press(&mut window, egui::Key::M);
-    let rect = pane(&window, GROUND_TRUTH);
-    let before = window.state().parts.model.view.scene;
-    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
-    assert_eq!(window.state().parts.model.view.scene, before);
-    assert_panned(&window, rect, [0.1, -0.1]);
-}
-
-#[needs(adapter)]
-#[test]
-fn a_distant_light_at_the_rim_becomes_a_near_one_at_the_distance_it_had() {
-    let mut window = built_in();
-    let distance = length(window.state().parts.model.view.scene.light);
-    window.get_by_label("Distant").click();
-    window.run_steps(3);
-    let rect = pane(&window, GROUND_TRUTH);
-    drag(&mut window, egui::PointerButton::Primary, rect, vec2(0.7, 0.3), vec2(0.999, 0.5));
-    window.get_by_label("Near-field").click();
-    window.run_steps(3);
-    let light = window.state().parts.model.view.scene.light;
-    assert!((length(light) - distance).abs() < 1e-3, "{light:?} was {distance} away");
-    assert!(light[2] > 0.09 * distance, "{light:?} lies in the plane");
-}
-
-#[needs(adapter)]
-#[test]
-fn the_material_cannot_be_dragged_out_of_sight() {
-    let mut window = built_in();
-    let rect = pane(&window, GROUND_TRUTH);
-    for _ in 0..4 {
-        drag(&mut window, egui::PointerButton::Middle, rect, vec2(0.1, 0.1), vec2(0.9, 0.9));
-    }
-    let picture = pixels(&mut window, rect);
-    let background = picture.get_pixel(3, picture.height() / 2).0;
-    let seen = picture.pixels().filter(|pixel| pixel.0 != background).count();
-    let share = seen as f64 / f64::from(picture.width() * picture.height());
-    assert!(share > 0.15, "{share} of the pane shows the material");
-}
-
-#[needs(adapter)]
-#[test]
 fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
     let mut window = built_in();
-    window.set_size(vec2(700.0, 500.0));
-    window.run_steps(20);
-    assert!(window.query_by_label("Near-field").is_none());
-    let rect = pane(&window, GROUND_TRUTH);
-    window.event(egui::Event::PointerMoved(rect.center()));
-    window.run_steps(3);
-    assert!(texel_read(&window).is_some());
-    column(&window, "gt ");
-    column(&window, "1 ");
-    press(&mut window, egui::Key::B);
-    window.run_steps(20);
-    window.get_by_label("Near-field");
+    // While it is computed, there is another button.
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    for (size, columns) in [(vec2(640.0, 420.0), &["gt "][..]), (vec2(700.0, 500.0), &["gt ", "1 "])] {
+        window.set_size(size);
+        window.run_steps(20);
+        assert!(window.query_by_label("Near-field").is_none());
+        let at = pane(&window, GROUND_TRUTH).center();
+        hover(&mut window, at);
+        assert!(texel_read(&window).is_some());
+        columns.iter().for_each(|start| drop(column(&window, start)));
+        press(&mut window, egui::Key::B);
+        window.run_steps(20);
+        let panes = [GROUND_TRUTH, PREDICTIONS[0]].map(|title| pane(&window, title).right());
+        let panes = panes.into_iter().fold(0.0, f32::max);
+        for label in ["Near-field", "Distant", "Compute loss"] {
+            let rect = window.get_by_label(label).rect();
+            assert!(rect.left() >= panes && rect.right() <= size.x, "{label} at {rect:?}, panes to {panes}");
+        }
+        press(&mut window, egui::Key::B);
+    }
     window.set_size(vec2(1200.0, 800.0));
     window.run_steps(20);
     window.get_by_label("Near-field");

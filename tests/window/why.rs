@@ -6,14 +6,15 @@ mod error_map;
 mod maps;
 mod scenes;
 
-use svbrdf_core::loss::Comparison;
-use svbrdf_core::material::Material;
-use svbrdf_core::model::convention::PRINTED;
-use svbrdf_core::model::scene::Scene;
-use svbrdf_core::progress::Progress;
-use svbrdf_files::samples;
+use svbrdf_core::loss::{Sampling, Texels};
+use svbrdf_core::model::sampler::Sampler;
 
+use super::materials::{loss_in, losses, materials};
 use super::*;
+
+/// The scenes of the loss to 1% that are listed and averaged.
+const SAMPLING: Sampling =
+    Sampling { near: 128, distant: 64, seed: 0, sampler: Sampler::Sobol, texels: Texels::All };
 
 /// The built-in pair with the tab open, in a window that shows all of it but the diagnosis, which is folded.
 fn opened<'a>() -> Window<'a> {
@@ -21,23 +22,9 @@ fn opened<'a>() -> Window<'a> {
     window.set_size(vec2(1200.0, 1800.0));
     window.run_steps(4);
     tab(&mut window, "Why");
-    window.get_by_label("Would something trivial explain it?").click();
-    window.run_steps(12);
+    click(&mut window, "Would something trivial explain it?");
+    window.run_steps(8);
     window
-}
-
-/// The built-in materials, the ground truth first.
-fn materials() -> Vec<Material<f32>> {
-    let samples = samples::load::<f32>().unwrap();
-    [samples.ground_truth].into_iter().chain(samples.predictions).map(|read| read.material).collect()
-}
-
-/// The loss of a prediction in one scene, over all texels.
-fn loss_in(scene: Scene, prediction: usize) -> f64 {
-    let materials = materials();
-    let comparison = Comparison::new(&materials[0], &[&materials[prediction]], PRINTED).unwrap();
-    let request = svbrdf_core::loss::Request::Listed(vec![scene]);
-    comparison.run(&request, &Progress::default()).unwrap().losses[0].estimate.mean
 }
 
 fn wait_for_scene_losses(window: &mut Window<'_>) -> Vec<f64> {
@@ -51,22 +38,15 @@ fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
     let mut window = opened();
     let before = wait_for_scene_losses(&mut window);
     assert_eq!(before, [1, 2].map(|prediction| loss_in(window.state().parts.model.view.scene, prediction)));
+    assert!(before.iter().all(|loss| has(&window, &format!("{loss:.4}"))), "{before:?}");
     let rect = pane(&window, GROUND_TRUTH);
     let at = |share: f32| rect.min + rect.size() * vec2(0.2 + 0.6 * share, 0.4);
-    let button = |pos, pressed| egui::Event::PointerButton {
-        pos,
-        button: egui::PointerButton::Primary,
-        pressed,
-        modifiers: egui::Modifiers::NONE,
-    };
     window.event(egui::Event::PointerMoved(at(0.0)));
-    window.event(button(at(0.0), true));
+    window.event(primary(at(0.0), true));
     let mut seen = vec![before];
-    let (start, mut frames) = (std::time::Instant::now(), 0);
     for step in 0..2000 {
         window.event(egui::Event::PointerMoved(at((step % 500) as f32 / 500.0)));
         window.step();
-        frames += 1;
         let latest = window.state().scene_losses().map(|(losses, _)| losses.to_vec());
         seen.extend(latest.filter(|latest| seen.last() != Some(latest)));
         if seen.len() > 10 {
@@ -74,9 +54,8 @@ fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
         }
         std::thread::sleep(std::time::Duration::from_millis(2));
     }
-    println!("{} losses in {frames} frames, {:?}", seen.len() - 1, start.elapsed());
     assert!(seen.len() > 10, "{} losses were seen with the button down", seen.len());
-    window.event(button(at(0.5), false));
+    window.event(primary(at(0.5), false));
     window.run_steps(2);
     let after = wait_for_scene_losses(&mut window);
     assert_eq!(after[0], loss_in(window.state().parts.model.view.scene, 1));
@@ -94,25 +73,17 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
             && app.listed_scenes().is_none()
             && app.direction_map().is_none()
     };
-    let rest = |window: &mut Window<'_>| {
-        for _ in 0..60 {
-            window.step();
-            std::thread::sleep(std::time::Duration::from_millis(20));
-        }
-    };
-    rest(&mut window);
+    rest(&mut window, 60);
     assert!(nothing(&window), "the tab of the loss is open");
     tab(&mut window, "Why");
-    window.get_by_label("Which map").click();
-    window.get_by_label("Would something trivial explain it?").click();
-    window.run_steps(4);
+    click(&mut window, "Which map");
+    click(&mut window, "Would something trivial explain it?");
     wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
     wait(&mut window, "the directions", |app| app.direction_map().is_some());
-    rest(&mut window);
+    rest(&mut window, 60);
     assert!(window.state().attribution().is_none(), "its section is folded");
     assert!(window.state().diagnosis().is_none(), "its section is folded");
-    window.get_by_label("Which map").click();
-    window.run_steps(4);
+    click(&mut window, "Which map");
     wait(&mut window, "the attribution", |app| app.attribution().is_some());
 }
 

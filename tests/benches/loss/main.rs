@@ -1,7 +1,7 @@
 //! The rendering loss: the fused kernel beside the plain one, at several sizes, scene counts and instruction sets.
 //!
-//! First a table with the time per texel-scene ("pp": both materials rendered and compared) and the share of the
-//! compute bound, which is measured in the same run; then divan's statistics. Every measured loss is asserted.
+//! Tables with the time per texel-scene ("pp": both materials rendered and compared) and the share of the compute bound, which is
+//! measured in the same run. Every measured loss is asserted.
 
 #![allow(clippy::disallowed_methods, reason = "a benchmark reads files of the system")]
 
@@ -9,13 +9,11 @@ mod bound;
 mod job;
 mod rows;
 
-use divan::counter::ItemsCount;
-
 use svbrdf_core::render::simd::Level;
 
 use bound::bound;
-use job::{FUSED, Job, on};
-use rows::{loading_row, pilot_rows, predictions_rows, rendering_rows, sampled_rows, sizes};
+use job::{Job, on};
+use rows::{pilot_rows, predictions_rows, rendering_rows, sampled_rows, sizes};
 
 fn main() {
     let threads = rayon::current_num_threads();
@@ -44,24 +42,7 @@ fn main() {
     println!();
     on(1, rendering_rows);
     on(threads, rendering_rows);
-    loading_row();
     on(threads, sampled_rows);
     on(threads, pilot_rows);
     sizes(threads);
-    println!();
-    divan::main();
-}
-
-#[divan::bench(args = [64, 256, 1024])]
-fn fused(bencher: divan::Bencher<'_, '_>, size: usize) {
-    let job = Job::new(size, 6, 3);
-    bencher.counter(ItemsCount::new(job.pp())).bench_local(|| {
-        job.assert(job.loss(&FUSED));
-    });
-}
-
-#[divan::bench(args = [64, 256], sample_count = 20)]
-fn plain(bencher: divan::Bencher<'_, '_>, size: usize) {
-    let job = Job::new(size, 6, 3);
-    bencher.counter(ItemsCount::new(job.pp())).bench_local(|| job.assert(job.plain()));
 }

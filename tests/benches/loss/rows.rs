@@ -7,7 +7,6 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::{render, render_f32};
-use svbrdf_files::samples;
 
 use crate::bound::flops_per_texel_scene;
 use crate::job::{FUSED, Job, TOLERANCE, fastest, loss, material, on};
@@ -94,14 +93,6 @@ pub fn rendering_rows() {
             1e9 * loss / texels,
         );
     }
-}
-
-/// Decoding of the three built-in materials, 256 x 256 each.
-#[expect(clippy::expect_used, reason = "a benchmark may panic")]
-pub fn loading_row() {
-    let load = || samples::load::<f32>().expect("built in");
-    assert_eq!(load().predictions.len(), 2);
-    println!("loading the built-in materials (3 of 256^2): {:.1} ms", 1e3 * fastest(|| drop(load())));
 }
 
 /// Losses of many scenes, each on an independent random subset of 128 texels. The time should depend little on the size.

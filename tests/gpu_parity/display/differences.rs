@@ -12,7 +12,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_gpu::{DisplayParams, DisplayedDifference, Shaded};
 use svbrdf_needs::needs;
 
-use super::{ABOVE, faults, levels, params, shaded, whole};
+use super::{ABOVE, faults, levels, shaded, whole};
 use crate::support::gpu::{bumpy, gpu_f32, picture};
 
 /// The differences of two materials of 8 x 8 texels under [`ABOVE`], from the core.
@@ -51,8 +51,8 @@ fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
             let largest = values.iter().fold(0.0, |largest: f32, value| largest.max(value.abs()));
             let difference = DisplayedDifference { kind, range: 0.9 * largest, is_computed: false };
             let drawn = |reference: &Shaded| {
-                let params = params(whole([8, 8]), quantity);
-                let params = DisplayParams { difference: Some(difference), exposure_ev: 3.0, ..params };
+                let whole = whole([8, 8], quantity);
+                let params = DisplayParams { difference: Some(difference), exposure_ev: 3.0, ..whole };
                 picture(gpu, [8, 8], &shown, reference, &params)
             };
             let expected = colours_of(&values, difference);

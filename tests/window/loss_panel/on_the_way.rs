@@ -2,18 +2,6 @@
 
 use super::*;
 
-/// Runs frames until a label that contains `text` is there.
-fn see(window: &mut Window<'_>, text: &str) {
-    for _ in 0..600 {
-        window.step();
-        if window.query_by_label_contains(text).is_some() {
-            return;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    panic!("waited in vain to see {text:?}");
-}
-
 /// Asks for far more scenes than a test can wait for, and waits for the first numbers.
 fn start_a_long_one(window: &mut Window<'_>) {
     wait(window, "the first loss", |app| app.losses().is_some());
@@ -30,11 +18,10 @@ fn shown(window: &Window<'_>) -> Vec<String> {
 
 #[needs(adapter)]
 #[test]
-fn an_accuracy_is_asked_for_and_kept() {
+fn an_accuracy_is_asked_for_and_kept_and_a_time_gives_a_loss_with_its_interval() {
     let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
-    window.get_by_label("Accuracy").click();
-    window.run_steps(3);
+    click(&mut window, "Accuracy");
     assert!(window.query_by_label("Distant scenes").is_none(), "no field that does not matter");
     enter(&mut window, "Accuracy", "6");
     wait(&mut window, "the loss", |app| app.losses().is_some());
@@ -44,15 +31,9 @@ fn an_accuracy_is_asked_for_and_kept() {
         assert!(share <= 0.06, "{} is known to {share} only", loss.prediction);
         assert!(loss.per_scene.len() > 9, "+-6% of these takes more than 9 scenes");
     }
-    assert!(window.query_by_label_contains("Not within").is_none());
-}
+    assert!(!has(&window, "Not within"));
 
-#[needs(adapter)]
-#[test]
-fn a_time_gives_a_loss_with_its_interval() {
-    let mut window = by_scenes();
-    window.get_by_label("Time").click();
-    window.run_steps(3);
+    click(&mut window, "Time");
     enter(&mut window, "Time", "20");
     assert_eq!(window.state().parts.model.settings.loss.time_ms, 20);
     wait(&mut window, "the loss", |app| app.losses().is_some());
@@ -82,16 +63,12 @@ fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
     }
     errors.dedup();
     assert!(errors.len() > 1 && errors.last() < Some(&5.0), "the error in percent was {errors:?}");
-    window.get_by_label("Cancel loss").click();
-    window.run_steps(3);
+    click(&mut window, "Cancel loss");
     window.get_by_label_contains("Cancelled: ±");
     assert_eq!(window.state().losses(), None, "a cancelled loss is not the one that was asked for");
     let kept = shown(&window);
     assert_eq!(kept.len(), 1, "the interval of the chosen prediction");
-    for _ in 0..5 {
-        window.step();
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
+    rest(&mut window, 5);
     assert_eq!(shown(&window), kept, "nothing goes on after the end");
 }
 
@@ -102,16 +79,14 @@ fn escape_cancels_and_a_change_starts_again() {
     start_a_long_one(&mut window);
     press(&mut window, egui::Key::Escape);
     window.get_by_label_contains("Cancelled: ±");
-    window.run_steps(3);
-    window.get_by_label("Auto").click();
-    window.run_steps(3);
+    click(&mut window, "Auto");
     enter(&mut window, "Near-field scenes", "12");
     enter(&mut window, "Distant scenes", "3");
     window.get_by_label_contains("Stale");
-    window.get_by_label("Auto").click();
+    click(&mut window, "Auto");
     wait(&mut window, "the loss", |app| app.losses().is_some());
     assert_eq!(window.state().losses().unwrap()[0].per_scene.len(), 15);
-    assert!(window.query_by_label_contains("Cancelled").is_none());
+    assert!(!has(&window, "Cancelled"));
 }
 
 #[needs(adapter)]
@@ -119,11 +94,12 @@ fn escape_cancels_and_a_change_starts_again() {
 fn a_newer_request_supersedes_a_running_one() {
     let mut window = by_scenes();
     start_a_long_one(&mut window);
-    enter(&mut window, "Near-field scenes", "7");
-    enter(&mut window, "Distant scenes", "3");
+    enter(&mut window, "Near-field scenes", "60");
+    enter(&mut window, "Distant scenes", "31");
     wait(&mut window, "the newer loss", |app| app.losses().is_some());
-    let expected = expected(&Sampling { near: 7, ..Sampling::default() }).losses;
+    let expected = expected(&Sampling { near: 60, distant: 31, ..Sampling::default() });
     assert_eq!(window.state().losses().unwrap(), expected);
+    window.get_by_label_contains("from 60 + 31 scenes in");
 }
 
 #[needs(adapter)]
@@ -156,6 +132,6 @@ fn the_old_numbers_stay_until_the_new_ones_are_there() {
         assert_eq!(shown(&window).len(), 1, "at seed {seed}");
     }
     wait(&mut window, "the last loss", |app| app.losses().is_some());
-    let expected = expected(&Sampling { seed: 19, ..Sampling::default() }).losses;
+    let expected = expected(&Sampling { seed: 19, ..Sampling::default() });
     assert_eq!(window.state().losses().unwrap(), expected);
 }

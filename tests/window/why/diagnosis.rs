@@ -1,32 +1,28 @@
 //! Whether something trivial explains the loss: the lines, the corrected prediction in its pane, and the reading that is offered.
 
-use std::path::{Path, PathBuf};
-
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
 use svbrdf_files::read::{NormalY, Order, ReadOptions};
-use svbrdf_files::samples::generate;
-use svbrdf_viewer::model::command::WhyCommand;
+use svbrdf_viewer::model::command::{MaterialsCommand, SceneCommand, WhyCommand};
 use svbrdf_viewer::model::settings::why::WhySection;
 
 use super::*;
+use crate::materials::{SIDE as WHOLE, strip, write_packed};
 
 const SECTION: &str = "Would something trivial explain it?";
 const SIDE: u32 = 64;
 
 /// Writes a part of the built-in ground truth as a strip; `change` sees each stored texel of a map (0 normals, 1 diffuse).
 fn write(path: &Path, change: impl Fn(u32, u32, [u8; 3]) -> [u8; 3]) -> PathBuf {
-    let side = generate::SIDE as u32;
-    let strip = image::RgbImage::from_raw(4 * side, side, generate::pack(&generate::ground_truth())).unwrap();
-    let pixel = |x: u32, y: u32| {
-        let tile = x / SIDE;
-        image::Rgb(change(tile, x % SIDE, strip.get_pixel(tile * side + x % SIDE, y).0))
-    };
-    image::RgbImage::from_fn(4 * SIDE, SIDE, pixel).save(path).unwrap();
+    let strip = strip();
+    write_packed(path, SIDE, |tile, x, y| change(tile, x, strip.get_pixel(tile * WHOLE + x, y).0));
     path.to_owned()
 }
 
 /// A window on a ground truth, a prediction with Y of normals in the other direction, and one whose left half is darker, with all lines.
-fn on_files<'a>() -> (tempfile::TempDir, Window<'a>) {
+fn diagnosed<'a>() -> (tempfile::TempDir, Window<'a>) {
     let folder = tempfile::tempdir().unwrap();
     let of = |name: &str| folder.path().join(name);
     let truth = write(&of("truth.png"), |_, _, texel| texel);
@@ -43,18 +39,11 @@ fn on_files<'a>() -> (tempfile::TempDir, Window<'a>) {
     let order: Order = "ndrs".parse().unwrap();
     let read =
         ReadOptions { order: Some(order), preset: Some("deschaintre".parse().unwrap()), ..ReadOptions::AUTO };
-    let open = svbrdf_viewer::model::command::MaterialsCommand::Open {
-        paths: vec![truth, flipped, darker],
-        replace: true,
-        read,
-    };
-    let ctx = window.ctx.clone();
-    window.state_mut().apply(&ctx, open.into());
+    apply(&mut window, MaterialsCommand::Open { paths: vec![truth, flipped, darker], replace: true, read });
     wait(&mut window, "the materials", |app| app.names() == ["truth", "flipped", "darker"]);
     tab(&mut window, "Why");
     for section in ["Which map", "Which scenes", "Which light or view"] {
-        window.get_by_label(section).click();
-        window.run_steps(4);
+        click(&mut window, section);
     }
     unfold(&mut window, true);
     (folder, window)
@@ -62,9 +51,7 @@ fn on_files<'a>() -> (tempfile::TempDir, Window<'a>) {
 
 /// Unfolds the lines without a mark, or folds them.
 fn unfold(window: &mut Window<'_>, on: bool) {
-    let ctx = window.ctx.clone();
-    window.state_mut().apply(&ctx, WhyCommand::ShowSection(WhySection::Hypotheses, on).into());
-    window.run_steps(3);
+    apply(window, WhyCommand::ShowSection(WhySection::Hypotheses, on));
 }
 
 fn wait_for_diagnosis(window: &mut Window<'_>) -> Diagnosis {
@@ -89,8 +76,8 @@ fn lines(window: &Window<'_>) -> Vec<String> {
 
 #[needs(adapter)]
 #[test]
-fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_prediction() {
-    let (_folder, mut window) = on_files();
+fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_folded() {
+    let (_folder, mut window) = diagnosed();
     let found = wait_for_diagnosis(&mut window);
     let materials: Vec<Material<f32>> = window.state().materials().cloned().collect();
     let storages =
@@ -99,29 +86,50 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_for_each_predictio
     let pair = [&materials[0], &materials[1]];
     let expected = diagnose(pair, storages.each_ref(), &PRINTED, floor, 0, &Progress::default()).unwrap();
     assert_eq!(found, expected);
-    let marked: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
-    assert_eq!(marked, [Hypothesis::NormalY]);
-    let lines = lines(&window);
-    assert_eq!(lines.len(), found.findings.len(), "{lines:?}");
+    let hypotheses: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
+    assert_eq!(hypotheses, [Hypothesis::NormalY]);
+    let all = lines(&window);
+    assert_eq!(all.len(), found.findings.len(), "{all:?}");
     let share = 100.0 * found.marked().next().unwrap().share.unwrap();
-    assert_eq!(lines[0], format!("Normal Y flipped: {share:.1}% of the loss, marked"));
-    assert!(lines[1..].iter().all(|line| !line.ends_with("marked")), "{lines:?}");
+    assert_eq!(all[0], format!("Normal Y flipped: {share:.1}% of the loss, marked"));
+    assert!(all[1..].iter().all(|line| !line.ends_with("marked")), "{all:?}");
     window.get_by_label_contains("Reading the normals with Y down would lower the loss by");
-    // The other prediction, whose error is none of these.
+    // Folded, those without a mark are behind one line.
+    unfold(&mut window, false);
+    let marked = lines(&window);
+    assert_eq!(marked.len(), 1, "{marked:?}");
+    assert!(marked[0].starts_with("Normal Y flipped: ") && marked[0].ends_with("marked"), "{marked:?}");
+    let others = found.findings.len() - 1;
+    let header = format!("{others} other explanations: none marked");
+    let below = window.get_by_label("Which map").rect().top();
+    click(&mut window, &header);
+    assert_eq!(lines(&window).len(), 1 + others);
+    assert!(window.get_by_label("Which map").rect().top() > below + 17.0 * others as f32);
+    click(&mut window, &header);
+    assert_eq!(lines(&window), marked);
+    // The other prediction, whose error is none of these: the line that explains most.
     let other = "Diagnosis of darker: no mark";
-    wait_for_label(&mut window, other);
+    see(&mut window, other);
     window.get_by_label_contains("Diagnosis of flipped: Normal Y ");
-    window.get_by_label(other).click();
-    window.run_steps(3);
+    click(&mut window, other);
     assert_eq!(window.state().parts.model.view.display.prediction, 1);
     window.get_by_label("No error of exposure, alignment or reading explains 10% of the loss.");
-    assert!(window.query_by_label_contains("Read with").is_none());
+    assert!(!has(&window, "Read with"));
+    let found = window.state().diagnosis().unwrap();
+    let shares =
+        found.findings.iter().filter(|finding| finding.p.is_some()).filter_map(|finding| finding.share);
+    let most = 100.0 * shares.fold(f64::NEG_INFINITY, f64::max);
+    let first = lines(&window);
+    assert!(
+        first.len() == 1 && first[0].ends_with(&format!(": {most:.1}% of the loss")),
+        "{first:?}, {most}"
+    );
 }
 
 #[needs(adapter)]
 #[test]
 fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_prediction_itself() {
-    let (_folder, mut window) = on_files();
+    let (_folder, mut window) = diagnosed();
     wait_for_diagnosis(&mut window);
     let original = window.state().materials().nth(1).unwrap().clone();
     let storage = window.state().parts.model.materials.all[1].read.storage.clone();
@@ -133,10 +141,7 @@ fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_predic
         |window| window.get_by_label_contains("Normal Y flipped: ").click(),
         |window| window.key_press(egui::Key::Escape),
         |window| window.get_all_by_label("Show original").next().unwrap().click(),
-        |window| {
-            window.run_steps(30);
-            window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-        },
+        undo,
     ];
     for back in ways {
         window.run_steps(30);
@@ -166,82 +171,34 @@ fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_predic
 #[needs(adapter)]
 #[test]
 fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
+    let (_folder, mut window) = diagnosed();
+    wait_for_diagnosis(&mut window);
+    let material = |window: &Window<'_>, index| window.state().materials().nth(index).unwrap().clone();
+    let (truth, wrong) = (material(&window, 0), material(&window, 1));
     for place in ["Why", "Files"] {
-        let (_folder, mut window) = on_files();
-        wait_for_diagnosis(&mut window);
-        let wrong = window.state().materials().nth(1).unwrap().clone();
+        let offer = "Reading the normals with Y down would lower the loss by";
+        tab(&mut window, "Why");
+        see(&mut window, offer);
         window.run_steps(30);
         tab(&mut window, place);
-        if place == "Files" {
-            window.get_by_label_contains("Reading the normals with Y down would lower the loss by");
-        }
-        window.get_by_label("Read with normal y down").click();
-        window.run_steps(3);
+        window.get_by_label_contains(offer);
+        click(&mut window, "Read with normal y down");
         wait(&mut window, "the file to be read again", |app| {
             !app.is_reading()
                 && app.parts.model.materials.all[1].read.record.options.normal_y == Some(NormalY::Down)
         });
-        let [truth, read] = [0, 1].map(|index| window.state().materials().nth(index).unwrap().clone());
+        let read = material(&window, 1);
         let far = |a: &Material<f32>, b: &Material<f32>| {
             let pairs = a.planes().normal[1].iter().zip(&b.planes().normal[1]);
             pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
         };
         assert!(far(&read, &truth) < 0.02 && far(&wrong, &truth) > 0.1, "{place}");
-        // The file read rightly has no such finding.
-        assert!(window.query_by_label("Read with normal y down").is_none());
-        window.run_steps(30);
-        window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-        window.run_steps(3);
+        assert!(!has(&window, "Read with normal y down"), "the file read rightly has no such finding");
+        undo(&mut window);
         wait(&mut window, "the file to be read as before", |app| {
             !app.is_reading() && *app.materials().nth(1).unwrap() == wrong
         });
     }
-}
-
-#[needs(adapter)]
-#[test]
-fn the_lines_without_a_mark_are_behind_one_line() {
-    let (_folder, mut window) = on_files();
-    unfold(&mut window, false);
-    let found = wait_for_diagnosis(&mut window);
-    window.run_steps(3);
-    let marked = lines(&window);
-    assert_eq!(marked.len(), 1, "{marked:?}");
-    assert!(marked[0].starts_with("Normal Y flipped: ") && marked[0].ends_with("marked"), "{marked:?}");
-    let others = found.findings.len() - 1;
-    let header = format!("{others} other explanations: none marked");
-    let below = window.get_by_label("Which map").rect().top();
-    window.get_by_label(&header).click();
-    window.run_steps(3);
-    assert_eq!(lines(&window).len(), 1 + others);
-    assert!(window.get_by_label("Which map").rect().top() > below + 17.0 * others as f32);
-    window.get_by_label(&header).click();
-    window.run_steps(3);
-    assert_eq!(lines(&window), marked);
-    // Without a mark: the one that explains most.
-    wait_for_label(&mut window, "Diagnosis of darker: no mark");
-    window.get_by_label("Diagnosis of darker: no mark").click();
-    window.run_steps(3);
-    let found = window.state().diagnosis().unwrap();
-    let shares =
-        found.findings.iter().filter(|finding| finding.p.is_some()).filter_map(|finding| finding.share);
-    let most = 100.0 * shares.fold(f64::NEG_INFINITY, f64::max);
-    let first = lines(&window);
-    assert!(
-        first.len() == 1 && first[0].ends_with(&format!(": {most:.1}% of the loss")),
-        "{first:?}, {most}"
-    );
-}
-
-fn wait_for_label(window: &mut Window<'_>, label: &str) {
-    for _ in 0..6000 {
-        window.step();
-        if window.query_by_label(label).is_some() {
-            return;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    panic!("{label}");
 }
 
 #[needs(adapter)]
@@ -254,26 +211,16 @@ fn nothing_moves_while_it_is_diagnosed_and_a_folded_section_diagnoses_nothing() 
 
 /// With the lines that have no mark, or without.
 fn nothing_moves(all: bool) {
-    let (_folder, mut window) = on_files();
+    let (_folder, mut window) = diagnosed();
     unfold(&mut window, all);
-    window.get_by_label(SECTION).click();
-    window.run_steps(12);
-    let convention = |window: &mut Window<'_>, name: &str| {
-        let command = svbrdf_viewer::model::command::SceneCommand::SetConvention(
-            svbrdf_core::model::convention::ALL.iter().find(|one| one.name == name).unwrap().name,
-        );
-        let ctx = window.ctx.clone();
-        window.state_mut().apply(&ctx, command.into());
-    };
+    click(&mut window, SECTION);
+    window.run_steps(8);
     // What is diagnosed is dropped.
-    convention(&mut window, "guided-2020");
-    for _ in 0..40 {
-        window.step();
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
+    apply(&mut window, SceneCommand::SetConvention("guided-2020"));
+    rest(&mut window, 40);
     assert!(window.state().diagnosis().is_none(), "its section is folded");
-    window.get_by_label(SECTION).click();
-    window.run_steps(20);
+    click(&mut window, SECTION);
+    window.run_steps(16);
     assert!(window.state().diagnosis().is_none(), "it takes longer than that");
     let tops = |window: &Window<'_>| {
         let sections = ["Loss in this scene", SECTION, "Which map", "Which scenes", "Which light or view"];

@@ -1,7 +1,9 @@
 //! The map over the directions of light and view.
 
-use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::model::scene::Kind;
+use svbrdf_core::loss::Comparison;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::{Endpoint, Kind};
+use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::why::{Hemisphere, hemisphere};
 
 use super::*;
@@ -43,8 +45,7 @@ fn the_map_is_that_of_the_core_over_lights_and_over_views() {
         let alone = expected(&[index + 1], Endpoint::Light, [0.0, 0.0, 1.0]);
         assert!(losses.iter().zip(&alone.losses[0]).all(|(a, b)| a.to_bits() == b.to_bits()), "{index}");
     }
-    window.get_by_label("Over views").click();
-    window.run_steps(3);
+    click(&mut window, "Over views");
     let over_views = wait_for_map(&mut window);
     let fixed = unit(window.state().parts.model.view.scene.light);
     assert!(is_same(&over_views, &expected(&[1, 2], Endpoint::View, fixed)));
@@ -61,13 +62,7 @@ fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of
     // To the right of the middle and above it.
     for (x, y) in [(0.5, 0.3), (-0.6, -0.2)] {
         let at = rect.center() + vec2(x, -y) * rect.width() / 2.0;
-        let button = |pressed| egui::Event::PointerButton {
-            pos: at,
-            button: egui::PointerButton::Primary,
-            pressed,
-            modifiers: egui::Modifiers::NONE,
-        };
-        for event in [egui::Event::PointerMoved(at), button(true), button(false)] {
+        for event in [egui::Event::PointerMoved(at), primary(at, true), primary(at, false)] {
             window.event(event);
             window.run_steps(2);
         }
@@ -86,13 +81,8 @@ fn a_click_puts_the_light_where_the_map_is_clicked_and_the_loss_there_is_that_of
     }
     // The map of the lights does not depend on the light.
     assert!(is_same(&wait_for_map(&mut window), &map));
-}
 
-#[needs(adapter)]
-#[test]
-fn predictions_are_side_by_side_with_their_difference_and_choosing_one_turns_its_sign() {
-    let mut window = opened();
-    let map = wait_for_map(&mut window);
+    // Predictions are side by side with their difference, whose sign turns with the chosen one.
     let rects = |window: &Window<'_>| {
         let of = |text: &str| window.get_by_label(&format!("Loss over light directions{text}")).rect();
         [of(""), of(" of 2"), of(" of the difference to 2")]
@@ -117,13 +107,11 @@ fn predictions_are_side_by_side_with_their_difference_and_choosing_one_turns_its
         (second, format!(": {:.4} ± ", map.losses[1][cell])),
         (difference, format!(": {}{:.4}", sign(apart), apart.abs())),
     ] {
-        window.event(egui::Event::PointerMoved(at(rect)));
-        window.run_steps(2);
+        hover(&mut window, at(rect));
         window.get_by_label_contains(&text);
     }
     press(&mut window, egui::Key::Num2);
     let difference = window.get_by_label("Loss over light directions of the difference to 1").rect();
-    window.event(egui::Event::PointerMoved(at(difference)));
-    window.run_steps(2);
+    hover(&mut window, at(difference));
     window.get_by_label_contains(&format!(": {}{:.4}", sign(-apart), apart.abs()));
 }

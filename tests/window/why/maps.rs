@@ -1,11 +1,13 @@
 //! Which map the loss comes from, and one map alone in the panes.
 
-use svbrdf_core::loss::Request;
+use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Map;
-use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::model::convention::{self, Convention, PRINTED};
+use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::why::{Attribution, attribute};
 
 use super::*;
+use crate::materials::write_packed;
 
 fn expected(prediction: usize, convention: &Convention) -> Attribution {
     let materials = materials();
@@ -31,21 +33,15 @@ fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_co
     let second = expected(2, &convention::PRINTED);
     assert_ne!(first, second, "a planted fault");
     let other = "roughness of wrong roughness: 60.1% of the loss";
-    let mut tries = 0;
-    while window.query_by_label(other).is_none() {
-        tries += 1;
-        assert!(tries < 2000, "the attribution of the other prediction");
-        std::thread::sleep(std::time::Duration::from_millis(10));
-        window.run_steps(1);
-    }
-    press(&mut window, egui::Key::Num2);
+    see(&mut window, other);
+    click(&mut window, other);
+    let display = &window.state().parts.model.view.display;
+    assert_eq!((display.prediction, display.isolated), (1, Some(Map::Roughness)), "a click chooses it");
+    press(&mut window, egui::Key::Escape);
     assert_eq!(window.state().attribution(), Some(&second), "it is not computed again");
     window.get_by_label("roughness: 60.1% of the loss");
     window.get_by_label("normal of blurred normals: 80.9% of the loss");
-    window.get_by_role_and_label(egui::accesskit::Role::ComboBox, "Convention").click();
-    window.run_steps(4);
-    window.get_by_label("guided-2020").click();
-    window.run_steps(4);
+    choose(&mut window, "Convention", "guided-2020");
     assert_eq!(wait_for_attribution(&mut window), expected(2, &"guided-2020".parse().unwrap()));
 }
 
@@ -57,15 +53,10 @@ fn a_share_below_0_is_explained_below_the_bars() {
     let [metal, dull] = [("metal.png", 40, 200), ("dull.png", 120, 20)].map(|(name, roughness, specular)| {
         let tiles = [[128, 128, 255], [2; 3], [roughness; 3], [specular; 3]];
         let path = folder.path().join(name);
-        image::RgbImage::from_fn(64, 16, |x, _| image::Rgb(tiles[x as usize / 16])).save(&path).unwrap();
+        write_packed(&path, 16, |tile, _, _| tiles[tile as usize]);
         path
     });
-    let options = ViewerOptions {
-        ground_truth: Some(metal.into()),
-        predictions: vec![dull.into()],
-        ..ViewerOptions::default()
-    };
-    let mut window = super::super::window(options);
+    let mut window = on_files([metal, dull]);
     wait(&mut window, "the materials", |app| app.names().len() == 2);
     tab(&mut window, "Why");
     let below = |window: &Window<'_>| window.get_by_label("A click shows").rect();
@@ -83,24 +74,11 @@ fn isolate(window: &mut Window<'_>, map: &str) {
     wait_for_attribution(window);
     let start = format!("{map}: ");
     let row = {
-        let rows = window.get_all_by_role(egui::accesskit::Role::Button);
+        let rows = window.get_all_by_role(Role::Button);
         let mut labels = rows.filter_map(|node| egui_kittest::kittest::NodeT::accesskit_node(&node).label());
         labels.find(|label| label.starts_with(&start) && label.ends_with("of the loss"))
     };
-    let row = row.expect("the row of the map");
-    window.get_by_label(&row).click();
-    window.run_steps(3);
-}
-
-#[needs(adapter)]
-#[test]
-fn a_click_on_a_bar_of_another_prediction_chooses_it() {
-    let mut window = opened();
-    wait_for_attribution(&mut window);
-    window.get_by_label_contains("diffuse of wrong roughness: ").click();
-    window.run_steps(3);
-    let display = &window.state().parts.model.view.display;
-    assert_eq!((display.prediction, display.isolated), (1, Some(Map::Diffuse)));
+    click(window, &row.expect("the row of the map"));
 }
 
 /// Waits until the pane of this prediction has this title.
@@ -129,7 +107,7 @@ fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
     let rect = wait_for_pane(&mut window, "blurred normals, only its roughness wrong");
     window.get_by_label("Title 1  blurred normals, only its roughness wrong");
     assert!(pixels(&mut window, rect) == ground_truth, "the pane shows the ground truth");
-    window.get_by_label("only it right").click();
+    click(&mut window, "only it right");
     let rect = wait_for_pane(&mut window, "blurred normals, only its roughness right");
     assert!(pixels(&mut window, rect) == whole, "the pane shows the prediction");
 
@@ -154,16 +132,10 @@ fn every_way_back_shows_the_prediction_itself() {
         |window| isolate(window, "normal"),
         |window| press(window, egui::Key::Escape),
         |window| {
-            let button = window.get_all_by_label("Show all maps").next().unwrap();
-            button.click();
+            window.get_all_by_label("Show all maps").next().unwrap().click();
             window.run_steps(3);
         },
-        |window| {
-            // Longer than it takes to become a moment to return to.
-            window.run_steps(30);
-            window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-            window.run_steps(3);
-        },
+        undo,
     ];
     for back in ways {
         window.run_steps(30);
@@ -175,8 +147,7 @@ fn every_way_back_shows_the_prediction_itself() {
         window.get_by_label("Pane 1  blurred normals");
         assert!(window.query_by_label("Show all maps").is_none());
     }
-    window.key_press_modifiers(egui::Modifiers::COMMAND | egui::Modifiers::SHIFT, egui::Key::Z);
-    window.run_steps(3);
+    press_with(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, egui::Key::Z);
     wait_for_pane(&mut window, name);
 }
 
@@ -187,14 +158,13 @@ fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
     press(&mut window, egui::Key::D);
     isolate(&mut window, "diffuse");
     wait_for_pane(&mut window, "blurred normals, only its diffuse wrong");
-    wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
+    let found = statistics(&mut window)[0].mean;
     let scene = window.state().parts.model.view.scene;
     let materials = materials();
     let mixture = materials[0].with_maps_of(&materials[1], |map| map == Map::Diffuse).unwrap();
     let comparison = Comparison::new(&materials[0], &[&mixture], PRINTED).unwrap();
     let request = Request::Listed(vec![scene]);
     let expected = comparison.run(&request, &Progress::default()).unwrap().losses[0].estimate.mean;
-    let found = window.state().difference_statistics().unwrap()[0].unwrap().mean;
     assert!((found / expected - 1.0).abs() < 1e-5, "{found}, expected {expected}");
     assert!((found / loss_in(scene, 1) - 1.0).abs() > 0.1, "the prediction has another loss");
     // The losses of the tab stay those of the predictions.

@@ -1,18 +1,16 @@
 //! The scenes of the loss, worst first, and the search for the worst of all.
 
-use svbrdf_core::loss::{Request, Sampling, Texels};
-use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::why::{RankedScene, TAIL, worst, worst_first};
 
 use super::*;
 
-const SAMPLING: Sampling =
-    Sampling { near: 128, distant: 64, seed: 0, sampler: Sampler::Sobol, texels: Texels::All };
-
-fn expected(prediction: usize, sampling: Sampling) -> Vec<RankedScene> {
+fn expected(prediction: usize) -> Vec<RankedScene> {
     let materials = materials();
     let comparison = Comparison::new(&materials[0], &[&materials[prediction]], PRINTED).unwrap();
-    worst_first(&comparison.run(&Request::Scenes(sampling), &Progress::default()).unwrap())
+    worst_first(&comparison.run(&Request::Scenes(SAMPLING), &Progress::default()).unwrap())
 }
 
 fn wait_for_scenes(window: &mut Window<'_>) -> Vec<RankedScene> {
@@ -22,31 +20,11 @@ fn wait_for_scenes(window: &mut Window<'_>) -> Vec<RankedScene> {
 
 #[needs(adapter)]
 #[test]
-fn the_listed_scenes_are_those_of_the_core_and_a_click_loads_one() {
+fn the_listed_scenes_and_their_thumbnails_are_those_of_the_core_and_a_click_loads_one() {
     let mut window = opened();
     let listed = wait_for_scenes(&mut window);
-    assert_eq!(listed, expected(1, SAMPLING));
+    assert_eq!(listed, expected(1));
     assert!(listed.is_sorted_by(|a, b| a.losses[0] >= b.losses[0]) && listed.len() == 192);
-    let before = window.state().parts.model.view.scene;
-    window.get_by_label(&format!("Scene 2: {:.4}", listed[1].losses[0])).click();
-    window.run_steps(3);
-    assert_eq!(window.state().parts.model.view.scene, listed[1].scene);
-    let here = wait_for_scene_losses(&mut window)[0];
-    assert!((here / listed[1].losses[0] - 1.0).abs() < 1e-6, "{here}, listed {}", listed[1].losses[0]);
-    window.run_steps(30);
-    window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-    window.run_steps(3);
-    assert_eq!(window.state().parts.model.view.scene, before);
-    press(&mut window, egui::Key::Num2);
-    assert_eq!(wait_for_scenes(&mut window), expected(2, SAMPLING));
-    assert_ne!(expected(2, SAMPLING), listed, "a planted fault");
-}
-
-#[needs(adapter)]
-#[test]
-fn a_thumbnail_has_the_mean_of_its_scene() {
-    let mut window = opened();
-    let listed = wait_for_scenes(&mut window);
     let (_, thumbnails) = window.state().listed_scenes().unwrap();
     assert_eq!(thumbnails.len(), 96);
     let mean = |pixels: &[f32]| pixels.iter().map(|v| f64::from(*v)).sum::<f64>() / pixels.len() as f64;
@@ -56,36 +34,44 @@ fn a_thumbnail_has_the_mean_of_its_scene() {
         assert!((mean(pixels) / loss - 1.0).abs() < 0.02, "{rank}: {}, expected {loss}", mean(pixels));
     }
     assert!((mean(&thumbnails[0]) / listed[20].losses[0] - 1.0).abs() > 0.02, "a planted fault");
-    window.get_by_label("More scenes").click();
-    window.run_steps(3);
+    click(&mut window, "More scenes");
     window.get_by_label(&format!("Scene 30: {:.4}", listed[29].losses[0]));
-    assert!(window.query_by_label_contains("Scene 31: ").is_none());
-    window.get_by_label("Fewer scenes").click();
-    window.run_steps(3);
-    assert!(window.query_by_label_contains("Scene 11: ").is_none());
+    assert!(!has(&window, "Scene 31: "));
+    click(&mut window, "Fewer scenes");
+    assert!(!has(&window, "Scene 11: "));
+    let before = window.state().parts.model.view.scene;
+    click(&mut window, &format!("Scene 2: {:.4}", listed[1].losses[0]));
+    assert_eq!(window.state().parts.model.view.scene, listed[1].scene);
+    let here = wait_for_scene_losses(&mut window)[0];
+    assert!((here / listed[1].losses[0] - 1.0).abs() < 1e-6, "{here}, listed {}", listed[1].losses[0]);
+    undo(&mut window);
+    assert_eq!(window.state().parts.model.view.scene, before);
+    press(&mut window, egui::Key::Num2);
+    assert_eq!(wait_for_scenes(&mut window), expected(2));
+    assert_ne!(expected(2), listed, "a planted fault");
 }
 
 #[needs(adapter)]
 #[test]
-fn a_loss_over_few_scenes_lists_just_these() {
-    let mut window = by_scenes();
-    window.set_size(vec2(1200.0, 1800.0));
-    window.run_steps(3);
-    tab(&mut window, "Why");
-    let listed = wait_for_scenes(&mut window);
-    assert_eq!(listed, expected(1, Sampling::default()));
-    wait(&mut window, "the loss", |app| app.losses().is_some());
-    let mean = listed.iter().map(|scene| scene.losses[0]).sum::<f64>() / 9.0;
-    let loss = window.state().losses().unwrap()[0].estimate.mean;
-    assert!((mean / loss - 1.0).abs() < 1e-12, "{mean} and {loss}");
-}
-
-#[needs(adapter)]
-#[test]
-fn the_search_finds_the_scene_of_the_core_and_shows_it() {
+fn the_search_finds_the_scene_of_the_core_and_shows_it_unless_it_is_cancelled() {
     let mut window = opened();
+    // The list does not push the button away under the click.
+    wait_for_scenes(&mut window);
+    let before = window.state().parts.model.view.scene;
+    for cancel in [
+        |window: &mut Window<'_>| press(window, egui::Key::Escape),
+        |window: &mut Window<'_>| click(window, "Cancel search"),
+    ] {
+        window.get_by_label("Find worst scene").click();
+        window.run_steps(2);
+        assert!(window.state().is_searching());
+        cancel(&mut window);
+        assert!(!window.state().is_searching());
+        window.run_steps(10);
+        assert_eq!((window.state().worst(), window.state().parts.model.view.scene), (None, before));
+        assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+    }
     window.get_by_label("Find worst scene").click();
-    window.run_steps(2);
     wait(&mut window, "the worst scene", |app| app.worst().is_some());
     let materials = materials();
     let expected = worst(&materials[0], &materials[1], &PRINTED, 0, TAIL, &Progress::default()).unwrap();
@@ -99,29 +85,4 @@ fn the_search_finds_the_scene_of_the_core_and_shows_it() {
     // That of one prediction is not that of another.
     press(&mut window, egui::Key::Num2);
     assert_eq!(window.state().worst(), None);
-}
-
-#[needs(adapter)]
-#[test]
-fn a_cancelled_search_leaves_the_scene() {
-    let mut window = opened();
-    // The list does not push the button away under the click.
-    wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
-    let before = window.state().parts.model.view.scene;
-    for cancel in [
-        |window: &mut Window<'_>| press(window, egui::Key::Escape),
-        |window: &mut Window<'_>| {
-            window.get_by_label("Cancel search").click();
-            window.run_steps(3);
-        },
-    ] {
-        window.get_by_label("Find worst scene").click();
-        window.run_steps(2);
-        assert!(window.state().is_searching());
-        cancel(&mut window);
-        assert!(!window.state().is_searching());
-        window.run_steps(10);
-        assert_eq!((window.state().worst(), window.state().parts.model.view.scene), (None, before));
-        assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
-    }
 }

@@ -1,0 +1,75 @@
+//! The built-in materials in memory and as files, and what the core gives for them.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use image::RgbImage;
+
+use svbrdf_core::loss::{Comparison, Loss, Request};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::progress::Progress;
+use svbrdf_files::samples::{self, generate};
+
+/// The built-in materials, the ground truth first.
+pub fn materials() -> Vec<Material<f32>> {
+    let samples = samples::load::<f32>().unwrap();
+    [samples.ground_truth].into_iter().chain(samples.predictions).map(|read| read.material).collect()
+}
+
+/// The losses of the built-in predictions.
+pub fn losses(request: &Request) -> Vec<Loss> {
+    let materials = materials();
+    let predictions: Vec<_> = materials[1..].iter().collect();
+    let comparison = Comparison::new(&materials[0], &predictions, PRINTED).unwrap();
+    comparison.run(request, &Progress::default()).unwrap().losses
+}
+
+/// The loss of a built-in prediction, counted from 1, in one scene.
+pub fn loss_in(scene: Scene, prediction: usize) -> f64 {
+    losses(&Request::Listed(vec![scene]))[prediction - 1].estimate.mean
+}
+
+/// Width and height of the tiles of [`strip`].
+pub const SIDE: u32 = generate::SIDE as u32;
+
+/// The built-in ground truth as a strip of normals, diffuse, roughness and specular.
+pub fn strip() -> RgbImage {
+    RgbImage::from_raw(4 * SIDE, SIDE, generate::pack(&generate::ground_truth())).unwrap()
+}
+
+/// Writes that strip under these names.
+pub fn strips<const N: usize>(folder: &Path, names: [&str; N]) -> [PathBuf; N] {
+    names.map(|name| {
+        let path = folder.join(name);
+        strip().save(&path).unwrap();
+        path
+    })
+}
+
+/// Writes a packed material of `side` x `side` texels: normal, diffuse, roughness, specular.
+pub fn write_packed(path: &Path, side: u32, value: impl Fn(u32, u32, u32) -> [u8; 3]) {
+    let pixel = |x, y| image::Rgb(value(x / side, x % side, y));
+    RgbImage::from_fn(4 * side, side, pixel).save(path).unwrap();
+}
+
+/// What egui stores of a program, in memory.
+#[derive(Default)]
+pub struct Memory(pub HashMap<String, String>);
+
+impl eframe::Storage for Memory {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get(key).cloned()
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        self.0.insert(key.to_owned(), value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        self.0.remove(key);
+    }
+
+    fn flush(&mut self) {}
+}
