@@ -419,20 +419,6 @@ def test_the_compiled_loss_is_the_same_and_compiles_once_for_all_seeds() -> None
     assert compilations == 1
 
 
-def test_training_on_the_loss_finds_the_roughness() -> None:
-    ground_truth = random_maps(1, 4, 4, torch.float32)
-    roughness = torch.full_like(ground_truth.roughness, 0.5).requires_grad_()
-    loss = sv.RenderingLoss()
-    optimizer = torch.optim.Adam([roughness], lr=0.02)
-    before = (roughness - ground_truth.roughness).abs().mean().item()
-    torch.manual_seed(0)
-    for _ in range(150):
-        optimizer.zero_grad()
-        loss(ground_truth._replace(roughness=roughness), ground_truth).backward()
-        optimizer.step()
-    assert (roughness - ground_truth.roughness).abs().mean().item() < 0.2 * before
-
-
 def test_tensors_are_materials_of_the_core() -> None:
     given = maps(4, 5)
     expected = svbrdf.Material(**given)

@@ -162,7 +162,7 @@ fn an_archive_of_pictures_is_called_a_zip() {
 #[test]
 fn the_map_that_cannot_be_decoded_is_named_with_its_format() {
     let folder = tempdir().unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], folder.path(), |_, v| v);
+    folder_of(NAMES, folder.path(), |_, v| v);
     std::fs::remove_file(folder.path().join("normal.png")).unwrap();
     put(folder.path(), "normal.webp", b"RIFF\x20\0\0\0WEBPVP8L\x10\0\0\0\x2f\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0");
     let refused = refusal(folder.path());

@@ -232,7 +232,7 @@ fn a_named_map_takes_the_place_of_one_in_a_strip_and_in_a_folder() {
     let binding = [format!("roughness={}", other.display())];
     let strip = save(folder.path(), "a.png", &packed("NDRS", 4, linear), ImageFormat::Png);
     let maps = tempdir().unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], maps.path(), |_, v| v);
+    folder_of(NAMES, maps.path(), |_, v| v);
     for path in [strip.as_path(), maps.path()] {
         let read = bound(path, &binding).unwrap();
         assert!(

@@ -21,7 +21,7 @@ fn names_of_research_codes_bring_their_encoding() {
             colours,
             "gamma2.2",
         ),
-        (["normal.png", "diffuse.png", "roughness.png", "specular.png"], raw, "linear"),
+        (NAMES, raw, "linear"),
         (["001_Nout.png", "001_Dout.png", "001_Rout.png", "001_Sout.png"], raw, "linear"),
     ];
     for (names, encode, expected) in table {
@@ -115,7 +115,7 @@ fn glossiness_is_turned_into_roughness() {
 #[test]
 fn maps_of_differing_sizes_are_resampled_to_the_largest_and_said() {
     let folder = tempdir().unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], folder.path(), |_, v| v);
+    folder_of(NAMES, folder.path(), |_, v| v);
     let half = GrayImage::from_pixel(SIDE as u32 / 2, SIDE as u32 / 2, [102].into());
     save(folder.path(), "roughness.png", &half.into(), ImageFormat::Png);
     let read = open(folder.path());
@@ -260,7 +260,7 @@ fn packings_of_engines_are_taken_apart() {
 #[test]
 fn of_two_files_for_a_map_the_better_is_taken_and_it_is_said() {
     let folder = tempdir().unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], folder.path(), |_, v| v);
+    folder_of(NAMES, folder.path(), |_, v| v);
     put(folder.path(), "roughness", 1, |v| v);
     map_exr(&folder.path().join("roughness.exr"), 2, |_, v| v);
     let read = open(folder.path());
@@ -274,7 +274,7 @@ fn maps_in_the_only_folder_within_open_and_several_folders_are_listed() {
     let folder = tempdir().unwrap();
     let within = folder.path().join("textures");
     std::fs::create_dir(&within).unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], &within, |_, v| v);
+    folder_of(NAMES, &within, |_, v| v);
     let read = open(folder.path());
     assert_same(&read, EIGHT_BITS);
     assert!(
