@@ -4,7 +4,6 @@ mod arrays;
 mod conventions;
 pub mod decoders;
 mod glb;
-mod killed;
 mod named_sets;
 mod normals;
 mod options;

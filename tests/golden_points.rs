@@ -148,22 +148,10 @@ fn check<T: Rounding>(convention: &Convention, expected: impl Fn(&Row) -> Option
 }
 
 #[test]
-fn printed_points_are_right_in_f64() {
+fn points_are_right_in_both_precisions() {
     check::<f64>(&PRINTED, |row| row.expected);
-}
-
-#[test]
-fn printed_points_are_right_in_f32() {
     check::<f32>(&PRINTED, |row| row.expected);
-}
-
-#[test]
-fn guided_2020_points_are_right_in_f64() {
     check::<f64>(&GUIDED_2020, |row| row.expected_guided_2020);
-}
-
-#[test]
-fn guided_2020_points_are_right_in_f32() {
     check::<f32>(&GUIDED_2020, |row| row.expected_guided_2020);
 }
 

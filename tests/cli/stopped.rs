@@ -134,6 +134,31 @@ fn every_signal_that_ends_the_program_leaves_nothing_though_another_one_is_ignor
     assert!(child.wait().unwrap().success() && folder.path().join("out.exr").exists());
 }
 
+/// What is written is complete before it has its name.
+#[test]
+fn a_kill_at_any_moment_leaves_the_whole_old_file() {
+    let folder = folder();
+    write_material(&folder.path().join("large.png"), LARGE, 90);
+    let out = folder.path().join("out.exr");
+    fs::write(&out, "old").unwrap();
+    let mut unfinished = 0;
+    for delay in [0, 5, 20, 60] {
+        let mut child = convert(folder.path(), "out.exr --depth float");
+        assert!(writing(folder.path(), &mut child));
+        sleep(Duration::from_millis(delay));
+        let ended = child.try_wait().unwrap().is_some();
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let is_old = fs::read(&out).unwrap() == b"old";
+        assert!(is_old || fs::metadata(&out).unwrap().len() > 1_000_000, "{delay}: a part of the new file");
+        unfinished += u32::from(is_old && !ended);
+        fs::write(&out, "old").unwrap();
+        let left = files(folder.path()).into_iter().filter(|name| name.starts_with(".svbrdf-"));
+        left.for_each(|name| fs::remove_file(folder.path().join(name)).unwrap());
+    }
+    assert!(unfinished > 0, "nothing was ever killed");
+}
+
 #[test]
 fn a_signal_while_options_are_saved_leaves_nothing() {
     let folder = folder();

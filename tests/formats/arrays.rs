@@ -51,20 +51,6 @@ fn an_npz_of_one_texel_has_its_channels_last_as_its_gray_map_tells() {
 }
 
 #[test]
-fn an_npz_of_one_row_has_its_channels_last() {
-    let folder = tempdir().unwrap();
-    let path = archive(
-        folder.path(),
-        &[
-            ("normal", &[1, 2, 3], &[0.0, 0.0, 1.0, 0.6, 0.0, 0.8]),
-            ("diffuse", &[1, 2, 3], &[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]),
-            ("roughness", &[1, 2], &[0.5, 0.6]),
-        ],
-    );
-    assert_is(&path, [2, 1], (1, [0.4, 0.5, 0.6]), 0);
-}
-
-#[test]
 fn an_npz_of_small_planes_has_its_channels_first_where_that_gives_all_maps_one_size() {
     let folder = tempdir().unwrap();
     let plane = |value: f32| vec![value; 16];
