@@ -94,15 +94,6 @@ fn relative_paths_may_leave_the_folder_and_a_note_says_so() {
 }
 
 #[test]
-fn an_mtl_of_another_machine_finds_its_maps_beside_it() {
-    let folder = pictures();
-    let at = folder.path();
-    documents(at, "/home/someone/textures/map.png");
-    fs::copy(at.join("map.png"), at.join("in/map.png")).unwrap();
-    succeed(at, "info in/m.mtl");
-}
-
-#[test]
 fn a_buffer_outside_is_named_in_a_note() {
     let folder = pictures();
     let at = folder.path();

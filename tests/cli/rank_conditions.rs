@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::{
-    assert_has, assert_refused, data_set, json, json_of, rows_of, run_in, succeed, svbrdf, text, text_of,
+    assert_has, assert_refused, data_set, json, json_of, rows_of, run_in, succeed, text, text_of,
     write_material,
 };
 use serde_json::Value;
@@ -111,48 +111,29 @@ fn a_loss_does_not_depend_on_its_rivals_nor_on_other_materials() {
     assert_ne!(losses("rank --dataset gt ours --target-error 2% --seed 1"), fewer);
 }
 
+#[cfg(unix)]
 #[test]
 fn a_ranking_says_how_to_repeat_it() {
     let folder = data_set(&[("ours", 8), ("their maps", 16)], 5);
-    let args = "rank --dataset gt ours their_maps --target-error 3% --seed 7 --pick mean --convention guided-2020 --metrics \
-        --preset deschaintre";
-    let args: Vec<&str> =
-        args.split(' ').map(|word| if word == "their_maps" { "their maps" } else { word }).collect();
-    let run = |args: &[&str]| {
-        let output = svbrdf().args(args).current_dir(folder.path()).output().unwrap();
+    let run = |line: &str| {
+        let line = line.replacen("svbrdf", env!("CARGO_BIN_EXE_svbrdf"), 1);
+        let output = super::command("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
         assert!(output.status.success(), "{}", text(&output.stderr));
         text(&output.stdout).to_owned()
     };
-    let table = run(&args);
+    let line = "svbrdf rank --dataset gt ours 'their maps' --target-error 3% --seed 7 --pick mean --convention guided-2020 \
+        --metrics --preset deschaintre";
+    let table = run(line);
     let version = env!("CARGO_PKG_VERSION");
     let repeat = table.lines().find_map(|line| line.strip_prefix(&format!("repeat with svbrdf {version}: ")));
-    let words = shlex(repeat.unwrap_or_else(|| panic!("{table}")));
-    let words: Vec<&str> = words.iter().map(String::as_str).skip(1).collect();
-    assert_eq!(run(&words), table);
-    let ranking = json(&run(&[&args[..], &["--format", "json"]].concat()));
-    assert_eq!(ranking["repetition"]["command"], repeat.unwrap());
+    let repeat = repeat.unwrap_or_else(|| panic!("{table}"));
+    assert_eq!(run(repeat), table);
+    let ranking = json(&run(&format!("{line} --format json")));
+    assert_eq!(ranking["repetition"]["command"], repeat);
     assert_eq!(ranking["reading"]["predictions"]["preset"], "deschaintre");
-    assert!(ranking["repetition"]["software"].as_str().unwrap().contains(version));
-    run(&[&args[..], &["--format", "html", "-o", "page.html"]].concat());
+    assert_has(ranking["repetition"]["software"].as_str().unwrap(), &[version]);
+    run(&format!("{line} --format html -o page.html"));
     assert_has(&text_of(folder.path(), "page.html"), &["rank --dataset gt ours", version]);
-}
-
-/// The words of a command as a shell reads them: plain ones, and those in single quotes.
-fn shlex(command: &str) -> Vec<String> {
-    let (mut words, mut is_quoted, mut begins) = (Vec::new(), false, true);
-    for c in command.chars() {
-        match c {
-            '\'' => is_quoted = !is_quoted,
-            ' ' if !is_quoted => begins = true,
-            c => {
-                if std::mem::take(&mut begins) {
-                    words.push(String::new());
-                }
-                words.last_mut().unwrap().push(c);
-            }
-        }
-    }
-    words
 }
 
 #[test]

@@ -120,31 +120,6 @@ fn a_figure_begins_with_the_layout_and_the_light_of_the_options() {
 }
 
 #[test]
-fn worst_scenes_are_ordered_by_their_losses_on_all_texels() {
-    let folder = folder();
-    let of = |name: &str| folder.path().join(name);
-    for (name, roughness) in [("truth.png", 60), ("rough.png", 140)] {
-        write_tiles(&of(name), 32, |x, y| match x / 32 {
-            0 => [(90 + 5 * (x % 16)) as u8, (100 + 7 * (y % 8)) as u8, 230],
-            1 => [(7 * x) as u8, (5 * y) as u8, 90],
-            2 => [(roughness + x * y % 97) as u8; 3],
-            _ => [(20 + 3 * y) as u8; 3],
-        });
-    }
-    succeed(folder.path(), "report truth.png rough.png -o r.html --target-error 10%");
-    let page = text_of(folder.path(), "r.html");
-    let scenes: Vec<Value> =
-        data(&page)["scenes"].as_array().unwrap().iter().map(|linked| linked["scene"].clone()).collect();
-    fs::write(of("worst.json"), json!({"scenes": scenes}).to_string()).unwrap();
-    let all = json_of(folder.path(), "scenes truth.png rough.png --scenes worst.json");
-    assert_eq!(all["scenes"], json!(scenes));
-    for loss in all["results"][0]["losses"].as_array().unwrap() {
-        let loss = format!("Loss: rough {}<", number(loss));
-        assert!(page.contains(&loss), "{loss}");
-    }
-}
-
-#[test]
 fn maps_are_halved_until_the_file_fits_and_this_is_said() {
     let folder = folder();
     for (name, seed) in [("large.png", 1), ("other.png", 2)] {

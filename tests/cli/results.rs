@@ -164,6 +164,47 @@ fn neighbours_that_a_reading_looked_at_are_a_part_of_it() {
 }
 
 #[test]
+fn every_file_of_a_material_counts_in_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str| folder.path().join(name);
+    for (name, roughness) in [("gt", 60), ("other", 140)] {
+        write_material(&of(&format!("{name}.png")), 8, roughness);
+        fs::create_dir(of(name)).unwrap();
+        for out in ["a.exr", "b.glb", "c.mtlx", "d"] {
+            succeed(folder.path(), &format!("convert {name}.png {name}/{out} --read albedo=srgb"));
+        }
+        let maps = files(&of(name).join("d"));
+        let roughness = maps.iter().find(|map| map.contains("roughness")).unwrap();
+        for map in &maps {
+            fs::copy(of(name).join("d").join(map), of(name).join(format!("p_{map}"))).unwrap();
+        }
+        let picture = format!(r#""images": [{{"uri": "p_{roughness}"}}], "textures": [{{"source": 0}}]"#);
+        let surface = r#"{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}"#;
+        let gltf = format!(r#"{{"asset": {{"version": "2.0"}}, {picture}, "materials": [{surface}]}}"#);
+        fs::write(of(name).join("e.gltf"), gltf).unwrap();
+        fs::write(of(name).join("f.mtl"), format!("newmtl f\nmap_Kd p_{roughness}\nPr 0.5\n")).unwrap();
+    }
+    let rows =
+        ["a.exr", "b.glb", "c.mtlx", "d", "e.gltf", "f.mtl", "p_"].map(|form| format!("gt/{form},gt.png\n"));
+    fs::write(of("pairs.csv"), format!("ground_truth,prediction\n{}", rows.concat())).unwrap();
+    let args = "rank --pairs pairs.csv --target-error 30% --format json --read albedo=srgb";
+    assert_eq!(run(folder.path(), args).0.len(), rows.len());
+    assert_eq!(run(folder.path(), args).0, NONE);
+    let mut noticed = Vec::new();
+    for below in ["", "c_textures", "d"] {
+        for name in files(&of("gt").join(below)) {
+            let [to, from] = ["gt", "other"].map(|side| of(side).join(below).join(&name));
+            if to.is_file() && fs::read(&to).unwrap() != fs::read(&from).unwrap() {
+                fs::copy(from, to).unwrap();
+                let written = run(folder.path(), args).0;
+                noticed.push(written.iter().map(|name| name.split('_').next().unwrap()).collect::<String>());
+            }
+        }
+    }
+    assert_eq!(noticed, ["a", "b", "c", "efp", "c", "d"]);
+}
+
+#[test]
 fn what_fails_is_tried_again() {
     let folder = data_set();
     let of = |name: &str| folder.path().join(name);

@@ -70,21 +70,7 @@ const COMMANDS: [&str; 10] = [
 ];
 
 #[test]
-fn every_command_refuses_a_session_with_an_unknown_convention() {
-    let folder = folder();
-    let at = folder.path();
-    succeed(at, "render gt.png -o photo.png");
-    write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
-    let text = text_of(at, SESSION);
-    std::fs::write(at.join(SESSION), text.replace("guided-2020", "guided-2120")).unwrap();
-    for command in COMMANDS.into_iter().chain(["study {}"]) {
-        let stderr = fail(at, &command.replace("{}", SESSION), 1);
-        assert_has(&stderr, &[SESSION, "guided-2120", "printed, single-image-2018"]);
-    }
-}
-
-#[test]
-fn every_command_refuses_loss_settings_out_of_range_and_names_the_field() {
+fn every_command_refuses_a_convention_and_loss_settings_that_do_not_exist_and_names_the_field() {
     let folder = folder();
     let at = folder.path();
     succeed(at, "render gt.png -o photo.png");
@@ -93,18 +79,19 @@ fn every_command_refuses_loss_settings_out_of_range_and_names_the_field() {
     let no_scenes = r#""ask": "File", "file": {"name": "a.json", "scenes": []}"#;
     let below = r#""ask": "File", "file": {"name": "a.json", "scenes": [
         {"kind": "near", "view": [0, 0, 1], "light": [0, 0, -1]}]}"#;
-    for (settings, field, found) in [
-        (r#""ask": "Accuracy", "target_percent": -1"#, "window.loss.target_percent", "found -1"),
-        (r#""ask": "Scenes", "near": 4, "texels": {"sampled": 0}"#, "window.loss.texels", "found 0"),
-        (no_scenes, "window.loss.file.scenes", "found none"),
-        (below, "window.loss.file.scenes", "scene 0"),
+    let loss = r#""ask": "Scenes", "near": 4, "distant": 2"#;
+    for (of, wrong, field, found) in [
+        ("guided-2020", "guided-2120", "printed, single-image-2018", "guided-2120"),
+        (loss, r#""ask": "Accuracy", "target_percent": -1"#, "window.loss.target_percent", "found -1"),
+        (loss, r#""ask": "Scenes", "near": 4, "texels": {"sampled": 0}"#, "window.loss.texels", "found 0"),
+        (loss, no_scenes, "window.loss.file.scenes", "found none"),
+        (loss, below, "window.loss.file.scenes", "scene 0"),
     ] {
-        let text = good.replace(r#""ask": "Scenes", "near": 4, "distant": 2"#, settings);
+        let text = good.replace(of, wrong);
         assert_ne!(text, good);
         std::fs::write(at.join(SESSION), text).unwrap();
         for command in COMMANDS {
-            let stderr = fail(at, &command.replace("{}", SESSION), 1);
-            assert_has(&stderr, &[SESSION, field, found]);
+            assert_has(&fail(at, &command.replace("{}", SESSION), 1), &[SESSION, field, found]);
         }
     }
 }

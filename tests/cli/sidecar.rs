@@ -39,26 +39,3 @@ fn nothing_is_saved_of_options_that_are_refused() {
     fail(folder.path(), "info a.png --save --read albedo=srgb", 1);
     assert_has(&text_of(folder.path(), "a.svbrdf.json"), &["albdo"]);
 }
-
-#[test]
-fn a_byte_order_mark_before_json_changes_nothing() {
-    let folder = folder();
-    let of = |name: &str| folder.path().join(name);
-    let commands =
-        ["info a.png", "loss gt.png a.png --scenes one.json", "loss s.svbrdf-session.json --near 2"];
-    let session = r#"{"svbrdf-session": 1, "materials": [{"path": "gt.png"}, {"path": "a.png"}], "convention": "printed",
-        "scene": {"kind": "near", "view": [0, 0.1, 2], "light": [0.5, 0.5, 1]}}"#;
-    let write = |mark: &str| {
-        for (name, text) in
-            [("a.svbrdf.json", r#"{"roughness": "gloss"}"#), ("s.svbrdf-session.json", session)]
-        {
-            std::fs::write(of(name), format!("{mark}{text}")).unwrap();
-        }
-        let scenes = std::fs::read_to_string(of("one.json")).unwrap();
-        std::fs::write(of("one.json"), format!("{mark}{}", scenes.trim_start_matches('\u{feff}'))).unwrap();
-        commands.map(|command| succeed(folder.path(), command))
-    };
-    let plain = write("");
-    assert!(plain[0].contains("as saved in a.svbrdf.json"), "{}", plain[0]);
-    assert_eq!(write("\u{feff}"), plain);
-}

@@ -41,6 +41,7 @@ fn a_question_ends_at_its_limit_of_scenes_and_says_so() {
     }
     let pair = "mirror.png near.png --preset deschaintre --read order=ndrs";
     for (command, results, scenes, who) in [
+        ("loss", "results", 786_432, "near is known to +-"),
         ("blame", "attributions", 49_152, "near is known to +-"),
         ("worst", "results", 49_152, "the mean of near is known to +-"),
         ("rank", "ranking", 393_216, "near is known to +-"),

@@ -195,7 +195,7 @@ fn a_document_appears_after_its_pictures_or_not_at_all() {
 }
 
 #[test]
-fn forms_for_other_programs_have_their_depths_and_no_preset() {
+fn forms_have_their_depths_and_presets() {
     let new = |name: &str, depth, like, preview| {
         FileKind::new(Path::new(name), &WriteOptions { depth, like, preview })
     };
@@ -208,6 +208,11 @@ fn forms_for_other_programs_have_their_depths_and_no_preset() {
         ("a.glb", None, None, true),
         ("a.mtlx", None, None, true),
         ("a.gltf", None, None, false),
+        ("a.TIF", None, None, false),
+        ("a.png", None, Some(Preset::Gltf), false),
+        ("a.png", None, None, true),
+        ("a", None, Some(Preset::Gao), false),
+        ("a.exr", None, Some(Preset::Gao), false),
     ] {
         let refused = new(name, depth, like, preview);
         assert!(matches!(refused, Err(Error::UnsupportedOutput { .. })), "{name}: {refused:?}");
