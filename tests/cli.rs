@@ -109,6 +109,15 @@ fn without_adapter(folder: &Path, args: &str) -> Output {
     command.output().unwrap()
 }
 
+/// The output of a command under a limit of the shell, such as `-v 200000`: of one thread, so that it takes little by itself.
+#[cfg(target_os = "linux")]
+fn limited(folder: &Path, limit: &str, args: &str) -> Output {
+    let line = format!("ulimit {limit}; exec {} {args}", env!("CARGO_BIN_EXE_svbrdf"));
+    let mut command = command("sh");
+    command.args(["-c", &line]).current_dir(folder);
+    command.envs([("RAYON_NUM_THREADS", "1"), ("MALLOC_ARENA_MAX", "1")]).output().unwrap()
+}
+
 /// The stderr of a run that must fail with `code`: an error on its one line, no result, no new file.
 fn fail(folder: &Path, args: &str, code: i32) -> String {
     let before = files(folder);

@@ -10,7 +10,6 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{Albedo, Read, ReadOptions, read, read_bytes};
-use svbrdf_files::samples;
 use svbrdf_files::samples::generate;
 
 use crate::support::fixtures::{LINEAR, MAPS, SIDE, bytes_at, flat, map, png_bytes, save, save_maps, strip};
@@ -140,21 +139,6 @@ fn reading_reports_progress_and_stops_when_asked() {
     progress.cancel();
     let result = read::<f32>(folder.path(), &LINEAR, &progress);
     assert!(matches!(result, Err(Error::Cancelled)));
-}
-
-#[test]
-fn the_samples_load_under_their_names_and_differ() {
-    let samples = samples::load::<f32>().unwrap();
-    let all = [&samples.ground_truth, &samples.predictions[0], &samples.predictions[1]];
-    assert_eq!(
-        all.map(|sample| sample.material.name()),
-        ["worn tiles", "blurred normals", "wrong roughness"]
-    );
-    assert!(all.iter().all(|sample| sample.material.size() == [generate::SIDE; 2]));
-    assert_ne!(all[0].material.planes().normal, all[1].material.planes().normal);
-    assert_ne!(all[0].material.planes().roughness, all[2].material.planes().roughness);
-    let roughness = &all[0].material.planes().roughness;
-    assert!(roughness.iter().any(|&r| r < 0.12) && roughness.iter().any(|&r| r > 0.84));
 }
 
 #[test]

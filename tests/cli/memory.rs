@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{assert_has, command, fail, folder, succeed, text};
+use super::{assert_has, fail, folder, succeed, text};
 
 #[test]
 fn a_list_of_too_many_methods_and_materials_is_refused_and_a_long_one_of_few_is_not() {
@@ -30,9 +30,7 @@ fn the_header_of_an_hdr_ends() {
     let path = folder.path().join("x.hdr");
     fs::write(&path, "#?RADIANCE\n").unwrap();
     fs::File::options().write(true).open(&path).unwrap().set_len(6 << 30).unwrap();
-    let mut command = command("sh");
-    let info = format!("ulimit -v 3000000; exec {} info x.hdr", env!("CARGO_BIN_EXE_svbrdf"));
-    let output = command.args(["-c", &info]).current_dir(folder.path()).output().unwrap();
+    let output = super::limited(folder.path(), "-v 3000000", "info x.hdr");
     let stderr = text(&output.stderr);
     assert!(output.status.code() == Some(1) && stderr.contains("header"), "{:?} {stderr}", output.status);
 }

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{assert_has, assert_refused, data_set, folder, json_of, rows_of, succeed, text};
+use super::{assert_has, data_set, folder, json_of, rows_of, succeed, text};
 
 #[test]
 fn the_protocol_of_matfusion_compares_values_as_stored() {
@@ -78,26 +78,6 @@ fn metrics_of_renderings_have_intervals_and_an_exposure() {
     let dark = json_of(folder.path(), args);
     assert_eq!(dark["results"][1]["metrics"]["rmse_roughness"], entry["metrics"]["rmse_roughness"]);
     assert_ne!(dark["results"][1]["metrics"]["flip_rendering_clipped"].as_f64().unwrap(), flip);
-}
-
-#[test]
-fn what_a_protocol_cannot_do_is_refused() {
-    let folder = folder();
-    let refused = [
-        ("metrics --protocol matfusion gt.png big.png", 1, "sizes differ"),
-        (
-            "metrics --protocol matfusion gt.png a.png --near 3",
-            64,
-            "own scenes, convention and exposure; leave out --near",
-        ),
-        ("metrics --protocol matfusion gt.png a.png --exposure 1", 64, "leave out --exposure"),
-        ("metrics gt.png a.png --renderings out", 64, "--protocol"),
-        ("metrics gt.png a.png --near 3 --renderings out", 64, "only a --protocol writes renderings"),
-        ("metrics --protocol other gt.png a.png", 64, "matfusion"),
-        ("metrics gt.png a.png --exposure nan", 64, "stops"),
-        ("rank gt.png a.png --metrics", 64, "svbrdf metrics"),
-    ];
-    assert_refused(folder.path(), &refused);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use image::{Rgb, RgbImage};
 use serde_json::json;
 
-use super::{assert_has, command, fail, folder, run_in, succeed, text};
+use super::{assert_has, fail, folder, run_in, succeed, text};
 
 /// The documents that name a picture, in the folder `in` below `at`, each with its command.
 fn documents(at: &Path, picture: &str) -> Vec<(&'static str, &'static str)> {
@@ -187,12 +187,9 @@ fn what_the_system_does_not_give_is_an_error() {
     let folder = folder();
     let at = folder.path();
     RgbImage::from_pixel(16384, 4096, Rgb([128, 128, 255])).save(at.join("large.png")).unwrap();
-    let info = format!("{} info large.png --max-memory 64GiB", env!("CARGO_BIN_EXE_svbrdf"));
     // Kilobytes of address space; the picture takes 192 MiB.
     let said = [200_000, 250_000, 300_000].map(|limit| {
-        let mut command = command("sh");
-        command.args(["-c", &format!("ulimit -v {limit}; exec {info}")]).current_dir(at);
-        let output = command.envs([("RAYON_NUM_THREADS", "1"), ("MALLOC_ARENA_MAX", "1")]).output().unwrap();
+        let output = super::limited(at, &format!("-v {limit}"), "info large.png --max-memory 64GiB");
         let said = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{limit}: {said}");
         said.to_owned()

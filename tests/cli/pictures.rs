@@ -146,18 +146,6 @@ fn a_png_of_a_difference_has_the_colours_of_the_map_and_says_so() {
     assert!(bytes.windows(text.len()).any(|window| window == text));
 }
 
-#[test]
-fn a_difference_needs_two_materials_of_one_size() {
-    let folder = folder();
-    let refused = [
-        ("render gt.png --difference -o out.png", 64, "prediction"),
-        ("render gt.png big.png --difference -o out.png", 1, "16 x 16"),
-        ("render --show normal --difference=log -o out.png", 64, "log"),
-        ("render --show height -o out.png", 64, "height"),
-    ];
-    assert_refused(folder.path(), &refused);
-}
-
 /// The pixels of a cell of a picture.
 fn crop(picture: &image::RgbImage, [x, y]: [usize; 2], side: usize) -> Vec<[u8; 3]> {
     let cell = image::imageops::crop_imm(picture, x as u32, y as u32, side as u32, side as u32).to_image();

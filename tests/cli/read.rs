@@ -33,27 +33,6 @@ fn options_of_reading_apply_to_all_to_a_side_or_to_a_name() {
     assert_eq!(several, loss("gt.png a.png --read pred:albedo=srgb --read pred:roughness=gloss"));
     assert_eq!(loss("gt.png a.png --preset pred:gao"), loss("gt.png a.png --read a:preset=gao"));
     assert_ne!(loss("gt.png a.png --preset pred:gao"), loss("gt.png a.png --preset gao"));
-}
-
-#[test]
-fn unknown_keys_values_and_names_are_refused_with_those_that_exist() {
-    let folder = folder();
-    let refused = [
-        ("loss gt.png a.png --read albdo=srgb", 64, "use one of: albedo, dielectric-f0"),
-        ("loss gt.png a.png --read albedo=sRGB", 64, "linear, srgb, gamma2.2, log0.01"),
-        ("loss gt.png a.png b.png --read c:albedo=srgb", 64, "the names are gt, a, b"),
-        ("loss gt.png a.png --read albedo=srgb --read albedo=linear", 64, "albedo is specified twice"),
-        ("loss gt.png a.png --preset gao --read preset=gltf", 64, "preset is specified twice"),
-        (
-            "render gt.png -o x.png --read pred:albedo=srgb",
-            64,
-            "there is no prediction; leave out --read pred:albedo",
-        ),
-        ("loss a.png gt.png --read gt:albedo=srgb", 64, "give it another name"),
-        ("loss --read albedo=srgb", 64, "the built-in materials are not read from files; leave out --read"),
-        ("loss --albedo srgb", 64, "the built-in materials are not read from files; leave out --read"),
-    ];
-    assert_refused(folder.path(), &refused);
     succeed(folder.path(), "info gt.png --read gt:albedo=srgb");
 }
 

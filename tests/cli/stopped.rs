@@ -180,11 +180,7 @@ fn a_limit_of_the_size_of_files_is_an_error_that_leaves_nothing() {
     let folder = folder();
     write_material(&folder.path().join("large.png"), LARGE, 90);
     let before = files(folder.path());
-    let limited = format!(
-        "ulimit -f 100; exec {} convert large.png out.exr --depth float",
-        env!("CARGO_BIN_EXE_svbrdf")
-    );
-    let output = command("sh").args(["-c", &limited]).current_dir(folder.path()).output().unwrap();
+    let output = super::limited(folder.path(), "-f 100", "convert large.png out.exr --depth float");
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("cannot write out.exr"), "{said}");

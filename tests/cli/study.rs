@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use super::{
-    assert_has, assert_refused, folder, loss_of, rows, text, text_of, without_adapter, write_material,
-};
+use super::{assert_has, folder, loss_of, rows, text, text_of, without_adapter, write_material};
 
 /// The stdout of a study without an adapter.
 fn study(folder: &Path, args: &str) -> String {
@@ -51,19 +49,4 @@ fn a_png_shows_points() {
     let is = |colour: [u8; 3]| picture.pixels().filter(|pixel| pixel.0 == colour).count();
     // The paper; a blue point and an orange triangle at least, which others may cover, beside those of the legend.
     assert!(is([255; 3]) > 500_000 && is([0, 114, 178]) > 2 * 60 && is([213, 94, 0]) > 2 * 30);
-}
-
-#[test]
-fn a_study_that_cannot_be_done_is_refused() {
-    let folder = folder();
-    let refused = [
-        ("study gt.png gt.png -o study.csv", 1, "look the same"),
-        ("study gt.png", 64, "one prediction"),
-        ("study gt.png a.png b.png", 64, "not 2"),
-        ("study gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
-        ("study gt.png a.png --plot study.jpg", 64, ".svg, .png"),
-        ("study gt.png a.png --plot no/study.svg", 1, "create the folder"),
-        ("study gt.png a.png -o no/study.csv", 1, "create the folder"),
-    ];
-    assert_refused(folder.path(), &refused);
 }

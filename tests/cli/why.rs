@@ -3,8 +3,8 @@
 use serde_json::Value;
 
 use super::{
-    assert_has, assert_refused, folder, json, json_of, loss_of, losses_as_json, rows, rows_of, run_in,
-    succeed, text, text_of, write_material, write_tiles,
+    assert_has, folder, json, json_of, loss_of, losses_as_json, rows, rows_of, run_in, succeed, text,
+    text_of, write_material, write_tiles,
 };
 
 #[test]
@@ -109,18 +109,4 @@ fn maps_are_written_in_every_format() {
     let mean: f64 = cells.map(|cell| cell.parse::<f64>().unwrap()).sum::<f64>() / (3.0 * 64.0);
     let loss = loss_of(folder.path(), "gt.png a.png --near 128 --distant 64 --sampler sobol");
     assert!((mean / loss - 1.0).abs() < 1e-5, "{mean}, {loss}");
-}
-
-#[test]
-fn what_cannot_be_done_is_refused() {
-    let folder = folder();
-    let refused = [
-        ("blame gt.png", 64, "no prediction"),
-        ("worst gt.png big.png", 1, "sizes differ"),
-        ("scenes gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
-        ("map gt.png a.png -o map.txt", 64, "extension"),
-        ("map gt.png a.png -o nowhere/map.csv", 1, "its folder does not exist"),
-        ("map gt.png a.png --over lights --fixed 0,0,-1 -o map.csv", 1, "not above the plane"),
-    ];
-    assert_refused(folder.path(), &refused);
 }
