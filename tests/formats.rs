@@ -98,6 +98,20 @@ fn gray(folder: &Path, name: &str, value: f64) {
     put(folder, name, |_, _| [value; 3]);
 }
 
+/// A folder of pictures of one value each.
+fn grays(pictures: &[(&str, f64)]) -> tempfile::TempDir {
+    let folder = tempdir().unwrap();
+    pictures.iter().for_each(|(name, value)| gray(folder.path(), name, *value));
+    folder
+}
+
+/// Writes the four maps as EXR files of floats, each value by `of(map, index, value)`.
+fn put_exrs(folder: &Path, of: impl Fn(usize, usize, f32) -> f32) {
+    for (map, name) in NAMES.iter().enumerate() {
+        map_exr(&folder.join(name).with_extension("exr"), map, |i, v| of(map, i, v));
+    }
+}
+
 /// Writes a picture as `NAME.png`.
 fn put(folder: &Path, name: &str, at: impl Fn(usize, usize) -> [f64; 3]) -> PathBuf {
     save(folder, &format!("{name}.png"), &picture(SIDE, SIDE, at), ImageFormat::Png)

@@ -7,11 +7,12 @@ use crate::support::pictures::layered_with_more;
 
 #[test]
 fn a_level_of_specular_scales_what_no_metal_reflects() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "w_specularLevel", 0.8);
-    gray(folder.path(), "w_basecolor", srgb(0.5));
-    gray(folder.path(), "w_roughness", 0.5);
-    gray(folder.path(), "w_metallic", 0.25);
+    let folder = grays(&[
+        ("w_specularLevel", 0.8),
+        ("w_basecolor", srgb(0.5)),
+        ("w_roughness", 0.5),
+        ("w_metallic", 0.25),
+    ]);
     let read = open(folder.path());
     let got = read.material.texel(7);
     assert!(near(got.diffuse[0], 0.375) && near(got.specular[1], 0.08 * 0.8 * 0.75 + 0.125), "{got:?}");
@@ -65,10 +66,7 @@ fn layers_of_no_use_are_said_to_be_unused() {
 
 #[test]
 fn matfusion_adds_what_metal_reflects() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "albedo", gamma(0.5));
-    gray(folder.path(), "metalness", 0.75);
-    gray(folder.path(), "roughness", 0.5);
+    let folder = grays(&[("albedo", gamma(0.5)), ("metalness", 0.75), ("roughness", 0.5)]);
     let specular = |preset| {
         let options = ReadOptions { preset, albedo: Some(Albedo::Gamma22), ..ReadOptions::AUTO };
         open_as(folder.path(), &options).material.texel(0).specular[0]

@@ -189,9 +189,7 @@ fn maps_can_be_named_one_by_one() {
 
 #[test]
 fn named_maps_of_specular_and_diffuse_take_the_place_of_a_metallic_workflow() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "basecolor", 0.1);
-    gray(folder.path(), "orm", 1.0);
+    let folder = grays(&[("basecolor", 0.1), ("orm", 1.0)]);
     let [d, s] =
         [("one", 0.5), ("two", 0.25)].map(|(name, value)| put(folder.path(), name, |_, _| [srgb(value); 3]));
     let bindings = [format!("diffuse={}", d.display()), format!("specular={}", s.display())];

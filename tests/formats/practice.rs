@@ -30,9 +30,7 @@ fn is_doubted(read: &Read<f64>, what: What) -> bool {
 
 #[test]
 fn one_statistic_of_specular_does_not_make_colours_linear() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "diffuse", 0.4);
-    gray(folder.path(), "roughness", 0.5);
+    let folder = grays(&[("diffuse", 0.4), ("roughness", 0.5)]);
     put(folder.path(), "normal_gl", bumps);
     // From 0 to 0.44, with a median of 0.055.
     let varied = |u: f64| [if u < 0.5 { 0.11 * u } else { 0.055 + 0.77 * (u - 0.5) }; 3];
@@ -54,8 +52,7 @@ fn one_statistic_of_specular_does_not_make_colours_linear() {
 
 #[test]
 fn a_roughness_of_packed_channels_is_not_their_mean() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "basecolor", 0.5);
+    let folder = grays(&[("basecolor", 0.5)]);
     put(folder.path(), "normal_gl", bumps);
     // As a glTF exporter writes it: red and blue are white.
     channels(folder.path(), "roughness", |u| [1.0, 2.0 * DARK * u, 1.0]);
@@ -75,8 +72,7 @@ fn a_roughness_of_packed_channels_is_not_their_mean() {
 
 #[test]
 fn a_picture_of_blender_that_is_named_after_both_maps_holds_both() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "X_BaseColor", 0.5);
+    let folder = grays(&[("X_BaseColor", 0.5)]);
     channels(folder.path(), "X_Metallic-X_Roughness", |u| [0.0, DARK, u]);
     let read = open(folder.path());
     assert!((mean_roughness(&read) - DARK).abs() < EIGHT_BITS);
@@ -85,8 +81,7 @@ fn a_picture_of_blender_that_is_named_after_both_maps_holds_both() {
 
 #[test]
 fn specular_and_glossiness_in_one_picture_are_taken_apart() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "m_diffuse", 0.5);
+    let folder = grays(&[("m_diffuse", 0.5)]);
     let image = RgbaImage::from_fn(SIDE as u32, SIDE as u32, |x, _| Rgba([90, 90, 90, 40 + x as u8]));
     save(folder.path(), "m_specularGlossiness.png", &image.into(), ImageFormat::Png);
     let read = open(folder.path());
@@ -108,9 +103,9 @@ fn names_of_libraries_and_engines_open() {
         ["brick_n", "brick", "brick_r"],
     ] {
         let folder = tempdir().unwrap();
-        put(folder.path(), &format!("{}", names[0]), bumps);
-        gray(folder.path(), &format!("{}", names[1]), 0.25);
-        gray(folder.path(), &format!("{}", names[2]), 0.0);
+        put(folder.path(), names[0], bumps);
+        gray(folder.path(), names[1], 0.25);
+        gray(folder.path(), names[2], 0.0);
         let read = open(folder.path());
         let color = read.material.texel(0).diffuse[0];
         assert!(color > 0.03 && color < 0.08, "{names:?}: {color}");
@@ -120,9 +115,7 @@ fn names_of_libraries_and_engines_open() {
 
 #[test]
 fn of_two_pictures_of_normals_y_up_is_preferred_and_a_constant_one_is_not_the_map() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_albedo", 0.5);
-    gray(folder.path(), "a_roughness", 0.5);
+    let folder = grays(&[("a_albedo", 0.5), ("a_roughness", 0.5)]);
     put(folder.path(), "a_normal-ogl", bumps);
     put(folder.path(), "a_normal-dx", bumps);
     let read = open(folder.path());
@@ -135,9 +128,7 @@ fn of_two_pictures_of_normals_y_up_is_preferred_and_a_constant_one_is_not_the_ma
 
 #[test]
 fn specular_beside_packed_metallic_does_not_switch_the_workflow_in_silence() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_diff", 0.5);
-    gray(folder.path(), "a_spec", 0.3);
+    let folder = grays(&[("a_diff", 0.5), ("a_spec", 0.3)]);
     channels(folder.path(), "a_arm", |u| [1.0, DARK, u]);
     let read = open(folder.path());
     assert_eq!(chosen(&read, What::Workflow), "metallic");
@@ -147,15 +138,12 @@ fn specular_beside_packed_metallic_does_not_switch_the_workflow_in_silence() {
 #[test]
 fn floats_of_normals_that_overshoot_are_not_signed() {
     let folder = tempdir().unwrap();
-    for (map, name) in ["normal", "diffuse", "roughness", "specular"].iter().enumerate() {
-        // Unsigned normals, with one overshoot.
-        let value = |i: usize, v: f32| match (map, i) {
-            (0, 7) => -0.16,
-            (0, _) => 0.5 * v + 0.5,
-            _ => v,
-        };
-        map_exr(&folder.path().join(format!("{name}.exr")), map, value);
-    }
+    // Unsigned normals, with one overshoot.
+    put_exrs(folder.path(), |map, i, v| match (map, i) {
+        (0, 7) => -0.16,
+        (0, _) => 0.5 * v + 0.5,
+        _ => v,
+    });
     assert_eq!(chosen(&open(folder.path()), What::NormalEncoding), "unsigned");
 }
 
@@ -182,8 +170,7 @@ fn strict_reading_takes_names_and_specifications_only() {
 
 #[test]
 fn a_missing_map_lists_its_names_and_no_junk() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "rock_albedo", 0.5);
+    let folder = grays(&[("rock_albedo", 0.5)]);
     for junk in ["rock_albedo.png.import", "rock.meta", "Thumbs.db"] {
         std::fs::write(folder.path().join(junk), "x").unwrap();
     }
@@ -194,9 +181,7 @@ fn a_missing_map_lists_its_names_and_no_junk() {
 
 #[test]
 fn a_picture_named_metal_that_looks_like_normals_is_asked_about() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_basecolor", 0.5);
-    gray(folder.path(), "a_roughness", 0.5);
+    let folder = grays(&[("a_basecolor", 0.5), ("a_roughness", 0.5)]);
     put(folder.path(), "a_normal_gl", bumps);
     gray(folder.path(), "a_metal", 1.0);
     assert!(!is_doubted(&open(folder.path()), What::Layout));
@@ -208,10 +193,7 @@ fn a_picture_named_metal_that_looks_like_normals_is_asked_about() {
 
 #[test]
 fn specular_beside_diffuse_without_other_evidence_is_srgb_and_asked_about() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_diffuse", 0.4);
-    gray(folder.path(), "a_specular", 0.12);
-    gray(folder.path(), "a_roughness", 0.5);
+    let folder = grays(&[("a_diffuse", 0.4), ("a_specular", 0.12), ("a_roughness", 0.5)]);
     assert_eq!(albedo(folder.path()), ("srgb".into(), true));
     // Glossiness is how artists name it, who do not store colours linear.
     std::fs::rename(folder.path().join("a_roughness.png"), folder.path().join("a_gloss.png")).unwrap();
@@ -220,9 +202,7 @@ fn specular_beside_diffuse_without_other_evidence_is_srgb_and_asked_about() {
 
 #[test]
 fn metals_darker_than_metals_are_linear_and_asked_about() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_diffuse", 0.0);
-    gray(folder.path(), "a_roughness", 0.5);
+    let folder = grays(&[("a_diffuse", 0.0), ("a_roughness", 0.5)]);
     for (specular, expected) in [(0.5, "linear"), (0.85, "srgb")] {
         gray(folder.path(), "a_specular", specular);
         assert_eq!(albedo(folder.path()), (expected.into(), true));
@@ -231,9 +211,7 @@ fn metals_darker_than_metals_are_linear_and_asked_about() {
 
 #[test]
 fn a_colour_that_is_too_dark_if_encoded_is_asked_about() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_roughness", 0.5);
-    gray(folder.path(), "a_metallic", 0.0);
+    let folder = grays(&[("a_roughness", 0.5), ("a_metallic", 0.0)]);
     for (colour, doubted) in [(0.4, false), (0.07, true)] {
         gray(folder.path(), "a_basecolor", colour);
         assert_eq!(albedo(folder.path()), ("srgb".into(), doubted));

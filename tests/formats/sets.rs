@@ -79,8 +79,7 @@ fn metallic_sets_of_every_library_become_diffuse_and_specular() {
 #[test]
 fn packed_occlusion_roughness_metallic_is_taken_apart() {
     for name in ["a_OcclusionRoughMetal", "a_orm", "a_arm_2k", "a_metallicRoughness"] {
-        let folder = tempdir().unwrap();
-        gray(folder.path(), "a_BaseColor", srgb(0.5));
+        let folder = grays(&[("a_BaseColor", srgb(0.5))]);
         put(folder.path(), "a_Normal", bumps);
         put(folder.path(), name, |x, y| [1.0, texel(2, x, y)[0], 1.0]);
         let read = open(folder.path());

@@ -37,16 +37,20 @@ pub fn gray(folder: &Path, name: &str, value: f64) {
     put(folder, name, &picture(BUMPS, BUMPS, |_, _| [value; 3]));
 }
 
+pub fn grays(pictures: &[(&str, f64)]) -> tempfile::TempDir {
+    let folder = tempdir().unwrap();
+    pictures.iter().for_each(|(name, value)| gray(folder.path(), name, *value));
+    folder
+}
+
 /// Base colour and roughness of a set of this stem.
-fn colour_and_roughness(folder: &Path, stem: &str) {
-    gray(folder, &format!("{stem}_albedo.png"), 0.5);
-    gray(folder, &format!("{stem}_roughness.png"), 0.25);
+fn colour_and_roughness(stem: &str) -> tempfile::TempDir {
+    grays(&[(&format!("{stem}_albedo.png"), 0.5), (&format!("{stem}_roughness.png"), 0.25)])
 }
 
 #[test]
 fn the_common_name_of_a_set_is_no_word_of_a_map() {
-    let folder = tempdir().unwrap();
-    colour_and_roughness(folder.path(), "metal");
+    let folder = colour_and_roughness("metal");
     put(folder.path(), "metal_nmroal.png", &heights(1.0));
     let read = open(folder.path());
     assert!((read.material.texel(9).roughness - 0.25).abs() < EIGHT_BITS, "{:?}", read.material.texel(9));
@@ -56,8 +60,7 @@ fn the_common_name_of_a_set_is_no_word_of_a_map() {
 
 #[test]
 fn a_normal_map_with_a_word_too_many_is_found_and_other_leftovers_are_listed() {
-    let folder = tempdir().unwrap();
-    colour_and_roughness(folder.path(), "crate3");
+    let folder = colour_and_roughness("crate3");
     put(folder.path(), "crate3_normal_final.png", &heights(1.0));
     gray(folder.path(), "crate3_roughness_old.png", 0.9);
     gray(folder.path(), "label_specular.png", 0.5);
@@ -72,8 +75,7 @@ fn a_normal_map_with_a_word_too_many_is_found_and_other_leftovers_are_listed() {
 #[test]
 fn heights_decide_where_y_points() {
     for (sign, expected) in [(1.0, "up"), (-1.0, "down")] {
-        let folder = tempdir().unwrap();
-        colour_and_roughness(folder.path(), "floor");
+        let folder = colour_and_roughness("floor");
         put(folder.path(), "floor_normal.png", &heights(sign));
         put(folder.path(), "floor_displacement.png", &picture(BUMPS, BUMPS, |x, y| [height(x, y); 3]));
         let read = open(folder.path());
@@ -99,8 +101,7 @@ fn scratched_bumps() -> image::DynamicImage {
 
 #[test]
 fn heights_settle_a_name_that_the_curl_contradicts() {
-    let folder = tempdir().unwrap();
-    colour_and_roughness(folder.path(), "floor");
+    let folder = colour_and_roughness("floor");
     put(folder.path(), "floor_normal_gl.png", &scratched_bumps());
     let is_doubted = |read: &Read<f64>| read.unsure().any(|a| a.what == What::NormalY);
     assert!(is_doubted(&open(folder.path())));
@@ -117,8 +118,7 @@ fn heights_settle_a_name_that_the_curl_contradicts() {
 
 #[test]
 fn a_normal_and_a_roughness_word_together_mean_roughness_in_alpha() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "soil_alb_ht.png", 0.5);
+    let folder = grays(&[("soil_alb_ht.png", 0.5)]);
     let normals = heights(1.0).to_rgb8();
     let packed = RgbaImage::from_fn(BUMPS as u32, BUMPS as u32, |x, y| {
         let [r, g, b] = normals.get_pixel(x, y).0;
@@ -169,9 +169,7 @@ fn one_file_of_an_incomplete_set_says_what_is_missing() {
 
 #[test]
 fn a_map_may_be_specified_as_a_constant_and_its_file_is_not_called_unused() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "lid_albedo.png", 0.5);
-    gray(folder.path(), "Properties.png", 0.3);
+    let folder = grays(&[("lid_albedo.png", 0.5), ("Properties.png", 0.3)]);
     let read = |text: &str| {
         let bindings: Vec<Binding> = vec![text.parse().unwrap()];
         read_bound::<f64>(folder.path(), &bindings, &ReadOptions::AUTO, &Progress::default()).unwrap()
@@ -241,8 +239,7 @@ fn presets_of_networks_read_what_their_codes_write() {
         assert!((texel.roughness - 0.25).abs() < EIGHT_BITS, "{preset}: {texel:?}");
         assert_eq!((chosen(&read, What::NormalY), read.unsure().count()), ("up", 0), "{preset}");
     }
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "0_albedo.png", 0.5);
+    let folder = grays(&[("0_albedo.png", 0.5)]);
     put(folder.path(), "0_normals.png", &heights(1.0));
     gray(folder.path(), "0_roughness.png", 0.25);
     let read = open_as(folder.path(), Preset::MaterialPalette);
@@ -254,8 +251,7 @@ fn presets_of_networks_read_what_their_codes_write() {
 
 #[test]
 fn a_document_beside_the_pictures_is_named_and_its_format_defines_y() {
-    let folder = tempdir().unwrap();
-    colour_and_roughness(folder.path(), "lid");
+    let folder = colour_and_roughness("lid");
     let slight = picture(BUMPS, BUMPS, |x, _| [0.5 + 0.05 * (x % 2) as f64, 0.5, 1.0]);
     put(folder.path(), "lid_normal.png", &slight);
     let text = r#"{"images": [{"uri": "lid_normal.png"}]}"#;

@@ -36,13 +36,7 @@ fn pictured(material: &Material<f32>, corners: &Corners, factor: f64) -> svbrdf_
     let unit = basis([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
     let from_pixel = unit * basis(corners.0).inverse();
     let [half_width, half_height] = material.grid().half_extent().map(f64::from);
-    let texel = material.texel(0);
-    let texel = Texel {
-        normal: texel.normal.as_dvec3(),
-        diffuse: texel.diffuse.map(f64::from),
-        specular: texel.specular.map(f64::from),
-        roughness: f64::from(texel.roughness),
-    };
+    let texel = material.cast::<f64>().texel(0);
     photograph(700, 500, |x, y| {
         let p = from_pixel * DVec3::new(x as f64 + 0.5, y as f64 + 0.5, 1.0);
         let [s, t] = [p.x / p.z, p.y / p.z];
