@@ -93,6 +93,18 @@ fn assert_has(text: &str, parts: &[&str]) {
     }
 }
 
+/// Checks that a file of the folder holds these texts, in whatever surrounds them.
+#[track_caller]
+fn assert_holds(folder: &Path, name: &str, parts: &[&str]) {
+    let bytes = std::fs::read(folder.join(name)).unwrap();
+    for part in parts {
+        assert!(
+            bytes.windows(part.len()).any(|window| window == part.as_bytes()),
+            "`{part}` is not in {name}"
+        );
+    }
+}
+
 /// Runs each command, which must fail with its code and a message that has its words.
 fn assert_refused(folder: &Path, commands: &[(&str, i32, &str)]) {
     for (args, code, words) in commands {

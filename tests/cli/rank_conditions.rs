@@ -1,7 +1,6 @@
 //! What stands around the numbers of a ranking: how files were read, over which materials a mean is, and how to repeat it.
 
 use std::fs;
-use std::path::Path;
 
 use super::{
     assert_has, assert_refused, data_set, json, json_of, rows_of, run_in, succeed, text, text_of,
@@ -11,22 +10,18 @@ use serde_json::Value;
 
 const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
 
-/// A material in a folder, without its normal map.
-fn write_without_normals(folder: &Path) {
-    fs::create_dir(folder).unwrap();
-    for (map, value) in [("diffuse", 200), ("specular", 12), ("roughness", 120)] {
-        image::GrayImage::from_pixel(8, 8, image::Luma([value]))
-            .save(folder.join(format!("{map}.png")))
-            .unwrap();
-    }
-}
-
 #[test]
 fn a_ranking_says_how_files_were_read() {
     let folder = data_set(&[("ours", 8), ("theirs", 16)], 5);
     for i in 0..3 {
-        fs::remove_file(folder.path().join(format!("theirs/m{i}.png"))).unwrap();
-        write_without_normals(&folder.path().join(format!("theirs/m{i}")));
+        // A set without its normal map.
+        let set = folder.path().join(format!("theirs/m{i}"));
+        fs::remove_file(set.with_extension("png")).unwrap();
+        fs::create_dir(&set).unwrap();
+        for (map, value) in [("diffuse", 200), ("specular", 12), ("roughness", 120)] {
+            let gray = image::GrayImage::from_pixel(8, 8, image::Luma([value]));
+            gray.save(set.join(map).with_extension("png")).unwrap();
+        }
     }
     let expected = "3 of 5 without normal map";
     let doubts = |output: &str| output.lines().find(|line| line.contains(expected)).map(str::to_owned);
@@ -37,15 +32,15 @@ fn a_ranking_says_how_files_were_read() {
     let output = run_in(folder.path(), &format!("{RANK} --format json"));
     assert!(doubts(text(&output.stderr)).is_some(), "{}", text(&output.stderr));
     let ranking = json(text(&output.stdout));
-    let theirs = ranking["methods"].as_array().unwrap().iter().find(|one| one["method"] == "theirs").unwrap();
-    let without = theirs["reading"]["doubts"].as_array().unwrap();
-    let without = without.iter().find(|doubt| doubt["doubt"] == "without normal map").unwrap();
+    let find = |all: &Value, key: &str, value: &str| {
+        all.as_array().unwrap().iter().find(|one| one[key] == value).unwrap().clone()
+    };
+    let theirs = find(&ranking["methods"], "method", "theirs");
+    let without = find(&theirs["reading"]["doubts"], "doubt", "without normal map");
     assert_eq!((&without["materials"], &theirs["reading"]["materials"]), (&3.into(), &5.into()));
     let remarks = ranking["results"][0]["predictions"][1]["reading"].as_array().unwrap();
-    assert!(
-        remarks.iter().any(|one| one["text"].as_str().unwrap().starts_with("missing: normal")),
-        "{remarks:?}"
-    );
+    let is_missing = |one: &Value| one["text"].as_str().unwrap().starts_with("missing: normal");
+    assert!(remarks.iter().any(is_missing), "{remarks:?}");
 
     let rows = rows_of(folder.path(), RANK);
     let counts: Vec<usize> = rows.iter().map(|row| row["doubts"].parse().unwrap()).collect();
