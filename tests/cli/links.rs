@@ -50,11 +50,7 @@ fn nothing_that_was_read_is_replaced_by_another_name() {
         ("render gt.png -o link.png", "gt.png", "link.png"),
         (&page, "pairs.csv", "link.html"),
         (&kept, &result, "link.html"),
-        (
-            "report s.svbrdf-session.json --target-error 30% -o link.html",
-            "s.svbrdf-session.json",
-            "link.html",
-        ),
+        ("report s.svbrdf-session.json -o link.html", "s.svbrdf-session.json", "link.html"),
         ("map gt.png a.png --scenes one.json -o link.csv", "one.json", "link.csv"),
         ("strip gt.png a.png --scenes one.json -o link.png", "one.json", "link.png"),
         ("render gt.png -o link.png", "gt.svbrdf.json", "link.png"),
