@@ -5,7 +5,7 @@ mod claims;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use image::{GrayImage, RgbImage};
+use image::{DynamicImage, GrayImage, RgbImage};
 use tempfile::tempdir;
 
 use svbrdf_core::material::Material;
@@ -15,66 +15,69 @@ use svbrdf_files::read::{ReadOptions, read, read_bytes};
 use crate::support::fixtures::{bytes_at, flat, map, png_bytes, save, save_maps, strip};
 use crate::support::png::crc32;
 
-/// A kind of bad input: what it is, what makes it (in an empty folder) and returns what to open, and the words that
-/// the message must contain: file, map, what was expected, what was found, what to do.
-type Bad = (&'static str, fn(&Path) -> PathBuf, &'static [&'static str]);
+/// A kind of bad input: what makes it (in an empty folder) and returns what to open, and the words that the message must contain, split by
+/// ` .. `: file, map, what was expected, what was found, what to do.
+type Bad = (fn(&Path) -> PathBuf, &'static str);
+
+/// Bytes of a file `x.png`, and the words of the message.
+type BadBytes = (Vec<u8>, &'static str);
+
+fn assert_refused(path: &Path, words: &str) {
+    let message = match read::<f32>(path, &ReadOptions::default(), &Progress::default()) {
+        Ok(_) => panic!("it was read without an error: {words}"),
+        Err(error) => error.to_string(),
+    };
+    println!("{message}");
+    for word in words.split(" .. ") {
+        assert!(message.contains(word), "`{word}` is not in: {message}");
+    }
+}
 
 fn assert_all_refused(table: &[Bad]) {
-    for (what, make, words) in table {
+    for (make, words) in table {
         let folder = tempdir().unwrap();
-        let path = make(folder.path());
-        let message = match read::<f32>(&path, &ReadOptions::default(), &Progress::default()) {
-            Ok(_) => panic!("{what} was read without an error"),
-            Err(error) => error.to_string(),
-        };
-        println!("{what}:\n    {message}");
-        for word in *words {
-            assert!(message.contains(word), "{what}: `{word}` is not in: {message}");
-        }
+        assert_refused(&make(folder.path()), words);
     }
+}
+
+fn assert_bytes_refused(table: &[BadBytes]) {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("x.png");
+    for (bytes, words) in table {
+        fs::write(&path, bytes).unwrap();
+        assert_refused(&path, &format!("x.png .. {words}"));
+    }
+}
+
+/// The maps of the fixtures, of which one is another picture.
+fn with(folder: &Path, name: &str, image: &DynamicImage) -> PathBuf {
+    save_maps(folder, "");
+    save(folder, name, image);
+    folder.to_owned()
 }
 
 #[test]
 fn paths_that_lead_to_no_material_are_refused() {
     assert_all_refused(&[
+        (|f| f.join("absent.png"), "cannot read .. absent.png .. no file, folder or prefix .. check"),
+        (|f| f.join("no/such/gt"), "cannot read .. no/such .. check"),
+        (|f| save(f, "a.png", &strip(0)).join("gt"), "cannot read .. a.png .. check"),
+        (|f| f.to_owned(), "not a material .. normal map .. found no files .. add"),
         (
-            "a missing file",
-            |f| f.join("absent.png"),
-            &["cannot read", "absent.png", "no file, folder or prefix", "check"],
-        ),
-        ("a missing folder", |f| f.join("no/such/gt"), &["cannot read", "no/such", "check"]),
-        ("a file as folder", |f| save(f, "a.png", &strip(0)).join("gt"), &["cannot read", "a.png", "check"]),
-        ("an empty folder", |f| f.to_owned(), &["not a material", "normal map", "found no files", "add"]),
-        (
-            "a folder without maps",
             |f| {
                 fs::write(f.join("readme.txt"), "x").unwrap();
-                save(f, "photo.png", &flat(4, 4, [1; 3]));
-                f.to_owned()
+                save(f, "photo.png", &flat(4, 4, [1; 3])).with_file_name("")
             },
-            &[
-                "not a material",
-                "a packed picture",
-                "rgh",
-                "found photo.png, whose name names no map, and readme.txt",
-            ],
+            "a packed picture .. rgh .. found photo.png, whose name names no map, and readme.txt",
         ),
         (
-            "a folder of many files without maps",
             |f| {
                 (0..40).for_each(|i| fs::write(f.join(format!("{i:02}.txt")), "x").unwrap());
                 f.to_owned()
             },
-            &["11.txt and 28 more"],
+            "11.txt and 28 more",
         ),
-        (
-            "a prefix of one file without a map",
-            |f| {
-                save(f, "gt.png", &strip(0));
-                f.join("gt")
-            },
-            &["normal map", "found gt.png"],
-        ),
+        (|f| save(f, "gt.png", &strip(0)).with_extension(""), "normal map .. found gt.png"),
     ]);
 }
 
@@ -82,111 +85,44 @@ fn paths_that_lead_to_no_material_are_refused() {
 fn wrong_sets_of_maps_are_refused() {
     assert_all_refused(&[
         (
-            "a missing map",
             |f| {
                 save_maps(f, "gt_");
                 fs::rename(f.join("gt_roughness.png"), f.join("gt_roughness.txt")).unwrap();
                 f.join("gt")
             },
-            &["gt is not a material", "one picture for the roughness map", "rgh", "gt_roughness.txt", "add"],
+            "gt is not a material .. one picture for the roughness map .. rgh .. gt_roughness.txt .. add",
         ),
+        (|f| with(f, "dif.png", &map(1)), "diffuse map .. found dif.png and diffuse.png .. prefix"),
+        (|f| with(f, "specular.png", &flat(5, 6, [9; 3])), "normals.png is 4 x 4 .. specular.png is 5 x 6"),
+        (|f| with(f, "normals.png", &GrayImage::new(4, 4).into()), "a normal map in RGB .. one in gray"),
         (
-            "two files for one map",
-            |f| {
-                save_maps(f, "");
-                save(f, "dif.png", &map(1));
-                f.to_owned()
-            },
-            &["diffuse map", "found dif.png and diffuse.png", "prefix"],
-        ),
-        (
-            "maps of different sizes",
-            |f| {
-                save_maps(f, "");
-                save(f, "specular.png", &flat(5, 6, [9; 3]));
-                f.to_owned()
-            },
-            &["sizes differ", "normals.png is 4 x 4", "specular map", "specular.png is 5 x 6", "one shape"],
-        ),
-        (
-            "a gray normal map",
-            |f| {
-                save_maps(f, "");
-                save(f, "normals.png", &GrayImage::new(4, 4).into());
-                f.to_owned()
-            },
-            &["normals.png", "a normal map in RGB", "found one in gray", "height map"],
-        ),
-    ]);
-}
-
-#[test]
-fn strips_of_the_wrong_shape_are_refused() {
-    assert_all_refused(&[
-        (
-            "a strip of three tiles",
             |f| save(f, "three.png", &flat(12, 4, [200; 3])),
-            &["three.png is not a material", "normal | diffuse | roughness | specular", "12 x 4", "prefix"],
+            "normal | diffuse | roughness | specular .. 12 x 4",
         ),
+        (|f| save(f, "odd.png", &flat(17, 4, [200; 3])), "4 or more times as wide as high .. 17 x 4"),
+        (|f| save(f, "up.png", &flat(4, 16, [200; 3])), "up.png .. found 4 x 16"),
         (
-            "a strip that is no multiple of its height",
-            |f| save(f, "odd.png", &flat(17, 4, [200; 3])),
-            &[
-                "odd.png is not a material",
-                "4 or more times as wide as high",
-                "17 x 4",
-                "give a packed image",
-            ],
+            |f| {
+                save_maps(f, "");
+                fs::write(f.join("roughness.png"), &png_bytes(&map(2))[..50]).unwrap();
+                f.to_owned()
+            },
+            "roughness.png .. roughness map: expected the whole image .. end of the file",
         ),
-        ("an upright strip", |f| save(f, "up.png", &flat(4, 16, [200; 3])), &["up.png", "found 4 x 16"]),
     ]);
 }
 
 #[test]
 fn files_that_are_no_whole_image_are_refused() {
-    assert_all_refused(&[
-        (
-            "an empty file",
-            |f| written(f, b""),
-            &["cannot decode", "x.png: expected PNG, TIFF", "no known image", "give"],
-        ),
-        (
-            "a text",
-            |f| written(f, b"not an image at all"),
-            &["x.png", "expected PNG, TIFF", "no known image"],
-        ),
-        (
-            "a JPEG",
-            |f| written(f, b"\xff\xd8\xff\xe0 and so on"),
-            &["x.png", "expected a valid JPEG", "again"],
-        ),
-        (
-            "a truncated strip",
-            |f| {
-                let bytes = png_bytes(&strip(0));
-                written(f, &bytes[..bytes.len() * 2 / 3])
-            },
-            &["cannot decode", "x.png: expected the whole image", "end of the file", "again"],
-        ),
-        (
-            "a truncated map of a folder",
-            |f| {
-                save_maps(f, "");
-                let bytes = png_bytes(&map(2));
-                fs::write(f.join("roughness.png"), &bytes[..50]).unwrap();
-                f.to_owned()
-            },
-            &["roughness.png", "roughness map: expected the whole image", "end of the file"],
-        ),
-        (
-            "a damaged strip",
-            |f| {
-                let mut bytes = png_bytes(&strip(0));
-                bytes[45] ^= 0xff;
-                written(f, &bytes)
-            },
-            &["cannot decode", "x.png: expected a valid PNG", "again"],
-        ),
+    let whole = png_bytes(&strip(0));
+    let mut damaged = whole.clone();
+    damaged[45] ^= 0xff;
+    assert_bytes_refused(&[
+        (Vec::new(), "cannot decode .. expected PNG, TIFF .. no known image .. give"),
+        (b"not an image at all".into(), "expected PNG, TIFF .. no known image"),
+        (b"\xff\xd8\xff\xe0 and so on".into(), "expected a valid JPEG .. again"),
+        (whole[..whole.len() * 2 / 3].into(), "expected the whole image .. end of the file .. again"),
+        (damaged, "cannot decode .. expected a valid PNG .. again"),
     ]);
 }
 
@@ -229,12 +165,6 @@ fn assert_valid(material: &Material<f32>) {
         let values = texel.diffuse.into_iter().chain(texel.specular).chain([texel.roughness]);
         assert!(values.into_iter().all(|x| (0.0..=1.0).contains(&x)), "{texel:?}");
     }
-}
-
-fn written(folder: &Path, bytes: &[u8]) -> PathBuf {
-    let path = folder.join("x.png");
-    fs::write(&path, bytes).unwrap();
-    path
 }
 
 /// Makes the checksum of every chunk of a PNG right.

@@ -31,8 +31,8 @@ mod steps;
 mod stopped;
 mod study;
 mod why;
-mod written;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Command, Output};
 
@@ -69,6 +69,65 @@ fn succeed(folder: &Path, args: &str) -> String {
 fn is_progress(line: &str) -> bool {
     let count = line.rsplit_once(": ").and_then(|(_, count)| count.split_once(" of "));
     count.is_some_and(|(done, all)| [done, all].iter().all(|number| number.parse::<u64>().is_ok()))
+}
+
+/// The JSON of a run that must succeed.
+fn json_of(folder: &Path, args: &str) -> Value {
+    json(&succeed(folder, &format!("{args} --format json")))
+}
+
+/// The rows of the CSV of a run that must succeed, each cell by its title.
+fn rows_of(folder: &Path, args: &str) -> Vec<BTreeMap<String, String>> {
+    rows(&succeed(folder, &format!("{args} --format csv")))
+}
+
+fn rows(csv: &str) -> Vec<BTreeMap<String, String>> {
+    let rows = csv::Reader::from_reader(csv.as_bytes()).into_deserialize();
+    rows.map(Result::unwrap).collect()
+}
+
+#[track_caller]
+fn assert_has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "`{part}` is missing in\n{text}");
+    }
+}
+
+/// Checks that a file of the folder holds these texts, in whatever surrounds them.
+#[track_caller]
+fn assert_holds(folder: &Path, name: &str, parts: &[&str]) {
+    let bytes = std::fs::read(folder.join(name)).unwrap();
+    for part in parts {
+        assert!(
+            bytes.windows(part.len()).any(|window| window == part.as_bytes()),
+            "`{part}` is not in {name}"
+        );
+    }
+}
+
+/// Runs each command, which must fail with its code and a message that has its words.
+fn assert_refused(folder: &Path, commands: &[(&str, i32, &str)]) {
+    for (args, code, words) in commands {
+        let stderr = fail(folder, args, *code);
+        assert!(stderr.contains(words), "{args}: `{words}` is missing in {stderr}");
+    }
+}
+
+/// The output of a command where no adapter is found.
+fn without_adapter(folder: &Path, args: &str) -> Output {
+    let mut command = svbrdf();
+    command.args(args.split_whitespace()).current_dir(folder);
+    command.env("WGPU_BACKEND", "vulkan").env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none");
+    command.output().unwrap()
+}
+
+/// The output of a command under a limit of the shell, such as `-v 200000`: of one thread, so that it takes little by itself.
+#[cfg(target_os = "linux")]
+fn limited(folder: &Path, limit: &str, args: &str) -> Output {
+    let line = format!("ulimit {limit}; exec {} {args}", env!("CARGO_BIN_EXE_svbrdf"));
+    let mut command = command("sh");
+    command.args(["-c", &line]).current_dir(folder);
+    command.envs([("RAYON_NUM_THREADS", "1"), ("MALLOC_ARENA_MAX", "1")]).output().unwrap()
 }
 
 /// The stderr of a run that must fail with `code`: an error on its one line, no result, no new file.
@@ -146,5 +205,15 @@ fn json(text: &str) -> Value {
 }
 
 fn losses_as_json(folder: &Path, args: &str) -> Value {
-    json(&succeed(folder, &format!("loss {args} --format json")))
+    json_of(folder, &format!("loss {args}"))
+}
+
+/// The loss of the first prediction.
+fn loss_of(folder: &Path, args: &str) -> f64 {
+    losses_as_json(folder, args)["results"][0]["loss"].as_f64().unwrap()
+}
+
+/// A text file of the folder.
+fn text_of(folder: &Path, name: &str) -> String {
+    std::fs::read_to_string(folder.join(name)).unwrap()
 }

@@ -12,41 +12,24 @@ use svbrdf_files::read::{Assumption, Certainty, Read, ReadOptions, What, read};
 
 use crate::support::pictures::{rgb_exr, srgb};
 
-/// Below `../shared`: the picture of diffuse or base colour, that of specular if there is one, and whether they are
+/// Below `../shared`: a folder with the picture of diffuse or base colour, that of specular if there is one, and whether they are
 /// display-encoded.
-const COLOURS: [(&str, &str, bool); 15] = [
-    ("data/ambientcg_Metal049A_1K-JPG/Metal049A_1K-JPG_Color.jpg", "", true),
-    ("data/polyhaven_arm_wooden_table_02/textures/wooden_table_02_diff_1k.jpg", "", true),
-    (
-        "data/gltf_orm_FlightHelmet_LeatherParts/FlightHelmet_Materials_LeatherPartsMat_BaseColor.png",
-        "",
-        true,
-    ),
-    ("data/diffmat_style_png16_dxnormal_derived/basecolor.png", "", true),
-    ("data/materialgan_style_folder_derived/dif.png", "data/materialgan_style_folder_derived/spe.png", true),
-    (
-        "data/surfacenet_style_folder_derived/metal049a/diffuse.png",
-        "data/surfacenet_style_folder_derived/metal049a/specular.png",
-        false,
-    ),
-    (
-        "data/deschaintre_outputs_naming_derived/metal049a-outputs-1-.png",
-        "data/deschaintre_outputs_naming_derived/metal049a-outputs-3-.png",
-        false,
-    ),
-    (
-        "data/deschaintre_outputs_naming_derived/metal049a-outputs_gammad-1-.png",
-        "data/deschaintre_outputs_naming_derived/metal049a-outputs_gammad-3-.png",
-        true,
-    ),
-    ("real/matfuse_castle_brick/diffuse.png", "real/matfuse_castle_brick/specular.png", true),
-    ("real/matfuse_clean_pebbles/diffuse.png", "real/matfuse_clean_pebbles/specular.png", true),
-    ("real/matfuse_old_wood_floor/diffuse.png", "real/matfuse_old_wood_floor/specular.png", true),
-    ("real/substance_default/DefaultMaterial_Base_Color.png", "", true),
-    ("real/polyhaven_sofa/sofa_03_diff_1k.jpg", "", true),
-    ("real/polyhaven_cabinet/painted_wooden_cabinet_02_diff_1k.jpg", "", true),
-    ("real/materialx/Images/wood_color.jpg", "", true),
-];
+const COLOURS: &str = "\
+data/ambientcg_Metal049A_1K-JPG Metal049A_1K-JPG_Color.jpg - encoded
+data/polyhaven_arm_wooden_table_02/textures wooden_table_02_diff_1k.jpg - encoded
+data/gltf_orm_FlightHelmet_LeatherParts FlightHelmet_Materials_LeatherPartsMat_BaseColor.png - encoded
+data/diffmat_style_png16_dxnormal_derived basecolor.png - encoded
+data/materialgan_style_folder_derived dif.png spe.png encoded
+data/surfacenet_style_folder_derived/metal049a diffuse.png specular.png linear
+data/deschaintre_outputs_naming_derived metal049a-outputs-1-.png metal049a-outputs-3-.png linear
+data/deschaintre_outputs_naming_derived metal049a-outputs_gammad-1-.png metal049a-outputs_gammad-3-.png encoded
+real/matfuse_castle_brick diffuse.png specular.png encoded
+real/matfuse_clean_pebbles diffuse.png specular.png encoded
+real/matfuse_old_wood_floor diffuse.png specular.png encoded
+real/substance_default DefaultMaterial_Base_Color.png - encoded
+real/polyhaven_sofa sofa_03_diff_1k.jpg - encoded
+real/polyhaven_cabinet painted_wooden_cabinet_02_diff_1k.jpg - encoded
+real/materialx/Images wood_color.jpg - encoded";
 
 /// Below `../shared`: a picture of normals, and whether y points up.
 const NORMALS: [(&str, bool); 11] = [
@@ -122,9 +105,12 @@ fn assumption<T>(read: &Read<T>, what: What) -> &Assumption {
 /// The tables of colours: by the evidence, and by the median of specular alone, as it was before.
 fn colours() -> [Table; 2] {
     let [mut now, mut before] = [Table::default(), Table::default()];
-    for (colour, specular, is_encoded) in COLOURS {
+    for row in COLOURS.lines() {
+        let [folder, colour, specular, how] = row.split(' ').collect::<Vec<_>>().try_into().unwrap();
+        let is_encoded = how == "encoded";
+        let load = |name: &str| load(&format!("{folder}/{name}"));
         let colour_picture = load(colour);
-        let specular_picture = (!specular.is_empty()).then(|| load(specular));
+        let specular_picture = (specular != "-").then(|| load(specular));
         let gray = RgbImage::from_pixel(colour_picture.width(), colour_picture.height(), Rgb([128; 3]));
         for flip in [false, true] {
             let one = |picture: &RgbImage| if flip { recoded(picture, !is_encoded) } else { picture.clone() };
@@ -181,30 +167,27 @@ fn normals() -> [Table; 2] {
 }
 
 /// Below `../shared`: a picture of roughness, and whether it is gray; others are occlusion, roughness and metallic.
-const ROUGHNESS: [(&str, bool); 14] = [
-    ("data/ambientcg_Metal049A_1K-JPG/Metal049A_1K-JPG_Roughness.jpg", true),
-    ("data/surfacenet_style_folder_derived/metal049a/roughness.png", true),
-    ("data/materialgan_style_folder_derived/rgh.png", true),
-    ("data/diffmat_style_png16_dxnormal_derived/roughness.png", true),
-    ("real/matfuse_castle_brick/roughness.png", true),
-    ("real/matfuse_clean_pebbles/roughness.png", true),
-    ("real/matfuse_old_wood_floor/roughness.png", true),
-    ("real/substance_default/DefaultMaterial_Roughness.png", true),
-    ("real/polyhaven_sofa/sofa_03_rough_1k.jpg", true),
-    ("real/materialx/Images/wood_roughness.jpg", true),
-    ("data/polyhaven_arm_wooden_table_02/textures/wooden_table_02_arm_1k.jpg", false),
-    ("real/polyhaven_cabinet/painted_wooden_cabinet_02_arm_1k.jpg", false),
-    ("real/gltf_orm_two_uvmaps/ORM.png", false),
-    (
-        "data/gltf_orm_FlightHelmet_LeatherParts/FlightHelmet_Materials_LeatherPartsMat_OcclusionRoughMetal.png",
-        false,
-    ),
-];
+const ROUGHNESS: &str = "\
+data/ambientcg_Metal049A_1K-JPG/Metal049A_1K-JPG_Roughness.jpg gray
+data/surfacenet_style_folder_derived/metal049a/roughness.png gray
+data/materialgan_style_folder_derived/rgh.png gray
+data/diffmat_style_png16_dxnormal_derived/roughness.png gray
+real/matfuse_castle_brick/roughness.png gray
+real/matfuse_clean_pebbles/roughness.png gray
+real/matfuse_old_wood_floor/roughness.png gray
+real/substance_default/DefaultMaterial_Roughness.png gray
+real/polyhaven_sofa/sofa_03_rough_1k.jpg gray
+real/materialx/Images/wood_roughness.jpg gray
+data/polyhaven_arm_wooden_table_02/textures/wooden_table_02_arm_1k.jpg packed
+real/polyhaven_cabinet/painted_wooden_cabinet_02_arm_1k.jpg packed
+real/gltf_orm_two_uvmaps/ORM.png packed
+data/gltf_orm_FlightHelmet_LeatherParts/FlightHelmet_Materials_LeatherPartsMat_OcclusionRoughMetal.png packed";
 
 /// The tables of packed channels under the name of roughness: now, and where all are taken as gray.
 fn channels() -> [Table; 2] {
     let [mut now, mut before] = [Table::default(), Table::default()];
-    for (roughness, is_gray) in ROUGHNESS {
+    for (roughness, how) in ROUGHNESS.lines().filter_map(|row| row.split_once(' ')) {
+        let is_gray = how == "gray";
         let picture = load(roughness);
         let flat = RgbImage::from_pixel(picture.width(), picture.height(), Rgb([128; 3]));
         let read = inferred(&[("roughness.png", &picture), ("basecolor.png", &flat)]);

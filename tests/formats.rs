@@ -4,7 +4,6 @@ mod arrays;
 mod conventions;
 pub mod decoders;
 mod glb;
-mod killed;
 mod named_sets;
 mod normals;
 mod options;
@@ -19,7 +18,7 @@ mod texture_sets;
 mod whole_sets;
 mod written;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use image::{DynamicImage, GrayImage, ImageFormat};
 use tempfile::tempdir;
@@ -93,6 +92,78 @@ fn colours(letter: char, value: f64) -> f64 {
 fn kind(path: &Path, depth: Option<Depth>) -> FileKind {
     FileKind::new(path, &WriteOptions { depth, ..WriteOptions::default() }).unwrap()
 }
+
+/// Writes a picture of one value, the same in all channels.
+fn gray(folder: &Path, name: &str, value: f64) {
+    put(folder, name, |_, _| [value; 3]);
+}
+
+/// A folder of pictures of one value each.
+fn grays(pictures: &[(&str, f64)]) -> tempfile::TempDir {
+    let folder = tempdir().unwrap();
+    pictures.iter().for_each(|(name, value)| gray(folder.path(), name, *value));
+    folder
+}
+
+/// Writes the four maps as EXR files of floats, each value by `of(map, index, value)`.
+fn put_exrs(folder: &Path, of: impl Fn(usize, usize, f32) -> f32) {
+    for (map, name) in NAMES.iter().enumerate() {
+        map_exr(&folder.join(name).with_extension("exr"), map, |i, v| of(map, i, v));
+    }
+}
+
+/// Writes a picture as `NAME.png`.
+fn put(folder: &Path, name: &str, at: impl Fn(usize, usize) -> [f64; 3]) -> PathBuf {
+    save(folder, &format!("{name}.png"), &picture(SIDE, SIDE, at), ImageFormat::Png)
+}
+
+/// Writes the strip of the maps whose letters are in `order`, linear, as `NAME.png`.
+fn put_strip(folder: &Path, name: &str, order: &str) -> PathBuf {
+    save(folder, &format!("{name}.png"), &packed(order, 4, linear), ImageFormat::Png)
+}
+
+/// The normals as they are stored, with y up.
+fn bumps(x: usize, y: usize) -> [f64; 3] {
+    stored(0, x, y, |v| v)
+}
+
+/// As [`bumps`], with y down.
+fn turned(x: usize, y: usize) -> [f64; 3] {
+    let [r, g, b] = bumps(x, y);
+    [r, 1.0 - g, b]
+}
+
+fn near(a: f64, b: f64) -> bool {
+    (a - b).abs() < EIGHT_BITS
+}
+
+#[track_caller]
+fn assert_near<const N: usize>(got: [f64; N], expected: [f64; N]) {
+    assert!(got.into_iter().zip(expected).all(|(a, b)| near(a, b)), "{got:?}, not {expected:?}");
+}
+
+/// Notes of the reading, one a line.
+fn notes<T>(read: &Read<T>) -> String {
+    read.messages().collect::<Vec<_>>().join("\n")
+}
+
+#[track_caller]
+fn assert_notes<T>(read: &Read<T>, parts: &[&str]) {
+    for part in parts {
+        assert!(notes(read).contains(part), "`{part}` is missing in\n{}", notes(read));
+    }
+}
+
+#[track_caller]
+fn assert_refused(path: &Path, parts: &[&str]) {
+    let refused = refusal(path);
+    for part in parts {
+        assert!(refused.contains(part), "`{part}` is missing in {refused}");
+    }
+}
+
+/// The names of the maps.
+const NAMES: [&str; 4] = ["normal.png", "diffuse.png", "roughness.png", "specular.png"];
 
 /// Writes one PNG a map under `names`, in the order normal, diffuse, roughness, specular.
 fn folder_of(names: [&str; 4], folder: &Path, encode: impl Fn(usize, f64) -> f64) {

@@ -140,39 +140,24 @@ fn compare<T: Rounding>(
     if faults.is_empty() { Ok(worst) } else { Err(faults.join("\n")) }
 }
 
-fn check<T: Rounding>(convention: &Convention, expected: impl Fn(&Row) -> Option<[f64; 3]>) {
+fn check<T: Rounding>(
+    name: &str,
+    convention: &Convention,
+    expected: impl Fn(&Row) -> Option<[f64; 3]>,
+    code: Code<T>,
+) {
     match compare::<T>(convention, expected, code) {
-        Ok(worst) => println!("{} {}: worst ratio {worst:.2}", convention.name, T::NAME),
-        Err(faults) => panic!("{} {}:\n{faults}", convention.name, T::NAME),
-    }
-}
-
-#[test]
-fn printed_points_are_right_in_f64() {
-    check::<f64>(&PRINTED, |row| row.expected);
-}
-
-#[test]
-fn printed_points_are_right_in_f32() {
-    check::<f32>(&PRINTED, |row| row.expected);
-}
-
-#[test]
-fn guided_2020_points_are_right_in_f64() {
-    check::<f64>(&GUIDED_2020, |row| row.expected_guided_2020);
-}
-
-#[test]
-fn guided_2020_points_are_right_in_f32() {
-    check::<f32>(&GUIDED_2020, |row| row.expected_guided_2020);
-}
-
-/// The three terms as one "color", each by a code of its own.
-fn check_term<T: Rounding>(name: &str, expected: fn(&Terms) -> [f64; 3], code: Code<T>) {
-    match compare::<T>(&PRINTED, |row| row.terms_with_weight().map(expected), code) {
         Ok(worst) => println!("{name} {}: worst ratio {worst:.2}", T::NAME),
         Err(faults) => panic!("{name} {}:\n{faults}", T::NAME),
     }
+}
+
+#[test]
+fn points_are_right_in_both_precisions() {
+    check::<f64>("printed", &PRINTED, |row| row.expected, code);
+    check::<f32>("printed", &PRINTED, |row| row.expected, code);
+    check::<f64>("guided-2020", &GUIDED_2020, |row| row.expected_guided_2020, code);
+    check::<f32>("guided-2020", &GUIDED_2020, |row| row.expected_guided_2020, code);
 }
 
 fn half_vector<T: Real>(row: &Row) -> Vec3<T> {
@@ -204,14 +189,18 @@ fn f<T: Real>(_: &Model<T>, row: &Row) -> [T; 3] {
     row.s.map(|s| brdf::fresnel(T::of(s), weight))
 }
 
+/// The three terms as one "color", each by a code of its own.
+fn check_terms<T: Rounding>() {
+    let term = |of: fn(&Terms) -> [f64; 3]| move |row: &Row| row.terms_with_weight().map(of);
+    check::<T>("D", &PRINTED, term(|t| [t.d; 3]), d);
+    check::<T>("G", &PRINTED, term(|t| [t.g; 3]), g);
+    check::<T>("F", &PRINTED, term(|t| t.f), f);
+}
+
 #[test]
 fn the_terms_d_g_and_f_are_right_in_both_precisions() {
-    check_term::<f64>("D", |t| [t.d; 3], d);
-    check_term::<f32>("D", |t| [t.d; 3], d);
-    check_term::<f64>("G", |t| [t.g; 3], g);
-    check_term::<f32>("G", |t| [t.g; 3], g);
-    check_term::<f64>("F", |t| t.f, f);
-    check_term::<f32>("F", |t| t.f, f);
+    check_terms::<f64>();
+    check_terms::<f32>();
 }
 
 #[test]

@@ -3,13 +3,12 @@
 use std::path::Path;
 
 use glam::DVec3;
-use image::{DynamicImage, GrayAlphaImage, GrayImage, Rgb, RgbImage, RgbaImage};
+use image::{DynamicImage, Rgb, RgbImage};
 use tempfile::{TempDir, tempdir};
 
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::read::{Albedo, NormalY, Read, ReadOptions, read, read_bytes};
-use svbrdf_files::samples;
+use svbrdf_files::read::{Albedo, Read, ReadOptions, read, read_bytes};
 use svbrdf_files::samples::generate;
 
 use crate::support::fixtures::{LINEAR, MAPS, SIDE, bytes_at, flat, map, png_bytes, save, save_maps, strip};
@@ -83,42 +82,6 @@ fn a_folder_opens_by_the_words_in_its_file_names() {
 }
 
 #[test]
-fn a_prefix_opens_its_own_files_among_others() {
-    let folder = tempdir().unwrap();
-    save_maps(folder.path(), "gt_");
-    save_maps(folder.path(), "gt2_");
-    save_maps(folder.path(), "other_");
-    for prefix in ["gt", "gt_"] {
-        let found = open(&folder.path().join(prefix));
-        assert_is_the_fixture(&found.material);
-        assert_eq!(found.material.name(), "gt");
-    }
-}
-
-#[test]
-fn every_kind_of_png_pixel_opens() {
-    let rgb = map(1).into_rgb8();
-    let rgba = RgbaImage::from_fn(SIDE, SIDE, |x, y| {
-        let Rgb([r, g, b]) = *rgb.get_pixel(x, y);
-        [r, g, b, 200].into()
-    });
-    let found = open(with_map(1, rgba).path());
-    assert_is_the_fixture(&found.material);
-    assert!(has_note(&found, "alpha is ignored"), "{:?}", found.notes);
-
-    let opaque = DynamicImage::from(rgb).into_rgba8();
-    assert!(!has_note(&open(with_map(1, opaque).path()), "alpha"));
-
-    let gray = GrayImage::from_fn(SIDE, SIDE, |x, y| [bytes_at(2, x, y)[0]].into());
-    assert_is_the_fixture(&open(with_map(2, gray.clone()).path()).material);
-    let gray_alpha = GrayAlphaImage::from_fn(SIDE, SIDE, |x, y| [bytes_at(2, x, y)[0], 9].into());
-    assert_is_the_fixture(&open(with_map(2, gray_alpha).path()).material);
-
-    let texel = open(with_map(3, gray).path()).material.texel(5);
-    assert_eq!(texel.specular, [f64::from(bytes_at(2, 1, 1)[0]) / 255.0; 3]);
-}
-
-#[test]
 fn sixteen_bits_keep_their_precision() {
     type Rgb16 = image::ImageBuffer<Rgb<u16>, Vec<u16>>;
     let image = Rgb16::from_pixel(SIDE, SIDE, Rgb([12_345, 12_346, 50_000]));
@@ -158,36 +121,11 @@ fn albedo_decodes_diffuse_and_specular_and_nothing_else() {
 }
 
 #[test]
-fn normals_stored_with_y_down_are_turned_up() {
-    let folder = tempdir().unwrap();
-    let path = save(folder.path(), "strip.png", &strip(0));
-    let options = ReadOptions { normal_y: Some(NormalY::Down), ..LINEAR };
-    let down = read::<f64>(&path, &options, &Progress::default()).unwrap().material;
-    for (down, up) in down.planes().normal[1].iter().zip(&open(&path).material.planes().normal[1]) {
-        assert_eq!(*down, -up);
-    }
-}
-
-#[test]
 fn roughness_whose_channels_differ_is_their_mean_and_said_so() {
     let image = RgbImage::from_pixel(SIDE, SIDE, Rgb([30, 60, 81]));
     let found = open(with_map(2, image).path());
     assert_eq!(found.material.texel(0).roughness, 57.0 / 255.0);
     assert!(has_note(&found, "differ by up to 0.2000; their mean is used"), "{:?}", found.notes);
-}
-
-#[test]
-fn names_of_options_are_understood_as_they_are_written() {
-    for albedo in Albedo::ALL {
-        assert_eq!(albedo.to_string().parse::<Albedo>().unwrap(), albedo);
-        assert_eq!(serde_json::to_string(&albedo).unwrap(), format!("\"{albedo}\""));
-    }
-    for normal_y in NormalY::ALL {
-        assert_eq!(normal_y.to_string().parse::<NormalY>().unwrap(), normal_y);
-        assert_eq!(serde_json::to_string(&normal_y).unwrap(), format!("\"{normal_y}\""));
-    }
-    let message = "gamma".parse::<Albedo>().unwrap_err().to_string();
-    assert!(message.contains("`gamma`") && message.contains("linear, srgb, gamma2.2"), "{message}");
 }
 
 #[test]
@@ -200,21 +138,6 @@ fn reading_reports_progress_and_stops_when_asked() {
     progress.cancel();
     let result = read::<f32>(folder.path(), &LINEAR, &progress);
     assert!(result.is_err_and(|error| error.is_cancelled()));
-}
-
-#[test]
-fn the_samples_load_under_their_names_and_differ() {
-    let samples = samples::load::<f32>().unwrap();
-    let all = [&samples.ground_truth, &samples.predictions[0], &samples.predictions[1]];
-    assert_eq!(
-        all.map(|sample| sample.material.name()),
-        ["worn tiles", "blurred normals", "wrong roughness"]
-    );
-    assert!(all.iter().all(|sample| sample.material.size() == [generate::SIDE; 2]));
-    assert_ne!(all[0].material.planes().normal, all[1].material.planes().normal);
-    assert_ne!(all[0].material.planes().roughness, all[2].material.planes().roughness);
-    let roughness = &all[0].material.planes().roughness;
-    assert!(roughness.iter().any(|&r| r < 0.12) && roughness.iter().any(|&r| r > 0.84));
 }
 
 #[test]

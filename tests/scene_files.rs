@@ -39,6 +39,19 @@ fn certainty(read: &Read<f64>, what: What) -> Option<Certainty> {
     read.assumptions.iter().find(|a| a.what == what).map(|a| a.certainty)
 }
 
+fn refusal(path: &Path) -> String {
+    read::<f64>(path, &ReadOptions::default(), &Progress::default()).unwrap_err().to_string()
+}
+
+fn says(read: &Read<f64>, part: &str) -> bool {
+    read.messages().any(|line| line.contains(part))
+}
+
+#[track_caller]
+fn assert_near(got: [f64; 3], expected: [f64; 3], within: f64) {
+    assert!(got.iter().zip(expected).all(|(a, b)| (a - b).abs() < within), "{got:?}, not {expected:?}");
+}
+
 /// Checks the material against [`textures`] with its base colour and roughness times a factor.
 #[track_caller]
 fn assert_is_of_textures(read: &Read<f64>, factor: f64) {
@@ -46,12 +59,10 @@ fn assert_is_of_textures(read: &Read<f64>, factor: f64) {
     for index in [0, 77, 200] {
         let got = read.material.texel(index);
         let [normal, roughness] = [0, 2].map(|map| texel(map, index % SIDE, index / SIDE));
-        let near =
-            |got: [f64; 3], expected: [f64; 3]| got.iter().zip(expected).all(|(a, b)| (a - b).abs() < BOUND);
         assert!((got.roughness - factor * roughness[0]).abs() < BOUND, "{got:?}");
-        assert!(near(got.diffuse, BASE.map(|b| factor * b)), "{got:?}");
-        assert!(near(got.specular, [0.04; 3]), "{got:?}");
-        assert!(near(got.normal.to_array(), normal), "{got:?}");
+        assert_near(got.diffuse, BASE.map(|b| factor * b), BOUND);
+        assert_near(got.specular, [0.04; 3], BOUND);
+        assert_near(got.normal.to_array(), normal, BOUND);
     }
 }
 

@@ -24,7 +24,12 @@ Materials = tuple[Path, list[Path]]
 
 CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
     "loss": (["--seed", "2"], lambda gt, p: svbrdf.loss(gt, p, seed=2)),
-    "loss of few scenes": (["--near", "5"], lambda gt, p: svbrdf.loss(gt, p, near=5)),
+    "loss of few scenes": (
+        ["--near=5", "--seed=7", "--sampler=sobol", "--texels=64", "--precision=f64", "--convention=guided-2020"],
+        lambda gt, p: svbrdf.loss(
+            gt, p, near=5, seed=7, sampler="sobol", texels=64, precision="f64", convention="guided-2020"
+        ),
+    ),
     "loss to an accuracy": (["--target-error", "5%"], lambda gt, p: svbrdf.loss(gt, p, target_error=0.05)),
     "blame": (["--target-error", "5%"], lambda gt, p: svbrdf.blame(gt, p, target_error=0.05)),
     "rank": (["--target-error", "5%"], lambda gt, p: svbrdf.rank(gt, p, target_error=0.05)),
@@ -75,35 +80,18 @@ def photograph(materials: Materials) -> Path:
     return path
 
 
-def arguments(case: str, materials: Materials) -> tuple[Path, list[Path]]:
-    ground_truth, predictions = materials
-    return (photograph(materials), [ground_truth, *predictions]) if case == "photo" else (ground_truth, predictions)
-
-
 @pytest.mark.parametrize("command", ["rank", "diagnose"])
 def test_maps_of_8_bits_have_the_floor_of_the_command_line(program: str, tmp_path: Path, command: str) -> None:
     paths = [tmp_path / name for name in ("gt.png", "a.png", "b.png")]
     for seed, path in enumerate(paths):
         svbrdf.write(svbrdf.Material(**maps(13, 11, seed)), path)
     compute: Callable[..., Any] = getattr(svbrdf, command)
-    report = compute(paths[0], paths[1:])
-    expected = subprocess.run([program, command, *paths], check=True, capture_output=True, text=True).stdout
-    assert "floor" in expected
-    assert str(report) + "\n" == without_repetition(expected)
+    repeated = compute(paths[0], paths[1:], repeats=paths[1])
+    assert_is_printed(repeated, program, command, *paths, "--repeat", paths[1])
+    assert "the mean loss between 2 captures" in str(repeated)
+    assert "floor" in str(compute(paths[0], paths[1]))
     arrays = [svbrdf.Material(**maps(13, 11, seed)) for seed in range(3)]
     assert "floor" not in str(svbrdf.rank(arrays[0], arrays[1:])), "arrays resolve every loss"
-    repeated = compute(paths[0], paths[1:], repeats=paths[1])
-    command_line = [program, command, *map(str, paths), "--repeat", str(paths[1])]
-    expected = subprocess.run(command_line, check=True, capture_output=True, text=True).stdout
-    assert "the mean loss between 2 captures" in expected
-    assert str(repeated) + "\n" == without_repetition(expected)
-
-
-def test_a_material_of_one_texel_is_diagnosed() -> None:
-    truth, prediction = (svbrdf.Material(**maps(1, 1, seed), normal_encoding="signed") for seed in range(2))
-    report = svbrdf.diagnose(truth, prediction)
-    assert report.predictions[0].loss.mean > 0
-    assert len(report.predictions[0].findings) == 15
 
 
 def test_a_protocol_takes_files_with_their_options_and_no_scenes(materials: Materials) -> None:
@@ -117,45 +105,6 @@ def test_a_protocol_takes_files_with_their_options_and_no_scenes(materials: Mate
         svbrdf.metrics(ground_truth, predictions, near=2, protocol="matfusion")
     with pytest.raises(ValueError, match="exposure: not used with protocol"):
         svbrdf.metrics(ground_truth, predictions, exposure=0, protocol="matfusion")
-
-
-def test_metrics_over_scenes_have_intervals_and_a_finite_exposure(materials: Materials) -> None:
-    ground_truth, predictions = materials
-    report = svbrdf.metrics(ground_truth, predictions, near=4, distant=3)
-    for result in report.results:
-        low, high = result.intervals95["flip_rendering_clipped"]
-        flip = result.metrics["flip_rendering_clipped"]
-        assert flip is not None
-        assert low < flip < high
-        assert "rmse_roughness" not in result.intervals95
-    assert report.exposure_ev == 0.0
-    with pytest.raises(ValueError, match="finite number of stops"):
-        svbrdf.metrics(ground_truth, predictions, exposure=math.nan)
-
-
-def printed(program: str, case: str, materials: Materials, output: str) -> str:
-    first, others = arguments(case, materials)
-    command = [program, case.split()[0], str(first), *map(str, others), *CASES[case][0], "--format", output]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
-
-
-def without_repetition(text: str) -> str:
-    """The text without the command that repeats it, which a report of Python does not have."""
-    return text.partition("\nrepeat with ")[0]
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_a_report_has_the_keys_the_numbers_and_the_text_of_the_command_line(
-    program: str, materials: Materials, case: str
-) -> None:
-    report = CASES[case][1](*arguments(case, materials))
-    expected = json.loads(printed(program, case, materials, "json"))
-    assert problems(program, case.split()[0], expected) == []
-    # A report of Python is of no command.
-    for key in ("repetition", "readings"):
-        expected.pop(key, None)
-    assert report.to_dict() == expected
-    assert str(report) + "\n" == without_repetition(printed(program, case, materials, "text"))
 
 
 def is_cell(got: Any, cell: str) -> bool:
@@ -179,14 +128,38 @@ def assert_is_csv(frame: Any, text: str) -> None:
             assert is_cell(got, row[column]), (column, got, row[column])
 
 
+def assert_is_printed(report: svbrdf.Report, program: str, *command: str | Path) -> None:
+    """The report has the JSON, as its schema says, the text and the CSV of a command."""
+
+    def printed(output: str) -> str:
+        whole = [program, *map(str, command), "--format", output]
+        return subprocess.run(whole, check=True, capture_output=True, text=True).stdout
+
+    expected = json.loads(printed("json"))
+    assert problems(program, str(command[0]), expected) == []
+    # A report of Python is of no command.
+    for key in ("repetition", "readings"):
+        expected.pop(key, None)
+    assert report.to_dict() == expected
+    assert str(report) + "\n" == printed("text").partition("\nrepeat with ")[0]
+    assert_is_csv(report.to_pandas(), printed("csv"))
+
+
 @pytest.mark.parametrize("case", CASES)
-def test_a_data_frame_is_the_csv_of_the_command_line(program: str, materials: Materials, case: str) -> None:
-    frame = CASES[case][1](*arguments(case, materials)).to_pandas()
-    assert_is_csv(frame, printed(program, case, materials, "csv"))
-    column = next(name for name in frame.columns if isinstance(frame[name].iloc[0], float))
-    frame.loc[0, column] = np.nextafter(frame[column].iloc[0], 7)
-    with pytest.raises(AssertionError, match=column):
-        assert_is_csv(frame, printed(program, case, materials, "csv"))
+def test_a_report_has_the_keys_the_numbers_the_text_and_the_csv_of_the_command_line(
+    program: str, materials: Materials, case: str
+) -> None:
+    first, others = (photograph(materials), [materials[0], *materials[1]]) if case == "photo" else materials
+    assert_is_printed(CASES[case][1](first, others), program, case.split()[0], first, *others, *CASES[case][0])
+
+
+def test_a_last_bit_of_a_data_frame_is_seen(materials: Materials) -> None:
+    frame = svbrdf.loss(*materials, near=2).to_pandas()
+    text = frame.to_csv(index=False)
+    assert_is_csv(frame, text)
+    frame.loc[0, "loss"] = np.nextafter(frame["loss"].iloc[0], 7)
+    with pytest.raises(AssertionError, match="loss"):
+        assert_is_csv(frame, text)
 
 
 def test_changing_a_dictionary_changes_no_report_and_reports_can_be_pickled(materials: Materials) -> None:
@@ -223,54 +196,39 @@ def test_without_pandas_the_error_says_what_to_install(materials: Materials, mon
         report.to_pandas()
 
 
-def test_a_map_over_texels_has_the_mean_of_the_loss_and_the_csv_of_the_command_line(
-    program: str, materials: Materials, tmp_path: Path
+@pytest.mark.parametrize(
+    ("options", "given"),
+    [
+        (["--near", "4", "--distant", "2"], {"near": 4, "distant": 2}),
+        (
+            ["--over", "lights", "--side", "12", "--fixed", "0.2,0.1,1"],
+            {"over": "lights", "side": 12, "fixed": (0.2, 0.1, 1)},
+        ),
+        (["--over", "views", "--side", "6"], {"over": "views", "side": 6}),
+    ],
+)
+def test_a_map_is_that_of_the_command_line_with_arrays(
+    program: str, materials: Materials, tmp_path: Path, options: list[str], given: dict[str, Any]
 ) -> None:
     ground_truth, predictions = materials
-    report = svbrdf.map(ground_truth, predictions, near=4, distant=2)
-    losses = svbrdf.scenes(ground_truth, predictions, near=4, distant=2).results
-    for values, summary, loss in zip(report.maps, report.results, losses, strict=True):
-        assert values.shape == (13, 11, 3)
-        assert values.mean() == pytest.approx(summary.mean, rel=1e-6) == pytest.approx(loss.loss, rel=1e-5)
-        assert summary.row is not None
-        assert values[summary.row, summary.column].mean() == pytest.approx(summary.largest, rel=1e-6)
-    command = [program, "map", str(ground_truth), *map(str, predictions), "-o", str(tmp_path / "map.csv")]
-    ended = subprocess.run([*command, "--near", "4", "--distant", "2"], check=True, capture_output=True, text=True)
-    assert problems(program, "map", report.to_dict()) == []
-    assert str(report) + "\n" == ended.stdout
-    assert_is_csv(report.to_pandas(), (tmp_path / "map.csv").read_text())
-
-
-@pytest.mark.parametrize("over", ["lights", "views"])
-def test_a_map_over_directions_is_that_of_the_command_line(
-    program: str, materials: Materials, tmp_path: Path, over: Any
-) -> None:
-    ground_truth, predictions = materials
-    report = svbrdf.map(ground_truth, predictions, over=over, side=12, fixed=(0.2, 0.1, 1))
-    assert report.directions is not None
-    assert report.directions.shape == (12, 12, 3)
-    inside = ~np.isnan(report.directions[..., 0])
-    assert np.allclose(np.linalg.norm(report.directions[inside], axis=1), 1)
+    report = svbrdf.map(ground_truth, predictions, **given)
+    side = given.get("side")
     for values, summary in zip(report.maps, report.results, strict=True):
-        assert np.nanmean(values) == pytest.approx(summary.mean, rel=1e-12)
-        assert np.nanmax(values) == summary.largest
-        assert (np.isnan(values) == ~inside).all()
+        assert values.shape == ((side, side) if side else (13, 11, 3))
+        assert np.nanmean(values) == pytest.approx(summary.mean, rel=1e-6)
+        largest = np.nanmax(values) if summary.row is None else values[summary.row, summary.column].mean()
+        assert largest == pytest.approx(summary.largest, rel=1e-6)
+        if report.directions is not None:
+            assert (np.isnan(values) == np.isnan(report.directions[..., 0])).all()
+    assert (report.directions is None) == (side is None)
+    if report.directions is not None:
+        lengths = np.linalg.norm(report.directions, axis=2)
+        assert np.allclose(lengths[~np.isnan(lengths)], 1)
     command = [program, "map", str(ground_truth), *map(str, predictions), "-o", str(tmp_path / "map.csv")]
-    options = ["--over", over, "--side", "12", "--fixed", "0.2,0.1,1"]
     ended = subprocess.run([*command, *options], check=True, capture_output=True, text=True)
     assert problems(program, "map", report.to_dict()) == []
     assert str(report) + "\n" == ended.stdout
     assert_is_csv(report.to_pandas(), (tmp_path / "map.csv").read_text())
-
-
-def test_the_worst_scene_is_a_scene_with_that_loss(materials: Materials) -> None:
-    ground_truth, predictions = materials
-    report = svbrdf.worst(ground_truth, predictions)
-    for prediction, result, scene in zip(predictions, report.results, report.scenes, strict=True):
-        assert svbrdf.loss(ground_truth, prediction, scenes=[scene]).results[0].loss == pytest.approx(
-            result.worst, rel=1e-6
-        )
-        assert result.worst > result.mean
 
 
 def test_equal_materials_have_an_infinite_psnr_which_is_none_in_the_dictionary(materials: Materials) -> None:
@@ -332,15 +290,7 @@ def test_a_capture_is_that_of_the_command_line(program: str, materials: Material
     assert [(means.photographs, means.count) for means in right.means] == [("fitted", 5), ("held out", 1)]
     assert report.photographs[5].held_out
     assert report.scenes[1].light == (-0.3, 0.1, 2.0)
-    command = [program, "photo", "--capture", str(captured), *map(str, paths), "--hold-out", "5"]
-    printed = {
-        output: subprocess.run([*command, "--format", output], check=True, capture_output=True, text=True).stdout
-        for output in ("text", "json", "csv")
-    }
-    assert report.to_dict() == json.loads(printed["json"])
-    assert problems(program, "photo", report.to_dict()) == []
-    assert str(report) + "\n" == printed["text"]
-    assert_is_csv(report.to_pandas(), printed["csv"])
+    assert_is_printed(report, program, "photo", "--capture", captured, *paths, "--hold-out", "5")
     each = svbrdf.photo(captured / "capture.json", paths[0], exposure="photograph")
     assert each.results[0].photographs[2].factor == pytest.approx(0.5)
     with pytest.raises(svbrdf.Error, match=r"unknown photograph `7`; use one of: 0\.npy, 1\.npy"):

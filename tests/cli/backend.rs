@@ -2,7 +2,7 @@
 
 use std::process::{Command, Output};
 
-use super::{svbrdf, text};
+use super::{folder, svbrdf, text, without_adapter};
 use serde_json::Value;
 
 /// Takes a while on the CPU: 1500 scenes of the built-in materials.
@@ -12,11 +12,6 @@ fn loss(args: &str) -> Command {
     let mut command = svbrdf();
     command.args(["loss", "--format", "json"]).args(args.split_whitespace());
     command
-}
-
-fn without_adapter(mut command: Command) -> Output {
-    command.env("WGPU_BACKEND", "vulkan").env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none");
-    command.output().unwrap()
 }
 
 /// The report of a run that must succeed, and its stderr.
@@ -35,29 +30,33 @@ fn the_cpu_computes_unless_something_else_is_asked_for() {
 }
 
 #[test]
-fn a_short_job_starts_no_adapter_and_says_so() {
-    let (auto, stderr) = report(&loss("--backend auto --near 1 --distant 0").output().unwrap());
-    assert_eq!(auto, report(&loss("--near 1 --distant 0").output().unwrap()).0);
-    assert!(stderr.contains("note: computed on the CPU: about "), "{stderr}");
-}
-
-#[test]
-fn the_default_question_says_what_no_adapter_computes() {
-    let note = "note: the loss over all scenes is computed on the CPU";
-    for (arguments, expected) in [("--backend auto", true), ("", false), ("--backend auto --near 1", false)] {
-        let (_, stderr) = report(&loss(arguments).output().unwrap());
+fn notes_say_why_no_adapter_computes() {
+    let of_all = "note: the loss over all scenes is computed on the CPU";
+    let of_few = "note: computed on the CPU: about ";
+    for (arguments, note, expected) in [
+        ("--backend auto", of_all, true),
+        ("", of_all, false),
+        ("--backend auto --near 1", of_all, false),
+        ("--backend auto --near 1", of_few, true),
+    ] {
+        let (auto, stderr) = report(&loss(arguments).output().unwrap());
         assert_eq!(stderr.contains(note), expected, "{arguments}: {stderr}");
+        let plain = arguments.replace("--backend auto", "");
+        assert_eq!(auto, report(&loss(&plain).output().unwrap()).0);
     }
 }
 
 #[test]
 fn without_an_adapter_the_gpu_is_refused_and_auto_takes_the_cpu() {
-    let refused = without_adapter(loss("--backend gpu"));
-    let stderr = text(&refused.stderr);
-    assert_eq!((refused.status.code(), text(&refused.stdout)), (Some(2), ""), "{stderr}");
-    assert!(stderr.contains("no usable graphics adapter"), "{stderr}");
-
-    let (auto, stderr) = report(&without_adapter(loss(&format!("--backend auto {LONG_JOB}"))));
+    let folder = folder();
+    for args in ["loss --backend gpu", "render gt.png --gpu -o x.png"] {
+        let refused = without_adapter(folder.path(), args);
+        let stderr = text(&refused.stderr);
+        assert_eq!((refused.status.code(), text(&refused.stdout)), (Some(2), ""), "{stderr}");
+        assert!(stderr.contains("no usable graphics adapter") && !folder.path().join("x.png").exists());
+    }
+    let auto = without_adapter(folder.path(), &format!("loss --format json --backend auto {LONG_JOB}"));
+    let (auto, stderr) = report(&auto);
     assert_eq!(auto["backend"], "cpu");
     let short = stderr.contains("less than starting an adapter");
     assert!(short || stderr.contains("CPU: no usable graphics adapter"), "{stderr}");

@@ -2,19 +2,16 @@
 
 use std::process::Stdio;
 
-use super::{fail, folder, succeed, svbrdf, text};
+use super::{assert_has, assert_refused, fail, folder, succeed, svbrdf, text};
 
 #[test]
 fn help_shows_examples_and_exit_codes() {
     let folder = folder();
     let help = succeed(folder.path(), "--help");
-    for expected in ["view", "loss", "render", "Examples:", "Exit codes:", "64", "--read", "--preset"] {
-        assert!(help.contains(expected), "{expected} is missing in\n{help}");
-    }
+    assert_has(&help, &["view", "loss", "render", "Examples:", "Exit codes:", "64", "--read", "--preset"]);
     for (subcommand, option) in [("view", "--read"), ("loss", "--scenes"), ("render", "--exposure")] {
-        assert!(succeed(folder.path(), &format!("{subcommand} --help")).contains(option));
+        assert_has(&succeed(folder.path(), &format!("{subcommand} --help")), &[option]);
     }
-    assert!(succeed(folder.path(), "--version").contains(env!("CARGO_PKG_VERSION")));
 }
 
 #[test]
@@ -25,31 +22,26 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
         ("loss gt.png a.png --precision f16", 64, "f32, f64"),
         ("loss gt.png a.png --backend tpu", 64, "auto"),
         ("loss gt.png a.png --backend gpu --precision f64", 64, "leave out --backend gpu"),
-        ("loss gt.png a.png --near -1", 64, "--near"),
         ("loss gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
-        ("loss gt.png a.png --scenes one.json --seed 1", 64, "leave out --seed"),
         ("loss gt.png", 64, "no prediction"),
+        ("map gt.png a.png -o x.csv --side 8", 64, "the size of its material; leave out --side"),
+        ("report gt.png -o x.html --seed 5", 64, "there is no prediction, and no loss; leave out --seed"),
+        ("rank gt.png a.png --shard 1/2 --results kept", 64, "has no results folder"),
         ("loss gt.png a.png --colour", 64, "--colour"),
-        ("loss --read albedo=srgb", 64, "leave out --read"),
         ("loss gt.png a.png --scenes nan.json", 1, "nan.json"),
         ("loss gt.png a.png --scenes below.json", 1, "scene 0: its light [0.5, 0.5, -1.0] is not above"),
         ("loss gt.png a.png --scenes none.json", 1, "no scene"),
         ("loss gt.png a.png --scenes not.json", 1, "not.json"),
-        ("loss gt.png a.png --scenes missing.json", 1, "missing.json"),
         ("loss gt.png missing.png", 1, "missing.png"),
         ("loss gt.png text.png", 1, "text.png"),
         ("loss gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
         ("render gt.png", 64, "--output"),
         ("render gt.png -o no/folder.png", 1, "create the folder"),
         ("render gt.png -o picture.jpg", 64, ".exr (linear floats), .png"),
-        ("render gt.png -o picture", 64, ".exr"),
         ("convert gt.png x.exr --like gltf", 64, "leave out --like"),
         ("render gt.png -o x.png --view 1,2", 64, "three numbers"),
-        ("render gt.png -o x.png --view a,b,c", 64, "three numbers"),
         ("render gt.png -o x.png --light 0,0,-1", 64, "above the plane"),
-        ("render gt.png -o x.png --light 0,nan,1", 64, "three numbers"),
         ("render gt.png -o x.png --distant --light 1e-200,0,1e-200", 64, "too short for a direction"),
-        ("render gt.png -o x.png --view 0,0,nan", 64, "three numbers"),
         ("render gt.png -o x.png --exposure 1e20", 64, "from -20 to 20"),
         ("render gt.png a.png -o x.exr --difference --range 1", 64, "leave out --range"),
         ("render gt.png a.png -o x.png --difference --exposure 1", 64, "leave out --exposure"),
@@ -58,12 +50,42 @@ fn bad_input_gets_one_clear_error_and_leaves_nothing() {
         ("loss gt.png a.png --texels 64", 64, "not with texels 64"),
         ("render gt.png -o x.png --exposure nan", 64, "number of stops"),
         ("render gt.png big.png -o x.png", 1, "one by one"),
-        ("render missing.png -o x.exr", 1, "missing.png"),
+        ("metrics --protocol matfusion gt.png big.png", 1, "sizes differ"),
+        ("metrics --protocol matfusion gt.png a.png --near 3", 64, "exposure; leave out --near"),
+        ("metrics --protocol matfusion gt.png a.png --exposure 1", 64, "leave out --exposure"),
+        ("metrics gt.png a.png --renderings out", 64, "--protocol"),
+        ("metrics gt.png a.png --near 3 --renderings out", 64, "only a --protocol writes renderings"),
+        ("metrics --protocol other gt.png a.png", 64, "matfusion"),
+        ("metrics gt.png a.png --exposure nan", 64, "stops"),
+        ("rank gt.png a.png --metrics", 64, "svbrdf metrics"),
+        ("blame gt.png", 64, "no prediction"),
+        ("worst gt.png big.png", 1, "sizes differ"),
+        ("scenes gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
+        ("map gt.png a.png -o map.txt", 64, "extension"),
+        ("map gt.png a.png -o nowhere/map.csv", 1, "its folder does not exist"),
+        ("map gt.png a.png --over lights --fixed 0,0,-1 -o map.csv", 1, "not above the plane"),
+        ("loss gt.png a.png --read albdo=srgb", 64, "use one of: albedo, dielectric-f0"),
+        ("loss gt.png a.png --read albedo=sRGB", 64, "linear, srgb, gamma2.2, log0.01"),
+        ("loss gt.png a.png b.png --read c:albedo=srgb", 64, "the names are gt, a, b"),
+        ("loss gt.png a.png --read albedo=srgb --read albedo=linear", 64, "albedo is specified twice"),
+        ("loss gt.png a.png --preset gao --read preset=gltf", 64, "preset is specified twice"),
+        ("render gt.png -o x.png --read pred:albedo=srgb", 64, "no prediction; leave out --read"),
+        ("loss a.png gt.png --read gt:albedo=srgb", 64, "give it another name"),
+        ("loss --read albedo=srgb", 64, "the built-in materials are not read from files; leave out --read"),
+        ("loss --albedo srgb", 64, "the built-in materials are not read from files; leave out --read"),
+        ("study gt.png gt.png -o study.csv", 1, "look the same"),
+        ("study gt.png", 64, "one prediction"),
+        ("study gt.png a.png b.png", 64, "not 2"),
+        ("study gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
+        ("study gt.png a.png --plot study.jpg", 64, ".svg, .png"),
+        ("study gt.png a.png --plot no/study.svg", 1, "create the folder"),
+        ("study gt.png a.png -o no/study.csv", 1, "create the folder"),
+        ("render gt.png --difference -o out.png", 64, "prediction"),
+        ("render gt.png big.png --difference -o out.png", 1, "16 x 16"),
+        ("render --show normal --difference=log -o out.png", 64, "log"),
+        ("render --show height -o out.png", 64, "height"),
     ];
-    for (args, code, said) in cases {
-        let stderr = fail(folder.path(), args, code);
-        assert!(stderr.contains(said), "{args}: `{said}` is missing in {stderr}");
-    }
+    assert_refused(folder.path(), &cases);
 }
 
 #[test]
@@ -71,21 +93,8 @@ fn without_a_display_the_window_names_the_headless_commands() {
     let folder = folder();
     for args in ["", "view", "gt.png a.png", "view gt.png"] {
         let stderr = fail(folder.path(), args, 2);
-        assert!(stderr.contains("`svbrdf loss`") && stderr.contains("`svbrdf render`"), "{args}: {stderr}");
+        assert_has(&stderr, &["`svbrdf loss`", "`svbrdf render`"]);
     }
-}
-
-#[test]
-fn without_an_adapter_the_gpu_is_a_clear_error() {
-    let folder = folder();
-    let mut command = svbrdf();
-    command.args(["render", "gt.png", "--gpu", "-o", "x.png"]).current_dir(folder.path());
-    command.env("WGPU_BACKEND", "vulkan").env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none");
-    let output = command.output().unwrap();
-    let stderr = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{stderr}");
-    assert!(stderr.contains("no usable graphics adapter"), "{stderr}");
-    assert!(!folder.path().join("x.png").exists());
 }
 
 #[test]

@@ -5,21 +5,8 @@ use std::collections::BTreeSet;
 use super::{svbrdf, text};
 
 /// The headings of help pages.
-const HEADINGS: [&str; 13] = [
-    "Usage:",
-    "Arguments:",
-    "Options:",
-    "Commands:",
-    "Scenes:",
-    "Light and view:",
-    "Photograph:",
-    "Reading materials:",
-    "Files:",
-    "Environment:",
-    "Example:",
-    "Examples:",
-    "Exit codes:",
-];
+const HEADINGS: &str = "Usage:|Arguments:|Options:|Commands:|Scenes:|Light and view:|Photograph:|Reading materials:|Files:|\
+    Environment:|Example:|Examples:|Exit codes:";
 
 /// The help page of a subcommand, which is named by its path from the program.
 pub fn page(path: &[String]) -> String {
@@ -66,7 +53,10 @@ fn every_heading_of_every_help_page_is_a_known_one() {
         let headings = headings(page);
         assert!(headings.contains("Usage:") && headings.contains("Options:"), "{path:?}: {headings:?}");
         for heading in &headings {
-            assert!(HEADINGS.contains(heading), "{path:?} has the heading `{heading}`");
+            assert!(
+                HEADINGS.split('|').any(|known| known == *heading),
+                "{path:?} has the heading `{heading}`"
+            );
         }
         // Names of types that a rename has put into a text.
         let is_type = |word: &str| {
@@ -80,7 +70,7 @@ fn every_heading_of_every_help_page_is_a_known_one() {
         }
         found.extend(headings);
     }
-    assert_eq!(found, HEADINGS.into_iter().collect(), "headings that no page has are no longer allowed");
+    assert_eq!(found, HEADINGS.split('|').collect(), "headings that no page has are no longer allowed");
 }
 
 #[test]

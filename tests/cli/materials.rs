@@ -1,48 +1,27 @@
 //! The materials of the command line: how they are read, named and brought to one size.
 
 use image::{Rgb, RgbImage};
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::{fail, folder, losses_as_json, succeed};
-
-#[test]
-fn options_of_reading_change_what_is_read() {
-    let folder = folder();
-    let loss = |args: &str| {
-        losses_as_json(folder.path(), &format!("gt.png a.png {args}"))["results"][0]["loss"].clone()
-    };
-    let linear = loss("--read albedo=linear");
-    let both = loss("--read albedo=gamma2.2");
-    assert_eq!(both, loss("--read gt:albedo=gamma2.2 --read pred:albedo=gamma2.2"));
-    assert_eq!(loss("--read albedo=srgb --read gt:albedo=linear --read pred:albedo=linear"), linear);
-    assert_ne!(linear, both);
-    assert_ne!(loss("--read gt:albedo=gamma2.2 --read pred:albedo=linear"), both);
-    assert_ne!(loss("--read albedo=linear --read normal-y=down"), linear);
-}
+use super::{assert_has, assert_refused, fail, folder, json_of, loss_of, losses_as_json, rows_of, succeed};
 
 #[test]
 fn info_says_what_was_assumed_and_strict_refuses_guesses() {
     let folder = folder();
     let text = succeed(folder.path(), "info gt.png");
-    for said in ["gt, 8 x 8 texels", "As stored:", "tile 1", "Assumed:", "layout: ndrs", "albedo: linear"] {
-        assert!(text.contains(said), "{said} is missing in\n{text}");
-    }
-    let json: Value = serde_json::from_str(&succeed(folder.path(), "info gt.png --format json")).unwrap();
+    let parts = ["gt, 8 x 8 texels", "As stored:", "tile 1", "Assumed:", "layout: ndrs", "albedo: linear"];
+    assert_has(&text, &parts);
+    let json = json_of(folder.path(), "info gt.png");
     assert_eq!(json["maps"].as_array().unwrap().len(), 4);
     assert_eq!(json["assumptions"][0]["what"], "layout");
     let given =
         succeed(folder.path(), "info gt.png --read albedo=srgb --read order=ndrs --read normal-y=down");
-    assert!(
-        given.contains("albedo: srgb: as specified") && given.contains("normal y: down: as specified"),
-        "{given}"
-    );
+    assert_has(&given, &["albedo: srgb: as specified", "normal y: down: as specified"]);
 
     RgbImage::from_pixel(32, 8, Rgb([90, 90, 90])).save(folder.path().join("flat.png")).unwrap();
-    assert!(
-        succeed(folder.path(), "info flat.png")
-            .contains("layout: ndrs in 4 x 1 tiles of 8 x 8 (normal, diffuse, roughness, specular) (unsure)")
-    );
-    assert!(fail(folder.path(), "info flat.png --strict", 1).contains("flat.png is ambiguous: layout"));
+    let unsure = "layout: ndrs in 4 x 1 tiles of 8 x 8 (normal, diffuse, roughness, specular) (unsure)";
+    assert_has(&succeed(folder.path(), "info flat.png"), &[unsure]);
+    assert_refused(folder.path(), &[("info flat.png --strict", 1, "flat.png is ambiguous: layout")]);
 }
 
 #[test]
@@ -51,15 +30,15 @@ fn convert_writes_what_loss_finds_to_be_the_same() {
     for out in ["gt.exr", "gt16.png", "gt_folder", "gt.glb", "gt.mtlx"] {
         let depth = if out == "gt.exr" { "float" } else { "16" };
         assert_eq!(succeed(folder.path(), &format!("convert gt.png {out} --depth {depth}")), "");
-        let json = losses_as_json(folder.path(), &format!("gt.png {out}"));
-        let loss = json["results"][0]["loss"].as_f64().unwrap();
+        let loss = loss_of(folder.path(), &format!("gt.png {out}"));
         assert!(loss < 1e-3, "{out}: {loss}");
     }
-    assert!(
-        fail(folder.path(), "convert gt.png x.png --depth half", 64).contains("every other form 8 and 16")
-    );
-    assert!(fail(folder.path(), "convert gt.png gt_folder", 1).contains("not there yet"));
-    assert!(fail(folder.path(), "convert gt.png gt.mtlx", 1).contains("gt_textures"));
+    let refused = [
+        ("convert gt.png x.png --depth half", 64, "every other form 8 and 16"),
+        ("convert gt.png gt_folder", 1, "not there yet"),
+        ("convert gt.png gt.mtlx", 1, "gt_textures"),
+    ];
+    assert_refused(folder.path(), &refused);
 }
 
 #[test]
@@ -67,10 +46,7 @@ fn a_folder_exists_ends_with_a_slash_or_has_no_extension() {
     let folder = folder();
     for out in ["out.obj", "out.usd", "out.zip", "out.jpg", "out.gltf", "brick_v1.2"] {
         let error = fail(folder.path(), &format!("convert gt.png {out}"), 64);
-        assert!(
-            error.contains(".exr, .png, .glb or .mtlx") && error.contains("ends with /"),
-            "{out}: {error}"
-        );
+        assert_has(&error, &[".exr, .png, .glb or .mtlx", "ends with /"]);
     }
     std::fs::create_dir(folder.path().join("there.zip")).unwrap();
     for out in ["brick_v1.2/", "there.zip", "out", "strip.png/"] {
@@ -82,7 +58,7 @@ fn a_folder_exists_ends_with_a_slash_or_has_no_extension() {
 #[test]
 fn predictions_of_another_size_are_compared_once_it_is_said_how() {
     let folder = folder();
-    assert!(fail(folder.path(), "loss gt.png big.png", 1).contains("--resize-to gt, pred or a width"));
+    assert_refused(folder.path(), &[("loss gt.png big.png", 1, "--resize-to gt, pred or a width")]);
     for (to, side) in [("gt", 8), ("pred", 16), ("12", 12)] {
         let json = losses_as_json(folder.path(), &format!("gt.png big.png --resize-to {to}"));
         assert_eq!(json["size"], json!([side, side]), "{to}");
@@ -119,17 +95,11 @@ fn materials_of_one_name_are_told_apart_by_their_paths() {
         succeed(folder.path(), &format!("convert {}.png {run}/out", if run == "runA" { "a" } else { "b" }));
     }
     let table = succeed(folder.path(), "loss gt.png runA/out runB/out");
-    for line in ["\nrunA/out  ", "\nrunB/out  ", "\nrunB/out - runA/out, "] {
-        assert!(table.contains(line), "{line} is missing in {table}");
-    }
+    assert_has(&table, &["\nrunA/out  ", "\nrunB/out  ", "\nrunB/out - runA/out, "]);
     let json = losses_as_json(folder.path(), "runA/out runB/out a.png");
     assert_eq!((&json["ground_truth"], &json["ground_truth_path"]), (&json!("runA/out"), &json!("runA/out")));
-    assert_eq!(json["results"][0]["prediction"], "runB/out");
-    assert_eq!(
-        (&json["results"][1]["prediction"], &json["results"][1]["path"]),
-        (&json!("a"), &json!("a.png"))
-    );
-    let csv = succeed(folder.path(), "loss gt.png runA/out runB/out --near 6 --format csv");
-    assert!(csv.lines().nth(2).unwrap().starts_with("runB/out,"), "{csv}");
-    assert!(csv.lines().nth(2).unwrap().contains(",runB/out,gt,gt.png,pilot,"), "{csv}");
+    let names = [0, 1].map(|k| &json["results"][k]).map(|one| [&one["prediction"], &one["path"]]);
+    assert_eq!(json!(names), json!([["runB/out", "runB/out"], ["a", "a.png"]]));
+    let rows = rows_of(folder.path(), "loss gt.png runA/out runB/out --near 6");
+    assert_eq!([&rows[1]["prediction"], &rows[1]["path"]], ["runB/out"; 2]);
 }

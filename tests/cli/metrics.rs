@@ -1,17 +1,8 @@
 //! Metrics of maps, over data sets, and of published evaluations.
 
 use std::fs;
-use std::path::Path;
 
-use image::{Rgb, RgbImage};
-use serde_json::Value;
-
-use super::{fail, folder, json, succeed, text, write_material};
-
-/// A packed strip of four tiles of one colour each: normal | diffuse | roughness | specular.
-fn write_tiles(path: &Path, tiles: [[u8; 3]; 4]) {
-    RgbImage::from_fn(4 * 12, 12, |x, _| Rgb(tiles[x as usize / 12])).save(path).unwrap();
-}
+use super::{assert_has, data_set, folder, json_of, rows_of, succeed, text};
 
 #[test]
 fn the_protocol_of_matfusion_compares_values_as_stored() {
@@ -20,10 +11,11 @@ fn the_protocol_of_matfusion_compares_values_as_stored() {
     // Normals that are not of unit length.
     let truth = [[128, 140, 250], [200, 100, 50], [100; 3], [12, 20, 30]];
     let prediction = [[140, 120, 240], [180, 130, 60], [120; 3], [30, 25, 10]];
-    write_tiles(&of("gt.png"), truth);
-    write_tiles(&of("a.png"), prediction);
+    for (name, tiles) in [("gt.png", truth), ("a.png", prediction)] {
+        super::write_tiles(&of(name), 12, |x, _| tiles[x as usize / 12]);
+    }
     let args = "metrics --protocol matfusion gt.png a.png --read order=ndrs --read albedo=gamma2.2 --read normal-y=up --read roughness=r";
-    let found = json(&succeed(folder.path(), &format!("{args} --format json")));
+    let found = json_of(folder.path(), args);
     assert_eq!(found["protocol"], "matfusion");
     let rmse = |map: usize, decode: fn(f64) -> f64| {
         let value = |x: u8| decode(f64::from(x) / 255.0);
@@ -42,8 +34,7 @@ fn the_protocol_of_matfusion_compares_values_as_stored() {
     }
     assert!(succeed(folder.path(), args).contains("matfusion_l1_rerender"));
     // A preset that says for which renderer diffuse was made does not change it here.
-    let preset = json(&succeed(folder.path(), &format!("{args} --preset matfusion --format json")));
-    assert_eq!(preset["results"], found["results"]);
+    assert_eq!(json_of(folder.path(), &format!("{args} --preset matfusion"))["results"], found["results"]);
 
     succeed(folder.path(), &format!("{args} --renderings out"));
     for name in ["0_gt.npy", "1_a.npy"] {
@@ -66,7 +57,7 @@ fn the_protocol_of_matfusion_compares_values_as_stored() {
 fn metrics_of_renderings_have_intervals_and_an_exposure() {
     let folder = folder();
     let args = "metrics gt.png a.png b.png --near 8 --distant 4";
-    let found = json(&succeed(folder.path(), &format!("{args} --format json --exposure 1")));
+    let found = json_of(folder.path(), &format!("{args} --exposure 1"));
     assert_eq!(found["exposure_ev"], 1.0);
     let entry = &found["results"][1];
     let flip = entry["metrics"]["flip_rendering_clipped"].as_f64().unwrap();
@@ -77,54 +68,24 @@ fn metrics_of_renderings_have_intervals_and_an_exposure() {
     let text = succeed(folder.path(), &format!("{args} --exposure 1"));
     assert!(text.contains("renderings at 1 EV, clipped to [0, 1]\n"), "{text}");
     let line = text.lines().find(|line| line.starts_with("flip_rendering_clipped")).unwrap();
-    assert!(
-        line.contains(&format!("{flip:.6}")) && line.contains(&format!("{low:.6} to {high:.6}")),
-        "{line}"
+    assert_has(line, &[&format!("{flip:.6}"), &format!("{low:.6} to {high:.6}")]);
+    let rows = rows_of(folder.path(), &format!("{args} --exposure 1"));
+    let row = rows.iter().find(|row| row["metric"] == "flip_rendering_clipped").unwrap();
+    assert_eq!(
+        ["b", "b interval95_low", "b interval95_high"].map(|t| row[t].parse()),
+        [flip, low, high].map(Ok)
     );
-    let csv = succeed(folder.path(), &format!("{args} --exposure 1 --format csv"));
-    let mut rows = csv::Reader::from_reader(csv.as_bytes());
-    let titles: Vec<String> = rows.headers().unwrap().iter().map(str::to_owned).collect();
-    assert_eq!(titles[4..], ["b", "b interval95_low", "b interval95_high"]);
-    let row = rows.records().map(Result::unwrap).find(|row| &row[0] == "flip_rendering_clipped").unwrap();
-    assert_eq!(row[5].parse::<f64>().unwrap(), low);
-    let dark = json(&succeed(folder.path(), &format!("{args} --format json")));
+    let dark = json_of(folder.path(), args);
     assert_eq!(dark["results"][1]["metrics"]["rmse_roughness"], entry["metrics"]["rmse_roughness"]);
     assert_ne!(dark["results"][1]["metrics"]["flip_rendering_clipped"].as_f64().unwrap(), flip);
 }
 
 #[test]
-fn what_a_protocol_cannot_do_is_refused() {
-    let folder = folder();
-    for (args, code, problem) in [
-        ("metrics --protocol matfusion gt.png big.png", 1, "sizes differ"),
-        ("metrics --protocol matfusion gt.png a.png --near 3", 64, "leave out --near"),
-        ("metrics --protocol matfusion gt.png a.png --resize-to gt", 64, "leave out --resize-to"),
-        ("metrics gt.png a.png --renderings out", 64, "--protocol"),
-        ("metrics gt.png a.png --lights flash --renderings out", 64, "leave out --renderings"),
-        ("metrics gt.png a.png --near 3 --renderings out", 64, "leave out --renderings"),
-        ("metrics --protocol other gt.png a.png", 64, "matfusion"),
-        ("metrics --protocol matfusion gt.png a.png --lights flash", 64, "leave out --lights"),
-        ("metrics --protocol matfusion gt.png a.png --exposure 1", 64, "leave out --exposure"),
-        ("metrics gt.png a.png --exposure nan", 64, "stops"),
-        ("rank gt.png a.png --metrics", 64, "svbrdf metrics"),
-    ] {
-        let stderr = fail(folder.path(), args, code);
-        assert!(stderr.contains(problem), "{args}: {stderr}");
-    }
-}
-
-#[test]
 fn a_ranking_of_a_data_set_has_metrics_of_the_maps() {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, more) in [("gt", 0), ("ours", 8), ("theirs", 40)] {
-        fs::create_dir(folder.path().join(name)).unwrap();
-        for i in 0..6_u8 {
-            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
-        }
-    }
+    let folder = data_set(&[("ours", 8), ("theirs", 40)], 6);
     fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();
     let rank = "rank --dataset gt ours theirs --target-error 5% --metrics --read roughness=r";
-    let found = json(&succeed(folder.path(), &format!("{rank} --format json")));
+    let found = json_of(folder.path(), rank);
     for (method, expected) in [(0, 8.0), (1, 40.0)] {
         let metrics = &found["methods"][method]["metrics"];
         for statistic in ["mean", "median"] {
@@ -135,31 +96,20 @@ fn a_ranking_of_a_data_set_has_metrics_of_the_maps() {
     }
     let table = succeed(folder.path(), rank);
     assert!(table.contains("metric, mean over materials") && table.contains("rmse_roughness"), "{table}");
-    // The PSNR of equal maps is infinite, of all others finite.
-    let psnr = |method: usize, map: &str| &found["methods"][method]["metrics"][map]["mean"];
-    assert_eq!((psnr(0, "psnr_normal_stored"), psnr(1, "psnr_normal_stored")), (&Value::Null, &Value::Null));
-    assert!(psnr(0, "psnr_roughness").as_f64() > psnr(1, "psnr_roughness").as_f64());
     let latex = succeed(folder.path(), &format!("{rank} --format latex"));
-    assert!(
-        // Theirs lacks a material, and is compared with nothing.
-        latex.contains("psnr\\_normal\\_stored $\\uparrow$ & \\textbf{$\\infty$} & $\\infty$ \\\\"),
-        "{latex}"
-    );
+    // The PSNR of equal maps is infinite. Theirs lacks a material, and is compared with nothing.
+    assert_has(&latex, &["psnr\\_normal\\_stored $\\uparrow$ & \\textbf{$\\infty$} & $\\infty$ \\\\"]);
     assert!(latex.contains("psnr\\_roughness $\\uparrow$ & \\textbf{30.0690} & 16.0896 \\\\"), "{latex}");
     assert_eq!(latex.matches("\\begin{tabular}").count(), 2, "{latex}");
     // The roughness of theirs is worse in every material, the normals are the same.
     assert!(latex.contains("rmse\\_roughness $\\downarrow$ & \\textbf{0.0314} & 0.1569 \\\\"), "{latex}");
     assert!(latex.contains("degrees $\\downarrow$ & \\textbf{0.0000} & 0.0000 \\\\"), "{latex}");
-    let rows = succeed(folder.path(), &format!("{rank} --format csv"));
-    let mut rows = csv::Reader::from_reader(rows.as_bytes());
-    let column = rows.headers().unwrap().iter().position(|name| name == "l1_roughness").unwrap();
-    let cells: Vec<_> = rows.records().map(|row| row.unwrap()[column].to_owned()).collect();
-    assert_eq!(cells.len(), 12);
-    assert_eq!(cells.iter().filter(|cell| cell.is_empty()).count(), 1);
-
+    let rows = rows_of(folder.path(), rank);
+    assert_eq!((rows.len(), rows.iter().filter(|row| row["l1_roughness"].is_empty()).count()), (12, 1));
     // Metrics are kept with results, an infinite one, too.
-    let whole = succeed(folder.path(), &format!("{rank} --format json --results kept"));
-    assert_eq!(succeed(folder.path(), &format!("{rank} --format json --results kept")), whole);
+    for _ in 0..2 {
+        assert_eq!(json_of(folder.path(), &format!("{rank} --results kept"))["methods"], found["methods"]);
+    }
     let without = rank.replace(" --metrics", "");
     assert!(!succeed(folder.path(), &without).contains("rmse"));
 }

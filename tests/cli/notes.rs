@@ -19,13 +19,10 @@ fn what_is_sure_is_only_said_when_asked_for() {
     }
     let all = notes(folder.path(), "loss gt.png a.png --verbose");
     for name in ["gt", "a"] {
-        assert!(
-            all.contains(&format!("{name}: albedo: linear: Deschaintre et al. store this order in this way")),
-            "{all:?}"
-        );
+        let note = format!("{name}: albedo: linear: Deschaintre et al. store this order in this way");
+        assert!(all.contains(&note), "{all:?}");
     }
     assert_eq!(notes(folder.path(), "loss gt.png a.png -v"), all);
-    assert!(succeed(folder.path(), "info gt.png").contains("albedo: linear"));
 }
 
 #[test]
@@ -73,12 +70,6 @@ fn what_is_unsure_or_changed_is_said_with_the_name_of_its_material() {
         assert!(changed.iter().any(|note| note.starts_with(said)), "{said} is missing in {changed:?}");
     }
     assert!(!changed.iter().any(|note| note.contains("map is")), "{changed:?}");
-    assert!(
-        notes(folder.path(), "loss big.png set -v")
-            .contains(&"set: The diffuse map is diffuse.png.".to_owned())
-    );
-    assert_eq!(
-        notes(folder.path(), "loss gt.png big.png --resize-to gt"),
-        ["big is resized from 16 x 16 to 8 x 8"]
-    );
+    let resized = notes(folder.path(), "loss gt.png big.png --resize-to gt");
+    assert_eq!(resized, ["big is resized from 16 x 16 to 8 x 8"]);
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use image::{Rgb, RgbImage};
 use serde_json::json;
 
-use super::{command, fail, folder, run_in, succeed, svbrdf, text};
+use super::{assert_has, fail, folder, run_in, succeed, text};
 
 /// The documents that name a picture, in the folder `in` below `at`, each with its command.
 fn documents(at: &Path, picture: &str) -> Vec<(&'static str, &'static str)> {
@@ -56,14 +56,10 @@ fn pictures() -> tempfile::TempDir {
 fn absolute_paths_in_files_are_refused_unless_they_are_allowed() {
     let folder = pictures();
     let at = folder.path();
-    for absolute in
-        [at.join("map.png").display().to_string(), "//host/share/map.png".into(), r"C:\map.png".into()]
-    {
-        let absolute = if absolute.starts_with('C') { absolute.replace('\\', "/") } else { absolute };
-        for (name, command) in documents(at, &absolute) {
+    for absolute in [at.join("map.png").to_str().unwrap(), "//host/share/map.png", "C:/map.png"] {
+        for (name, command) in documents(at, absolute) {
             let error = fail(at, command, 1);
-            assert!(error.contains("absolute path") && error.contains("--allow-outside"), "{name}: {error}");
-            assert!(error.contains(name), "{name}: {error}");
+            assert_has(&error, &["absolute path", "--allow-outside", name]);
         }
     }
     for (name, command) in documents(at, &at.join("map.png").display().to_string()) {
@@ -85,7 +81,7 @@ fn relative_paths_may_leave_the_folder_and_a_note_says_so() {
             continue;
         }
         let output = succeed(at, command);
-        assert!(output.contains("map.png"), "{name}: {output}");
+        assert_has(&output, &["map.png"]);
         // The map of a sidecar file is always noted, with its path.
         let is_noted = output.contains("lies outside of the folder") || name.starts_with('p');
         assert!(is_noted, "{name}: {output}");
@@ -93,19 +89,8 @@ fn relative_paths_may_leave_the_folder_and_a_note_says_so() {
     documents(at, "../gt.png");
     let output = run_in(at, "render in/s.svbrdf-session.json -o out.png");
     let said = text(&output.stderr);
-    assert!(
-        output.status.success() && said.contains("gt.png lies outside of the folder of the session"),
-        "{said}"
-    );
-}
-
-#[test]
-fn an_mtl_of_another_machine_finds_its_maps_beside_it() {
-    let folder = pictures();
-    let at = folder.path();
-    documents(at, "/home/someone/textures/map.png");
-    fs::copy(at.join("map.png"), at.join("in/map.png")).unwrap();
-    succeed(at, "info in/m.mtl");
+    assert!(output.status.success(), "{said}");
+    assert_has(said, &["gt.png lies outside of the folder of the session"]);
 }
 
 #[test]
@@ -123,8 +108,7 @@ fn a_buffer_outside_is_named_in_a_note() {
         "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
     });
     fs::write(at.join("in/m.gltf"), gltf.to_string()).unwrap();
-    let output = succeed(at, "info in/m.gltf");
-    assert!(output.contains("map.bin lies outside of the folder"), "{output}");
+    assert_has(&succeed(at, "info in/m.gltf"), &["map.bin lies outside of the folder"]);
 }
 
 #[cfg(unix)]
@@ -172,8 +156,7 @@ fn a_pipe_that_a_user_names_is_read_and_said_to_be_one() {
         let zeros = vec![0; 1 << 20];
         while std::io::Write::write_all(&mut pipe, &zeros).is_ok() {}
     });
-    let error = fail(&at, "info pipe.png --max-memory 16MiB", 1);
-    assert!(error.contains("16 MiB"), "{error}");
+    assert_has(&fail(&at, "info pipe.png --max-memory 16MiB", 1), &["16 MiB"]);
     endless.join().unwrap();
 }
 
@@ -189,13 +172,11 @@ fn memory_is_asked_for_before_it_is_taken() {
         "loss gt.png a.png --scenes large.json --max-memory 16MiB",
     ] {
         let error = fail(at, args, 1);
-        assert!(error.contains("MiB of memory") && error.contains("--max-memory"), "{args}: {error}");
+        assert_has(&error, &["MiB of memory", "--max-memory"]);
     }
     succeed(at, "convert gt.png out.exr --max-memory 16MiB");
-    for wrong in ["12", "1MiB", "x", "4 GB"] {
-        let output =
-            svbrdf().args(["info", "gt.png", "--max-memory", wrong]).current_dir(at).output().unwrap();
-        assert_eq!(output.status.code(), Some(64), "{wrong}");
+    for wrong in ["12", "1MiB", "x"] {
+        fail(at, &format!("info gt.png --max-memory {wrong}"), 64);
     }
 }
 
@@ -206,12 +187,9 @@ fn what_the_system_does_not_give_is_an_error() {
     let folder = folder();
     let at = folder.path();
     RgbImage::from_pixel(16384, 4096, Rgb([128, 128, 255])).save(at.join("large.png")).unwrap();
-    let info = format!("{} info large.png --max-memory 64GiB", env!("CARGO_BIN_EXE_svbrdf"));
     // Kilobytes of address space; the picture takes 192 MiB.
     let said = [200_000, 250_000, 300_000].map(|limit| {
-        let mut command = command("sh");
-        command.args(["-c", &format!("ulimit -v {limit}; exec {info}")]).current_dir(at);
-        let output = command.envs([("RAYON_NUM_THREADS", "1"), ("MALLOC_ARENA_MAX", "1")]).output().unwrap();
+        let output = super::limited(at, &format!("-v {limit}"), "info large.png --max-memory 64GiB");
         let said = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{limit}: {said}");
         said.to_owned()
@@ -240,25 +218,4 @@ fn readers_take_time_in_proportion_to_their_text() {
         (1, 80_000, 79_999)
     );
     assert!(started.elapsed() < Duration::from_secs(2), "{:?}", started.elapsed());
-}
-
-#[test]
-fn names_from_files_do_not_steer_the_terminal_and_have_an_end() {
-    let folder = pictures();
-    let at = folder.path();
-    for name in ["\u{1b}[31mred\u{7}\u{202e}", &"n".repeat(1 << 20)] {
-        let texture = json!({"baseColorTexture": {"index": 0}});
-        let gltf = json!({
-            "asset": {"version": "2.0"}, "images": [{"uri": "map.png"}], "textures": [{"source": 0}],
-            "materials": [{"name": name, "pbrMetallicRoughness": texture}],
-        });
-        fs::write(at.join("m.gltf"), gltf.to_string()).unwrap();
-        for args in ["info m.gltf --verbose", "render m.gltf -o out.png --verbose", "loss m.gltf m.gltf"] {
-            let output = run_in(at, args);
-            for text in [text(&output.stdout), text(&output.stderr)] {
-                assert!(!text.contains(['\u{1b}', '\u{7}', '\u{202e}']), "{args}: {text}");
-                assert!(text.len() < 100_000, "{args}: {} bytes", text.len());
-            }
-        }
-    }
 }

@@ -5,37 +5,41 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use super::{fail, folder, json, run_in, succeed, text, write_material};
+use super::{
+    assert_has, assert_refused, folder, json, json_of, rows_of, run_in, succeed, text, write_material,
+};
 
 #[test]
 fn predictions_of_a_pattern_are_ranked() {
     let folder = folder();
-    fs::create_dir(folder.path().join("out")).unwrap();
+    let at = folder.path();
+    fs::create_dir(at.join("out")).unwrap();
     for (name, roughness) in [("bad", 230), ("good", 104), ("mean", 150)] {
-        write_material(&folder.path().join(format!("out/{name}.png")), 8, roughness);
+        write_material(&at.join(format!("out/{name}.png")), 8, roughness);
     }
-    fs::write(folder.path().join("out/note.txt"), "no material").unwrap();
-    let ranking = json(&succeed(folder.path(), "rank gt.png out/*.png --format json"));
-    let names: Vec<_> =
-        ranking["ranking"].as_array().unwrap().iter().map(|entry| &entry["prediction"]).collect();
-    assert_eq!(names, ["good", "mean", "bad"]);
-    assert_eq!(ranking["ranking"][2]["group"], 3);
-    assert!(ranking["repetition"]["command"].as_str().unwrap().starts_with("svbrdf rank gt.png"));
-    let readings = ranking["readings"].as_array().unwrap();
-    assert_eq!((readings.len(), &readings[0]["material"]), (4, &"gt".into()));
-    assert!(readings[0]["remarks"][0].as_str().unwrap().starts_with("layout: "), "{readings:?}");
-    let table = succeed(folder.path(), "rank gt.png out/*.png");
-    assert!(table.contains("- best") && table.contains("group"), "{table}");
-    assert_eq!(succeed(folder.path(), "rank gt.png out/*.png --format csv").lines().count(), 4);
-    let latex = succeed(folder.path(), "rank gt.png out/*.png --format latex");
+    fs::write(at.join("out/note.txt"), "no material").unwrap();
+    let ranking = json_of(at, "rank gt.png out/*.png");
+    let names = [0, 1, 2].map(|place| &ranking["ranking"][place]["prediction"]);
+    assert_eq!(
+        (names.map(|name| name.as_str().unwrap()), &ranking["ranking"][2]["group"]),
+        (["good", "mean", "bad"], &3.into())
+    );
+    assert_has(ranking["repetition"]["command"].as_str().unwrap(), &["svbrdf rank gt.png"]);
+    assert_eq!(
+        (ranking["readings"].as_array().unwrap().len(), &ranking["readings"][0]["material"]),
+        (4, &"gt".into())
+    );
+    assert_has(ranking["readings"][0]["remarks"][0].as_str().unwrap(), &["layout: "]);
+    assert_has(&succeed(at, "rank gt.png out/*.png"), &["- best", "group"]);
+    assert_eq!(rows_of(at, "rank gt.png out/*.png").len(), 3);
+    let latex = succeed(at, "rank gt.png out/*.png --format latex");
     assert!(latex.contains("good & \\textbf{") && latex.matches("textbf").count() == 1, "{latex}");
 
-    let above = run_in(folder.path(), "rank gt.png out/*.png --fail-above 0.0001");
+    let above = run_in(at, "rank gt.png out/*.png --fail-above 0.0001");
     assert_eq!(above.status.code(), Some(1));
     assert!(text(&above.stdout).contains("good") && text(&above.stderr).contains("above the limit"));
-    succeed(folder.path(), "rank gt.png out/*.png --fail-above 10");
-    let stderr = fail(folder.path(), "rank gt.png nothing*.png", 64);
-    assert!(stderr.contains("matches no file"), "{stderr}");
+    succeed(at, "rank gt.png out/*.png --fail-above 10");
+    assert_refused(at, &[("rank gt.png nothing*.png", 64, "matches no file")]);
 }
 
 /// Ground truths and two methods; of the second, a file is missing and one is broken.
@@ -50,9 +54,8 @@ const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
 
 #[test]
 fn a_data_set_names_the_losses_that_miss_the_target_error() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = super::data_set(&[("ours", 0)], 0);
     for (name, roughness) in [("gt", 1), ("ours", 2)] {
-        fs::create_dir(folder.path().join(name)).unwrap();
         write_material(&folder.path().join(name).join("mirror.png"), 4, roughness);
         write_material(&folder.path().join(name).join("rough.png"), 4, 100 + 10 * roughness);
     }
@@ -86,11 +89,9 @@ fn a_bad_file_of_a_data_set_is_reported_and_not_fatal() {
     let [known, failed] = [0, 1].map(|method| &ranking["results"][5]["predictions"][method]);
     assert!(known["loss"].as_f64().unwrap() > 0.0 && known.get("error").is_none(), "{known}");
     assert!(failed["error"].as_str().unwrap().contains("m5.png") && failed.get("loss").is_none(), "{failed}");
-    let table = succeed(folder.path(), RANK);
-    assert!(table.contains("7 of 7 materials") && table.contains("95% over materials"), "{table}");
-    let rows = succeed(folder.path(), &format!("{RANK} --format csv"));
-    assert_eq!(rows.lines().count(), 15, "{rows}");
-    assert!(fail(folder.path(), &format!("{RANK} --resize-to gt"), 64).contains("not resized"));
+    assert_has(&succeed(folder.path(), RANK), &["7 of 7 materials", "95% over materials"]);
+    assert_eq!(rows_of(folder.path(), RANK).len(), 14);
+    assert_refused(folder.path(), &[(&format!("{RANK} --resize-to gt"), 64, "not resized")]);
     let latex = succeed(folder.path(), &format!("{RANK} --format latex"));
     assert!(latex.contains("ours & \\textbf{") && !latex.contains("theirs & \\textbf{"), "{latex}");
 }
@@ -102,15 +103,13 @@ fn a_table_of_pairs_names_methods_and_samples() {
         gt/m1.png, ours/m1.png, a\n";
     fs::write(folder.path().join("pairs.csv"), table).unwrap();
     let loss = |pick: &str| {
-        let args = format!("rank --pairs pairs.csv --target-error 5% --format json --pick {pick}");
-        json(&succeed(folder.path(), &args))["methods"][0]["mean"].as_f64().unwrap()
+        let args = format!("rank --pairs pairs.csv --target-error 5% --pick {pick}");
+        json_of(folder.path(), &args)["methods"][0]["mean"].as_f64().unwrap()
     };
     assert!(loss("best") <= loss("mean") && loss("best") <= loss("fixed"));
     assert_ne!(loss("mean"), loss("fixed"));
     fs::write(folder.path().join("no.csv"), "a,b\n1,2\n").unwrap();
-    assert!(
-        fail(folder.path(), "rank --pairs no.csv", 1).contains("the columns ground_truth and prediction")
-    );
+    assert_refused(folder.path(), &[("rank --pairs no.csv", 1, "the columns ground_truth and prediction")]);
 }
 
 #[test]
@@ -126,7 +125,7 @@ fn folders_are_matched_by_name_in_subfolders_too() {
             write(&folder.path().join(format!("ours/{name}_{sample}/maps.png")), 120);
         }
     }
-    let ranking = json(&succeed(folder.path(), "rank --dataset gt ours --target-error 5% --format json"));
+    let ranking = json_of(folder.path(), "rank --dataset gt ours --target-error 5%");
     assert_eq!(ranking["settings"]["materials"], serde_json::json!(["metal/iron", "wood/oak"]));
     assert_eq!(ranking["results"][0]["predictions"].as_array().unwrap().len(), 2);
     assert_eq!(ranking["methods"][0]["failures"], 0);

@@ -1,29 +1,27 @@
 //! What stands around the numbers of a ranking: how files were read, over which materials a mean is, and how to repeat it.
 
 use std::fs;
-use std::path::Path;
 
-use super::{data_set, json, run_in, succeed, svbrdf, text, write_material};
+use super::{
+    assert_has, assert_refused, data_set, json, json_of, rows_of, run_in, succeed, text, text_of,
+    write_material,
+};
 use serde_json::Value;
 
 const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
-
-/// A material in a folder, without its normal map.
-fn write_without_normals(folder: &Path) {
-    fs::create_dir(folder).unwrap();
-    for (map, value) in [("diffuse", 200), ("specular", 12), ("roughness", 120)] {
-        image::GrayImage::from_pixel(8, 8, image::Luma([value]))
-            .save(folder.join(format!("{map}.png")))
-            .unwrap();
-    }
-}
 
 #[test]
 fn a_ranking_says_how_files_were_read() {
     let folder = data_set(&[("ours", 8), ("theirs", 16)], 5);
     for i in 0..3 {
-        fs::remove_file(folder.path().join(format!("theirs/m{i}.png"))).unwrap();
-        write_without_normals(&folder.path().join(format!("theirs/m{i}")));
+        // A set without its normal map.
+        let set = folder.path().join(format!("theirs/m{i}"));
+        fs::remove_file(set.with_extension("png")).unwrap();
+        fs::create_dir(&set).unwrap();
+        for (map, value) in [("diffuse", 200), ("specular", 12), ("roughness", 120)] {
+            let gray = image::GrayImage::from_pixel(8, 8, image::Luma([value]));
+            gray.save(set.join(map).with_extension("png")).unwrap();
+        }
     }
     let expected = "3 of 5 without normal map";
     let doubts = |output: &str| output.lines().find(|line| line.contains(expected)).map(str::to_owned);
@@ -34,30 +32,28 @@ fn a_ranking_says_how_files_were_read() {
     let output = run_in(folder.path(), &format!("{RANK} --format json"));
     assert!(doubts(text(&output.stderr)).is_some(), "{}", text(&output.stderr));
     let ranking = json(text(&output.stdout));
-    let theirs = ranking["methods"].as_array().unwrap().iter().find(|one| one["method"] == "theirs").unwrap();
-    let without = theirs["reading"]["doubts"].as_array().unwrap();
-    let without = without.iter().find(|doubt| doubt["doubt"] == "without normal map").unwrap();
+    let find = |all: &Value, key: &str, value: &str| {
+        all.as_array().unwrap().iter().find(|one| one[key] == value).unwrap().clone()
+    };
+    let theirs = find(&ranking["methods"], "method", "theirs");
+    let without = find(&theirs["reading"]["doubts"], "doubt", "without normal map");
     assert_eq!((&without["materials"], &theirs["reading"]["materials"]), (&3.into(), &5.into()));
     let remarks = ranking["results"][0]["predictions"][1]["reading"].as_array().unwrap();
-    assert!(
-        remarks.iter().any(|one| one["text"].as_str().unwrap().starts_with("missing: normal")),
-        "{remarks:?}"
-    );
+    let is_missing = |one: &Value| one["text"].as_str().unwrap().starts_with("missing: normal");
+    assert!(remarks.iter().any(is_missing), "{remarks:?}");
 
-    let rows = succeed(folder.path(), &format!("{RANK} --format csv"));
-    let mut rows = csv::Reader::from_reader(rows.as_bytes());
-    let column = rows.headers().unwrap().iter().position(|name| name == "doubts").unwrap();
-    let counts: Vec<usize> = rows.records().map(|row| row.unwrap()[column].parse().unwrap()).collect();
+    let rows = rows_of(folder.path(), RANK);
+    let counts: Vec<usize> = rows.iter().map(|row| row["doubts"].parse().unwrap()).collect();
     assert!(counts[1] > counts[7], "without a normal map, and with one: {counts:?}");
     let latex = succeed(folder.path(), &format!("{RANK} --format latex"));
     assert!(doubts(&latex).is_some_and(|line| line.starts_with("% theirs: ")), "{latex}");
     succeed(folder.path(), &format!("{RANK} --format html -o page.html"));
-    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains(expected));
-
+    assert_has(&text_of(folder.path(), "page.html"), &[expected]);
     let verbose = run_in(folder.path(), &format!("{RANK} -v"));
-    let notes = text(&verbose.stderr);
-    assert!(notes.contains("note: m0, theirs: missing: normal"), "{notes}");
-    assert!(notes.contains("note: m4, ground truth: layout: "), "{notes}");
+    assert_has(
+        text(&verbose.stderr),
+        &["note: m0, theirs: missing: normal", "note: m4, ground truth: layout: "],
+    );
 }
 
 #[test]
@@ -68,15 +64,10 @@ fn no_format_puts_a_method_first_that_failed_on_most_materials() {
         fs::write(folder.path().join(format!("few/m{i}.png")), "not an image").unwrap();
     }
     let rank = "rank --dataset gt few theirs ours --target-error 5% --metrics";
-    let ranking = json(&succeed(folder.path(), &format!("{rank} --format json")));
-    let methods = ranking["methods"].as_array().unwrap();
-    let of = |key: &str| methods.iter().map(|one| one[key].clone()).collect::<Vec<_>>();
-    assert_eq!(of("method"), ["ours", "theirs", "few"]);
-    assert_eq!(of("compared"), [true, true, false]);
-    assert_eq!(of("ties_with_best")[2], false);
-    assert_eq!(ranking["compared_materials"].as_array().unwrap().len(), 5);
-    let table = succeed(folder.path(), rank);
-    assert!(table.contains("few has 1 of 5 materials: not compared"), "{table}");
+    let ranking = json_of(folder.path(), rank);
+    let last = &ranking["methods"][2];
+    assert_eq!([&last["method"], &last["compared"]], [&Value::from("few"), &false.into()]);
+    assert_has(&succeed(folder.path(), rank), &["few has 1 of 5 materials: not compared"]);
     let latex = succeed(folder.path(), &format!("{rank} --format latex"));
     let of_few = latex.lines().find(|line| line.starts_with("few & ")).unwrap();
     assert!(!of_few.contains("textbf") && of_few.contains("1 of 5"), "{latex}");
@@ -87,15 +78,11 @@ fn no_format_puts_a_method_first_that_failed_on_most_materials() {
         .any(|line| line.rsplit(" & ").next().unwrap().contains("textbf"));
     assert!(!bold_last, "{metrics}");
     succeed(folder.path(), &format!("{rank} --format html -o page.html"));
-    let page = fs::read_to_string(folder.path().join("page.html")).unwrap();
+    let page = text_of(folder.path(), "page.html");
     assert_eq!(page.matches("<td>best</td>").count(), 1);
     assert!(page.find("<td>best</td>").unwrap() < page.find("<td>lacks materials</td>").unwrap());
-    let rows = succeed(folder.path(), &format!("{rank} --format csv"));
-    let mut rows = csv::Reader::from_reader(rows.as_bytes());
-    let headers = rows.headers().unwrap().clone();
-    let cell = |name: &str| headers.iter().position(|header| header == name).unwrap();
-    for row in rows.records().map(Result::unwrap) {
-        assert_eq!(&row[cell("compared")] == "true", &row[cell("method")] != "few", "{row:?}");
+    for row in rows_of(folder.path(), rank) {
+        assert_eq!(row["compared"] == "true", row["method"] != "few", "{row:?}");
     }
 }
 
@@ -103,7 +90,7 @@ fn no_format_puts_a_method_first_that_failed_on_most_materials() {
 fn a_loss_does_not_depend_on_its_rivals_nor_on_other_materials() {
     let folder = data_set(&[("ours", 8), ("theirs", 80)], 4);
     let losses = |args: &str| -> Vec<(Value, [Value; 3])> {
-        let ranking = json(&succeed(folder.path(), &format!("{args} --format json")));
+        let ranking = json_of(folder.path(), args);
         let of = |result: &Value| {
             let predictions = result["predictions"].as_array().unwrap().clone();
             let ours = predictions.into_iter().find(|one| one["method"] == "ours").unwrap();
@@ -119,49 +106,29 @@ fn a_loss_does_not_depend_on_its_rivals_nor_on_other_materials() {
     assert_ne!(losses("rank --dataset gt ours --target-error 2% --seed 1"), fewer);
 }
 
+#[cfg(unix)]
 #[test]
 fn a_ranking_says_how_to_repeat_it() {
     let folder = data_set(&[("ours", 8), ("their maps", 16)], 5);
-    let args = "rank --dataset gt ours their_maps --target-error 3% --seed 7 --pick mean --convention guided-2020 --metrics \
-        --preset deschaintre";
-    let args: Vec<&str> =
-        args.split(' ').map(|word| if word == "their_maps" { "their maps" } else { word }).collect();
-    let run = |args: &[&str]| {
-        let output = svbrdf().args(args).current_dir(folder.path()).output().unwrap();
+    let run = |line: &str| {
+        let line = line.replacen("svbrdf", env!("CARGO_BIN_EXE_svbrdf"), 1);
+        let output = super::command("sh").args(["-c", &line]).current_dir(folder.path()).output().unwrap();
         assert!(output.status.success(), "{}", text(&output.stderr));
         text(&output.stdout).to_owned()
     };
-    let table = run(&args);
+    let line = "svbrdf rank --dataset gt ours 'their maps' --target-error 3% --seed 7 --pick mean --convention guided-2020 \
+        --metrics --preset deschaintre";
+    let table = run(line);
     let version = env!("CARGO_PKG_VERSION");
     let repeat = table.lines().find_map(|line| line.strip_prefix(&format!("repeat with svbrdf {version}: ")));
-    let words = shlex(repeat.unwrap_or_else(|| panic!("{table}")));
-    let words: Vec<&str> = words.iter().map(String::as_str).skip(1).collect();
-    assert_eq!(run(&words), table);
-    let ranking = json(&run(&[&args[..], &["--format", "json"]].concat()));
-    assert_eq!(ranking["repetition"]["command"], repeat.unwrap());
+    let repeat = repeat.unwrap_or_else(|| panic!("{table}"));
+    assert_eq!(run(repeat), table);
+    let ranking = json(&run(&format!("{line} --format json")));
+    assert_eq!(ranking["repetition"]["command"], repeat);
     assert_eq!(ranking["reading"]["predictions"]["preset"], "deschaintre");
-    assert!(ranking["repetition"]["software"].as_str().unwrap().contains(version));
-    run(&[&args[..], &["--format", "html", "-o", "page.html"]].concat());
-    let page = fs::read_to_string(folder.path().join("page.html")).unwrap();
-    assert!(page.contains("rank --dataset gt ours") && page.contains(version));
-}
-
-/// The words of a command as a shell reads them: plain ones, and those in single quotes.
-fn shlex(command: &str) -> Vec<String> {
-    let (mut words, mut is_quoted, mut begins) = (Vec::new(), false, true);
-    for c in command.chars() {
-        match c {
-            '\'' => is_quoted = !is_quoted,
-            ' ' if !is_quoted => begins = true,
-            c => {
-                if std::mem::take(&mut begins) {
-                    words.push(String::new());
-                }
-                words.last_mut().unwrap().push(c);
-            }
-        }
-    }
-    words
+    assert_has(ranking["repetition"]["software"].as_str().unwrap(), &[version]);
+    run(&format!("{line} --format html -o page.html"));
+    assert_has(&text_of(folder.path(), "page.html"), &["rank --dataset gt ours", version]);
 }
 
 #[test]
@@ -174,27 +141,18 @@ fn predictions_of_other_names_are_found_by_a_pattern() {
     let output = run_in(folder.path(), "rank --dataset gt out --target-error 5%");
     let notes = text(&output.stderr);
     assert_eq!(output.status.code(), Some(1));
-    assert!(notes.contains("no prediction named m0 in out; found m0_pred.png"), "{notes}");
-    assert!(notes.contains("out/{}_pred.png"), "{notes}");
-    let ranking =
-        json(&succeed(folder.path(), "rank --dataset gt out/{}_pred.png --target-error 5% --format json"));
-    assert_eq!(
-        (&ranking["methods"][0]["method"], &ranking["methods"][0]["materials"]),
-        (&"pred".into(), &3.into())
-    );
+    assert_has(notes, &["no prediction named m0 in out; found m0_pred.png", "out/{}_pred.png"]);
+    let rank = "rank --dataset gt out/{}_pred.png --target-error 5%";
+    let method = json_of(folder.path(), rank)["methods"][0].take();
+    assert_eq!((&method["method"], &method["materials"]), (&"pred".into(), &3.into()));
     fs::remove_file(folder.path().join("out/m1_pred.png")).unwrap();
-    let output = run_in(folder.path(), "rank --dataset gt out/{}_pred.png --target-error 5%");
-    let notes = text(&output.stderr);
-    assert!(notes.contains("no prediction at out/m1_pred.png"), "{notes}");
+    assert_has(text(&run_in(folder.path(), rank).stderr), &["no prediction at out/m1_pred.png"]);
 }
 
 #[test]
 fn a_loss_of_folders_of_materials_says_how_to_rank_them() {
     let folder = data_set(&[("ours", 8)], 3);
-    let output = run_in(folder.path(), "loss gt ours");
-    assert_eq!(output.status.code(), Some(1));
-    let message = text(&output.stderr);
-    assert!(message.contains("svbrdf rank --dataset gt ours"), "{message}");
+    assert_refused(folder.path(), &[("loss gt ours", 1, "svbrdf rank --dataset gt ours")]);
 }
 
 #[test]
@@ -206,8 +164,8 @@ fn methods_of_unlike_conventions_are_ranked_together() {
         write_material(&folder.path().join(format!("glossy/m{i}.png")), 8, 255 - (60 + 17 * i));
     }
     let means = |options: &str| {
-        let rank = "rank --dataset gt same=ours glossy --target-error 5% --format json";
-        let ranking = json(&succeed(folder.path(), &format!("{rank} {options}")));
+        let rank = "rank --dataset gt same=ours glossy --target-error 5%";
+        let ranking = json_of(folder.path(), &format!("{rank} {options}"));
         let methods = ranking["methods"].as_array().unwrap().clone();
         let mean =
             |name: &str| methods.iter().find(|one| one["method"] == name).unwrap()["mean"].as_f64().unwrap();
@@ -219,11 +177,7 @@ fn methods_of_unlike_conventions_are_ranked_together() {
     assert!(read[0] < 1e-9 && read[1] < 1e-6, "{read:?}");
     assert_eq!(ranking["reading"]["methods"]["glossy"]["roughness"], "gloss");
     let command = ranking["repetition"]["command"].as_str().unwrap();
-    assert!(
-        command.contains("same=ours glossy") && command.contains("--read glossy:roughness=gloss"),
-        "{command}"
-    );
-    let unknown = run_in(folder.path(), "rank --dataset gt ours --read other:roughness=gloss");
-    assert_eq!(unknown.status.code(), Some(64));
-    assert!(text(&unknown.stderr).contains("no material is named other"), "{}", text(&unknown.stderr));
+    assert_has(command, &["same=ours glossy", "--read glossy:roughness=gloss"]);
+    let unknown = "rank --dataset gt ours --read other:roughness=gloss";
+    assert_refused(folder.path(), &[(unknown, 64, "no material is named other")]);
 }

@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{fail, folder, run_in, succeed, text, write_material};
+use super::{assert_refused, files, folder, json_of, run_in, text, text_of, write_material};
 
 /// Ground truths and two methods; of the second, a file is broken.
 fn data_set() -> TempDir {
@@ -34,9 +34,8 @@ fn a_page_has_the_losses_the_verdicts_the_failures_and_figures_of_the_worst() {
     let output =
         run_in(folder.path(), &format!("{RANK} --format html -o out.html --figures worst:2 --metrics"));
     assert!(output.status.success() && output.stdout.is_empty(), "{}", text(&output.stderr));
-    let page = fs::read_to_string(folder.path().join("out.html")).unwrap();
-    let ranking: Value =
-        serde_json::from_str(&succeed(folder.path(), &format!("{RANK} --format json --metrics"))).unwrap();
+    let page = text_of(folder.path(), "out.html");
+    let ranking = json_of(folder.path(), &format!("{RANK} --metrics"));
     for result in ranking["results"].as_array().unwrap() {
         for prediction in result["predictions"].as_array().unwrap() {
             let expected = match &prediction["loss"] {
@@ -57,31 +56,31 @@ fn a_page_has_the_losses_the_verdicts_the_failures_and_figures_of_the_worst() {
     assert_eq!(page.matches("src=\"data:image/jpeg").count(), 4);
     assert!(page.contains("&quot;&gt;&lt;svg onload=hit&gt;") && !page.contains("<svg onload"));
     // Of the largest mean losses; the materials are in the order of their names.
-    let links = links(&page);
+    let links: [&str; 2] = links(&page).try_into().unwrap();
     assert_eq!(links, ["out-figures/0001-___svg_onload_hit_.html", "out-figures/0003-m1.html"]);
-    let files = fs::read_dir(folder.path().join("out-figures")).unwrap();
-    let mut files: Vec<String> = files.map(|file| file.unwrap().file_name().into_string().unwrap()).collect();
-    files.sort();
-    assert_eq!(files, ["0001-___svg_onload_hit_.html", "0003-m1.html"]);
-    let figure = fs::read_to_string(folder.path().join("out-figures/0003-m1.html")).unwrap();
+    let files = files(&folder.path().join("out-figures"));
+    assert_eq!(files, links.map(|link| link.trim_start_matches("out-figures/")));
+    let figure = text_of(folder.path(), "out-figures/0003-m1.html");
     assert!(figure.contains("ours, theirs against m1") && figure.contains("id=\"canvas\""));
 }
 
 #[test]
 fn a_page_is_a_file_of_a_data_set_and_replaces_no_material() {
     let folder = data_set();
-    let no_file = fail(folder.path(), &format!("{RANK} --format html"), 64);
-    assert!(no_file.contains("--output NAME.html"), "{no_file}");
-    fail(folder.path(), &format!("{RANK} --format html -o out.txt"), 64);
-    fail(folder.path(), &format!("{RANK} -o out.html"), 64);
-    fail(folder.path(), &format!("{RANK} --figures all"), 64);
-    fail(folder.path(), &format!("{RANK} --format html -o out.html --figures worst:0"), 64);
+    for (options, words) in [
+        ("--format html", "--output NAME.html"),
+        ("--format html -o out.txt", ".html"),
+        ("-o out.html", "--format html"),
+        ("--figures all", "--figures"),
+        ("--format html -o out.html --figures worst:0", "worst"),
+    ] {
+        assert_refused(folder.path(), &[(&format!("{RANK} {options}"), 64, words)]);
+    }
     fs::rename(folder.path().join("gt/m0.png"), folder.path().join("gt/m0.webp")).unwrap();
     fs::write(folder.path().join("pairs.csv"), "ground_truth,prediction\ngt/page.html,ours/m0.png\n")
         .unwrap();
     fs::copy(folder.path().join("gt/m1.png"), folder.path().join("gt/page.html")).unwrap();
-    let replaced = fail(folder.path(), "rank --pairs pairs.csv --format html -o gt/page.html", 1);
-    assert!(replaced.contains("which the result is made from"), "{replaced}");
-    let one = self::folder();
-    assert!(fail(one.path(), "rank gt.png a.png --format html", 64).contains("svbrdf report"));
+    let replaced = "rank --pairs pairs.csv --format html -o gt/page.html";
+    assert_refused(folder.path(), &[(replaced, 1, "which the result is made from")]);
+    assert_refused(self::folder().path(), &[("rank gt.png a.png --format html", 64, "svbrdf report")]);
 }

@@ -4,7 +4,10 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use super::{fail, folder, run_in, succeed, text, write_tiles};
+use super::{
+    assert_has, assert_refused, fail, folder, json_of, losses_as_json, run_in, succeed, text, text_of,
+    write_tiles,
+};
 
 /// The data of the figure.
 fn data(page: &str) -> Value {
@@ -30,11 +33,9 @@ fn a_report_has_the_numbers_of_loss_and_blame() {
     let folder = folder();
     let options = "gt.png a.png b.png --target-error 2% --seed 3 --convention guided-2020";
     succeed(folder.path(), &format!("report {options} -o r.html"));
-    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
-    let losses: Value =
-        serde_json::from_str(&succeed(folder.path(), &format!("loss {options} --format json"))).unwrap();
-    let shares: Value =
-        serde_json::from_str(&succeed(folder.path(), &format!("blame {options} --format json"))).unwrap();
+    let page = text_of(folder.path(), "r.html");
+    let [losses, shares] =
+        ["loss", "blame"].map(|command| json_of(folder.path(), &format!("{command} {options}")));
     for result in losses["results"].as_array().unwrap() {
         assert!(page.contains(&cell(&result["loss"])), "{result}");
     }
@@ -43,8 +44,8 @@ fn a_report_has_the_numbers_of_loss_and_blame() {
             assert!(page.contains(&cell(&map["shapley"]["mean"])), "{map}");
         }
     }
-    assert!(page.contains("convention guided-2020") && page.contains("seed 3"));
-    assert!(page.contains(&format!("<pre><code>svbrdf report {options} -o r.html</code></pre>")));
+    let command = format!("<pre><code>svbrdf report {options} -o r.html</code></pre>");
+    assert_has(&page, &["convention guided-2020", "seed 3", &command]);
     assert_eq!(page.matches("data-scene=").count(), 6);
     assert_eq!(page.matches(r#"<svg class="directions""#).count(), 2);
 }
@@ -53,10 +54,10 @@ fn a_report_has_the_numbers_of_loss_and_blame() {
 fn a_prediction_without_an_error_has_no_shares_and_a_material_alone_no_findings() {
     let folder = folder();
     succeed(folder.path(), "report gt.png gt.png -o r.html --target-error 30%");
-    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    let page = text_of(folder.path(), "r.html");
     assert!(page.matches("<td>&ndash;</td>").count() == 4 && !page.contains("NaN"));
     succeed(folder.path(), "report gt.png -o r.html");
-    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    let page = text_of(folder.path(), "r.html");
     assert!(page.contains("Repeating the numbers") && !page.contains("Rendering loss"));
 }
 
@@ -72,7 +73,7 @@ fn a_report_of_a_session_begins_as_it_was_saved() {
     });
     fs::write(folder.path().join("s.svbrdf-session.json"), session.to_string()).unwrap();
     succeed(folder.path(), "report s.svbrdf-session.json -o r.html --figure");
-    let data = data(&fs::read_to_string(folder.path().join("r.html")).unwrap());
+    let data = data(&text_of(folder.path(), "r.html"));
     let start = &data["start"];
     assert_eq!([&start["scene"], &start["exposure"]], [&scene, &json!(1.5)]);
     assert_eq!([&start["quantity"], &start["difference"]], [&json!("roughness"), &json!(true)]);
@@ -96,16 +97,12 @@ fn a_report_of_a_session_has_its_losses_unless_an_accuracy_is_specified() {
     fs::write(folder.path().join("s.svbrdf-session.json"), session.to_string()).unwrap();
     for options in ["", "--seed 9"] {
         succeed(folder.path(), &format!("report s.svbrdf-session.json -o r.html {options}"));
-        let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
-        let losses = succeed(folder.path(), &format!("loss s.svbrdf-session.json --format json {options}"));
-        let losses: Value = serde_json::from_str(&losses).unwrap();
-        assert!(page.contains(&cell(&losses["results"][0]["loss"])), "{losses}");
-        assert!(page.contains("5 near-field and 2 distant"), "{page}");
+        let page = text_of(folder.path(), "r.html");
+        let losses = losses_as_json(folder.path(), &format!("s.svbrdf-session.json {options}"));
+        assert_has(&page, &[&cell(&losses["results"][0]["loss"]), "5 near-field and 2 distant"]);
     }
     succeed(folder.path(), "report s.svbrdf-session.json -o r.html --target-error 20%");
-    assert!(
-        !fs::read_to_string(folder.path().join("r.html")).unwrap().contains("5 near-field and 2 distant")
-    );
+    assert!(!text_of(folder.path(), "r.html").contains("5 near-field and 2 distant"));
 }
 
 #[test]
@@ -115,42 +112,10 @@ fn a_figure_begins_with_the_layout_and_the_light_of_the_options() {
         folder.path(),
         "report gt.png a.png -o r.html --figure --layout wipe --light 0.1,0.2,1 --distant",
     );
-    let start = &data(&fs::read_to_string(folder.path().join("r.html")).unwrap())["start"];
+    let page = text_of(folder.path(), "r.html");
+    let start = &data(&page)["start"];
     assert_eq!([&start["layout"], &start["scene"]["light"]], [&json!("wipe"), &json!([0.1, 0.2, 1.0])]);
-    fail(folder.path(), "report gt.png -o r.html --figure --layout wipe", 64);
-}
-
-#[test]
-fn worst_scenes_are_ordered_by_their_losses_on_all_texels() {
-    let folder = folder();
-    let of = |name: &str| folder.path().join(name);
-    for (name, roughness) in [("truth.png", 60), ("rough.png", 140)] {
-        write_tiles(&of(name), 32, |x, y| match x / 32 {
-            0 => [(90 + 5 * (x % 16)) as u8, (100 + 7 * (y % 8)) as u8, 230],
-            1 => [(7 * x) as u8, (5 * y) as u8, 90],
-            2 => [(roughness + x * y % 97) as u8; 3],
-            _ => [(20 + 3 * y) as u8; 3],
-        });
-    }
-    succeed(folder.path(), "report truth.png rough.png -o r.html --target-error 10%");
-    let page = fs::read_to_string(of("r.html")).unwrap();
-    let scenes: Vec<Value> =
-        data(&page)["scenes"].as_array().unwrap().iter().map(|linked| linked["scene"].clone()).collect();
-    fs::write(of("worst.json"), json!({"scenes": scenes}).to_string()).unwrap();
-    let all = succeed(folder.path(), "scenes truth.png rough.png --scenes worst.json --format json");
-    let all: Value = serde_json::from_str(&all).unwrap();
-    assert_eq!(all["scenes"], json!(scenes));
-    for loss in all["results"][0]["losses"].as_array().unwrap() {
-        let loss = format!("Loss: rough {}<", number(loss));
-        assert!(page.contains(&loss), "{loss}");
-    }
-}
-
-#[test]
-fn the_figure_alone_has_no_findings() {
-    let folder = folder();
-    succeed(folder.path(), "report gt.png a.png -o r.html --figure");
-    let page = fs::read_to_string(folder.path().join("r.html")).unwrap();
+    // The figure alone has no findings.
     assert!(page.contains(r#"id="canvas""#) && !page.contains("<h1>") && !page.contains("<h2"));
 }
 
@@ -175,14 +140,10 @@ fn maps_are_halved_until_the_file_fits_and_this_is_said() {
     assert!(output.status.success(), "{}", text(&output.stderr));
     let page = fs::read(folder.path().join("r.html")).unwrap();
     assert!(page.len() <= most, "{} bytes", page.len());
-    let data = data(&fs::read_to_string(folder.path().join("r.html")).unwrap());
+    let data = data(&text_of(folder.path(), "r.html"));
     let side = data["materials"][0]["width"].as_u64().unwrap();
     assert!(side < 256 && data["materials"][1]["width"] == json!(side), "{side}");
-    assert!(
-        text(&output.stderr).contains(&format!("are reduced to {side} x {side} texels")),
-        "{}",
-        text(&output.stderr)
-    );
+    assert_has(text(&output.stderr), &[&format!("are reduced to {side} x {side} texels")]);
 }
 
 #[test]
@@ -192,7 +153,7 @@ fn a_size_that_no_report_has_is_refused_with_the_least() {
     {
         let error = fail(folder.path(), &format!("{args} --max-size 1"), 1);
         let least: u64 = error.split(' ').find_map(|word| word.parse().ok()).unwrap();
-        assert!(error.contains("--max-size") && error.contains("limit of 1;"), "{error}");
+        assert_has(&error, &["--max-size", "limit of 1;"]);
         let length = || fs::metadata(folder.path().join("r.html")).unwrap().len();
         // The page has the command that makes it, with the size.
         succeed(folder.path(), &format!("{args} --max-size {}", least + 16));
@@ -204,8 +165,12 @@ fn a_size_that_no_report_has_is_refused_with_the_least() {
 #[test]
 fn a_report_is_html_and_replaces_no_input() {
     let folder = folder();
-    fail(folder.path(), "report gt.png a.png -o r.txt", 64);
     fs::copy(folder.path().join("gt.png"), folder.path().join("gt.html")).unwrap();
-    fail(folder.path(), "report gt.html a.png -o gt.html", 1);
-    fail(folder.path(), "report gt.png a.png -o r.html --figure --seed 1", 64);
+    let refused = [
+        ("report gt.png a.png -o r.txt", 64, ".html"),
+        ("report gt.html a.png -o gt.html", 1, "made from"),
+        ("report gt.png a.png -o r.html --figure --seed 1", 64, "--seed"),
+        ("report gt.png -o r.html --figure --layout wipe", 64, "--layout"),
+    ];
+    assert_refused(folder.path(), &refused);
 }

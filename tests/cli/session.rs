@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{fail, folder, succeed};
+use super::{assert_has, assert_refused, fail, folder, losses_as_json, succeed, text_of};
 
 const SESSION: &str = "s.svbrdf-session.json";
 
@@ -25,12 +25,21 @@ fn pixels(folder: &Path, name: &str) -> image::RgbImage {
 fn a_command_takes_from_a_session_what_no_option_says() {
     let folder = folder();
     let at = folder.path();
+    write(at, r#"{"path": "gt.png"}, {"path": "a.png"}, {"path": "b.png", "read": {"roughness": "gloss"}}"#);
+    let [of_session, as_found] = [SESSION, "gt.png a.png b.png --convention guided-2020"]
+        .map(|materials| losses_as_json(at, &format!("{materials} --near 6"))["results"].clone());
+    assert_eq!(of_session[0]["loss"], as_found[0]["loss"]);
+    assert_ne!(of_session[1]["loss"], as_found[1]["loss"], "its options are not used");
+    assert_refused(at, &[(&format!("loss {SESSION} a.png"), 64, "names its predictions itself")]);
     write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
     let of_files = |rest: &str| succeed(at, &format!("loss gt.png a.png --convention guided-2020 {rest}"));
     assert_eq!(succeed(at, &format!("loss {SESSION}")), of_files("--near 4 --distant 2"));
     assert_eq!(succeed(at, &format!("loss {SESSION} --seed 5")), of_files("--near 4 --distant 2 --seed 5"));
     assert_eq!(succeed(at, &format!("loss {SESSION} --near 3")), of_files("--near 3"));
     assert_ne!(of_files("--near 4 --distant 2"), of_files("--near 4 --distant 2 --seed 5"));
+    write(at, r#"{"path": "gt.png"}"#);
+    fail(at, &format!("loss {SESSION}"), 64);
+    write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
 
     let scene = "--view 0,0.1,2 --exposure 1.5 --convention guided-2020 --light";
     for (of_session, rest) in [
@@ -61,45 +70,28 @@ const COMMANDS: [&str; 10] = [
 ];
 
 #[test]
-fn every_command_refuses_a_session_with_an_unknown_convention() {
+fn every_command_refuses_a_convention_and_loss_settings_that_do_not_exist_and_names_the_field() {
     let folder = folder();
     let at = folder.path();
     succeed(at, "render gt.png -o photo.png");
     write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
-    let text = std::fs::read_to_string(at.join(SESSION)).unwrap();
-    std::fs::write(at.join(SESSION), text.replace("guided-2020", "guided-2120")).unwrap();
-    for command in COMMANDS.into_iter().chain(["study {}"]) {
-        let stderr = fail(at, &command.replace("{}", SESSION), 1);
-        assert!(stderr.contains(SESSION) && stderr.contains("guided-2120"), "{command}: {stderr}");
-        assert!(stderr.contains("printed, single-image-2018"), "{command}: {stderr}");
-    }
-}
-
-#[test]
-fn every_command_refuses_loss_settings_out_of_range_and_names_the_field() {
-    let folder = folder();
-    let at = folder.path();
-    succeed(at, "render gt.png -o photo.png");
-    write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
-    let good = std::fs::read_to_string(at.join(SESSION)).unwrap();
+    let good = text_of(at, SESSION);
     let no_scenes = r#""ask": "File", "file": {"name": "a.json", "scenes": []}"#;
     let below = r#""ask": "File", "file": {"name": "a.json", "scenes": [
         {"kind": "near", "view": [0, 0, 1], "light": [0, 0, -1]}]}"#;
-    for (settings, field, found) in [
-        (r#""ask": "Accuracy", "target_percent": -1"#, "window.loss.target_percent", "found -1"),
-        (r#""ask": "Accuracy", "target_percent": 0"#, "window.loss.target_percent", "found 0"),
-        (r#""ask": "Accuracy", "target_percent": 1e9"#, "window.loss.target_percent", "found 1000000000"),
-        (r#""ask": "Scenes", "near": 4, "texels": {"sampled": 0}"#, "window.loss.texels", "found 0"),
-        (no_scenes, "window.loss.file.scenes", "found none"),
-        (below, "window.loss.file.scenes", "scene 0"),
+    let loss = r#""ask": "Scenes", "near": 4, "distant": 2"#;
+    for (of, wrong, field, found) in [
+        ("guided-2020", "guided-2120", "printed, single-image-2018", "guided-2120"),
+        (loss, r#""ask": "Accuracy", "target_percent": -1"#, "window.loss.target_percent", "found -1"),
+        (loss, r#""ask": "Scenes", "near": 4, "texels": {"sampled": 0}"#, "window.loss.texels", "found 0"),
+        (loss, no_scenes, "window.loss.file.scenes", "found none"),
+        (loss, below, "window.loss.file.scenes", "scene 0"),
     ] {
-        let text = good.replace(r#""ask": "Scenes", "near": 4, "distant": 2"#, settings);
+        let text = good.replace(of, wrong);
         assert_ne!(text, good);
         std::fs::write(at.join(SESSION), text).unwrap();
         for command in COMMANDS {
-            let stderr = fail(at, &command.replace("{}", SESSION), 1);
-            let is_clear = [SESSION, field, found].iter().all(|part| stderr.contains(part));
-            assert!(is_clear, "{command}, {settings}: {stderr}");
+            assert_has(&fail(at, &command.replace("{}", SESSION), 1), &[SESSION, field, found]);
         }
     }
 }
@@ -114,7 +106,7 @@ fn every_command_opens_a_session_once() {
     let at = folder.path();
     succeed(at, "render gt.png -o photo.png");
     write(at, r#"{"path": "gt.png"}, {"path": "a.png"}"#);
-    let text = std::fs::read_to_string(at.join(SESSION)).unwrap();
+    let text = text_of(at, SESSION);
     std::fs::remove_file(at.join(SESSION)).unwrap();
     for command in COMMANDS {
         assert!(Command::new("mkfifo").arg(at.join(SESSION)).status().unwrap().success());
@@ -127,11 +119,4 @@ fn every_command_opens_a_session_once() {
         succeed(at, &command.replace("{}", SESSION));
         writer.join().unwrap();
     }
-}
-
-#[test]
-fn a_session_without_a_prediction_has_no_loss() {
-    let folder = folder();
-    write(folder.path(), r#"{"path": "gt.png"}"#);
-    fail(folder.path(), &format!("loss {SESSION}"), 64);
 }

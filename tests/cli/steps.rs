@@ -1,11 +1,12 @@
 //! Folders of training steps in the place of predictions.
 
+use std::collections::BTreeMap;
 use std::fs;
 
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{fail, folder, losses_as_json, succeed, write_material};
+use super::{assert_refused, folder, losses_as_json, rows_of, write_material};
 
 /// A ground truth and a run whose roughness comes closer to it, and at last goes too far.
 fn run() -> TempDir {
@@ -19,16 +20,14 @@ fn run() -> TempDir {
     folder
 }
 
-/// The cells of a column of a CSV table without quotes.
-fn column(csv: &str, name: &str) -> Vec<String> {
-    let at = csv.lines().next().unwrap().split(',').position(|title| title == name).unwrap();
-    csv.lines().skip(1).map(|line| line.split(',').nth(at).unwrap().to_owned()).collect()
+fn column(rows: &[BTreeMap<String, String>], title: &str) -> Vec<String> {
+    rows.iter().map(|row| row[title].clone()).collect()
 }
 
 #[test]
 fn loss_prints_every_step_of_a_run_in_order() {
     let folder = run();
-    let csv = succeed(folder.path(), "loss gt.png run --near 4 --distant 2 --format csv");
+    let csv = rows_of(folder.path(), "loss gt.png run --near 4 --distant 2");
     assert_eq!(column(&csv, "step"), ["9", "100", "1000"]);
     assert_eq!(column(&csv, "prediction"), ["pred_step000009", "pred_step000100", "pred_step001000"]);
     let losses: Vec<f64> = column(&csv, "loss").iter().map(|cell| cell.parse().unwrap()).collect();
@@ -39,6 +38,8 @@ fn loss_prints_every_step_of_a_run_in_order() {
         assert_eq!(alone["results"][0]["loss"].as_f64(), Some(*loss), "{path}");
         assert_eq!(alone["results"][0]["step"], Value::Null);
     }
+    let named = rows_of(folder.path(), "loss gt.png ours=run --near 1");
+    assert_eq!(column(&named, "prediction"), ["ours, step 9", "ours, step 100", "ours, step 1000"]);
     let json = losses_as_json(folder.path(), "gt.png run a.png");
     let steps: Vec<&Value> = json["results"].as_array().unwrap().iter().map(|entry| &entry["step"]).collect();
     assert_eq!(steps, [&9.into(), &100.into(), &1000.into(), &Value::Null]);
@@ -50,10 +51,10 @@ fn rank_finds_the_best_step_of_several_runs() {
     fs::create_dir_all(folder.path().join("runs/other")).unwrap();
     fs::rename(folder.path().join("run"), folder.path().join("runs/run")).unwrap();
     write_material(&folder.path().join("runs/other/epoch_3.png"), 8, 99);
-    let csv = succeed(folder.path(), "rank gt.png runs --format csv");
+    let csv = rows_of(folder.path(), "rank gt.png runs");
     let expected = ["epoch_3", "pred_step001000", "pred_step000100", "pred_step000009"];
     assert_eq!(column(&csv, "prediction"), expected);
     // A folder without steps is a material, as before.
     fs::create_dir(folder.path().join("empty")).unwrap();
-    assert!(fail(folder.path(), "rank gt.png empty", 1).contains("empty is not a material"));
+    assert_refused(folder.path(), &[("rank gt.png empty", 1, "empty is not a material")]);
 }

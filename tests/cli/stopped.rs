@@ -12,17 +12,19 @@ use super::{command, files, folder, succeed, write_material};
 /// Width and height of the material: writing it takes a while.
 const LARGE: u32 = 640;
 
-/// Starts a conversion in `folder`. Signals that the tests' own parent ignores are not ignored.
-fn convert(folder: &Path, out: &str) -> Child {
+/// Starts the program in `folder`. Signals that the tests' own parent ignores are not ignored, but those of `ignored` are.
+fn start(folder: &Path, args: &str, ignored: &str) -> Child {
     let mut command = command("env");
-    command.args([
-        "--default-signal=INT,TERM,HUP,QUIT,USR1,USR2,ALRM,XCPU",
-        env!("CARGO_BIN_EXE_svbrdf"),
-        "convert",
-        "large.png",
-    ]);
-    command.args(out.split(' ')).current_dir(folder);
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+    command.arg("--default-signal=INT,TERM,HUP,QUIT,USR1,USR2,ALRM,XCPU");
+    command.args((!ignored.is_empty()).then(|| format!("--ignore-signal={ignored}")));
+    command.arg(env!("CARGO_BIN_EXE_svbrdf")).args(args.split(' ')).current_dir(folder);
+    // One material of a data set after the other: many cores would be done with all at once.
+    command.env("RAYON_NUM_THREADS", if args.starts_with("rank") { "1" } else { "0" });
+    command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
+}
+
+fn convert(folder: &Path, out: &str) -> Child {
+    start(folder, &format!("convert large.png {out}"), "")
 }
 
 fn send(signal: &str, child: &Child) {
@@ -104,29 +106,64 @@ fn an_interrupt_at_any_moment_leaves_what_was_there() {
 }
 
 #[test]
-fn every_signal_that_ends_the_program_leaves_nothing() {
+fn every_signal_that_ends_the_program_leaves_nothing_though_another_one_is_ignored() {
     let folder = folder();
     write_material(&folder.path().join("large.png"), LARGE, 90);
     let before = files(folder.path());
-    for signal in ["QUIT", "USR1", "USR2", "ALRM", "XCPU", "HUP"] {
-        let mut child = convert(folder.path(), "out.exr --depth float");
+    let alone = ["QUIT", "USR1", "USR2", "ALRM", "XCPU", "HUP"].map(|signal| (signal, ""));
+    let beside = [("TERM", "INT"), ("HUP", "INT"), ("TERM", "HUP"), ("INT", "HUP")];
+    for (signal, ignored) in alone.into_iter().chain(beside) {
+        let mut child = start(folder.path(), "convert large.png out.exr --depth float", ignored);
         assert!(writing(folder.path(), &mut child));
+        if !ignored.is_empty() {
+            send(ignored, &child);
+        }
         send(signal, &child);
         let status = child.wait().unwrap();
-        let _ = fs::remove_file(folder.path().join("out.exr"));
-        assert!(status.success() || status.code() == Some(130), "{signal}: {status}");
+        let finished = status.success();
+        if finished {
+            fs::remove_file(folder.path().join("out.exr")).unwrap();
+        }
+        assert!(finished || status.code() == Some(130), "{signal}: {status}");
         assert_eq!(files(folder.path()), before, "{signal}: something is left");
     }
+    // The one that is ignored does not end it.
+    let mut child = start(folder.path(), "convert large.png out.exr", "INT");
+    assert!(writing(folder.path(), &mut child));
+    send("INT", &child);
+    assert!(child.wait().unwrap().success() && folder.path().join("out.exr").exists());
+}
+
+/// What is written is complete before it has its name.
+#[test]
+fn a_kill_at_any_moment_leaves_the_whole_old_file() {
+    let folder = folder();
+    write_material(&folder.path().join("large.png"), LARGE, 90);
+    let out = folder.path().join("out.exr");
+    fs::write(&out, "old").unwrap();
+    let mut unfinished = 0;
+    for delay in [0, 5, 20, 60] {
+        let mut child = convert(folder.path(), "out.exr --depth float");
+        assert!(writing(folder.path(), &mut child));
+        sleep(Duration::from_millis(delay));
+        let ended = child.try_wait().unwrap().is_some();
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let is_old = fs::read(&out).unwrap() == b"old";
+        assert!(is_old || fs::metadata(&out).unwrap().len() > 1_000_000, "{delay}: a part of the new file");
+        unfinished += u32::from(is_old && !ended);
+        fs::write(&out, "old").unwrap();
+        let left = files(folder.path()).into_iter().filter(|name| name.starts_with(".svbrdf-"));
+        left.for_each(|name| fs::remove_file(folder.path().join(name)).unwrap());
+    }
+    assert!(unfinished > 0, "nothing was ever killed");
 }
 
 #[test]
 fn a_signal_while_options_are_saved_leaves_nothing() {
     let folder = folder();
     for delay in (0..600).step_by(20) {
-        let mut command = command("env");
-        command.args(["--default-signal=TERM", env!("CARGO_BIN_EXE_svbrdf"), "info", "gt.png", "--save"]);
-        command.current_dir(folder.path()).stdout(Stdio::null()).stderr(Stdio::null());
-        let mut child = command.spawn().unwrap();
+        let mut child = start(folder.path(), "info gt.png --save", "");
         let began = writing(folder.path(), &mut child);
         sleep(Duration::from_micros(delay));
         if began && child.try_wait().unwrap().is_none() {
@@ -139,46 +176,11 @@ fn a_signal_while_options_are_saved_leaves_nothing() {
 }
 
 #[test]
-fn a_signal_is_handled_though_another_one_is_ignored() {
-    let folder = folder();
-    write_material(&folder.path().join("large.png"), LARGE, 90);
-    let before = files(folder.path());
-    for (signal, ignored) in [("TERM", "INT"), ("HUP", "INT"), ("TERM", "HUP"), ("INT", "HUP")] {
-        let mut command = command("env");
-        command.args(["--default-signal=INT,TERM,HUP", &format!("--ignore-signal={ignored}")]);
-        command.args([env!("CARGO_BIN_EXE_svbrdf"), "convert", "large.png", "out.exr", "--depth", "float"]);
-        command.current_dir(folder.path()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
-        let mut child = command.spawn().unwrap();
-        assert!(writing(folder.path(), &mut child));
-        send(ignored, &child);
-        send(signal, &child);
-        let status = child.wait().unwrap();
-        let finished = status.success();
-        if finished {
-            fs::remove_file(folder.path().join("out.exr")).unwrap();
-        }
-        assert!(finished || status.code() == Some(130), "{signal}: {status}");
-        assert_eq!(files(folder.path()), before, "{signal}: something is left");
-    }
-    // The one that is ignored does not end it.
-    let mut command = command("env");
-    command.args(["--ignore-signal=INT", env!("CARGO_BIN_EXE_svbrdf"), "convert", "large.png", "out.exr"]);
-    let mut child = command.current_dir(folder.path()).spawn().unwrap();
-    assert!(writing(folder.path(), &mut child));
-    send("INT", &child);
-    assert!(child.wait().unwrap().success() && folder.path().join("out.exr").exists());
-}
-
-#[test]
 fn a_limit_of_the_size_of_files_is_an_error_that_leaves_nothing() {
     let folder = folder();
     write_material(&folder.path().join("large.png"), LARGE, 90);
     let before = files(folder.path());
-    let limited = format!(
-        "ulimit -f 100; exec {} convert large.png out.exr --depth float",
-        env!("CARGO_BIN_EXE_svbrdf")
-    );
-    let output = command("sh").args(["-c", &limited]).current_dir(folder.path()).output().unwrap();
+    let output = super::limited(folder.path(), "-f 100", "convert large.png out.exr --depth float");
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("cannot write out.exr"), "{said}");
@@ -195,14 +197,9 @@ fn data_set() -> tempfile::TempDir {
 const MATERIALS: u8 = 10;
 const RANK: &str = "rank --dataset gt ours theirs --target-error 3% --metrics";
 
-/// Starts a run with a results folder, of one material after the other: many cores would be done with all at once. Returns it when
-/// two results are there.
+/// Starts a run with a results folder. Returns it when two results are there.
 fn rank(folder: &Path) -> Child {
-    let mut command = command("env");
-    command.args(["--default-signal=INT,TERM,HUP", env!("CARGO_BIN_EXE_svbrdf")]);
-    command.args(RANK.split(' ')).args(["--results", "kept"]).current_dir(folder);
-    command.env("RAYON_NUM_THREADS", "1").stdout(Stdio::null()).stderr(Stdio::null());
-    let mut child = command.spawn().unwrap();
+    let mut child = start(folder, &format!("{RANK} --results kept"), "");
     while kept(folder).len() < 2 && child.try_wait().unwrap().is_none() {
         sleep(Duration::from_millis(1));
     }

@@ -18,14 +18,21 @@ fn parts(path: &Path) -> (Value, Vec<u8>) {
     (serde_json::from_slice(json).unwrap(), bytes[20 + number(12) + 8..].to_vec())
 }
 
+fn index(value: &Value) -> usize {
+    value.as_u64().unwrap() as usize
+}
+
+/// The bytes of a view of the buffer.
+fn view<'a>(document: &Value, binary: &'a [u8], number: &Value) -> &'a [u8] {
+    let view = &document["bufferViews"][index(number)];
+    &binary[index(&view["byteOffset"])..][..index(&view["byteLength"])]
+}
+
 /// The pixels of the texture that the material has at this place.
 fn texture(document: &Value, binary: &[u8], place: &str) -> image::RgbImage {
-    let index = |value: &Value| value.as_u64().unwrap() as usize;
     let texture = index(&document["materials"][0].pointer(place).unwrap()["index"]);
     let image = &document["images"][index(&document["textures"][texture]["source"])];
-    let view = &document["bufferViews"][index(&image["bufferView"])];
-    let (start, length) = (index(&view["byteOffset"]), index(&view["byteLength"]));
-    image::load_from_memory(&binary[start..start + length]).unwrap().into_rgb8()
+    image::load_from_memory(view(document, binary, &image["bufferView"])).unwrap().into_rgb8()
 }
 
 /// sRGB colours, y up, roughness in green, metallic in blue, row 0 on top.
@@ -66,10 +73,8 @@ fn a_glb_has_what_the_specification_says() {
         near(&rough, 1, texel.roughness.into());
     }
     assert_eq!(document["materials"][0]["pbrMetallicRoughness"]["metallicFactor"], 0.0);
-    let (document, binary) = {
-        written(&metallic(), &path, None);
-        parts(&path)
-    };
+    written(&metallic(), &path, None);
+    let (document, binary) = parts(&path);
     assert!(document.get("extensionsUsed").is_none());
     let packed = texture(&document, &binary, "/pbrMetallicRoughness/metallicRoughnessTexture");
     let column = |x: u32| packed.get_pixel(x, 5).0;
@@ -84,15 +89,15 @@ fn a_glb_has_a_plane_of_the_size_of_the_material_that_faces_the_viewer() {
     let original = specular([23, 9], 0.3);
     written(&original, &path, None);
     let (document, binary) = parts(&path);
+    let primitive = &document["meshes"][0]["primitives"][0];
+    let bytes = |accessor: &Value| {
+        let accessor = &document["accessors"][index(accessor)];
+        view(&document, &binary, &accessor["bufferView"])
+    };
     let floats = |name: &str, width: usize| -> Vec<Vec<f32>> {
-        let accessor = document["meshes"][0]["primitives"][0]["attributes"][name].as_u64().unwrap();
-        let view = document["accessors"][accessor as usize]["bufferView"].as_u64().unwrap();
-        let view = &document["bufferViews"][view as usize];
-        let start = view["byteOffset"].as_u64().unwrap() as usize;
-        let length = view["byteLength"].as_u64().unwrap() as usize;
-        let numbers =
-            binary[start..start + length].chunks(4).map(|b| f32::from_le_bytes(b.try_into().unwrap()));
-        numbers.collect::<Vec<_>>().chunks(width).map(<[f32]>::to_vec).collect()
+        let chunks = bytes(&primitive["attributes"][name]).chunks(4);
+        let numbers: Vec<f32> = chunks.map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
+        numbers.chunks(width).map(<[f32]>::to_vec).collect()
     };
     let half = original.grid().half_extent();
     for (position, coordinate) in floats("POSITION", 3).iter().zip(floats("TEXCOORD_0", 2)) {
@@ -103,15 +108,9 @@ fn a_glb_has_a_plane_of_the_size_of_the_material_that_faces_the_viewer() {
     assert!(floats("NORMAL", 3).iter().all(|normal| *normal == [0.0, 0.0, 1.0]));
     assert!(floats("TANGENT", 4).iter().all(|tangent| *tangent == [1.0, 0.0, 0.0, 1.0]));
     // Counterclockwise, seen from +z: each triangle has a positive area.
-    let indices: Vec<usize> = {
-        let accessor = document["meshes"][0]["primitives"][0]["indices"].as_u64().unwrap() as usize;
-        let view = document["accessors"][accessor]["bufferView"].as_u64().unwrap() as usize;
-        let start = document["bufferViews"][view]["byteOffset"].as_u64().unwrap() as usize;
-        binary[start..start + 12]
-            .chunks(2)
-            .map(|b| u16::from_le_bytes(b.try_into().unwrap()).into())
-            .collect()
-    };
+    let indices =
+        bytes(&primitive["indices"]).chunks(2).map(|b| u16::from_le_bytes(b.try_into().unwrap()).into());
+    let indices: Vec<usize> = indices.take(6).collect();
     let positions = floats("POSITION", 3);
     for triangle in indices.chunks(3) {
         let [a, b, c] = [0, 1, 2].map(|corner| &positions[triangle[corner]]);

@@ -59,15 +59,6 @@ fn presets_give_way_to_what_else_is_said() {
 }
 
 #[test]
-fn logarithmic_albedos_are_decoded() {
-    let log = |v: f64| ((v + 0.01).ln() - 0.01_f64.ln()) / (1.01_f64.ln() - 0.01_f64.ln());
-    let (_folder, path) =
-        saved(&strip("NDRS", |map, value, _| if map == 2 { value } else { value.map(log) }));
-    let options = ReadOptions { albedo: Some(Albedo::Log), ..ReadOptions::AUTO };
-    assert_same(&open_as(&path, &options), 0.01);
-}
-
-#[test]
 fn rows_can_be_said_to_run_upwards() {
     let upwards = picture(4 * SIDE, SIDE, |x, y| {
         let [r, g, b] = stored(x / SIDE, x % SIDE, SIDE - 1 - y, |v| v);
@@ -78,7 +69,7 @@ fn rows_can_be_said_to_run_upwards() {
     let read = open_as(&path, &ReadOptions { flip_v: Some(true), ..ReadOptions::AUTO });
     assert_same(&read, EIGHT_BITS);
     assert!(worst(&open(&path).material) > 0.1, "without the option it is another material");
-    assert!(read.messages().any(|line| line.contains("Row 0 is the lowest row, as specified")));
+    assert_notes(&read, &["Row 0 is the lowest row, as specified"]);
 }
 
 #[test]
@@ -111,12 +102,8 @@ fn tiles_that_are_not_square_open_with_their_grid() {
         assert!(got.iter().zip(expected).all(|(a, b)| (a - b).abs() < EIGHT_BITS), "{index}");
     }
     let odd = ReadOptions { grid: Some("5x1".parse().unwrap()), ..ReadOptions::AUTO };
-    let message = read_refused(&path, &odd);
+    let message = super::read::<f64>(&path, &odd, &Progress::default()).unwrap_err().to_string();
     assert!(message.contains("5 x 1 tiles") && message.contains("64 x 8"), "{message}");
-}
-
-fn read_refused(path: &Path, options: &ReadOptions) -> String {
-    read::<f64>(path, options, &Progress::default()).unwrap_err().to_string()
 }
 
 #[test]
@@ -138,25 +125,22 @@ fn any_order_can_be_said() {
 #[test]
 fn the_workflow_and_the_reflectance_of_dielectrics_can_be_said() {
     let folder = tempdir().unwrap();
-    let put = |name: &str, value: f64| {
-        let image = picture(SIDE, SIDE, |_, _| [value; 3]);
-        save(folder.path(), &format!("{name}.png"), &image, ImageFormat::Png);
-    };
-    put("diffuse", srgb(0.5));
-    put("metallic", 0.5);
-    put("roughness", 0.5);
-    put("specular", srgb(0.25));
+    for (name, value) in
+        [("diffuse", srgb(0.5)), ("metallic", 0.5), ("roughness", 0.5), ("specular", srgb(0.25))]
+    {
+        gray(folder.path(), name, value);
+    }
     let options = |workflow| ReadOptions {
         workflow: Some(workflow),
         dielectric: Some("0.08".parse().unwrap()),
         albedo: Some(Albedo::Srgb),
         ..ReadOptions::AUTO
     };
-    let near = |a: f64, b: f64| (a - b).abs() < EIGHT_BITS;
-    let specular = open_as(folder.path(), &options(Workflow::Specular)).material.texel(0);
-    assert!(near(specular.diffuse[0], 0.5) && near(specular.specular[0], 0.25), "{specular:?}");
-    let metallic = open_as(folder.path(), &options(Workflow::Metallic)).material.texel(0);
-    assert!(near(metallic.diffuse[0], 0.25) && near(metallic.specular[0], 0.04 + 0.25), "{metallic:?}");
+    for (workflow, expected) in [(Workflow::Specular, [0.5, 0.25]), (Workflow::Metallic, [0.25, 0.04 + 0.25])]
+    {
+        let got = open_as(folder.path(), &options(workflow)).material.texel(0);
+        assert_near([got.diffuse[0], got.specular[0]], expected);
+    }
 }
 
 #[test]
@@ -182,14 +166,14 @@ fn maps_can_be_named_one_by_one() {
     let packed = picture(SIDE, SIDE, |x, y| [0.9, texel(2, x, y)[0], 0.1]);
     save(folder.path(), "packed.png", &packed, ImageFormat::Png);
     layered(&folder.path().join("layers.exr"), false);
-    let file = |name: &str| folder.path().join(name).display().to_string();
     let all = |roughness: &str| {
-        vec![
-            format!("normal={}", file("one.png")),
-            format!("diffuse={}", file("two.png")),
-            format!("roughness={}{roughness}", file("")),
-            format!("specular={}", file("four.png")),
-        ]
+        let maps = [
+            ("normal", "one.png"),
+            ("diffuse", "two.png"),
+            ("roughness", roughness),
+            ("specular", "four.png"),
+        ];
+        maps.map(|(map, file)| format!("{map}={}/{file}", folder.path().display()))
     };
     for roughness in ["three.png", "packed.png:g", "layers.exr:roughness"] {
         assert_same(&bound(folder.path(), &all(roughness)).unwrap(), EIGHT_BITS);
@@ -205,42 +189,28 @@ fn maps_can_be_named_one_by_one() {
 
 #[test]
 fn named_maps_of_specular_and_diffuse_take_the_place_of_a_metallic_workflow() {
-    let folder = tempdir().unwrap();
-    let plain = |name: &str, value: f64| {
-        let image = picture(SIDE, SIDE, |_, _| [value; 3]);
-        save(folder.path(), name, &image, ImageFormat::Png)
-    };
-    plain("basecolor.png", 0.1);
-    plain("orm.png", 1.0);
-    let [d, s] = [("one.png", 0.5), ("two.png", 0.25)].map(|(name, value)| plain(name, srgb(value)));
+    let folder = grays(&[("basecolor", 0.1), ("orm", 1.0)]);
+    let [d, s] =
+        [("one", 0.5), ("two", 0.25)].map(|(name, value)| put(folder.path(), name, |_, _| [srgb(value); 3]));
     let bindings = [format!("diffuse={}", d.display()), format!("specular={}", s.display())];
-    let read = bound(folder.path(), &bindings).unwrap();
-    let got = read.material.texel(0);
-    assert!(
-        (got.diffuse[0] - 0.5).abs() < EIGHT_BITS && (got.specular[0] - 0.25).abs() < EIGHT_BITS,
-        "{got:?}"
-    );
-    let got = bound(folder.path(), &bindings[..1]).unwrap().material.texel(0);
-    assert!(got.diffuse[0] == 0.0 && (got.specular[0] - 0.5).abs() < EIGHT_BITS, "{got:?}");
+    for (bindings, expected) in [(&bindings[..], [0.5, 0.25]), (&bindings[..1], [0.0, 0.5])] {
+        let got = bound(folder.path(), bindings).unwrap().material.texel(0);
+        assert_near([got.diffuse[0], got.specular[0]], expected);
+    }
 }
 
 #[test]
 fn a_named_map_takes_the_place_of_one_in_a_strip_and_in_a_folder() {
     let folder = tempdir().unwrap();
-    let gray = picture(SIDE, SIDE, |_, _| [0.2; 3]);
-    let other = save(folder.path(), "other.png", &gray, ImageFormat::Png);
+    let other = put(folder.path(), "other", |_, _| [0.2; 3]);
     let binding = [format!("roughness={}", other.display())];
-    let strip = save(folder.path(), "a.png", &packed("NDRS", 4, linear), ImageFormat::Png);
+    let strip = put_strip(folder.path(), "a", "NDRS");
     let maps = tempdir().unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], maps.path(), |_, v| v);
+    folder_of(NAMES, maps.path(), |_, v| v);
     for path in [strip.as_path(), maps.path()] {
         let read = bound(path, &binding).unwrap();
-        assert!(
-            read.material.planes().roughness.iter().all(|r| (r - 0.2).abs() < 1e-9),
-            "{}",
-            path.display()
-        );
-        assert!(read.messages().any(|line| line.contains("as specified")));
+        assert!(read.material.planes().roughness.iter().all(|r| (r - 0.2).abs() < 1e-9), "{:?}", read.files);
+        assert_notes(&read, &["as specified"]);
         assert!(read.files.contains(&other));
     }
 }

@@ -1,6 +1,6 @@
 //! Sets of files that people have: what their names and channels mean.
 
-use image::{Rgb, Rgba, RgbaImage};
+use image::{Rgba, RgbaImage};
 
 use svbrdf_files::read::Role;
 
@@ -8,24 +8,20 @@ use super::*;
 
 const DARK: f64 = 0.31;
 
-fn gray(folder: &Path, name: &str, value: f64) {
-    save(folder, name, &picture(SIDE, SIDE, |_, _| [value; 3]), ImageFormat::Png);
-}
-
-/// Bumpy normals, y up.
-fn bumpy(folder: &Path, name: &str) {
-    save(folder, name, &picture(SIDE, SIDE, |x, y| stored(0, x, y, |v| v)), ImageFormat::Png);
-}
-
 /// A picture that varies from left to right in the given channels, the others constant.
 fn channels(folder: &Path, name: &str, of: impl Fn(f64) -> [f64; 3]) {
-    let image = picture(SIDE, SIDE, |x, _| of(x as f64 / (SIDE - 1) as f64));
-    save(folder, name, &image, ImageFormat::Png);
+    put(folder, name, |x, _| of(x as f64 / (SIDE - 1) as f64));
 }
 
 fn mean_roughness(read: &Read<f64>) -> f64 {
     let plane = &read.material.planes().roughness;
     plane.iter().sum::<f64>() / plane.len() as f64
+}
+
+/// How colours are stored, and whether that is doubted.
+fn albedo(folder: &Path) -> (String, bool) {
+    let read = open(folder);
+    (chosen(&read, What::Albedo).to_owned(), is_doubted(&read, What::Albedo))
 }
 
 fn is_doubted(read: &Read<f64>, what: What) -> bool {
@@ -34,23 +30,21 @@ fn is_doubted(read: &Read<f64>, what: What) -> bool {
 
 #[test]
 fn one_statistic_of_specular_does_not_make_colours_linear() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "diffuse.png", 0.4);
-    gray(folder.path(), "roughness.png", 0.5);
-    bumpy(folder.path(), "normal_gl.png");
+    let folder = grays(&[("diffuse", 0.4), ("roughness", 0.5)]);
+    put(folder.path(), "normal_gl", bumps);
     // From 0 to 0.44, with a median of 0.055.
     let varied = |u: f64| [if u < 0.5 { 0.11 * u } else { 0.055 + 0.77 * (u - 0.5) }; 3];
-    channels(folder.path(), "specular.png", varied);
+    channels(folder.path(), "specular", varied);
     assert_eq!(chosen(&open(folder.path()), What::Albedo), "srgb");
     // All of it at 0.04: then it is linear, and so is diffuse.
-    gray(folder.path(), "specular.png", 0.04);
+    gray(folder.path(), "specular", 0.04);
     let read = open(folder.path());
     assert_eq!((chosen(&read, What::Albedo), chosen(&read, What::Specular)), ("linear", "linear"));
-    gray(folder.path(), "specular.png", 0.22);
+    gray(folder.path(), "specular", 0.22);
     assert_eq!(chosen(&open(folder.path()), What::Specular), "srgb");
     // Bright diffuse and specular at a linear 0.04: the evidence disagrees.
-    gray(folder.path(), "diffuse.png", 0.98);
-    gray(folder.path(), "specular.png", 0.04);
+    gray(folder.path(), "diffuse", 0.98);
+    gray(folder.path(), "specular", 0.04);
     let read = open(folder.path());
     assert_eq!((chosen(&read, What::Albedo), chosen(&read, What::Specular)), ("srgb", "linear"));
     assert!(is_doubted(&read, What::Albedo), "{:#?}", read.assumptions);
@@ -58,30 +52,28 @@ fn one_statistic_of_specular_does_not_make_colours_linear() {
 
 #[test]
 fn a_roughness_of_packed_channels_is_not_their_mean() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "basecolor.png", 0.5);
-    bumpy(folder.path(), "normal_gl.png");
+    let folder = grays(&[("basecolor", 0.5)]);
+    put(folder.path(), "normal_gl", bumps);
     // As a glTF exporter writes it: red and blue are white.
-    channels(folder.path(), "roughness.png", |u| [1.0, 2.0 * DARK * u, 1.0]);
+    channels(folder.path(), "roughness", |u| [1.0, 2.0 * DARK * u, 1.0]);
     let read = open(folder.path());
     assert!((mean_roughness(&read) - DARK).abs() < EIGHT_BITS, "{}", mean_roughness(&read));
     assert!(is_doubted(&read, What::Layout) && read.material.texel(3).specular[0] < 0.05);
     // Roughness and metallic.
-    channels(folder.path(), "roughness.png", |u| [1.0, 2.0 * DARK * u, u]);
+    channels(folder.path(), "roughness", |u| [1.0, 2.0 * DARK * u, u]);
     let read = open(folder.path());
     assert!((mean_roughness(&read) - DARK).abs() < EIGHT_BITS);
     assert!(is_doubted(&read, What::Layout) && read.maps.iter().any(|map| map.map == Role::Metallic));
     assert!(read.refuse_guesses(folder.path()).is_err());
     // Gray, with the noise of a JPEG: no doubt.
-    channels(folder.path(), "roughness.png", |u| [u, (u + 0.02).min(1.0), u]);
+    channels(folder.path(), "roughness", |u| [u, (u + 0.02).min(1.0), u]);
     assert!(!is_doubted(&open(folder.path()), What::Layout));
 }
 
 #[test]
 fn a_picture_of_blender_that_is_named_after_both_maps_holds_both() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "X_BaseColor.png", 0.5);
-    channels(folder.path(), "X_Metallic-X_Roughness.png", |u| [0.0, DARK, u]);
+    let folder = grays(&[("X_BaseColor", 0.5)]);
+    channels(folder.path(), "X_Metallic-X_Roughness", |u| [0.0, DARK, u]);
     let read = open(folder.path());
     assert!((mean_roughness(&read) - DARK).abs() < EIGHT_BITS);
     assert!(read.material.texel(SIDE - 1).diffuse[0] < 1e-9, "the metal is lost");
@@ -89,8 +81,7 @@ fn a_picture_of_blender_that_is_named_after_both_maps_holds_both() {
 
 #[test]
 fn specular_and_glossiness_in_one_picture_are_taken_apart() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "m_diffuse.png", 0.5);
+    let folder = grays(&[("m_diffuse", 0.5)]);
     let image = RgbaImage::from_fn(SIDE as u32, SIDE as u32, |x, _| Rgba([90, 90, 90, 40 + x as u8]));
     save(folder.path(), "m_specularGlossiness.png", &image.into(), ImageFormat::Png);
     let read = open(folder.path());
@@ -112,9 +103,9 @@ fn names_of_libraries_and_engines_open() {
         ["brick_n", "brick", "brick_r"],
     ] {
         let folder = tempdir().unwrap();
-        bumpy(folder.path(), &format!("{}.png", names[0]));
-        gray(folder.path(), &format!("{}.png", names[1]), 0.25);
-        gray(folder.path(), &format!("{}.png", names[2]), 0.0);
+        put(folder.path(), names[0], bumps);
+        gray(folder.path(), names[1], 0.25);
+        gray(folder.path(), names[2], 0.0);
         let read = open(folder.path());
         let color = read.material.texel(0).diffuse[0];
         assert!(color > 0.03 && color < 0.08, "{names:?}: {color}");
@@ -124,30 +115,21 @@ fn names_of_libraries_and_engines_open() {
 
 #[test]
 fn of_two_pictures_of_normals_y_up_is_preferred_and_a_constant_one_is_not_the_map() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_albedo.png", 0.5);
-    gray(folder.path(), "a_roughness.png", 0.5);
-    bumpy(folder.path(), "a_normal-ogl.png");
-    bumpy(folder.path(), "a_normal-dx.png");
+    let folder = grays(&[("a_albedo", 0.5), ("a_roughness", 0.5)]);
+    put(folder.path(), "a_normal-ogl", bumps);
+    put(folder.path(), "a_normal-dx", bumps);
     let read = open(folder.path());
     assert_eq!(chosen(&read, What::NormalY), "up");
-    assert!(read.messages().any(|line| line.contains("a_normal-dx.png is not used")));
-    save(
-        folder.path(),
-        "a_normal-ogl.png",
-        &image::RgbImage::from_pixel(SIDE as u32, SIDE as u32, Rgb([128, 128, 255])).into(),
-        ImageFormat::Png,
-    );
+    assert_notes(&read, &["a_normal-dx.png is not used"]);
+    put(folder.path(), "a_normal-ogl", |_, _| [0.502, 0.502, 1.0]);
     let read = open(folder.path());
     assert!(read.material.planes().normal[0].iter().any(|x| x.abs() > 0.05), "the constant one is used");
 }
 
 #[test]
 fn specular_beside_packed_metallic_does_not_switch_the_workflow_in_silence() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_diff.png", 0.5);
-    gray(folder.path(), "a_spec.png", 0.3);
-    channels(folder.path(), "a_arm.png", |u| [1.0, DARK, u]);
+    let folder = grays(&[("a_diff", 0.5), ("a_spec", 0.3)]);
+    channels(folder.path(), "a_arm", |u| [1.0, DARK, u]);
     let read = open(folder.path());
     assert_eq!(chosen(&read, What::Workflow), "metallic");
     assert!(is_doubted(&read, What::Workflow));
@@ -156,32 +138,29 @@ fn specular_beside_packed_metallic_does_not_switch_the_workflow_in_silence() {
 #[test]
 fn floats_of_normals_that_overshoot_are_not_signed() {
     let folder = tempdir().unwrap();
-    for (map, name) in ["normal", "diffuse", "roughness", "specular"].iter().enumerate() {
-        // Unsigned normals, with one overshoot.
-        let value = |i: usize, v: f32| match (map, i) {
-            (0, 7) => -0.16,
-            (0, _) => 0.5 * v + 0.5,
-            _ => v,
-        };
-        map_exr(&folder.path().join(format!("{name}.exr")), map, value);
-    }
+    // Unsigned normals, with one overshoot.
+    put_exrs(folder.path(), |map, i, v| match (map, i) {
+        (0, 7) => -0.16,
+        (0, _) => 0.5 * v + 0.5,
+        _ => v,
+    });
     assert_eq!(chosen(&open(folder.path()), What::NormalEncoding), "unsigned");
 }
 
 #[test]
 fn strict_reading_takes_names_and_specifications_only() {
     let folder = tempdir().unwrap();
-    bumpy(folder.path(), "normal_gl.png");
-    gray(folder.path(), "basecolor.png", 0.5);
-    gray(folder.path(), "metallic.png", 0.0);
-    gray(folder.path(), "roughness.png", 0.5);
+    put(folder.path(), "normal_gl", bumps);
+    gray(folder.path(), "basecolor", 0.5);
+    gray(folder.path(), "metallic", 0.0);
+    gray(folder.path(), "roughness", 0.5);
     let is_refused = || open(folder.path()).refuse_guesses(folder.path()).is_err();
     assert!(!is_refused(), "{:#?}", open(folder.path()).assumptions);
     // Where y points is measured then.
     std::fs::rename(folder.path().join("normal_gl.png"), folder.path().join("normal.png")).unwrap();
     assert!(is_refused());
     // A packed image is recognized by its pixels; with its order and the conventions of its source it is specified.
-    let packed = save(folder.path(), "a.png", &packed("NDRS", 4, linear), ImageFormat::Png);
+    let packed = put_strip(folder.path(), "a", "NDRS");
     assert!(open(&packed).refuse_guesses(&packed).is_err());
     let specified =
         ReadOptions { preset: Some(Preset::Deschaintre), order: Some(Order::NDRS), ..ReadOptions::AUTO };
@@ -191,79 +170,59 @@ fn strict_reading_takes_names_and_specifications_only() {
 
 #[test]
 fn a_missing_map_lists_its_names_and_no_junk() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "rock_albedo.png", 0.5);
+    let folder = grays(&[("rock_albedo", 0.5)]);
     for junk in ["rock_albedo.png.import", "rock.meta", "Thumbs.db"] {
         std::fs::write(folder.path().join(junk), "x").unwrap();
     }
+    assert_refused(folder.path(), &["roughness", "rgh", "glossiness", "smoothness", "rock_albedo.png"]);
     let message = refusal(folder.path());
-    for name in ["roughness", "rgh", "glossiness", "smoothness", "rock_albedo.png"] {
-        assert!(message.contains(name), "{name}: {message}");
-    }
-    assert!(
-        !message.contains(".import") && !message.contains("Thumbs") && !message.contains("meta"),
-        "{message}"
-    );
+    assert!(![".import", "Thumbs", "meta"].iter().any(|junk| message.contains(junk)), "{message}");
 }
 
 #[test]
 fn a_picture_named_metal_that_looks_like_normals_is_asked_about() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_basecolor.png", 0.5);
-    gray(folder.path(), "a_roughness.png", 0.5);
-    bumpy(folder.path(), "a_normal_gl.png");
-    gray(folder.path(), "a_metal.png", 1.0);
+    let folder = grays(&[("a_basecolor", 0.5), ("a_roughness", 0.5)]);
+    put(folder.path(), "a_normal_gl", bumps);
+    gray(folder.path(), "a_metal", 1.0);
     assert!(!is_doubted(&open(folder.path()), What::Layout));
-    bumpy(folder.path(), "a_metal.png");
+    put(folder.path(), "a_metal", bumps);
     let read = open(folder.path());
-    assert!(
-        read.unsure().any(|a| a.why.to_string().contains("looks like normals although it is named after"))
-    );
+    assert_notes(&read, &["looks like normals although it is named after"]);
+    assert!(is_doubted(&read, What::Layout));
 }
 
 #[test]
 fn specular_beside_diffuse_without_other_evidence_is_srgb_and_asked_about() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_diffuse.png", 0.4);
-    gray(folder.path(), "a_specular.png", 0.12);
-    gray(folder.path(), "a_roughness.png", 0.5);
-    let read = open(folder.path());
-    assert_eq!((chosen(&read, What::Albedo), is_doubted(&read, What::Albedo)), ("srgb", true));
+    let folder = grays(&[("a_diffuse", 0.4), ("a_specular", 0.12), ("a_roughness", 0.5)]);
+    assert_eq!(albedo(folder.path()), ("srgb".into(), true));
     // Glossiness is how artists name it, who do not store colours linear.
     std::fs::rename(folder.path().join("a_roughness.png"), folder.path().join("a_gloss.png")).unwrap();
-    let read = open(folder.path());
-    assert_eq!((chosen(&read, What::Albedo), is_doubted(&read, What::Albedo)), ("srgb", false));
+    assert_eq!(albedo(folder.path()), ("srgb".into(), false));
 }
 
 #[test]
 fn metals_darker_than_metals_are_linear_and_asked_about() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_diffuse.png", 0.0);
-    gray(folder.path(), "a_roughness.png", 0.5);
+    let folder = grays(&[("a_diffuse", 0.0), ("a_roughness", 0.5)]);
     for (specular, expected) in [(0.5, "linear"), (0.85, "srgb")] {
-        gray(folder.path(), "a_specular.png", specular);
-        let read = open(folder.path());
-        assert_eq!((chosen(&read, What::Albedo), is_doubted(&read, What::Albedo)), (expected, true));
+        gray(folder.path(), "a_specular", specular);
+        assert_eq!(albedo(folder.path()), (expected.into(), true));
     }
 }
 
 #[test]
 fn a_colour_that_is_too_dark_if_encoded_is_asked_about() {
-    let folder = tempdir().unwrap();
-    gray(folder.path(), "a_roughness.png", 0.5);
-    gray(folder.path(), "a_metallic.png", 0.0);
+    let folder = grays(&[("a_roughness", 0.5), ("a_metallic", 0.0)]);
     for (colour, doubted) in [(0.4, false), (0.07, true)] {
-        gray(folder.path(), "a_basecolor.png", colour);
-        let read = open(folder.path());
-        assert_eq!((chosen(&read, What::Albedo), is_doubted(&read, What::Albedo)), ("srgb", doubted));
+        gray(folder.path(), "a_basecolor", colour);
+        assert_eq!(albedo(folder.path()), ("srgb".into(), doubted));
     }
 }
 
 /// A material of which the pixels do not tell whether it is linear.
 fn undecided(folder: &Path, stem: &str) {
-    gray(folder, &format!("{stem}diffuse.png"), 0.4);
-    gray(folder, &format!("{stem}specular.png"), 0.12);
-    gray(folder, &format!("{stem}roughness.png"), 0.5);
+    gray(folder, &format!("{stem}diffuse"), 0.4);
+    gray(folder, &format!("{stem}specular"), 0.12);
+    gray(folder, &format!("{stem}roughness"), 0.5);
 }
 
 #[test]
@@ -277,21 +236,17 @@ fn materials_beside_tell_what_the_pixels_of_one_do_not() {
             undecided(folder, "");
         }
         assert!(is_doubted(&open(&one), What::Albedo));
-        gray(&other, "specular.png", specular);
+        gray(&other, "specular", specular);
         let read = open(&one);
         assert_eq!(chosen(&read, What::Albedo), expected);
-        assert!(
-            read.messages().any(|line| line.contains("1 neighbouring material")),
-            "{:#?}",
-            read.assumptions
-        );
+        assert_notes(&read, &["1 neighbouring material"]);
         // What a neighbour holds is not a file of the material.
         assert!(read.files.iter().all(|file| file.starts_with(&one)));
         // In one folder, of other stems.
         let folder = tempdir().unwrap();
         undecided(folder.path(), "one_");
         undecided(folder.path(), "other_");
-        gray(folder.path(), "other_specular.png", specular);
+        gray(folder.path(), "other_specular", specular);
         assert_eq!(chosen(&open(&folder.path().join("one_")), What::Albedo), expected);
     }
 }

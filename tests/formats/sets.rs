@@ -21,7 +21,7 @@ fn names_of_research_codes_bring_their_encoding() {
             colours,
             "gamma2.2",
         ),
-        (["normal.png", "diffuse.png", "roughness.png", "specular.png"], raw, "linear"),
+        (NAMES, raw, "linear"),
         (["001_Nout.png", "001_Dout.png", "001_Rout.png", "001_Sout.png"], raw, "linear"),
     ];
     for (names, encode, expected) in table {
@@ -36,26 +36,18 @@ fn names_of_research_codes_bring_their_encoding() {
 #[test]
 fn one_file_of_a_set_opens_the_set() {
     let folder = tempdir().unwrap();
-    folder_of(
-        ["w_normal.png", "w_diffuse.png", "w_roughness.png", "w_specular.png"],
-        folder.path(),
-        |_, v| v,
-    );
-    folder_of(
-        ["v_normal.png", "v_diffuse.png", "v_roughness.png", "v_specular.png"],
-        folder.path(),
-        |_, _| 0.5,
-    );
+    for (stem, value) in [("w", None), ("v", Some(0.5))] {
+        let names = NAMES.map(|name| format!("{stem}_{name}"));
+        folder_of(names.each_ref().map(|name| &name[..]), folder.path(), |_, v| value.unwrap_or(v));
+    }
     let read = open(&folder.path().join("w_roughness.png"));
     assert_eq!(read.material.name(), "w");
     assert_same(&read, EIGHT_BITS);
-    assert!(refusal(folder.path()).contains("several: v, w"));
+    assert_refused(folder.path(), &["several: v, w"]);
 }
 
 #[test]
 fn metallic_sets_of_every_library_become_diffuse_and_specular() {
-    let rough = |x, y| texel(2, x, y)[0];
-    let metal = |x: usize, _: usize| if x < SIDE / 2 { 0.0 } else { 1.0 };
     let base = [0.5, 0.4, 0.3];
     let libraries: [(&str, &[&str; 4]); 5] = [
         (
@@ -69,11 +61,10 @@ fn metallic_sets_of_every_library_become_diffuse_and_specular() {
     ];
     for (library, names) in libraries {
         let folder = tempdir().unwrap();
-        let put = |name: &str, image| save(folder.path(), &format!("{name}.png"), &image, ImageFormat::Png);
-        put(names[0], picture(SIDE, SIDE, |_, _| base.map(srgb)));
-        put(names[1], picture(SIDE, SIDE, |x, y| stored(0, x, y, |v| v)));
-        put(names[2], picture(SIDE, SIDE, |x, y| [rough(x, y); 3]));
-        put(names[3], picture(SIDE, SIDE, |x, y| [metal(x, y); 3]));
+        put(folder.path(), names[0], |_, _| base.map(srgb));
+        put(folder.path(), names[1], bumps);
+        put(folder.path(), names[2], |x, y| texel(2, x, y));
+        put(folder.path(), names[3], |x, _| [if x < SIDE / 2 { 0.0 } else { 1.0 }; 3]);
         let read = open(folder.path());
         assert_eq!(chosen(&read, What::Workflow), "metallic", "{library}");
         let (left, right) = (read.material.texel(0), read.material.texel(SIDE - 1));
@@ -88,11 +79,9 @@ fn metallic_sets_of_every_library_become_diffuse_and_specular() {
 #[test]
 fn packed_occlusion_roughness_metallic_is_taken_apart() {
     for name in ["a_OcclusionRoughMetal", "a_orm", "a_arm_2k", "a_metallicRoughness"] {
-        let folder = tempdir().unwrap();
-        let put = |name: &str, image| save(folder.path(), &format!("{name}.png"), &image, ImageFormat::Png);
-        put("a_BaseColor", picture(SIDE, SIDE, |_, _| [0.5; 3].map(srgb)));
-        put("a_Normal", picture(SIDE, SIDE, |x, y| stored(0, x, y, |v| v)));
-        put(name, picture(SIDE, SIDE, |x, y| [1.0, texel(2, x, y)[0], 1.0]));
+        let folder = grays(&[("a_BaseColor", srgb(0.5))]);
+        put(folder.path(), "a_Normal", bumps);
+        put(folder.path(), name, |x, y| [1.0, texel(2, x, y)[0], 1.0]);
         let read = open(folder.path());
         for index in [0, 77, 200] {
             let expected = texel(2, index % SIDE, index / SIDE)[0];
@@ -115,48 +104,43 @@ fn glossiness_is_turned_into_roughness() {
 #[test]
 fn maps_of_differing_sizes_are_resampled_to_the_largest_and_said() {
     let folder = tempdir().unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], folder.path(), |_, v| v);
+    folder_of(NAMES, folder.path(), |_, v| v);
     let half = GrayImage::from_pixel(SIDE as u32 / 2, SIDE as u32 / 2, [102].into());
     save(folder.path(), "roughness.png", &half.into(), ImageFormat::Png);
     let read = open(folder.path());
     assert_eq!(read.material.size(), [SIDE; 2]);
     assert!(read.material.planes().roughness.iter().all(|r| (r - 0.4).abs() < 1e-9));
-    assert!(read.messages().any(|line| line.contains("roughness from 8 x 8")));
+    assert_notes(&read, &["roughness from 8 x 8"]);
 }
 
 /// Writes map number `map` under `name`, encoded.
-fn put(folder: &Path, name: &str, map: usize, encode: impl Fn(f64) -> f64) {
-    let image = picture(SIDE, SIDE, |x, y| stored(map, x, y, &encode));
-    save(folder, &format!("{name}.png"), &image, ImageFormat::Png);
+fn put_map(folder: &Path, name: &str, map: usize, encode: impl Fn(f64) -> f64) {
+    put(folder, name, |x, y| stored(map, x, y, &encode));
 }
 
 #[test]
 fn maps_of_a_shared_stem_go_to_every_set_of_its_prefix() {
     let folder = tempdir().unwrap();
     for colour in ["black", "white"] {
-        put(folder.path(), &format!("bishop_{colour}_normal"), 0, |v| v);
-        put(folder.path(), &format!("bishop_{colour}_diffuse"), 1, |v| v);
-        put(folder.path(), &format!("bishop_{colour}_roughness"), 2, |v| v);
+        put_map(folder.path(), &format!("bishop_{colour}_normal"), 0, |v| v);
+        put_map(folder.path(), &format!("bishop_{colour}_diffuse"), 1, |v| v);
+        put_map(folder.path(), &format!("bishop_{colour}_roughness"), 2, |v| v);
     }
-    put(folder.path(), "bishop_shared_specular", 3, |v| v);
-    put(folder.path(), "king_shared_specular", 1, |v| v);
+    put_map(folder.path(), "bishop_shared_specular", 3, |v| v);
+    put_map(folder.path(), "king_shared_specular", 1, |v| v);
     for path in ["bishop_white", "bishop_black_normal.png"] {
         let read = open(&folder.path().join(path));
         assert_same(&read, EIGHT_BITS);
-        assert!(
-            read.notes.iter().any(|n| n.to_string().contains("bishop_shared_specular")),
-            "{:?}",
-            read.notes
-        );
+        assert_notes(&read, &["bishop_shared_specular"]);
     }
-    assert!(refusal(folder.path()).contains("several: bishop_black, bishop_white"));
+    assert_refused(folder.path(), &["several: bishop_black, bishop_white"]);
 }
 
 #[test]
 fn numbered_files_are_the_maps_of_deschaintre_if_the_first_looks_like_normals() {
     let folder = tempdir().unwrap();
     for (map, encode) in [|v| v, gamma, |v| v, gamma].into_iter().enumerate() {
-        put(folder.path(), &format!("crane_{map}"), map, encode);
+        put_map(folder.path(), &format!("crane_{map}"), map, encode);
     }
     let read = open(folder.path());
     assert_eq!(
@@ -164,11 +148,11 @@ fn numbered_files_are_the_maps_of_deschaintre_if_the_first_looks_like_normals() 
         ("gamma2.2", Some(Certainty::Unsure))
     );
     assert_same(&read, 2.5 * EIGHT_BITS);
-    put(folder.path(), "crane_0", 2, |v| v);
-    assert!(refusal(folder.path()).contains("crane_0.png without the look of normals"));
-    put(folder.path(), "crane_0", 0, |v| v);
-    put(folder.path(), "crane_4", 1, |v| v);
-    assert!(refusal(folder.path()).contains("crane_4.png"));
+    put_map(folder.path(), "crane_0", 2, |v| v);
+    assert_refused(folder.path(), &["crane_0.png without the look of normals"]);
+    put_map(folder.path(), "crane_0", 0, |v| v);
+    put_map(folder.path(), "crane_4", 1, |v| v);
+    assert_refused(folder.path(), &["crane_4.png"]);
 }
 
 #[test]
@@ -192,8 +176,7 @@ fn opensvbrdf_opens_with_its_widths_and_its_scale() {
     save("tangent", &|_, _| [1.0, 0.5, 0.5]);
     let read = open(folder.path());
     assert_eq!(chosen(&read, What::Roughness), "axay", "{:#?}", read.assumptions);
-    assert!(read.messages().any(|line| line.contains("a factor on 0.04")), "{:?}", read.notes);
-    assert!(read.messages().any(|line| line.contains("two widths")), "{:?}", read.notes);
+    assert_notes(&read, &["a factor on 0.04", "two widths"]);
     for index in 0..SIDE * SIDE {
         let [d, r, s] = [1, 2, 3].map(|map| texel(map, index % SIDE, index / SIDE));
         let got = read.material.texel(index);
@@ -232,9 +215,8 @@ fn packings_of_engines_are_taken_apart() {
     ];
     for (name, pixel, unsure) in table {
         let folder = tempdir().unwrap();
-        put(folder.path(), "a_normal", 0, |v| v);
-        let base = picture(SIDE, SIDE, |_, _| [0.5; 3].map(srgb));
-        save(folder.path(), "a_kd.png", &base, ImageFormat::Png);
+        put_map(folder.path(), "a_normal", 0, |v| v);
+        gray(folder.path(), "a_kd", srgb(0.5));
         let image = image::RgbaImage::from_fn(SIDE as u32, SIDE as u32, |x, y| {
             let (x, y) = (x as usize, y as usize);
             pixel(rough(x, y), metal(x, y)).map(|v| (255.0 * v).round() as u8).into()
@@ -243,14 +225,8 @@ fn packings_of_engines_are_taken_apart() {
         let read = open(folder.path());
         for index in [0, 77, 200] {
             let got = read.material.texel(index);
-            assert!(
-                (got.roughness - rough(index % SIDE, index / SIDE)).abs() < EIGHT_BITS,
-                "{name}: {got:?}"
-            );
-            assert!(
-                got.diffuse[0].abs() < 1e-9 && (got.specular[0] - 0.5).abs() < EIGHT_BITS,
-                "{name}: {got:?}"
-            );
+            assert_near([got.roughness, got.specular[0]], [rough(index % SIDE, index / SIDE), 0.5]);
+            assert!(got.diffuse[0].abs() < 1e-9, "{name}: {got:?}");
         }
         let doubts = read.unsure().any(|a| a.why.to_string().contains("packings of this name differ"));
         assert_eq!(doubts, unsure, "{name}: {:#?}", read.assumptions);
@@ -260,13 +236,12 @@ fn packings_of_engines_are_taken_apart() {
 #[test]
 fn of_two_files_for_a_map_the_better_is_taken_and_it_is_said() {
     let folder = tempdir().unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], folder.path(), |_, v| v);
-    put(folder.path(), "roughness", 1, |v| v);
+    folder_of(NAMES, folder.path(), |_, v| v);
+    put_map(folder.path(), "roughness", 1, |v| v);
     map_exr(&folder.path().join("roughness.exr"), 2, |_, v| v);
     let read = open(folder.path());
     assert_same(&read, EIGHT_BITS);
-    let note = "roughness.png is not used: roughness.exr is preferred";
-    assert!(read.notes.iter().any(|n| n.to_string().contains(note)), "{:?}", read.notes);
+    assert_notes(&read, &["roughness.png is not used: roughness.exr is preferred"]);
 }
 
 #[test]
@@ -274,18 +249,10 @@ fn maps_in_the_only_folder_within_open_and_several_folders_are_listed() {
     let folder = tempdir().unwrap();
     let within = folder.path().join("textures");
     std::fs::create_dir(&within).unwrap();
-    folder_of(["normal.png", "diffuse.png", "roughness.png", "specular.png"], &within, |_, v| v);
+    folder_of(NAMES, &within, |_, v| v);
     let read = open(folder.path());
     assert_same(&read, EIGHT_BITS);
-    assert!(
-        read.notes.iter().any(|n| n.to_string().contains("in the folder textures within")),
-        "{:?}",
-        read.notes
-    );
+    assert_notes(&read, &["in the folder textures within"]);
     std::fs::create_dir(folder.path().join("other")).unwrap();
-    assert!(
-        refusal(folder.path()).contains("none, but the folders other, textures"),
-        "{}",
-        refusal(folder.path())
-    );
+    assert_refused(folder.path(), &["none, but the folders other, textures"]);
 }

@@ -23,8 +23,16 @@ const FORMS: [(&str, Option<Depth>); 6] = [
     ("f.mtlx", Some(Depth::Float)),
 ];
 
+/// Mean and largest difference of all samples.
+fn change(a: &[Vec<f32>; 3], b: &[Vec<f32>; 3]) -> (f64, f64) {
+    let pairs = a.iter().flatten().zip(b.iter().flatten());
+    let all: Vec<f64> = pairs.map(|(a, b)| f64::from((a - b).abs())).collect();
+    (all.iter().sum::<f64>() / all.len() as f64, all.iter().copied().fold(0.0, f64::max))
+}
+
 #[test]
-fn what_is_written_for_other_programs_opens_again_within_one_step_of_8_bits() {
+fn what_is_written_for_other_programs_opens_again_within_one_step_of_8_bits_and_its_note_tells_what_was_lost()
+{
     for (case, original, is_metallic) in cases() {
         let folder = tempdir().unwrap();
         for (name, depth) in FORMS {
@@ -32,14 +40,34 @@ fn what_is_written_for_other_programs_opens_again_within_one_step_of_8_bits() {
             assert_eq!(surface.form == SurfaceForm::Metallic, is_metallic, "{case}, {name}: {surface}");
             let off = steps(&original, &again.material);
             assert!(off <= 1.0, "{case}, {name}: off by {off} steps; {surface}");
-            let doubts: Vec<_> = again.unsure().collect();
             assert!(
-                doubts.is_empty() && again.notes.is_empty(),
-                "{case}, {name}: {doubts:?}, {:?}",
-                again.notes
+                again.unsure().count() == 0 && again.notes.is_empty(),
+                "{case}, {name}: {}",
+                notes(&again)
             );
+            let [before, after] = [original.planes(), again.material.planes()];
+            for (told, (mean, largest)) in [
+                (surface.changes.diffuse, change(&before.diffuse, &after.diffuse)),
+                (surface.changes.specular, change(&before.specular, &after.specular)),
+            ] {
+                // The reader computes in f32.
+                let is_same = (told.mean - mean).abs() < 1e-6 && (told.largest - largest).abs() < 1e-6;
+                assert!(is_same, "{case}, {name}: {told}, found {largest} (mean {mean})");
+            }
+            assert_eq!(surface.rejected.is_some(), !is_metallic);
+            if let Some(rejected) = surface.rejected {
+                assert!(rejected.steps > 1.0, "{case}, {name}: {surface}");
+                let mean = |changes: &write::SurfaceChanges| changes.diffuse.mean + changes.specular.mean;
+                assert!(mean(&rejected) > mean(&surface.changes), "{case}, {name}: {surface}");
+            }
         }
     }
+    let folder = tempdir().unwrap();
+    let out = folder.path().join("folder");
+    let options = WriteOptions { like: Some(Preset::Gltf), ..WriteOptions::default() };
+    let original = specular([SIDE, SIDE], 0.3);
+    let surface = write::write(&original, &out, FileKind::new(&out, &options).unwrap()).unwrap().unwrap();
+    assert!(surface.form == SurfaceForm::Metallic && surface.changes.specular.largest > 0.1, "{surface}");
 }
 
 #[test]
@@ -115,45 +143,6 @@ fn a_document_of_materialx_has_pictures_by_relative_names_beside_it() {
 }
 
 #[test]
-fn the_note_tells_what_the_form_changes_as_the_file_shows_it() {
-    for (case, original, _) in cases() {
-        let folder = tempdir().unwrap();
-        for (name, depth) in FORMS {
-            let (surface, again) = written(&original, &folder.path().join(name), depth);
-            let of = |map: fn(&Planes<f32>) -> &[Vec<f32>; 3]| {
-                let values = map(original.planes())
-                    .iter()
-                    .flatten()
-                    .zip(map(again.material.planes()).iter().flatten());
-                let all: Vec<f64> = values.map(|(a, b)| f64::from((a - b).abs())).collect();
-                (all.iter().sum::<f64>() / all.len() as f64, all.iter().copied().fold(0.0, f64::max))
-            };
-            let changes = surface.changes;
-            for (change, (mean, largest)) in [
-                (changes.diffuse, of(|planes| &planes.diffuse)),
-                (changes.specular, of(|planes| &planes.specular)),
-            ] {
-                // The reader computes in f32.
-                let is_same = (change.mean - mean).abs() < 1e-6 && (change.largest - largest).abs() < 1e-6;
-                assert!(is_same, "{case}, {name}: {change}, found {largest} (mean {mean})");
-            }
-            assert_eq!(surface.rejected.is_some(), surface.form != SurfaceForm::Metallic);
-            if let Some(rejected) = surface.rejected {
-                assert!(rejected.steps > 1.0, "{case}, {name}: {surface}");
-                let mean = |changes: &write::SurfaceChanges| changes.diffuse.mean + changes.specular.mean;
-                assert!(mean(&rejected) > mean(&changes), "{case}, {name}: {surface}");
-            }
-        }
-    }
-    let folder = tempdir().unwrap();
-    let out = folder.path().join("folder");
-    let options = WriteOptions { like: Some(Preset::Gltf), ..WriteOptions::default() };
-    let original = specular([SIDE, SIDE], 0.3);
-    let surface = write::write(&original, &out, FileKind::new(&out, &options).unwrap()).unwrap().unwrap();
-    assert!(surface.form == SurfaceForm::Metallic && surface.changes.specular.largest > 0.1, "{surface}");
-}
-
-#[test]
 fn a_document_appears_after_its_pictures_or_not_at_all() {
     let folder = tempdir().unwrap();
     let original = metallic();
@@ -206,7 +195,7 @@ fn a_document_appears_after_its_pictures_or_not_at_all() {
 }
 
 #[test]
-fn forms_for_other_programs_have_their_depths_and_no_preset() {
+fn forms_have_their_depths_and_presets() {
     let new = |name: &str, depth, like, preview| {
         FileKind::new(Path::new(name), &WriteOptions { depth, like, preview })
     };
@@ -219,6 +208,11 @@ fn forms_for_other_programs_have_their_depths_and_no_preset() {
         ("a.glb", None, None, true),
         ("a.mtlx", None, None, true),
         ("a.gltf", None, None, false),
+        ("a.TIF", None, None, false),
+        ("a.png", None, Some(Preset::Gltf), false),
+        ("a.png", None, None, true),
+        ("a", None, Some(Preset::Gao), false),
+        ("a.exr", None, Some(Preset::Gao), false),
     ] {
         let refused = new(name, depth, like, preview);
         assert!(matches!(refused, Err(Error::UnsupportedOutput { .. })), "{name}: {refused:?}");

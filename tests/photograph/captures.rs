@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use tempfile::{TempDir, tempdir};
 
 use svbrdf_core::material::Material;
-use svbrdf_core::model::brdf::{Model, Texel, reflectance};
+use svbrdf_core::model::brdf::{Model, reflectance};
 use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::Error;
@@ -36,16 +36,10 @@ pub(super) const LIGHTS: [[f64; 3]; 9] = [
 
 /// Radiance `f NoL / d^2` under a point light of power 1, in f64.
 pub(super) fn physical(material: &Material<f32>, light: [f64; 3], view: [f64; 3]) -> Vec<[f64; 3]> {
-    let (grid, model) = (material.grid(), Model::from(&PRINTED));
+    let (grid, model, exact) = (material.grid(), Model::from(&PRINTED), material.cast::<f64>());
     let texel = |i: usize| {
         let place: DVec3 = grid.position(i % material.width(), i / material.width());
-        let texel = material.texel(i);
-        let texel = Texel {
-            normal: texel.normal.as_dvec3(),
-            diffuse: texel.diffuse.map(f64::from),
-            specular: texel.specular.map(f64::from),
-            roughness: f64::from(texel.roughness),
-        };
+        let texel = exact.texel(i);
         let (to_light, to_view) = (DVec3::from(light) - place, (DVec3::from(view) - place).normalize());
         let l = to_light.normalize();
         let n_dot_l = texel.normal.dot(l).max(0.0);
@@ -288,12 +282,12 @@ fn captures_that_cannot_be_used_are_refused_with_their_reason() {
     let error = Capture::read(folder.path()).unwrap_err().to_string();
     assert!(error.contains("several that differ: other.json, render.json; name one"), "{error}");
     assert!(Capture::read(&folder.path().join("render.json")).is_ok());
-    let wrong = |hold_out: &[&str]| {
-        setting(&folder.path().join("render.json"), CaptureExposure::Capture, hold_out)
-            .unwrap_err()
-            .to_string()
-    };
-    assert!(wrong(&["9.png"]).contains("unknown photograph `9.png`; use one of: 08.png, 07.png"));
     let all = ["00", "01", "02", "03", "04", "05", "06", "07", "08"];
-    assert!(wrong(&all).contains("every photograph is held out"));
+    for (hold_out, words) in [
+        (&["9.png"][..], "unknown photograph `9.png`; use one of: 08.png, 07.png"),
+        (&all, "every photograph is held out"),
+    ] {
+        let wrong = setting(&folder.path().join("render.json"), CaptureExposure::Capture, hold_out);
+        assert!(wrong.unwrap_err().to_string().contains(words), "{words}");
+    }
 }

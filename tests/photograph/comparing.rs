@@ -36,13 +36,7 @@ fn pictured(material: &Material<f32>, corners: &Corners, factor: f64) -> svbrdf_
     let unit = basis([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
     let from_pixel = unit * basis(corners.0).inverse();
     let [half_width, half_height] = material.grid().half_extent().map(f64::from);
-    let texel = material.texel(0);
-    let texel = Texel {
-        normal: texel.normal.as_dvec3(),
-        diffuse: texel.diffuse.map(f64::from),
-        specular: texel.specular.map(f64::from),
-        roughness: f64::from(texel.roughness),
-    };
+    let texel = material.cast::<f64>().texel(0);
     photograph(700, 500, |x, y| {
         let p = from_pixel * DVec3::new(x as f64 + 0.5, y as f64 + 0.5, 1.0);
         let [s, t] = [p.x / p.z, p.y / p.z];
@@ -179,15 +173,14 @@ fn what_cannot_be_compared_is_refused_with_its_reason() {
         of(&mut rectified.image);
         rectified.compare(&material, &SCENE, &PRINTED, &Progress::default()).unwrap_err().to_string()
     };
-    let all_clipped = refusal(&|image| image.pixels.fill([f32::NAN; 3]));
-    assert!(all_clipped.contains("to glossy: every texel is clipped"), "{all_clipped}");
-    let dark = refusal(&|image| image.pixels.fill([0.0; 3]));
-    assert!(
-        dark.contains("no part of the material is lit both in a photograph and in its rendering"),
-        "{dark}"
-    );
-    let size = refusal(&|image| *image = Image { width: 1, height: 1, pixels: vec![[1.0; 3]] });
-    assert!(size.contains("the rectified photograph is 1 x 1, glossy is 64 x 48"), "{size}");
+    let one = || Image { width: 1, height: 1, pixels: vec![[1.0; 3]] };
+    for (refusal, words) in [
+        (refusal(&|image| image.pixels.fill([f32::NAN; 3])), "to glossy: every texel is clipped"),
+        (refusal(&|image| image.pixels.fill([0.0; 3])), "is lit both in a photograph and in its rendering"),
+        (refusal(&|image| *image = one()), "the rectified photograph is 1 x 1, glossy is 64 x 48"),
+    ] {
+        assert!(refusal.contains(words), "{words}: {refusal}");
+    }
     let photograph = photograph(64, 48, |_, _| [0.5; 3]);
     let corners = Corners::whole([65, 48]);
     let outside = super::Rectified::new(&photograph, &corners, [8, 8], &Progress::default());

@@ -19,6 +19,7 @@ use crate::support::pictures::{SIDE, exr as write_exr, npy, srgb};
 use crate::support::png::{Png, RGB};
 
 const AUTO: PhotographOptions = PhotographOptions { transfer: None, clip: None, light_colour: None };
+const LINEAR: PhotographOptions = PhotographOptions { transfer: Some(Transfer::Linear), ..AUTO };
 
 /// An 8-bit sRGB photograph of `material` of a half exposure.
 fn save(path: &Path, factor: f32) -> Vec<[f32; 3]> {
@@ -52,8 +53,7 @@ fn an_8_bit_srgb_photograph_agrees_within_its_quantization() {
     assert!(mean(&truth) < 0.01 && mean(&rough) > 3.0 * mean(&truth), "{}, {}", mean(&truth), mean(&rough));
 
     // A planted fault: the wrong curve.
-    let linear = PhotographOptions { transfer: Some(Transfer::Linear), clip: None, light_colour: None };
-    let wrong = read_photograph(&path, &linear).unwrap();
+    let wrong = read_photograph(&path, &LINEAR).unwrap();
     assert_eq!((wrong.transfer, wrong.transfer_from), (Transfer::Linear, "as specified"));
     let wrong = super::rectified(&wrong, &Corners::whole([64, 64]), &truth);
     assert!(compared(&wrong, &truth).statistics(Difference::Log).unwrap().mean > 0.1);
@@ -67,8 +67,7 @@ fn clipped_pixels_are_those_at_the_largest_integer_or_at_the_limit() {
     let stored = image::open(&path).unwrap().into_rgb8();
     let at = |least: u8| stored.pixels().filter(|pixel| pixel.0.iter().any(|c| *c >= least)).count();
     let clipped = |clip| {
-        let photograph =
-            read_photograph(&path, &PhotographOptions { transfer: None, clip, light_colour: None }).unwrap();
+        let photograph = read_photograph(&path, &PhotographOptions { clip, ..AUTO }).unwrap();
         photograph.clipped.iter().filter(|clipped| **clipped).count()
     };
     assert!(at(255) > 50 && at(230) > at(255), "{} and {}", at(255), at(230));
@@ -92,7 +91,7 @@ fn the_curve_is_that_of_the_option_of_the_file_or_of_the_kind_of_samples() {
         (photograph.transfer, photograph.transfer_from, photograph.notes.len())
     };
     let gamma = [(*b"gAMA", 100_000_u32.to_be_bytes().to_vec())];
-    let srgb = PhotographOptions { transfer: Some(Transfer::Srgb), clip: None, light_colour: None };
+    let srgb = PhotographOptions { transfer: Some(Transfer::Srgb), ..AUTO };
     let (integers, specified) = ("since it stores integers", "as specified");
     assert_eq!(of("8.png", &three_by_two(8, &[]), &AUTO), (Transfer::Srgb, integers, 0));
     assert_eq!(of("16.png", &three_by_two(16, &[]), &AUTO), (Transfer::Srgb, integers, 0));
@@ -112,8 +111,7 @@ fn a_photograph_is_turned_as_its_exif_orientation_says() {
     let exif = b"MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0".to_vec();
     let path = folder.path().join("turned.png");
     fs::write(&path, three_by_two(8, &[(*b"eXIf", exif)])).unwrap();
-    let linear = PhotographOptions { transfer: Some(Transfer::Linear), clip: None, light_colour: None };
-    let photograph = read_photograph(&path, &linear).unwrap();
+    let photograph = read_photograph(&path, &LINEAR).unwrap();
     assert_eq!((photograph.size(), photograph.notes.len()), ([2, 3], 0));
     let red: Vec<u32> = photograph.image.pixels.iter().map(|rgb| (255.0 * rgb[0]).round() as u32).collect();
     assert_eq!(red, [30, 0, 40, 10, 50, 20]);

@@ -1,20 +1,12 @@
 //! Declarations of scene files beside their textures: extensions, vertex colours, conventions, colour spaces, computed inputs.
 
-use super::extensions::{PLAIN, THREE, document, put};
+use super::extensions::{IMAGES, PLAIN, THREE, document, put};
 use super::*;
-
-fn refusal(path: &Path) -> String {
-    read::<f64>(path, &ReadOptions::default(), &Progress::default()).unwrap_err().to_string()
-}
-
-fn says(read: &Read<f64>, part: &str) -> bool {
-    read.messages().any(|line| line.contains(part))
-}
 
 /// The glTF of [`PLAIN`] with `more` in its material and `rest` in the file.
 fn plain(more: &str, rest: &str) -> String {
     let material = PLAIN.replacen(r#""name": "wall""#, &format!(r#""name": "wall"{more}"#), 1);
-    document(&["base%20colour.png", "n.png", "orm.png"], THREE, &material, rest)
+    document(&IMAGES, THREE, &material, rest)
 }
 
 #[test]
@@ -105,6 +97,7 @@ fn maps_of_another_shape_are_resampled_since_coordinates_relate_them() {
 /// The texel of a surface of MaterialX with these inputs, in a document of `space` with these other nodes.
 fn mtlx(space: &str, nodes: &str, surface: &str, inputs: &str) -> Result<Read<f64>, String> {
     let folder = textures();
+    save(folder.path(), "gray.png", &picture(SIDE, SIDE, |_, _| [0.4; 3]), ImageFormat::Png);
     let path = folder.path().join("a.mtlx");
     let text = format!(
         r#"<materialx version="1.39" colorspace="{space}">
@@ -114,11 +107,6 @@ fn mtlx(space: &str, nodes: &str, surface: &str, inputs: &str) -> Result<Read<f6
     );
     std::fs::write(&path, text).unwrap();
     read(&path, &ReadOptions::default(), &Progress::default()).map_err(|error| error.to_string())
-}
-
-#[track_caller]
-fn assert_near(got: [f64; 3], expected: [f64; 3], within: f64) {
-    assert!(got.iter().zip(expected).all(|(a, b)| (a - b).abs() < within), "{got:?}, not {expected:?}");
 }
 
 #[test]
@@ -151,15 +139,7 @@ fn a_colour_space_does_not_concern_roughness() {
         r#"<image name="rough" type="float"><input name="file" type="filename" value="gray.png"/></image>"#;
     let inputs = r#"<input name="specular_roughness" type="float" nodename="rough"/>
         <input name="base_weight" type="float" nodename="rough"/>"#;
-    let folder = textures();
-    save(folder.path(), "gray.png", &picture(SIDE, SIDE, |_, _| [0.4; 3]), ImageFormat::Png);
-    let path = folder.path().join("a.mtlx");
-    let text = format!(
-        r#"<materialx version="1.39" colorspace="adobergb">{nodes}
-          <open_pbr_surface name="wall" type="surfaceshader">{inputs}</open_pbr_surface></materialx>"#
-    );
-    std::fs::write(&path, text).unwrap();
-    let texel = open(&path).material.texel(77);
+    let texel = mtlx("adobergb", nodes, "open_pbr_surface", inputs).unwrap().material.texel(77);
     assert!((texel.roughness - 0.4).abs() < 1e-6, "{texel:?}");
     assert_near(texel.diffuse, [0.32; 3], 1e-5);
 }
@@ -171,11 +151,8 @@ fn colours_that_rec_709_does_not_have_are_clipped_and_a_space_that_is_not_known_
     assert_eq!(wide.material.texel(0).diffuse[0], 0.0);
     assert!(says(&wide, "some of the colours in acescg"), "{:?}", wide.notes);
     let unknown = mtlx("scanner", "", "open_pbr_surface", inputs).unwrap();
-    assert_eq!(
-        certainty(&unknown, What::Albedo),
-        Some(Certainty::Unsure),
-        "the computed path keeps the doubt"
-    );
+    // The computed path keeps the doubt.
+    assert_eq!(certainty(&unknown, What::Albedo), Some(Certainty::Unsure));
 }
 
 #[test]
@@ -216,14 +193,14 @@ fn affine_functions_of_one_picture_are_evaluated() {
             r#"<input name="base_color" type="color3" nodename="f"/><input name="metallic" value="0"/>"#;
         mtlx("lin_rec709", nodes, "gltf_pbr", inputs).unwrap().material.texel(77).diffuse
     };
-    let half = node("multiply", &(picture("in1") + &value("in2", "0.5, 1, 0")));
-    assert_near(diffuse(&half), [0.25, 0.4, 0.0], BOUND);
-    let sum = node("add", &(value("in1", "0.1, 0.2, 0.9") + &picture("in2")));
-    assert_near(diffuse(&sum), [0.6, 0.6, 1.0], BOUND);
-    let less = node("subtract", &(picture("in1") + &value("in2", "0.1, 0.1, 0.1")));
-    assert_near(diffuse(&less), [0.4, 0.3, 0.2], BOUND);
-    let inverted = node("invert", &picture("in"));
-    assert_near(diffuse(&inverted), [0.5, 0.6, 0.7], BOUND);
+    for (kind, inputs, expected) in [
+        ("multiply", picture("in1") + &value("in2", "0.5, 1, 0"), [0.25, 0.4, 0.0]),
+        ("add", value("in1", "0.1, 0.2, 0.9") + &picture("in2"), [0.6, 0.6, 1.0]),
+        ("subtract", picture("in1") + &value("in2", "0.1, 0.1, 0.1"), [0.4, 0.3, 0.2]),
+        ("invert", picture("in"), [0.5, 0.6, 0.7]),
+    ] {
+        assert_near(diffuse(&node(kind, &inputs)), expected, BOUND);
+    }
     let amount = r#"<input name="mix" type="float" value="0.25"/>"#;
     let mix = node("mix", &(picture("fg") + &value("bg", "1, 0, 0.2") + amount));
     assert_near(diffuse(&mix), [0.875, 0.1, 0.225], BOUND);

@@ -32,10 +32,9 @@ fn texel_of(surface: &str, inputs: &str) -> Texel<f64> {
 
 #[track_caller]
 fn assert_is(texel: Texel<f64>, diffuse: [f64; 3], specular: [f64; 3], roughness: f64) {
-    let near =
-        |got: [f64; 3], expected: [f64; 3]| got.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5);
-    let is_same = near(texel.diffuse, diffuse) && near(texel.specular, specular);
-    assert!(is_same && (texel.roughness - roughness).abs() < 1e-5, "{texel:?}");
+    assert_near(texel.diffuse, diffuse, 1e-5);
+    assert_near(texel.specular, specular, 1e-5);
+    assert!((texel.roughness - roughness).abs() < 1e-5, "{texel:?}");
 }
 
 #[test]
@@ -62,8 +61,8 @@ fn a_picture_counts_beside_specular() {
     let inputs = r#"<input name="base_color" nodename="base"/>"#.to_owned() + &value("specular", "0.5");
     let read = read_of("standard_surface", &inputs).unwrap();
     let texel = read.material.texel(77);
-    assert!(texel.diffuse.iter().zip(BASE).all(|(a, b)| (a - b).abs() < BOUND), "{texel:?}");
-    assert!(texel.specular.iter().all(|s| (s - 0.02).abs() < 1e-6), "{texel:?}");
+    assert_near(texel.diffuse, BASE, BOUND);
+    assert_near(texel.specular, [0.02; 3], 1e-6);
 }
 
 #[test]
@@ -77,10 +76,7 @@ fn a_procedural_input_is_refused_and_not_replaced() {
 
 #[test]
 fn what_is_not_modelled_is_named_where_it_is_on() {
-    let said = |coat: &str| {
-        let read = read_of("standard_surface", &value("coat", coat)).unwrap();
-        read.messages().any(|s| s.contains("coat"))
-    };
-    assert!(said("0.1"));
-    assert!(!said("0"));
+    for (coat, is_said) in [("0.1", true), ("0", false)] {
+        assert_eq!(says(&read_of("standard_surface", &value("coat", coat)).unwrap(), "coat"), is_said);
+    }
 }

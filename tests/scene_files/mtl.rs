@@ -15,10 +15,6 @@ pub fn wall(text: &str) -> (TempDir, std::path::PathBuf) {
     (folder, path)
 }
 
-fn says(read: &Read<f64>, part: &str) -> bool {
-    read.messages().any(|line| line.contains(part))
-}
-
 pub const PBR: &str = "# made by a test
 newmtl wall
 Ka 1 1 1
@@ -60,14 +56,12 @@ fn other_ways_to_say_it_in_mtl_are_the_same_material() {
             wall(&format!("newmtl other\nKd 1 1 1\nnewmtl wall\nmap_Kd base colour.png\n{text}\n"));
         let options = ReadOptions { exemplar: Some(1), ..ReadOptions::AUTO };
         let read = read::<f64>(&path, &options, &Progress::default()).unwrap();
-        println!("{what}: {:#?} {:#?}", read.assumptions, read.notes);
         assert_is_of_textures(&read, 1.0);
         assert!(says(&read, "holds 2 materials: 0 other, 1 wall. This is number 1 from 0"), "{what}");
         let names = read.materials().map(|(names, index)| (names.join(" "), index));
         assert_eq!(names, Some(("other wall".to_owned(), 1)), "{what}");
         let third = ReadOptions { exemplar: Some(2), ..ReadOptions::AUTO };
-        let refused =
-            svbrdf_files::read::read::<f64>(&path, &third, &Progress::default()).unwrap_err().to_string();
+        let refused = super::read::<f64>(&path, &third, &Progress::default()).unwrap_err().to_string();
         assert!(refused.contains("an exemplar from 0 to 1"), "{refused}");
     }
 }
@@ -101,11 +95,11 @@ fn factors_of_mtl_multiply_and_are_doubted() {
 #[test]
 fn the_name_of_a_normal_map_tells_its_y_in_mtl() {
     let (folder, path) = wall("newmtl wall\nmap_Kd base colour.png\nmap_Pr old rough.png\nnorm n_dx.png\n");
-    let turned = picture(SIDE, SIDE, |x, y| {
+    let turned = |x, y| {
         let [r, g, b] = stored(0, x, y, |v| v);
         [r, 1.0 - g, b]
-    });
-    save(folder.path(), "n_dx.png", &turned, ImageFormat::Png);
+    };
+    save(folder.path(), "n_dx.png", &picture(SIDE, SIDE, turned), ImageFormat::Png);
     let read = open(&path);
     assert_is_of_textures(&read, 1.0);
     assert_eq!(certainty(&read, What::NormalY), Some(Certainty::Sure));
@@ -129,11 +123,8 @@ fn an_exponent_stands_for_roughness_and_heights_for_nothing_in_mtl() {
 fn a_bump_map_of_colours_is_called_neither_normals_nor_heights() {
     let (_folder, path) = wall("newmtl wall\nmap_Kd base colour.png\nPr 0.5\nbump base colour.png\n");
     let read = open(&path);
-    assert!(
-        says(&read, "base colour.png is not used: its pixels do not look like normals"),
-        "{:?}",
-        read.notes
-    );
+    let note = "base colour.png is not used: its pixels do not look like normals";
+    assert!(says(&read, note), "{:?}", read.notes);
 }
 
 #[test]

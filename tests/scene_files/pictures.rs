@@ -1,12 +1,8 @@
 //! Files of scene files beside their documents: what their decoders notice, buffers, avatars.
 
-use super::extensions::{PLAIN, THREE, document, put};
+use super::extensions::{IMAGES, PLAIN, THREE, document, put};
 use super::*;
 use crate::support::png::chunk;
-
-fn says(read: &Read<f64>, part: &str) -> bool {
-    read.messages().any(|line| line.contains(part))
-}
 
 /// Adds gAMA of 1 and an EXIF orientation to a PNG.
 fn add_chunks(path: &Path) {
@@ -41,8 +37,7 @@ fn the_buffer_of_a_gltf_is_one_of_its_files() {
     std::fs::write(folder.path().join("mesh data.bin"), [0; 4]).unwrap();
     let buffers = r#", "buffers": [{"byteLength": 4, "uri": "mesh%20data.bin"},
         {"byteLength": 4, "uri": "absent.bin"}, {"byteLength": 4, "uri": "data:;base64,AAAAAA=="}]"#;
-    let images = ["base%20colour.png", "n.png", "orm.png"];
-    let read = open(&put(&folder, &document(&images, THREE, PLAIN, buffers)));
+    let read = open(&put(&folder, &document(&IMAGES, THREE, PLAIN, buffers)));
     let names = read.files.iter().map(|file| file.file_name().unwrap().to_str().unwrap());
     assert_eq!(names.collect::<Vec<_>>(), ["a.gltf", NAMES[0], "mesh data.bin", NAMES[1], NAMES[2]]);
 }

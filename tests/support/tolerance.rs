@@ -135,12 +135,8 @@ pub const EXTREMES: [[f64; 4]; 12] = [
 ];
 const NONE: f64 = f64::INFINITY;
 
-/// |the sum of the Shapley values - the loss| over the loss, in f64.
-pub const SHAPLEY_SUM: f64 = 1e-13; // measured: below 1e-13
-/// As [`SHAPLEY_SUM`], with losses of scenes in f32, which are added in f64.
-pub const SHAPLEY_SUM_F32: f64 = 1e-12; // measured: 4.4e-16, on the built-in materials
-/// |the mean of the error map - the loss| over the loss: pictures in f32 against the fused kernel.
-pub const ERROR_MAP_MEAN: f64 = 1e-6; // measured: 6.9e-9, over 192 scenes
+/// |the sum of the Shapley values - the loss| over the loss, with losses of scenes in f32, which are added in f64.
+pub const SHAPLEY_SUM: f64 = 1e-12; // measured: 4.4e-16, on the built-in materials
 /// A photograph in perspective of 8 to 10 pixels a texel, averaged over each texel, against the rendering at the middle of the texel:
 /// the mean log difference. The curvature of a highlight of r = 0.35 within a texel, and the bilinear samples, remain.
 pub const PHOTOGRAPH_LOG: f64 = 1e-3;
