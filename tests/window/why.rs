@@ -5,6 +5,7 @@ mod directions;
 mod error_map;
 mod maps;
 mod scenes;
+mod tables;
 
 use svbrdf_core::loss::{Sampling, Texels};
 use svbrdf_core::model::sampler::Sampler;
