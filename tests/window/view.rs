@@ -96,3 +96,49 @@ fn a_pane_that_changes_has_the_pixels_that_are_kept_of_it() {
         assert_eq!(changes, 2, "scale {scale}");
     }
 }
+
+#[needs(adapter)]
+#[test]
+fn a_texel_covers_a_pixel_also_where_the_material_is_repeated() {
+    let mut window = built_in();
+    for key in [egui::Key::Num0, egui::Key::T, egui::Key::Num0] {
+        press(&mut window, key);
+        if key == egui::Key::Num0 {
+            assert!(has(&window, "×1.0"), "screen pixels per texel");
+        } else {
+            assert!(has(&window, "×0.50"), "a planted fault: copies are half as large");
+        }
+    }
+}
+
+/// The titles that the frame that has been drawn gives the window.
+fn titles(window: &Window<'_>) -> Vec<String> {
+    let commands = &window.output().viewport_output[&egui::ViewportId::ROOT].commands;
+    let title = |command: &egui::ViewportCommand| match command {
+        egui::ViewportCommand::Title(title) => Some(title.clone()),
+        _ => None,
+    };
+    commands.iter().filter_map(title).collect()
+}
+
+#[needs(adapter)]
+#[test]
+fn the_window_is_named_after_what_is_open() {
+    let mut window = built_in();
+    assert!(titles(&window).is_empty(), "it is told once");
+    apply(&mut window, MaterialsCommand::Close(2));
+    let mut seen = titles(&window);
+    apply(&mut window, MaterialsCommand::Close(1));
+    seen.extend(titles(&window));
+    window.step();
+    assert_eq!(seen.last().map(String::as_str), Some("worn tiles - svbrdf"), "{seen:?}");
+}
+
+#[needs(adapter)]
+#[test]
+fn a_picture_on_the_clipboard_is_refused_with_the_reason() {
+    let mut window = built_in();
+    let picture = egui::ColorImage::filled([2, 2], egui::Color32::RED);
+    window.event(egui::Event::PasteImage(std::sync::Arc::new(picture)));
+    see(&mut window, "The clipboard holds a picture");
+}
