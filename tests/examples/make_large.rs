@@ -6,6 +6,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_files::Error;
 use svbrdf_files::samples;
@@ -27,7 +28,7 @@ fn main() -> ExitCode {
 }
 
 fn make(out: &Path, side: &str, depth: &str) -> Result<(), Error> {
-    let unknown = |_| Error::unknown_name("SIDE", side, "a number of texels");
+    let unknown = |_| CoreError::unknown_name("SIDE", side, "a number of texels");
     let side = side.parse().map_err(unknown)?;
     let options = WriteOptions { depth: Some(depth.parse::<Depth>()?), ..WriteOptions::default() };
     write::write(&large(side)?, out, FileKind::new(out, &options)?).map(drop)
@@ -48,7 +49,7 @@ fn large(side: usize) -> Result<Material<f32>, Error> {
         specular: specular.each_ref().map(repeated),
         roughness: repeated(roughness),
     };
-    Material::new("large", side, side, planes)
+    Ok(Material::new("large", side, side, planes)?)
 }
 
 /// White noise in [-1, 1): the finalizer of SplitMix64.
