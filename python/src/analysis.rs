@@ -3,7 +3,7 @@
 use pyo3::prelude::*;
 use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analyses::AnyAnalysis;
-use svbrdf_evaluate::report::Subject;
+use svbrdf_evaluate::report::AnalysisInput;
 
 use crate::asked::Asked;
 use crate::errors::{Error, exception};
@@ -25,7 +25,7 @@ pub fn analysis(
     let analysis = AnyAnalysis::named(name).ok_or_else(|| Error::new_err(format!("no analysis {name}")))?;
     let options = serde_json::from_str(options).map_err(|problem| Error::new_err(problem.to_string()))?;
     let materials = asked.singles(ground_truth, &predictions);
-    let subject = Subject {
+    let input = AnalysisInput {
         ground_truth: &materials[0],
         predictions: materials[1..].iter().collect(),
         convention: asked.convention()?,
@@ -33,6 +33,6 @@ pub fn analysis(
     };
     // A report is no value of several threads.
     work::run(py, progress, |progress| {
-        Ok::<_, EvaluateError>(Views::new(&*analysis.run(&subject, options, progress)?))
+        Ok::<_, EvaluateError>(Views::new(&*analysis.run(&input, options, progress)?))
     })?
 }

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis};
-use svbrdf_evaluate::report::{SceneOptions, Subject};
+use svbrdf_evaluate::report::{AnalysisInput, SceneOptions};
 
 use super::args::scenes::{ListArgs, SampledArgs, SeedArgs, TargetErrorArgs};
 use super::args::values::{percent, whole};
@@ -188,8 +188,8 @@ impl Job for AnalysisJob {
         } = *self;
         let opened = materials.open::<f32>()?;
         let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect());
-        let subject = Subject { ground_truth, predictions, convention, request };
-        let report = watched(analysis.doing, |progress| analysis.run(&subject, options, progress))?;
+        let input = AnalysisInput { ground_truth, predictions, convention, request };
+        let report = watched(analysis.doing, |progress| analysis.run(&input, options, progress))?;
         exit::put(&format.write(&*report)?)?;
         target::warn_of(report.missed(), materials.strict)
     }

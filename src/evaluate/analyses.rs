@@ -10,7 +10,8 @@ use svbrdf_files::Error as FilesError;
 
 use crate::error::Error;
 use crate::report::{
-    Analysis, BlameReport, MetricsReport, Report, SceneOptions, ScenesReport, Subject, WorstReport, schema_of,
+    Analysis, AnalysisInput, BlameReport, MetricsReport, Report, SceneOptions, ScenesReport, WorstReport,
+    schema_of,
 };
 
 /// All of them, in the order of the commands.
@@ -35,7 +36,7 @@ pub struct AnyAnalysis {
     pub options: fn() -> Schema,
     /// The schema of its report.
     pub report: fn() -> Schema,
-    answer: fn(&Subject<'_>, Value, &Progress) -> Result<Box<dyn Report>, Error>,
+    answer: fn(&AnalysisInput<'_>, Value, &Progress) -> Result<Box<dyn Report>, Error>,
 }
 
 impl AnyAnalysis {
@@ -77,20 +78,20 @@ impl AnyAnalysis {
     /// As [`Analysis::run`]; [`FilesError::Internal`] for options that are none.
     pub fn run(
         &self,
-        subject: &Subject<'_>,
+        input: &AnalysisInput<'_>,
         options: Value,
         progress: &Progress,
     ) -> Result<Box<dyn Report>, Error> {
-        (self.answer)(subject, options, progress)
+        (self.answer)(input, options, progress)
     }
 }
 
 fn answer<A: Analysis>(
-    subject: &Subject<'_>,
+    input: &AnalysisInput<'_>,
     options: Value,
     progress: &Progress,
 ) -> Result<Box<dyn Report>, Error> {
     let options =
         serde_json::from_value(options).map_err(|problem| FilesError::Internal(problem.to_string()))?;
-    Ok(Box::new(A::run(subject, &options, progress)?))
+    Ok(Box::new(A::run(input, &options, progress)?))
 }

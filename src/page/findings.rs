@@ -15,7 +15,7 @@ use super::data::LinkedScene;
 use super::exposure::exposure;
 use super::markup::{MOST_NAMES, escaped, number, place};
 use super::pictures::Rows;
-use super::tables::Table;
+use super::tables::HtmlTable;
 use super::{pictures, plots};
 use svbrdf_files::disk::atomic::SOFTWARE;
 
@@ -66,7 +66,7 @@ fn losses(findings: &Findings) -> String {
     let loss = &findings.loss;
     let all = &loss.outcome.losses;
     let axis = plots::axis(all.iter().map(|loss| &loss.estimate));
-    let mut table = Table::of(loss.table(Reader::Person), "name", false).titled();
+    let mut table = HtmlTable::of(loss.table(Reader::Person), "name", false).titled();
     table.insert(3, "", all.iter().map(|loss| plots::bar(&loss.estimate, axis)));
     let verdicts = verdicts(&loss.outcome);
     format!(
@@ -115,7 +115,7 @@ fn shares(attributions: &[Attribution]) -> String {
     );
     let axis = plots::axis(attributions.iter().flat_map(|one| one.maps.iter().map(|share| &share.shapley)));
     for one in attributions {
-        let mut table = Table::of(parts(&one.maps, &one.loss), "", false).titled();
+        let mut table = HtmlTable::of(parts(&one.maps, &one.loss), "", false).titled();
         table.insert(2, "", one.maps.iter().map(|share| plots::bar(&share.shapley, axis)));
         let note = one.note().map_or(String::new(), |note| format!("<p>{}</p>", escaped(&note)));
         let _ = write!(html, r#"<h3>{}</h3>{}{note}"#, escaped(&one.prediction), table.html());

@@ -6,7 +6,7 @@ use svbrdf_core::loss::Estimate;
 
 use super::markup::{Document, escaped, filled, number};
 use super::plots;
-use super::tables::{Table, cell, row_heading};
+use super::tables::{HtmlTable, cell, row_heading};
 use svbrdf_evaluate::dataset::{DatasetReport, MaterialResult, MethodSummary, counted_loss, marks_table};
 use svbrdf_evaluate::report::{Reader, Report as _};
 
@@ -52,7 +52,7 @@ fn methods(report: &DatasetReport) -> String {
     let has_losses = |summary: &&MethodSummary| summary.materials > 0;
     let means: Vec<Estimate> = report.methods.iter().filter(has_losses).map(estimate).collect();
     let axis = plots::axis(means.iter());
-    let mut table = Table::of(report.table(Reader::Person), "name", true).titled();
+    let mut table = HtmlTable::of(report.table(Reader::Person), "name", true).titled();
     let bar = |summary| match has_losses(&summary) {
         true => plots::bar(&estimate(summary), axis),
         false => String::new(),
@@ -114,13 +114,13 @@ fn metrics(report: &DatasetReport) -> String {
 /// A table with a column for each method.
 fn by_method(report: &DatasetReport, first: &str, rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let methods = report.methods.iter().map(|summary| summary.method.as_str());
-    Table::new([first].into_iter().chain(methods), rows).html()
+    HtmlTable::new([first].into_iter().chain(methods), rows).html()
 }
 
 /// The marks of diagnoses, where there are any.
 fn marks(report: &DatasetReport) -> String {
     let Some(table) = marks_table(report) else { return String::new() };
-    let table = Table::of(table, "", false).html();
+    let table = HtmlTable::of(table, "", false).html();
     format!(
         r#"<section aria-labelledby="marks"><h2 id="marks">What would explain a loss</h2>{table}<p class="weak">Numbers of materials. A mark that most materials of a method share is a convention of its files.</p></section>"#
     )

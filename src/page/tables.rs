@@ -5,14 +5,14 @@ use svbrdf_evaluate::report::{self, Cell};
 use super::markup::{escaped, number, percent};
 
 /// A table.
-pub(super) struct Table {
+pub(super) struct HtmlTable {
     /// As HTML; an empty one is above a column of pictures.
     headings: Vec<String>,
     /// The cells of each row with their tags, the first of which is the heading of the row.
     rows: Vec<Vec<String>>,
 }
 
-impl Table {
+impl HtmlTable {
     /// A table of `headings` as text.
     pub(super) fn new<'a>(
         headings: impl IntoIterator<Item = &'a str>,

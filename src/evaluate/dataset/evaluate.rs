@@ -17,7 +17,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::Error as FilesError;
 
 use super::record::{
-    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
+    CandidateFile, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
 use super::remark::Remark;
 use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
@@ -85,7 +85,7 @@ impl Run<'_> {
         let load = |key: &Option<Key>| self.results.as_ref()?.load(&case.material, key.as_ref()?);
         let known: Vec<Option<PairResult>> = keys.iter().map(load).collect();
         let (index, material) = (case.index, case.material.clone());
-        let of = |(candidate, known): (&Candidate, &Option<PairResult>)| match known {
+        let of = |(candidate, known): (&CandidateFile, &Option<PairResult>)| match known {
             Some(known) => Some(known.prediction.clone()),
             None => candidate.missing.clone().map(|problem| without_loss(candidate, problem)),
         };
@@ -114,8 +114,8 @@ impl Run<'_> {
     }
 
     /// What the result of a prediction depends on; `None` where it cannot be known before it is computed.
-    fn key(&self, case: &Case, candidate: &Candidate, truth: &Dependencies, seed: u64) -> Option<Key> {
-        let Candidate { method, sample, path, .. } = candidate;
+    fn key(&self, case: &Case, candidate: &CandidateFile, truth: &Dependencies, seed: u64) -> Option<Key> {
+        let CandidateFile { method, sample, path, .. } = candidate;
         let prediction = self.dependencies(path, self.reading.of_method(method))?;
         // How it is read is a part of the digest.
         let material =
@@ -143,7 +143,7 @@ impl Run<'_> {
     fn new_prediction(
         &self,
         case: &Case,
-        candidate: &Candidate,
+        candidate: &CandidateFile,
         truth: &Opened,
         floor: Option<f64>,
         (key, seed): (Option<Key>, u64),
@@ -167,7 +167,7 @@ impl Run<'_> {
     }
 
     /// A prediction of the size of the ground truth, or why there is none.
-    fn open(&self, candidate: &Candidate, truth: &Opened) -> Opened {
+    fn open(&self, candidate: &CandidateFile, truth: &Opened) -> Opened {
         let truth = match (&truth.found, &candidate.missing) {
             (Err(problem), _) => return Opened::failed(format!("ground truth: {problem}")),
             (_, Some(problem)) => return Opened::failed(problem.clone()),
@@ -184,7 +184,7 @@ impl Run<'_> {
     /// The result of a prediction; `floor` is that of the ground truth.
     fn prediction(
         &self,
-        candidate: &Candidate,
+        candidate: &CandidateFile,
         truth: &Opened,
         opened: Opened,
         floor: f64,
@@ -242,8 +242,8 @@ impl Run<'_> {
 }
 
 /// The result of a prediction that was not read.
-fn without_loss(candidate: &Candidate, problem: String) -> PredictionResult {
-    let Candidate { method, sample, path, .. } = candidate.clone();
+fn without_loss(candidate: &CandidateFile, problem: String) -> PredictionResult {
+    let CandidateFile { method, sample, path, .. } = candidate.clone();
     let path = path.display().to_string();
     let (error, metrics) = (Some(problem), BTreeMap::new());
     PredictionResult { method, sample, path, known: None, error, reading: Vec::new(), metrics, marks: None }

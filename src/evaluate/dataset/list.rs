@@ -8,7 +8,7 @@ use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::text::line;
 use svbrdf_files::Error;
 
-use super::record::{Candidate, Case, Method, Source};
+use super::record::{CandidateFile, Case, Method, Source};
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::disk::{inputs, memory};
 
@@ -99,10 +99,11 @@ impl<'a> Predictions<'a> {
     }
 
     /// The predictions of a material, or the one that is missing.
-    fn candidates(&self, method: &Method, material: &str) -> Vec<Candidate> {
+    fn candidates(&self, method: &Method, material: &str) -> Vec<CandidateFile> {
         let samples = (0..).map_while(|sample| self.get(&format!("{material}_{sample}")));
         let paths: Vec<PathBuf> = self.get(material).into_iter().chain(samples).collect();
-        let one = |(sample, path, missing)| Candidate { method: line(&method.name), sample, path, missing };
+        let one =
+            |(sample, path, missing)| CandidateFile { method: line(&method.name), sample, path, missing };
         if paths.is_empty() {
             return vec![one((0, self.expected(method, material), Some(self.missing(method, material))))];
         }
@@ -238,7 +239,7 @@ pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
         let sample = *count;
         *count += 1;
         let path = folder.join(cell(prediction));
-        cases[at].candidates.push(Candidate { method, sample, path, missing: None });
+        cases[at].candidates.push(CandidateFile { method, sample, path, missing: None });
     }
     if cases.is_empty() {
         return Err(nothing_in(path, "rows"));

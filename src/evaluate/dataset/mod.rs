@@ -27,7 +27,7 @@ pub use mark_summary::marks_table;
 pub use metric_summary::best_by_metric;
 pub use pick::{Pick, counted_loss, counted_sample};
 pub use record::{
-    Candidate, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
+    CandidateFile, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
     PredictionResult, Source,
 };
 pub use remark::Remark;

@@ -19,12 +19,12 @@ pub struct Case {
     pub index: usize,
     pub material: String,
     pub ground_truth: PathBuf,
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<CandidateFile>,
 }
 
 /// A prediction.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Candidate {
+pub struct CandidateFile {
     pub method: String,
     /// Which of the predictions of this method, from 0.
     pub sample: usize,

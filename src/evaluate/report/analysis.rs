@@ -19,7 +19,7 @@ use crate::error::Error;
 
 /// A comparison of predictions with their ground truth.
 #[derive(Clone, Debug)]
-pub struct Subject<'a> {
+pub struct AnalysisInput<'a> {
     pub ground_truth: &'a Material<f32>,
     pub predictions: Vec<&'a Material<f32>>,
     pub convention: Convention,
@@ -27,7 +27,7 @@ pub struct Subject<'a> {
     pub request: Request,
 }
 
-impl Subject<'_> {
+impl AnalysisInput<'_> {
     /// The settings of a report.
     pub fn compared(&self) -> Compared {
         Compared::new(self.ground_truth, &self.convention)
@@ -84,7 +84,7 @@ pub trait Analysis: Report + JsonSchema + Sized + 'static {
     ///
     /// # Errors
     /// Where the materials cannot be compared; [`Error::Cancelled`].
-    fn run(subject: &Subject<'_>, options: &Self::Options, progress: &Progress) -> Result<Self, Error>;
+    fn run(input: &AnalysisInput<'_>, options: &Self::Options, progress: &Progress) -> Result<Self, Error>;
 }
 
 /// No options.

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
-use super::analysis::{Analysis, NoOptions, SceneOptions, Subject};
+use super::analysis::{Analysis, AnalysisInput, NoOptions, SceneOptions};
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
 use super::table::{Cell, Field, Reader, Table};
@@ -162,11 +162,11 @@ impl Analysis for BlameReport {
         &[SceneOptions::TargetError, SceneOptions::Seed, SceneOptions::List];
     type Options = NoOptions;
 
-    fn run(subject: &Subject<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
-        let Subject { ground_truth, convention, request, .. } = subject;
-        let attributions = subject.each(|prediction| {
+    fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
+        let AnalysisInput { ground_truth, convention, request, .. } = input;
+        let attributions = input.each(|prediction| {
             Ok(why::attribute(ground_truth, prediction, convention, request, progress)?)
         })?;
-        Ok(Self::new(subject.compared(), request, attributions))
+        Ok(Self::new(input.compared(), request, attributions))
     }
 }

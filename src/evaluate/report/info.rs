@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::math::real::Real;
-use svbrdf_files::read::{Assumption, MapReport, Note, Read};
+use svbrdf_files::read::{Assumption, MapContent, Note, Read};
 
 /// The content of the files of a material, and the assumptions in reading them.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -13,7 +13,7 @@ pub struct InfoReport {
     /// Width and height in texels.
     pub size: [usize; 2],
     /// The maps as stored.
-    pub maps: Vec<MapReport>,
+    pub maps: Vec<MapContent>,
     pub assumptions: Vec<Assumption>,
     /// What was noticed in reading, in words.
     #[schemars(with = "Vec<String>")]

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::Report;
-use super::analysis::{Analysis, SceneOptions, Subject};
+use super::analysis::{Analysis, AnalysisInput, SceneOptions};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Reader, Table};
 use crate::error::Error;
@@ -144,8 +144,8 @@ impl Analysis for MetricsReport {
     const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
     type Options = MetricsOptions;
 
-    fn run(subject: &Subject<'_>, options: &MetricsOptions, progress: &Progress) -> Result<Self, Error> {
-        let Subject { ground_truth, convention, request, .. } = subject;
+    fn run(input: &AnalysisInput<'_>, options: &MetricsOptions, progress: &Progress) -> Result<Self, Error> {
+        let AnalysisInput { ground_truth, convention, request, .. } = input;
         let (scenes, sampling) = (request.scenes(convention)?.unwrap_or_default(), request.sampling());
         let rendered = RenderedScenes {
             scenes: &scenes,
@@ -153,10 +153,10 @@ impl Analysis for MetricsReport {
             convention,
             exposure_ev: options.exposure,
         };
-        let results = subject.each(|prediction| {
+        let results = input.each(|prediction| {
             let of_renderings = of_renderings(ground_truth, prediction, &rendered, progress)?;
             Ok((prediction.name().to_owned(), [of_maps(ground_truth, prediction)?, of_renderings].concat()))
         })?;
-        Ok(Self::new(&subject.compared(), sampling.as_ref(), &rendered, results))
+        Ok(Self::new(&input.compared(), sampling.as_ref(), &rendered, results))
     }
 }

@@ -38,7 +38,7 @@ mod scenes;
 mod table;
 mod worst;
 
-pub use analysis::{Analysis, NoOptions, SceneOptions, Subject, schema_of};
+pub use analysis::{Analysis, AnalysisInput, NoOptions, SceneOptions, schema_of};
 pub use blame::{BlameReport, parts};
 pub use diagnose::DiagnoseReport;
 pub use heading::{Compared, position, scenes_line};

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Report;
-use super::analysis::{Analysis, SceneOptions, Subject};
+use super::analysis::{Analysis, AnalysisInput, SceneOptions};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
@@ -128,9 +128,9 @@ impl Analysis for ScenesReport {
     const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
     type Options = ScenesOptions;
 
-    fn run(subject: &Subject<'_>, options: &ScenesOptions, progress: &Progress) -> Result<Self, Error> {
-        let Subject { ground_truth, predictions, convention, request } = subject;
+    fn run(input: &AnalysisInput<'_>, options: &ScenesOptions, progress: &Progress) -> Result<Self, Error> {
+        let AnalysisInput { ground_truth, predictions, convention, request } = input;
         let comparison = Comparison::new(*ground_truth, predictions, *convention)?.without_pilot();
-        Ok(Self::new(subject.compared(), &comparison.run(request, progress)?, options.top))
+        Ok(Self::new(input.compared(), &comparison.run(request, progress)?, options.top))
     }
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Report;
-use super::analysis::{Analysis, SceneOptions, Subject};
+use super::analysis::{Analysis, AnalysisInput, SceneOptions};
 use super::heading::Compared;
 use super::missed::missed;
 use super::scenes::SCENE;
@@ -134,14 +134,14 @@ impl Analysis for WorstReport {
     const SCENES: &'static [SceneOptions] = &[SceneOptions::Seed];
     type Options = WorstOptions;
 
-    fn run(subject: &Subject<'_>, options: &WorstOptions, progress: &Progress) -> Result<Self, Error> {
-        let (truth, convention, tail) = (subject.ground_truth, &subject.convention, options.distance_tail);
+    fn run(input: &AnalysisInput<'_>, options: &WorstOptions, progress: &Progress) -> Result<Self, Error> {
+        let (truth, convention, tail) = (input.ground_truth, &input.convention, options.distance_tail);
         if !(0.0..0.5).contains(&tail) {
             return Err(Error::DistanceTail { found: tail });
         }
-        let found = subject.each(|prediction| {
-            Ok(why::worst(truth, prediction, convention, subject.seed(), tail, progress)?)
+        let found = input.each(|prediction| {
+            Ok(why::worst(truth, prediction, convention, input.seed(), tail, progress)?)
         })?;
-        Ok(Self::new(subject.compared(), tail, found))
+        Ok(Self::new(input.compared(), tail, found))
     }
 }

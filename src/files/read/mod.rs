@@ -36,7 +36,7 @@ use std::sync::Arc;
 
 pub use assemble::Read;
 pub use gather::Neighbours;
-pub use gather::map_report::MapReport;
+pub use gather::map_report::MapContent;
 pub use locate::is_prefix;
 pub use locate::sidecar::Sidecar;
 pub use located::binding::Binding;

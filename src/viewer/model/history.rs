@@ -27,12 +27,12 @@ pub struct Moment {
 }
 
 /// A value of several parts: changes of different parts are different steps.
-pub trait Parts {
+pub trait MomentParts {
     /// Which parts differ, a bit for each.
     fn changed(&self, other: &Self) -> u32;
 }
 
-impl Parts for Moment {
+impl MomentParts for Moment {
     fn changed(&self, other: &Self) -> u32 {
         let (a, b) = (&self.view, &other.view);
         let (c, d) = (&a.display, &b.display);
@@ -96,7 +96,7 @@ impl<T> Default for UndoStack<T> {
     }
 }
 
-impl<T: Clone + PartialEq + Parts> UndoStack<T> {
+impl<T: Clone + PartialEq + MomentParts> UndoStack<T> {
     /// Takes note of the value at this time, in seconds. Called in every frame.
     pub fn feed(&mut self, time: f64, value: &T) {
         let Some(last) = self.earlier.back() else { return self.keep(value) };
@@ -160,13 +160,13 @@ impl<T: Clone + PartialEq + Parts> UndoStack<T> {
 mod tests {
     use super::*;
 
-    impl Parts for i32 {
+    impl MomentParts for i32 {
         fn changed(&self, other: &Self) -> u32 {
             u32::from(self != other)
         }
     }
 
-    impl Parts for (i32, bool) {
+    impl MomentParts for (i32, bool) {
         fn changed(&self, other: &Self) -> u32 {
             u32::from(self.0 != other.0) | u32::from(self.1 != other.1) << 1
         }

@@ -4,7 +4,7 @@ use serde_json::json;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::analyses::AnyAnalysis;
-use svbrdf_evaluate::report::{Cell, Reader, Subject};
+use svbrdf_evaluate::report::{AnalysisInput, Cell, Reader};
 
 use super::*;
 
@@ -22,8 +22,9 @@ fn the_other_metrics_are_those_of_the_core_of_the_chosen_prediction() {
     let rows = |prediction: usize| -> Vec<[String; 2]> {
         let metrics = AnyAnalysis::named("metrics").unwrap();
         let (ground_truth, predictions) = (&materials[0], vec![&materials[prediction]]);
-        let subject = Subject { ground_truth, predictions, convention: PRINTED, request: request.clone() };
-        let table = metrics.run(&subject, json!({}), &Progress::default()).unwrap().table(Reader::Person);
+        let input =
+            AnalysisInput { ground_truth, predictions, convention: PRINTED, request: request.clone() };
+        let table = metrics.run(&input, json!({}), &Progress::default()).unwrap().table(Reader::Person);
         table.rows.iter().map(|row| [0, 1].map(|column| Cell::text(&row[column]))).collect()
     };
     assert!(!has(&window, "rmse_roughness"), "it is folded at first");

@@ -10,7 +10,7 @@ use crate::cli::output::CommandError;
 
 /// How the materials of a command are read, by their sides and names.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Reading {
+pub struct StatedReading {
     both: ReadOptions,
     ground_truth: ReadOptions,
     predictions: ReadOptions,
@@ -24,7 +24,7 @@ pub enum Side {
     Prediction,
 }
 
-impl Reading {
+impl StatedReading {
     /// What the `statements` specify together.
     ///
     /// # Errors
@@ -156,9 +156,9 @@ fn problem(statement: &Statement, names: &[&str], predictions: &[String]) -> Opt
 mod tests {
     use super::*;
 
-    fn reading(statements: &[&str]) -> Result<Reading, Error> {
+    fn reading(statements: &[&str]) -> Result<StatedReading, Error> {
         let parsed: Vec<Statement> = statements.iter().map(|text| text.parse().unwrap()).collect();
-        Reading::new(&parsed)
+        StatedReading::new(&parsed)
     }
 
     #[test]

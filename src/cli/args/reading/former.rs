@@ -5,7 +5,7 @@ use clap::{Arg, ArgMatches, Command, FromArgMatches};
 use svbrdf_files::Error;
 use svbrdf_files::read::ReadOptions;
 
-use super::Reading;
+use super::StatedReading;
 use super::statement::{Statement, Whose};
 
 /// The former options of any material, which are the keys of their statements. Presets keep their option.
@@ -55,7 +55,7 @@ pub fn note(matches: &ArgMatches) -> Result<Option<String>, Error> {
     let matches = matches.subcommand().map_or(matches, |(_, matches)| matches);
     let (options, statements): (Vec<_>, Vec<_>) =
         all().filter_map(|(option, _)| Some((format!("--{option}"), given(matches, option)?))).unzip();
-    let replaced = Reading::new(&statements)?.statements();
+    let replaced = StatedReading::new(&statements)?.statements();
     let form: Vec<_> = replaced.iter().map(Statement::to_string).collect();
     let note = || format!("note: {} end with the next version; use {}", options.join(", "), form.join(" "));
     Ok((!options.is_empty()).then(note))

@@ -11,7 +11,7 @@ use svbrdf_files::read::{Preset, ReadOptions};
 use svbrdf_files::source::MaterialSource;
 
 use crate::cli::output::CommandError;
-pub use decision::{Reading, Side};
+pub use decision::{Side, StatedReading};
 use former::FormerArgs;
 pub use former::FormerSideArgs;
 use statement::Statement;
@@ -74,7 +74,7 @@ impl ReadingArgs {
     /// # Errors
     /// [`Error::SpecifiedTwice`]; [`CommandError::Usage`] for what is specified for other materials.
     pub fn of_one(&self, material: &MaterialSource) -> Result<ReadOptions, CommandError> {
-        let reading = Reading::new(self.statements())?;
+        let reading = StatedReading::new(self.statements())?;
         let names = if reading.has_names() { material.possible_names() } else { Vec::new() };
         let name = names.iter().find(|name| reading.check(Some(name), &[]).is_ok()).or(names.first());
         let name = name.map_or("", String::as_str);
@@ -88,8 +88,8 @@ impl PairReadingArgs {
     ///
     /// # Errors
     /// [`Error::SpecifiedTwice`].
-    pub fn reading(&self) -> Result<Reading, Error> {
-        Reading::new(self.both.statements().chain(&self.former.0))
+    pub fn reading(&self) -> Result<StatedReading, Error> {
+        StatedReading::new(self.both.statements().chain(&self.former.0))
     }
 }
 

@@ -8,7 +8,7 @@ use svbrdf_core::material::Material;
 use crate::disk::memory::Reserved;
 use crate::error::Error;
 use crate::read::gather::Neighbours;
-use crate::read::gather::map_report::MapReport;
+use crate::read::gather::map_report::MapContent;
 use crate::read::options::ReadOptions;
 use crate::read::record::{Assumption, Certainty, Note};
 
@@ -25,7 +25,7 @@ pub struct Read<T> {
     /// The pictures of other materials that were looked at, where its own pixels leave the encoding of its colours open.
     pub neighbours: Option<Neighbours>,
     /// A report on each map as stored.
-    pub maps: Vec<MapReport>,
+    pub maps: Vec<MapContent>,
     /// The options that it was read with: those of the caller and, unless it excluded them, those of the sidecar file.
     pub options: ReadOptions,
     /// The options of the sidecar file.

@@ -14,7 +14,7 @@ use crate::read::stored::{StoredMap, StoredMaterial};
 /// One map as stored.
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[schemars(rename = "StoredMap")]
-pub struct MapReport {
+pub struct MapContent {
     /// The map, such as "normal" or "base".
     #[schemars(with = "String")]
     pub map: Role,
@@ -43,7 +43,7 @@ pub struct MapReport {
     pub specular_median: Option<f64>,
 }
 
-impl fmt::Display for MapReport {
+impl fmt::Display for MapContent {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [width, height] = self.size;
         let [low, high] = self.range;
@@ -78,11 +78,11 @@ impl fmt::Display for MapReport {
     }
 }
 
-pub(in crate::read) fn reports(found: &StoredMaterial) -> Vec<MapReport> {
+pub(in crate::read) fn reports(found: &StoredMaterial) -> Vec<MapContent> {
     found.sources().into_iter().map(|(map, source)| report(map, source)).collect()
 }
 
-fn report(map: Role, source: &StoredMap) -> MapReport {
+fn report(map: Role, source: &StoredMap) -> MapContent {
     let raster = &source.raster;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     let (mut clipped, mut count) = (0, 0);
@@ -97,7 +97,7 @@ fn report(map: Role, source: &StoredMap) -> MapReport {
         (low, high) = (low.min(least), high.max(most));
     }
     let [non_unit, curl] = if map == Role::Normal { of_normals(raster) } else { [None; 2] };
-    MapReport {
+    MapContent {
         map,
         file: source.file.clone(),
         part: source.part.clone(),

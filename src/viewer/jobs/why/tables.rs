@@ -7,7 +7,7 @@ use serde_json::json;
 use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis};
-use svbrdf_evaluate::report::{Reader, SceneOptions, Subject, Table};
+use svbrdf_evaluate::report::{AnalysisInput, Reader, SceneOptions, Table};
 
 use crate::error::Error;
 use crate::jobs::why::one_by_one::OneByOne;
@@ -81,7 +81,7 @@ fn answer(
         false => analysis.request(&LossOptions { seed: scenes.seed(), ..LossOptions::default() })?,
     };
     let (ground_truth, predictions) = (pair.ground_truth(), vec![pair.prediction()]);
-    let subject = Subject { ground_truth, predictions, convention: pair.convention, request };
-    let report = analysis.run(&subject, json!({}), progress)?;
+    let input = AnalysisInput { ground_truth, predictions, convention: pair.convention, request };
+    let report = analysis.run(&input, json!({}), progress)?;
     Ok(AnalysisTable { heading: report.heading(), table: report.table(Reader::Person) })
 }
