@@ -37,8 +37,9 @@ fn every_letter_does_what_the_help_says() {
         (egui::Key::T, "repeated", |m, _| m.view.display.tiled),
         (egui::Key::J, "histograms", |m, _| m.settings.histograms),
         (egui::Key::V, "false colours", |m, _| m.view.display.false_colour),
+        // The material is repeated: its copies are half as large.
         (egui::Key::Num0, "a texel per pixel", |m, _| {
-            m.view.display.framing.is_some_and(|framing| framing.pixels_per_texel == 1.0)
+            m.view.display.framing.is_some_and(|framing| framing.pixels_per_texel == 2.0)
         }),
         (egui::Key::F, "fitted", |m, _| m.view.display.framing.is_none()),
         // There are two predictions.
