@@ -103,7 +103,8 @@ def function(name: str, schema: dict[str, Any]) -> str:
     scenes = {option: kind for group in analysis["scenes"] for option, kind in SCENES[group].items()}
     parameters = [f"    {key}: {SCALARS[option['type']]} = {option['default']}," for key, option in own.items()]
     parameters += [f"    {key}: {kind} | None = None," for key, kind in scenes.items()]
-    arguments = "".join(f"`{key}`: {option['description'][0].lower()}{option['description'][1:]}. " for key, option in own.items())
+    described = {key: option["description"] for key, option in own.items()}
+    arguments = "".join(f"`{key}`: {text[0].lower()}{text[1:]}. " for key, text in described.items())
     whole = [key for key, option in own.items() if option["type"] == "integer"]
     return FUNCTION.format(
         name=name,

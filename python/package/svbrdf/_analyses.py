@@ -28,7 +28,7 @@ def blame(
     convention: str = "printed",
     progress: bool | Progress = False,
 ) -> BlameReport:
-    """Prints how much of the rendering loss comes from each map.
+    """Computes how much of the rendering loss comes from each map.
 
     Renders all 16 mixtures of the maps of the ground truth and of the prediction in the same scenes on the same
     texels. The Shapley value of a map is the mean of what it adds to the loss over all orders in which the maps can
@@ -55,7 +55,7 @@ def scenes(
     convention: str = "printed",
     progress: bool | Progress = False,
 ) -> ScenesReport:
-    """Prints the scenes with the largest losses, worst first.
+    """Computes the scenes with the largest losses, worst first.
 
     Scenes are sorted by the mean of the losses of all predictions in them, over all texels. The JSON is a scene
     file, too.
@@ -84,7 +84,8 @@ def worst(
     is within the central 99% of their distributions, which the distance tail changes. The mean is the loss over all
     scenes, to +-1% where 49,152 scenes are enough. The JSON is a scene file, too.
 
-    `distance_tail`: leaves out this share of the nearest distances, and as much of the farthest. The other args and errors are those of `svbrdf.loss`.
+    `distance_tail`: leaves out this share of the nearest distances, and as much of the farthest. The other args and
+    errors are those of `svbrdf.loss`.
     """
     options = json.dumps({"distance_tail": distance_tail})
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed)

@@ -50,4 +50,5 @@ def metrics(
     if exposure is not None and not math.isfinite(exposure):
         raise ValueError(f"exposure: expected a finite number of stops, found {exposure}")
     asked = Asked(ground_truth, predictions, convention=convention or "printed", **choice)
-    return answered(MetricsReport, _core.analysis, asked, "rendering", progress, "metrics", json.dumps({"exposure": exposure or 0.0}))
+    options = json.dumps({"exposure": exposure or 0.0})
+    return answered(MetricsReport, _core.analysis, asked, "rendering", progress, "metrics", options)
