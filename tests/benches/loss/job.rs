@@ -105,7 +105,7 @@ impl Job {
     }
 }
 
-/// The loss without the interval from a pilot, which has a row of its own.
+/// The loss without the interval from a pilot.
 #[expect(clippy::expect_used, reason = "a benchmark may panic")]
 pub fn loss(backend: &dyn Backend<f32>, materials: [&Material<f32>; 2], request: &Request) -> f64 {
     let [ground_truth, prediction] = materials;

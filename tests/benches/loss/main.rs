@@ -13,7 +13,7 @@ use svbrdf_core::render::simd::Level;
 
 use bound::bound;
 use job::{Job, on};
-use rows::{pilot_rows, predictions_rows, rendering_rows, sampled_rows, sizes};
+use rows::{predictions_rows, rendering_rows, sampled_rows, sizes};
 
 fn main() {
     let threads = rayon::current_num_threads();
@@ -43,6 +43,5 @@ fn main() {
     on(1, rendering_rows);
     on(threads, rendering_rows);
     on(threads, sampled_rows);
-    on(threads, pilot_rows);
     sizes(threads);
 }

@@ -38,35 +38,6 @@ pub fn predictions_rows(bound: f64) {
     }
 }
 
-/// What the interval of a few scenes takes beside them: a pilot.
-#[expect(clippy::expect_used, reason = "a benchmark may panic")]
-pub fn pilot_rows() {
-    for size in [256, 1024, 4096] {
-        let [gt, prediction] = [1, 2].map(|seed| material(seed, size));
-        let comparison = Comparison::new(&gt, &[&prediction], PRINTED).expect("of one size").on(&FUSED);
-        for (what, sampling) in [
-            ("6 + 3 random scenes", Sampling::default()),
-            (
-                "60 + 30 Sobol scenes",
-                Sampling { near: 60, distant: 30, sampler: Sampler::Sobol, ..Sampling::default() },
-            ),
-        ] {
-            let run = |comparison: &Comparison<'_, f32>| {
-                comparison.run(&Request::Scenes(sampling), &Progress::default()).expect("a loss").losses
-            };
-            let alone = comparison.clone().without_pilot();
-            assert_ne!(run(&comparison)[0].estimate.interval95, run(&alone)[0].estimate.interval95);
-            let [with, without] = [&comparison, &alone].map(|comparison| fastest(|| drop(run(comparison))));
-            println!(
-                "{what} of {size}^2, {} threads: {:.2} ms, and {:.2} ms for the pilot of their interval",
-                rayon::current_num_threads(),
-                1e3 * without,
-                1e3 * (with - without),
-            );
-        }
-    }
-}
-
 /// Rendering of whole images. Per texel it may take no longer than the loss in the same scene.
 #[expect(clippy::expect_used, reason = "a benchmark may panic")]
 pub fn rendering_rows() {
