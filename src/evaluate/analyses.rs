@@ -22,6 +22,9 @@ pub const ANALYSES: [AnyAnalysis; 4] = [
     AnyAnalysis::of::<MetricsReport>(),
 ];
 
+/// Runs an analysis with its own options as a JSON object.
+type Answer = fn(&AnalysisInput<'_>, Value, &Progress) -> Result<Box<dyn Report>, Error>;
+
 /// One of the [`ANALYSES`].
 #[derive(Clone, Copy, Debug)]
 pub struct AnyAnalysis {
@@ -36,7 +39,7 @@ pub struct AnyAnalysis {
     pub options: fn() -> Schema,
     /// The schema of its report.
     pub report: fn() -> Schema,
-    answer: fn(&AnalysisInput<'_>, Value, &Progress) -> Result<Box<dyn Report>, Error>,
+    answer: Answer,
 }
 
 impl AnyAnalysis {

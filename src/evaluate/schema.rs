@@ -8,8 +8,11 @@ use crate::analyses::{ANALYSES, AnyAnalysis};
 use crate::dataset::DatasetReport;
 use crate::photograph::PhotoReport;
 
+/// The name of a report, and its schema.
+type ReportSchema = (&'static str, fn() -> Schema);
+
 /// The schema of each other report by its name: that of its command, `dataset` for `rank --dataset`.
-const OTHERS: [(&str, fn() -> Schema); 7] = [
+const OTHERS: [ReportSchema; 7] = [
     ("loss", schema_of::<LossReport>),
     ("rank", schema_of::<RankReport>),
     ("diagnose", schema_of::<DiagnoseReport>),

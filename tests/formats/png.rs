@@ -105,7 +105,7 @@ fn chunks_about_colour_and_orientation_change_nothing_and_are_said_where_they_mi
     for read in [&data, &colour] {
         same.material = same.material.renamed(read.material.name());
         assert_eq!(read.material, same.material);
-        assert_notes(&read, &["EXIF orientation, which is ignored"]);
+        assert_notes(read, &["EXIF orientation, which is ignored"]);
     }
     let said = |read: &Read<f64>| {
         read.notes.iter().any(|n| n.to_string().contains("gAMA chunk that declares it linear"))

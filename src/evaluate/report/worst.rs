@@ -139,9 +139,8 @@ impl Analysis for WorstReport {
         if !(0.0..0.5).contains(&tail) {
             return Err(Error::DistanceTail { found: tail });
         }
-        let found = input.each(|prediction| {
-            Ok(why::worst(truth, prediction, convention, input.seed(), tail, progress)?)
-        })?;
+        let found = input
+            .each(|prediction| why::worst(truth, prediction, convention, input.seed(), tail, progress))?;
         Ok(Self::new(input.compared(), tail, found))
     }
 }
