@@ -76,3 +76,22 @@ fn an_array_that_nothing_decides_has_its_channels_last_and_a_note() {
     }
     assert_notes(&assert_is(folder.path(), [1, 1], (0, [0.1, 0.2, 0.3]), 3), &["of the shape (1, 1, 3)"]);
 }
+
+#[test]
+fn arrays_that_are_no_pictures_are_named_and_left_out_and_a_batch_of_one_is_a_picture() {
+    let folder = tempdir().unwrap();
+    let texels = |rgb: [f32; 3]| rgb.repeat(6);
+    let maps: [(&str, &[u64], &[f32]); 4] = [
+        ("normal", &[1, 2, 3, 3], &texels([0.0, 0.0, 1.0])),
+        ("diffuse", &[2, 3, 3], &texels([0.1, 0.2, 0.3])),
+        ("roughness", &[2, 3], &[0.5; 6]),
+        ("loss", &[], &[0.25]),
+    ];
+    let path = archive(folder.path(), &maps);
+    assert_notes(
+        &assert_is(&path, [3, 2], (5, [0.1, 0.2, 0.3]), 0),
+        &["Array loss is not used: it is no picture"],
+    );
+    let alone = archive(folder.path(), &maps[3..]);
+    assert_refused(&alone, &["array loss: expected the shape"]);
+}

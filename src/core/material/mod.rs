@@ -163,7 +163,7 @@ impl<T: Real> Material<T> {
     }
 
     /// The same material in another size (width, height): the mean over areas on the way down, bilinear on the way up;
-    /// normals are normalized again, roughness is averaged as alpha^2 = r^4.
+    /// normals are normalized again; roughness is averaged as alpha^2 = r^4, and interpolated as r.
     ///
     /// # Errors
     /// As [`Material::new`], as where normals cancel out.

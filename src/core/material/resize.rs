@@ -9,7 +9,8 @@ use crate::math::real::Real;
 pub enum Filter {
     /// As they are.
     Value,
-    /// Roughness r as alpha^2 = r^4: the variance of slopes adds up.
+    /// Roughness r: on the way down as alpha^2 = r^4, since the variance of the slopes of an area adds up; on the way up as r, since
+    /// between two texels lies none that is rougher than what is interpolated.
     Roughness,
 }
 
@@ -18,24 +19,48 @@ pub fn plane<T: Real>(plane: Vec<T>, from: [usize; 2], to: [usize; 2], filter: F
     if from == to {
         return plane;
     }
-    let into = |x: f64| if filter == Filter::Roughness { x.powi(4) } else { x };
-    let back = |x: f64| if filter == Filter::Roughness { x.max(0.0).powf(0.25) } else { x };
+    // Along either axis.
+    let measures =
+        [0, 1].map(|axis| Measure { of_slopes: filter == Filter::Roughness && to[axis] < from[axis] });
+    let [across, down] = measures;
     let columns: Vec<_> = (0..to[0]).map(|i| weights(i, from[0], to[0])).collect();
     let rows: Vec<_> = (0..to[1]).map(|i| weights(i, from[1], to[1])).collect();
     // A row of the original, of the new width.
     let narrow = |row: usize, out: &mut [f64]| {
         let row = &plane[row * from[0]..(row + 1) * from[0]];
-        let value = |taps: &Vec<(usize, f64)>| taps.iter().map(|&(i, w)| w * into(row[i].f64())).sum::<f64>();
-        out.iter_mut().zip(&columns).for_each(|(out, taps)| *out = value(taps));
+        let value =
+            |taps: &Vec<(usize, f64)>| taps.iter().map(|&(i, w)| w * across.into(row[i].f64())).sum::<f64>();
+        out.iter_mut().zip(&columns).for_each(|(out, taps)| *out = across.to(down, value(taps)));
     };
     let mut narrowed = vec![0.0; to[0] * from[1]];
     narrowed.par_chunks_exact_mut(to[0]).enumerate().for_each(|(row, out)| narrow(row, out));
     let mut resized = vec![T::zero(); to[0] * to[1]];
     resized.par_chunks_exact_mut(to[0]).zip(&rows).for_each(|(out, taps)| {
         let value = |column: usize| taps.iter().map(|&(i, w)| w * narrowed[i * to[0] + column]).sum::<f64>();
-        out.iter_mut().enumerate().for_each(|(column, out)| *out = T::of(back(value(column))));
+        out.iter_mut().enumerate().for_each(|(column, out)| *out = T::of(down.back(value(column))));
     });
     resized
+}
+
+/// What is averaged along an axis: a value, or the variance of slopes.
+#[derive(Clone, Copy, PartialEq)]
+struct Measure {
+    of_slopes: bool,
+}
+
+impl Measure {
+    fn into(self, value: f64) -> f64 {
+        if self.of_slopes { value.powi(4) } else { value }
+    }
+
+    fn back(self, mean: f64) -> f64 {
+        if self.of_slopes { mean.max(0.0).powf(0.25) } else { mean }
+    }
+
+    /// A mean in another measure.
+    fn to(self, other: Self, mean: f64) -> f64 {
+        if self == other { mean } else { other.into(self.back(mean)) }
+    }
 }
 
 /// The samples of a line of `from` that make sample `index` of a line of `to`, with weights whose sum is 1.
@@ -79,5 +104,18 @@ mod tests {
     fn roughness_is_averaged_in_alpha_squared() {
         let resized = plane(vec![0.2_f64, 0.8], [2, 1], [1, 1], Filter::Roughness);
         assert!((resized[0] - ((0.2_f64.powi(4) + 0.8_f64.powi(4)) / 2.0).powf(0.25)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn roughness_is_interpolated_as_it_is_on_the_way_up_along_either_axis() {
+        let mean = ((0.2_f64.powi(4) + 0.8_f64.powi(4)) / 2.0).powf(0.25);
+        let up = plane(vec![0.2_f64, 0.8], [2, 1], [4, 1], Filter::Roughness);
+        assert!(up.iter().zip([0.2, 0.35, 0.65, 0.8]).all(|(a, b)| (a - b).abs() < 1e-12), "{up:?}");
+        // Down across, up along the columns, and the other way round.
+        let both = plane(vec![0.2_f64, 0.8, 0.4, 0.4], [2, 2], [1, 4], Filter::Roughness);
+        let expected = [mean, 0.75 * mean + 0.1, 0.25 * mean + 0.3, 0.4];
+        assert!(both.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12), "{both:?}");
+        let turned = plane(vec![0.2_f64, 0.4, 0.8, 0.4], [2, 2], [4, 1], Filter::Roughness);
+        assert!((turned[0] - mean).abs() < 1e-12 && (turned[3] - 0.4).abs() < 1e-12, "{turned:?}");
     }
 }

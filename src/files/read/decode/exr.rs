@@ -27,6 +27,10 @@ type NamedSamples = Vec<(String, Samples)>;
 pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |e: exr::error::Error| match e {
         exr::error::Error::Io(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
+        exr::error::Error::NotSupported(what) if what.contains("compression") => place.bad(
+            format!("expected a compression that is read, found: {what}"),
+            "save it with another compression, such as ZIP or PIZ",
+        ),
         other => place.invalid("EXR", other),
     };
     let meta = MetaData::read_from_buffered(&mut reader, false).map_err(invalid)?;

@@ -2,7 +2,7 @@
 
 use std::io::{Read as _, Seek as _, SeekFrom};
 
-use libjpeg_turbo_rs::{Decoder, JpegError, PixelFormat};
+use libjpeg_turbo_rs::{DecodeLimits, Decoder, JpegError, PixelFormat};
 
 use super::place::{Decoded, DecodedFile, alone};
 use super::reader::Reader;
@@ -25,7 +25,11 @@ pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
         JpegError::UnexpectedEof => place.truncated(),
         error => place.invalid("JPEG", error),
     };
-    let mut decoder = caught(|| Decoder::new(&bytes)).map_err(contradiction)?.map_err(broken)?;
+    // Sizes are checked below, for a message with their numbers.
+    let [max_width, max_height] = [usize::from(u16::MAX); 2];
+    let limits = DecodeLimits { max_width, max_height, max_pixels: u64::MAX, ..DecodeLimits::default() };
+    let mut decoder =
+        caught(|| Decoder::new_with_limits(&bytes, limits)).map_err(contradiction)?.map_err(broken)?;
     let header = decoder.header();
     let ([width, height], count) = ([header.width, header.height], header.components.len());
     let format = match count {
@@ -40,6 +44,9 @@ pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     };
     let bytes_of_all = u64::from(width) * u64::from(height) * (count as u64 + WORKING);
     let _reserved = place.check_size(width.into(), height.into(), bytes_of_all)?;
+    if !is_whole(&bytes) {
+        return Err(place.truncated());
+    }
     let orientation = decoder.exif_orientation().unwrap_or(1);
     decoder.set_output_format(format);
     let image = caught(|| decoder.decode_image()).map_err(contradiction)?.map_err(broken)?;
@@ -48,6 +55,30 @@ pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     let raster = Raster::with_alpha(width.into(), height.into(), "8-bit", channels);
     let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };
     Ok(Decoded { notes, ..alone(raster) })
+}
+
+/// Whether the end of the image is there: libjpeg-turbo-rs 0.8.0 fills what is missing of a single scan with gray, without a word.
+fn is_whole(bytes: &[u8]) -> bool {
+    const END: u8 = 0xd9;
+    let mut at = 2;
+    loop {
+        // A marker: any number of 255, then its code; in the data of a scan 255 is followed by 0, or by a restart of 208 to 215.
+        let Some(next) = bytes.get(at..).and_then(|rest| rest.iter().position(|byte| *byte == 0xff)) else {
+            return false;
+        };
+        let Some((marker, rest)) = bytes[at + next + 1..].split_first() else { return false };
+        at += next + 1;
+        match *marker {
+            END => return true,
+            0 | 0x01 | 0xd0..=0xd8 => at += 1,
+            0xff => {}
+            _ => {
+                let [high, low, ..] = rest else { return false };
+                let length = usize::from(u16::from_be_bytes([*high, *low]));
+                at += 1 + length.max(2);
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -91,8 +122,11 @@ mod tests {
             let channels = values.len() / 70;
             let expected = Samples::interleaved(values, channels);
             assert_eq!(raster, Raster::with_alpha(10, 7, "8-bit", expected), "{name}");
-            let cut = decoded(&file[..file.len() - 20]).unwrap_err().to_string();
-            assert!(cut.contains("m.jpg"), "{name}: {cut}");
+            for cut in [1, 2, 20, file.len() / 3] {
+                let refused = decoded(&file[..file.len() - cut]).unwrap_err().to_string();
+                assert!(refused.contains("m.jpg"), "{name} without its last {cut} bytes: {refused}");
+            }
+            assert!(decoded(&[file, b"and more".to_vec()].concat()).is_ok(), "{name} with more behind it");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The layout of NumPy arrays: which axes are rows, columns and channels.
 //!
-//! Pictures are (h, w), (h, w, channels), (channels, h, w) or (1, channels, h, w) of at most 4 channels. A shape such as
+//! Pictures are (h, w), (h, w, channels), (channels, h, w), (1, h, w, channels) or (1, channels, h, w) of at most 4 channels. A shape such as
 //! (1, 1, 3) is one of (h, w, channels) and of (channels, h, w): the other arrays of the file decide, as maps of one
 //! material have one size; where they do not, channels come last and a note is recorded.
 
@@ -37,7 +37,9 @@ fn readings(shape: &[u64]) -> Vec<ArrayAxes> {
     let are_channels = |count: u64| (1..=MOST).contains(&count);
     match *shape {
         [h, w] => vec![ArrayAxes::new([h, w], 1, false)],
+        // A batch of one is channels first unless it cannot be.
         [1, c, h, w] if are_channels(c) => vec![ArrayAxes::new([h, w], c, true)],
+        [1, h, w, c] if are_channels(c) => vec![ArrayAxes::new([h, w], c, false)],
         // The same picture either way.
         [1, 1, 1] => vec![ArrayAxes::new([1, 1], 1, false)],
         [a, b, c] => {
@@ -97,9 +99,10 @@ mod tests {
     #[test]
     fn a_shape_with_one_reading_needs_no_others() {
         assert_eq!(
-            read(&[&[5, 6], &[5, 6, 3], &[3, 5, 6], &[1, 3, 5, 6], &[1, 5, 6], &[1, 1, 1]]),
+            read(&[&[5, 6], &[5, 6, 3], &[3, 5, 6], &[1, 3, 5, 6], &[1, 5, 6, 3], &[1, 5, 6], &[1, 1, 1]]),
             [
                 ([5, 6], 1, false),
+                ([5, 6], 3, false),
                 ([5, 6], 3, false),
                 ([5, 6], 3, false),
                 ([5, 6], 3, false),

@@ -10,6 +10,7 @@ use super::reader::Reader;
 use crate::error::Error;
 use crate::npy::Header;
 use crate::read::raster::{Buffer, Raster, Samples};
+use crate::read::record::{Note, Unused};
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
@@ -49,13 +50,20 @@ pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Resu
     let mut shapes = Vec::new();
     for file in &names {
         let header = Header::read(archive.by_name(file).map_err(invalid)?);
-        shapes.push(header.map_err(|e| broken(&e, stem(file), place))?.shape);
+        let header = header.map_err(|e| broken(&e, stem(file), place))?;
+        // Texts and objects beside the maps.
+        shapes.push(if header.kind.starts_with(['U', 'S', 'O']) { Vec::new() } else { header.shape });
     }
-    let chosen = layout::chosen(&shapes);
+    let chosen: Vec<_> = layout::chosen(&shapes).collect();
+    let has_pictures = chosen.iter().any(Option::is_some);
     let mut decoded = Decoded::default();
     let mut bytes = 0;
     for (file, (shape, axes)) in names.iter().zip(shapes.iter().zip(chosen)) {
         let name = stem(file);
+        if axes.is_none() && has_pictures {
+            decoded.notes.push(Note::Unused { what: format!("Array {name}"), why: Unused::NoPicture });
+            continue;
+        }
         let array = archive.by_name(file).map_err(invalid)?;
         let layer = decode(array, name, axes, place)?;
         // In memory: 2 to 4 bytes a sample.
@@ -118,7 +126,7 @@ fn decode(
     let samples = values(reader, &header).map_err(|e| broken(&e, name, place))?;
     let (values, depth) = samples.ok_or_else(|| {
         place.bad(
-            format!("{whose}expected float16, float32, float64, uint8 or uint16"),
+            format!("{whose}expected float16, float32, float64, uint8, uint16 or bool"),
             "convert it with astype",
         )
     })?;
@@ -134,6 +142,7 @@ fn values(reader: impl Read, header: &Header) -> io::Result<Option<(Buffer, &'st
         "f2" => (numbers(reader, header, |bytes| f16::from_le_bytes(bytes).to_f32())?.into(), "half"),
         "f4" => (numbers(reader, header, f32::from_le_bytes)?.into(), "float"),
         "f8" => (numbers(reader, header, |bytes| f64::from_le_bytes(bytes) as f32)?.into(), "double"),
+        "b1" => (numbers(reader, header, |[byte]| if byte == 0 { 0_u8 } else { 255 })?.into(), "8-bit"),
         "u1" => (numbers(reader, header, u8::from_le_bytes)?.into(), "8-bit"),
         "u2" => (numbers(reader, header, u16::from_le_bytes)?.into(), "16-bit"),
         _ => return Ok(None),

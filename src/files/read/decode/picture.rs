@@ -67,9 +67,9 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             decode_with(Box::new(decoder), "TGA", place)
         }
         other => {
-            let other = other.ok().map(|format| format!("{format:?}"));
-            Err(match known::name(head).map(str::to_owned).or(other) {
-                Some(found) => place.bad(format!("expected {FORMATS}, found {found}"), "convert it to PNG"),
+            let other = other.ok().map(|format| (format!("{format:?}"), "convert it to PNG"));
+            Err(match known::name(head).map(|(name, remedy)| (name.to_owned(), remedy)).or(other) {
+                Some((found, remedy)) => place.bad(format!("expected {FORMATS}, found {found}"), remedy),
                 None => {
                     place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file")
                 }

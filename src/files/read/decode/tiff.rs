@@ -108,3 +108,25 @@ impl Interleaving {
         (buffer.len() == self.count * self.texels).then(|| channels(buffer, self.count))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ycbcr_is_the_rgb_of_libjpeg_in_pixels_and_in_planes() {
+        // Y, Cb and Cr, and what libjpeg-turbo makes of them.
+        let texels =
+            [([76, 85, 255], [254, 0, 0]), ([150, 44, 21], [0, 255, 1]), ([128, 128, 128], [128; 3])];
+        let mut pixels: Vec<u8> = texels.iter().flat_map(|(ycbcr, _)| *ycbcr).collect();
+        let mut planes: Vec<u8> = (0..3).flat_map(|c| texels.map(|(ycbcr, _)| ycbcr[c])).collect();
+        let layout = |planar| Interleaving { count: 3, planar, texels: texels.len() };
+        layout(false).to_rgb(&mut pixels);
+        layout(true).to_rgb(&mut planes);
+        for (texel, (_, rgb)) in texels.iter().enumerate() {
+            let [of_pixels, of_planes] =
+                [[0, 1, 2].map(|c| pixels[3 * texel + c]), [0, 1, 2].map(|c| planes[3 * c + texel])];
+            assert_eq!((of_pixels, of_planes), (*rgb, *rgb));
+        }
+    }
+}

@@ -6,6 +6,7 @@ use svbrdf_core::statistics::median;
 
 use super::log_odds::{ALBEDO, BRIGHT_CHANCE, CHANCE, DARK, METAL, SURE, likelihood};
 use crate::read::options::Albedo;
+use crate::read::options::extensions;
 use crate::read::options::transfer::linear;
 use crate::read::raster::Raster;
 use crate::read::record::Evidence;
@@ -34,7 +35,7 @@ pub(super) fn measured(diffuse: &Raster, specular: &Raster) -> Vec<Evidence> {
 }
 
 pub(super) fn is_jpeg(file: &Path) -> bool {
-    file.extension().is_some_and(|e| e.eq_ignore_ascii_case("jpg") || e.eq_ignore_ascii_case("jpeg"))
+    matches!(extensions::of_name(file).as_str(), "jpg" | "jpeg" | "jfif" | "jpe")
 }
 
 /// The evidence of texels with the specular of dielectrics, 0.04, as it is or encoded.

@@ -14,8 +14,10 @@ use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Assumption, Certainty, Reason, StorageConvention, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
-/// Shorter vectors have no direction.
-const SHORTEST: f64 = 1e-3;
+/// Shorter vectors have no direction: the gray of 127 or 128 is one of length 0.007.
+const SHORTEST: f64 = 0.02;
+/// Sum of the components of a vector, as far down as black, below which none is meant.
+const BLACK: f64 = -2.9;
 /// Below this correlation of the curl test an unlabelled map is taken to be y down: of 20 maps of known direction
 /// none with y up lies below it.
 const DOWN: f64 = -0.05;
@@ -55,8 +57,10 @@ pub(crate) fn planes<T: Real>(
     let (encoding, why) = encoding_of(raster);
     let is_usual = encoding == NormalEncoding::Unsigned || raster.is_float();
     // Where few texels have unit length, either reading may be wrong.
-    let is_unit =
-        !matches!(why, Reason::UnitLength { share, .. } if raster.is_float() && share < NORMAL_AT_LEAST);
+    let is_unit = !match why {
+        Reason::UnitLength { share, .. } => raster.is_float() && share < NORMAL_AT_LEAST,
+        ref why => matches!(why, Reason::NormalsAsColours { .. }),
+    };
     let certainty = if is_usual && is_unit { Certainty::Likely } else { Certainty::Unsure };
     let encoding =
         decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, None, || {
@@ -119,6 +123,12 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
     };
     if z.1 < 0.02 || (z.0 > 0.98 && raster.sampled().any(steep)) {
         return (NormalEncoding::Xy, Reason::BlueConstant(z.0.round()));
+    }
+    if !raster.is_float() && score < NORMAL_AT_LEAST {
+        let without = measure::curved_normal_score(raster);
+        if without > NORMAL_AT_LEAST {
+            return (NormalEncoding::Unsigned, Reason::NormalsAsColours { share: score, without });
+        }
     }
     (NormalEncoding::Unsigned, Reason::UnitLength { signed: false, share: score })
 }
@@ -228,7 +238,8 @@ fn decoded<T: Real>(raster: &Raster, encoding: NormalEncoding, y: NormalY) -> ([
         // By far the most common, and of a loop of its own without branches.
         NormalEncoding::Unsigned => filled(raster, encoding, |stored| {
             let [x, y, z] = stored.map(|value| 2.0 * value - 1.0);
-            [x, sign * y, z]
+            let is_black = x + y + z < BLACK;
+            [x, sign * y, z].map(|component| if is_black { 0.0 } else { component })
         }),
         _ => filled(raster, encoding, |stored| {
             let [x, y, z] = vector_of(stored, encoding, two);
@@ -272,4 +283,49 @@ fn filled<T: Real>(
     });
     let missing = missing.sum();
     ([xs, ys, zs], missing)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A map of these 8-bit values.
+    fn map(texels: &[[u8; 3]]) -> Raster {
+        let samples = Samples::interleaved(texels.concat(), 3);
+        Raster::with_alpha(texels.len(), 1, "8-bit", samples)
+    }
+
+    #[test]
+    fn black_and_gray_texels_have_no_direction_and_dark_ones_have() {
+        let raster = map(&[[0; 3], [127; 3], [128; 3], [3, 4, 2], [128, 128, 255], [20, 128, 60]]);
+        let (planes, missing) = decoded::<f64>(&raster, NormalEncoding::Unsigned, NormalY::Up);
+        assert_eq!(missing, 4);
+        for texel in 0..4 {
+            assert_eq!(planes.each_ref().map(|plane| plane[texel]), [0.0, 0.0, 1.0], "{texel}");
+        }
+        assert!(planes[2][5] < 0.0, "a vector below the surface is one");
+    }
+
+    #[test]
+    fn normals_that_were_saved_as_colours_are_said() {
+        let curve = |value: f64| {
+            let encoded =
+                if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
+            (255.0 * encoded).round() as u8
+        };
+        let directions: Vec<[f64; 3]> = (0..64)
+            .map(|i| {
+                let (x, y) = (f64::from(i % 8) / 8.0 - 0.45, f64::from(i / 8) / 8.0 - 0.45);
+                [x, y, (1.0 - x * x - y * y).sqrt()]
+            })
+            .collect();
+        let stored = |of: &dyn Fn(f64) -> u8| -> Vec<[u8; 3]> {
+            directions.iter().map(|n| n.map(|c| of(0.5 * c + 0.5))).collect()
+        };
+        let (encoding, why) = encoding_of(&map(&stored(&curve)));
+        assert!(matches!(why, Reason::NormalsAsColours { .. }), "{why}");
+        assert_eq!(encoding, NormalEncoding::Unsigned);
+        let (_, why) = encoding_of(&map(&stored(&|value| (255.0 * value).round() as u8)));
+        assert!(matches!(why, Reason::UnitLength { share, .. } if share > 0.99), "{why}");
+    }
 }

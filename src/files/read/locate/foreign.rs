@@ -13,7 +13,7 @@ const KINDS: [(&str, &str); 8] = [
     ("vmt", "a material of Source"),
     ("tres", "a resource of Godot"),
     ("material", "a material of an engine"),
-    ("mat", "a material of Unity"),
+    ("mat", "a material of Unity, or a file of MATLAB"),
     ("xml", "an XML file, such as a material of Urho3D"),
     ("uasset", "an asset of Unreal"),
     ("blend", "a file of Blender"),
@@ -29,7 +29,10 @@ pub(super) fn refusal(path: &Path) -> Option<Error> {
     let bytes = if is_short { NamedFile::by_user(path).bytes().unwrap_or_default() } else { Vec::new() };
     let pictures = pictures(&String::from_utf8_lossy(&bytes));
     let (found, remedy) = match pictures.is_empty() {
-        true => (kind.to_owned(), "open the folder of its pictures, or export it as glTF"),
+        true => (
+            kind.to_owned(),
+            "open the folder of its pictures, or export it as glTF; save arrays as .npy or .npz",
+        ),
         false => (
             format!("{kind} that names {}", listing(&pictures)),
             "open the folder of these pictures, or specify each map by its file and channel",

@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+use svbrdf_core::math::srgb;
+
 use crate::read::raster::Raster;
 
 /// How far the length of a normal may be from 1 for a pixel to count as one.
@@ -20,6 +22,14 @@ pub(crate) fn normal_score(raster: &Raster) -> f64 {
 /// As [`normal_score`], of normals stored as they are.
 pub(crate) fn signed_normal_score(raster: &Raster) -> f64 {
     if raster.channels.len() < 3 { 0.0 } else { score_of(raster, |xyz| xyz) }
+}
+
+/// As [`normal_score`], of normals that were saved as colours, through the sRGB curve.
+pub(crate) fn curved_normal_score(raster: &Raster) -> f64 {
+    if raster.channels.len() < 3 {
+        return 0.0;
+    }
+    score_of(raster, |rgb| rgb.map(|c| 2.0 * srgb::decode(c) - 1.0))
 }
 
 fn score_of(raster: &Raster, normal: impl Fn([f64; 3]) -> [f64; 3]) -> f64 {

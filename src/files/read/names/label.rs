@@ -181,7 +181,7 @@ fn is_size_or_format(word: &str) -> bool {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     let number = word.parse::<u32>().is_ok_and(|n| n == 1001 || (n >= 64 && n.is_power_of_two()));
     let ends = ["k", "bit", "px"].iter().any(|unit| word.strip_suffix(unit).is_some_and(digits));
-    let format = ["jpg", "jpeg", "png", "exr", "tif", "tiff", "hdr", "texture"].contains(&word);
+    let format = ["jpg", "jpeg", "jfif", "png", "exr", "tif", "tiff", "hdr", "texture"].contains(&word);
     number || ends || format || word.strip_prefix("lod").is_some_and(digits)
 }
 

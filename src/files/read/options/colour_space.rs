@@ -57,12 +57,18 @@ pub(crate) struct ColourSpace {
 }
 
 impl ColourSpace {
-    /// The colour space of this name in MaterialX, with or without `_scene` at its end; `None` of a name that is not known.
+    /// The colour space of this name in MaterialX, with or without `_scene` at its end, or in the configurations of OpenColorIO, such as
+    /// `Utility - sRGB - Texture`; `None` of a name that is not known.
     pub(crate) fn of_name(name: &str) -> Option<Self> {
-        let name = name.to_lowercase();
-        let (transfer, to_rec709) = match name.strip_suffix("_scene").unwrap_or(&name) {
-            "lin_rec709" | "lin_srgb" | "none" | "raw" => (Transfer::Linear, None),
-            "srgb_texture" | "srgb" | "srgb_rec709" => (Transfer::Srgb, None),
+        let name = name.to_lowercase().replace(" - ", "_").replace([' ', '-'], "_");
+        let name = name.strip_prefix("utility_").unwrap_or(&name);
+        let (transfer, to_rec709) = match name.strip_suffix("_scene").unwrap_or(name) {
+            "lin_rec709" | "lin_srgb" | "linear_srgb" | "none" | "raw" | "data" | "non_color" => {
+                (Transfer::Linear, None)
+            }
+            "srgb_texture" | "srgb_tx" | "srgb" | "srgb_rec709" | "srgb_encoded_rec.709_(srgb)" => {
+                (Transfer::Srgb, None)
+            }
             "gamma18" | "g18_rec709" => (Transfer::Gamma(1.8), None),
             "gamma22" | "g22_rec709" => (Transfer::Gamma(2.2), None),
             "gamma24" | "g24_rec709" => (Transfer::Gamma(2.4), None),
@@ -109,6 +115,18 @@ mod tests {
     #[track_caller]
     fn assert_near(got: [f64; 3], expected: [f64; 3], within: f64) {
         assert!(got.iter().zip(expected).all(|(a, b)| (a - b).abs() < within), "{got:?}, not {expected:?}");
+    }
+
+    #[test]
+    fn names_of_opencolorio_are_those_of_materialx() {
+        let albedo = |name: &str| ColourSpace::of_name(name).and_then(|space| space.albedo());
+        for name in ["sRGB - Texture", "srgb_tx", "Utility - sRGB - Texture", "srgb_texture"] {
+            assert_eq!(albedo(name), Some(Albedo::Srgb), "{name}");
+        }
+        for name in ["Utility - Raw", "data", "Non-Color", "raw", "Utility - Linear - sRGB"] {
+            assert_eq!(albedo(name), Some(Albedo::Linear), "{name}");
+        }
+        assert_eq!(albedo("Output - sRGB"), None);
     }
 
     #[test]

@@ -23,6 +23,9 @@ pub enum Unused {
     /// Its name is not the name of a map of a material.
     #[display("")]
     NotAMap,
+    /// It is a number, a text or an array of another shape.
+    #[display(": it is no picture")]
+    NoPicture,
     #[display(": its name does not name a map")]
     Unlabelled,
     #[display(": it is not named as the other maps are")]

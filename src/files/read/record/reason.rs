@@ -112,6 +112,15 @@ pub enum Reason {
         signed: bool,
         share: f64,
     },
+    #[display(
+        "the map seems to be saved as colours, through the sRGB curve: {:.0}% of the texels have length 1 as they are, {:.0}% \
+        without the curve; save it again as data",
+        100.0 * share, 100.0 * without
+    )]
+    NormalsAsColours {
+        share: f64,
+        without: f64,
+    },
     #[display("blue is {_0:.0} everywhere")]
     BlueConstant(f64),
     /// The curl correlation, where the map has slopes.
@@ -169,7 +178,7 @@ pub enum Reason {
         low: f64,
         high: f64,
     },
-    #[display("{count} texels have a vector without length, or one that is not finite")]
+    #[display("{count} texels have no direction: they are black, gray or not finite")]
     NoDirection {
         count: usize,
     },
