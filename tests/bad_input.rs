@@ -120,7 +120,8 @@ fn files_that_are_no_whole_image_are_refused() {
     assert_bytes_refused(&[
         (Vec::new(), "cannot decode .. expected PNG, TIFF .. no known image .. give"),
         (b"not an image at all".into(), "expected PNG, TIFF .. no known image"),
-        (b"\xff\xd8\xff\xe0\0\x04and so on".into(), "expected a valid JPEG .. again"),
+        (b"\xff\xd8\xff\xe0 and so on".into(), "expected the whole image .. end of the file .. again"),
+        (b"\xff\xd8\xff\xd9".into(), "expected a valid JPEG .. again"),
         (whole[..whole.len() * 2 / 3].into(), "expected the whole image .. end of the file .. again"),
         (damaged, "cannot decode .. expected a valid PNG .. again"),
     ]);

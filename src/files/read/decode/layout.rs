@@ -37,9 +37,8 @@ fn readings(shape: &[u64]) -> Vec<ArrayAxes> {
     let are_channels = |count: u64| (1..=MOST).contains(&count);
     match *shape {
         [h, w] => vec![ArrayAxes::new([h, w], 1, false)],
-        // A batch of one is channels first unless it cannot be.
-        [1, c, h, w] if are_channels(c) => vec![ArrayAxes::new([h, w], c, true)],
-        [1, h, w, c] if are_channels(c) => vec![ArrayAxes::new([h, w], c, false)],
+        // A batch of one.
+        [1, a, b, c] => readings(&[a, b, c]),
         // The same picture either way.
         [1, 1, 1] => vec![ArrayAxes::new([1, 1], 1, false)],
         [a, b, c] => {
