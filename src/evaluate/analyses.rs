@@ -35,7 +35,7 @@ pub struct AnyAnalysis {
     pub example: &'static str,
     pub doing: &'static str,
     pub scenes: &'static [SceneOptions],
-    /// The schema of its own options.
+    /// The schema of its options.
     pub options: fn() -> Schema,
     /// The schema of its report.
     pub report: fn() -> Schema,

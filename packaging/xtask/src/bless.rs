@@ -36,7 +36,7 @@ const GENERATED: [Generated; 12] = [
     },
     Generated {
         name: "types",
-        files: "python/package/svbrdf/_reports.py and _analyses.py",
+        files: "python/package/svbrdf/_reports.py, python/package/svbrdf/_analyses.py",
         script: "cargo build && python3 python/tests/report_types.py ${CARGO_TARGET_DIR:-target}/debug/svbrdf",
     },
     Generated {

@@ -42,8 +42,9 @@ pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             );
         }
     };
-    let bytes_of_all = u64::from(width) * u64::from(height) * (count as u64 + WORKING);
-    let _reserved = place.check_size(width.into(), height.into(), bytes_of_all)?;
+    let pixels = u64::from(width) * u64::from(height);
+    let _reserved = place.check_size(width.into(), height.into(), pixels * count as u64)?;
+    let _reserved_for_work = place.reserve(pixels * WORKING)?;
     if !is_whole(&bytes) {
         return Err(place.truncated());
     }

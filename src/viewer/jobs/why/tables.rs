@@ -1,4 +1,4 @@
-//! Tables of the analyses that have no section of their own, of all predictions one by one.
+//! Tables of the analyses without a section in the tab, of all predictions one by one.
 
 use std::time::Duration;
 
@@ -45,13 +45,14 @@ impl TableJobs {
         of: (&[ComparedPair], usize),
         scenes: &Request,
     ) -> Option<Error> {
-        let mut errors = self.0.iter_mut().filter_map(|(analysis, tables)| {
+        let errors = self.0.iter_mut().map(|(analysis, tables)| {
             let analysis = *analysis;
             tables.follow(waker, is_open(analysis.name), of, scenes.clone(), move |pair, scenes, progress| {
                 answer(analysis, pair, scenes, progress)
             })
         });
-        errors.next_back()
+        // Each is followed, whatever another one has met.
+        errors.fold(None, |first, error| first.or(error))
     }
 
     pub fn analyses(&self) -> impl Iterator<Item = &'static AnyAnalysis> {
