@@ -3,6 +3,10 @@
 const MODE_VALUE = 0u;
 const MODE_WIPE = 1u;
 
+const TILING_ONCE = 0u;
+const TILING_COPIES = 1u;
+const TILING_PLANE = 2u;
+
 struct Display {
     camera: Camera,
     background: vec3f,
@@ -65,15 +69,18 @@ fn colour(value: vec3f, from_reference: bool, pixel: vec2u) -> vec3f {
     return encode(value, ENCODING, params.exposure, SHOW_CLIPPING, pixel);
 }
 
-// The texel that is shown in the place of `texel`: another one where the material is repeated. The twin of
+// The texel of the pictures that is shown in the place of `texel`: another one where the material is repeated. The twin of
 // TexelPlane in src/viewer/model/view/texel_plane.rs.
 fn repeated(texel: vec2f) -> vec2f {
-    if !TILED {
+    if TILING == TILING_ONCE {
         return texel;
     }
     let size = vec2f(params.size);
-    let shifted = 2.0 * texel + 0.5 * size;
-    return clamp(shifted - floor(shifted / size) * size, vec2f(0.0), size - 0.001);
+    let cell = 2.0 * texel + 0.5 * size;
+    if TILING == TILING_PLANE {
+        return clamp(cell - vec2f(first_cell(params.size)), vec2f(0.0), vec2f(repeated_cells(params.size)) - 0.001);
+    }
+    return clamp(cell - floor(cell / size) * size, vec2f(0.0), size - 0.001);
 }
 
 fn displayed(corner: Corner) -> vec4f {
@@ -87,7 +94,7 @@ fn displayed(corner: Corner) -> vec4f {
     if !(seen.hit && inside) {
         return vec4f(params.background, 1.0);
     }
-    let repeats = select(1.0, 2.0, TILED);
+    let repeats = select(2.0, 1.0, TILING == TILING_ONCE);
     let scale = repeats / f32(params.stride);
     let place = repeated(texel) / f32(params.stride);
     let pixel = vec2u(corner.position.xy) - params.corner;

@@ -5,7 +5,7 @@ struct PageDisplay {
     difference: u32,
     encoding: u32,
     show_clipping: u32,
-    tiled: u32,
+    tiling: u32,
     false_colour: u32,
     nearest: u32,
 }
@@ -14,7 +14,7 @@ var<private> MODE: u32;
 var<private> DIFFERENCE: u32;
 var<private> ENCODING: u32;
 var<private> SHOW_CLIPPING: bool;
-var<private> TILED: bool;
+var<private> TILING: u32;
 var<private> FALSE_COLOUR: bool;
 var<private> NEAREST: bool;
 
@@ -26,7 +26,7 @@ fn page_display(corner: Corner) -> @location(0) vec4f {
     DIFFERENCE = page.difference;
     ENCODING = page.encoding;
     SHOW_CLIPPING = page.show_clipping != 0u;
-    TILED = page.tiled != 0u;
+    TILING = page.tiling;
     FALSE_COLOUR = page.false_colour != 0u;
     NEAREST = page.nearest != 0u;
     return displayed(corner);

@@ -27,8 +27,8 @@ fn load_texel(place: vec2u) -> Texel {
     return Texel(first.xyz, textureLoad(diffuse, place, 0).rgb, textureLoad(specular, place, 0).rgb, first.w);
 }
 
-// The texel at `place`, which the maps hold at `stored`.
-fn shade_texel(place: vec2u, stored: vec2u) -> vec3f {
+// The texel at the position `c`, which the maps hold at `stored`.
+fn shade_texel(c: vec3f, stored: vec2u) -> vec3f {
     let texel = load_texel(stored);
     switch QUANTITY {
         case QUANTITY_NORMAL { return texel.normal * 0.5 + 0.5; }
@@ -37,16 +37,27 @@ fn shade_texel(place: vec2u, stored: vec2u) -> vec3f {
         case QUANTITY_ROUGHNESS { return vec3f(texel.roughness); }
         default {}
     }
-    let c = position(place.x, place.y, shading.size);
     let directions = from_texel(shading.rays, c);
     return render(shading.model, texel, directions.w_l, directions.w_v);
 }
 
 fn shaded(corner: Corner) -> vec4f {
     let fragment = vec2u(corner.position.xy);
-    let place = shaded_place(fragment, shading.stride, shading.size);
     // Reduced maps hold the texels of the fragments, and no others.
-    let is_reduced = any(textureDimensions(normal_roughness) != shading.size);
-    let value = shade_texel(place, select(place, fragment, is_reduced));
+    let stored_size = textureDimensions(normal_roughness);
+    let is_reduced = any(stored_size != shading.size);
+    if REPEATED {
+        let cell = first_cell(shading.size) + shaded_place(fragment, shading.stride, repeated_cells(shading.size));
+        let texel = cell % shading.size;
+        let stored = select(texel, min(texel / shading.stride, stored_size - 1u), is_reduced);
+        return held(shade_texel(cell_position(cell.x, cell.y, shading.size), stored));
+    }
+    let place = shaded_place(fragment, shading.stride, shading.size);
+    let c = position(place.x, place.y, shading.size);
+    return held(shade_texel(c, select(place, fragment, is_reduced)));
+}
+
+// As the target can hold it.
+fn held(value: vec3f) -> vec4f {
     return vec4f(min(value, vec3f(shading.largest)), 1.0);
 }

@@ -5,6 +5,7 @@ mod adapter;
 mod display;
 mod drafts;
 mod loss;
+mod plane;
 
 use glam::DVec3;
 

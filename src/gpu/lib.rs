@@ -30,7 +30,7 @@ pub use adapter::AdapterReport;
 pub use context::Gpu;
 pub use display::{DisplayPass, Pane, PanePlace};
 pub use loss::GpuLosses;
-pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams};
+pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams, Tiling};
 pub use read_back::read_rgba;
 pub use shading::{Shaded, Shading};
 pub use still::{Blit, Still};

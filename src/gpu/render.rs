@@ -25,7 +25,12 @@ impl Gpu {
         let textures = MaterialTextures::upload(self, material)?;
         let shading = Shading::new(self)?;
         let target = shading.target(self, material.size())?;
-        let params = ShadeParams { scene: *scene, convention: *convention, quantity: Quantity::Rendering };
+        let params = ShadeParams {
+            scene: *scene,
+            convention: *convention,
+            quantity: Quantity::Rendering,
+            repeated: false,
+        };
         shading.draw(self, &textures, &params, &target);
         target.read_back(self)
     }

@@ -7,6 +7,7 @@ use wgpu::{
 
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
+use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_shaders as shaders;
 
@@ -34,6 +35,7 @@ pub struct Shaded {
     pub(super) view: TextureView,
     size: [usize; 2],
     stride: usize,
+    repeated: bool,
 }
 
 impl Shaded {
@@ -51,7 +53,7 @@ impl Shaded {
                 [r, g, b, 0.0]
             });
             let view = texture.create_view(&Default::default());
-            Self { texture, view, size, stride: 1 }
+            Self { texture, view, size, stride: 1, repeated: false }
         })
     }
 
@@ -64,6 +66,11 @@ impl Shaded {
     pub fn stride(&self) -> usize {
         self.stride
     }
+
+    /// Whether it holds the cells of the repeated plane.
+    pub fn is_repeated(&self) -> bool {
+        self.repeated
+    }
 }
 
 impl Shading {
@@ -75,7 +82,7 @@ impl Shading {
         scoped(&gpu.device, "compiling the shading pass", || {
             let uniform = buffer_type(BufferBindingType::Uniform);
             let types = [uniform, texture_type(), texture_type(), texture_type()];
-            let (format, first) = (gpu.report.shading_format, constants(Quantity::Rendering));
+            let (format, first) = (gpu.report.shading_format, constants(Quantity::Rendering, false));
             let pipelines = Fullscreen::new(&gpu.device, &shaders::SHADE, &types, format, first);
             let (types, none) = ([uniform, texture_type()], Constants::new());
             let reduction = Fullscreen::new(&gpu.device, &shaders::REDUCE, &types, format, none);
@@ -97,12 +104,17 @@ impl Shading {
     /// # Errors
     /// As [`Shading::target`].
     pub fn reduced_target(&self, gpu: &Gpu, size: [usize; 2], stride: usize) -> Result<Shaded, Error> {
-        let extent = extent(gpu, size.map(|side| side.div_ceil(stride)))?;
-        scoped(&gpu.device, "creating a picture to shade into", || {
-            let texture = floats(gpu, "shaded", extent);
-            let view = texture.create_view(&Default::default());
-            Shaded { texture, view, size, stride }
-        })
+        shaded(gpu, size, size, stride)
+    }
+
+    /// As [`Shading::reduced_target`], for every `stride`-th cell of the plane on which the material is repeated.
+    ///
+    /// # Errors
+    /// As [`Shading::target`].
+    pub fn repeated_target(&self, gpu: &Gpu, size: [usize; 2], stride: usize) -> Result<Shaded, Error> {
+        let [width, height] = size;
+        let target = shaded(gpu, size, Grid { width, height }.repeated_cells(), stride)?;
+        Ok(Shaded { repeated: true, ..target })
     }
 
     /// The texels of `textures`, which hold a material of `size` = (width, height), that a target of this `stride` shades. To
@@ -138,7 +150,7 @@ impl Shading {
         })
     }
 
-    /// Shades every texel of `target` and submits that. `textures` hold the material, or its [`Shading::reduced_textures`] of the
+    /// Shades every texel of `target`, which is a repeated one where the parameters are, and submits that. `textures` hold the material, or its [`Shading::reduced_textures`] of the
     /// target's stride.
     ///
     /// A failure waits in [`Gpu::take_fault`].
@@ -172,12 +184,22 @@ impl Shading {
         if let Some([left, top, width, height]) = part {
             pass.set_scissor_rect(left, top, width, height);
         }
-        pass.set_pipeline(&self.pipelines.with(&gpu.device, constants(params.quantity)));
+        pass.set_pipeline(&self.pipelines.with(&gpu.device, constants(params.quantity, params.repeated)));
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
     }
+}
+
+/// A target for every `stride`-th of `count` = [columns, rows] texels or cells of a material of `size`.
+fn shaded(gpu: &Gpu, size: [usize; 2], count: [usize; 2], stride: usize) -> Result<Shaded, Error> {
+    let extent = extent(gpu, count.map(|side| side.div_ceil(stride)))?;
+    scoped(&gpu.device, "creating a picture to shade into", || {
+        let texture = floats(gpu, "shaded", extent);
+        let view = texture.create_view(&Default::default());
+        Shaded { texture, view, size, stride, repeated: false }
+    })
 }
 
 /// A texture of floats to draw into.
@@ -194,8 +216,8 @@ fn floats(gpu: &Gpu, label: &str, size: Extent3d) -> Texture {
     })
 }
 
-/// The constants of the pipeline that shades this quantity.
-fn constants(quantity: Quantity) -> Constants {
+/// The constants of the pipeline that shades this quantity of texels, or of the cells of the repeated plane.
+fn constants(quantity: Quantity, repeated: bool) -> Constants {
     let number = match quantity {
         Quantity::Rendering => 0,
         Quantity::Normal => 1,
@@ -203,5 +225,5 @@ fn constants(quantity: Quantity) -> Constants {
         Quantity::Specular => 3,
         Quantity::Roughness => 4,
     };
-    vec![("QUANTITY", number)]
+    vec![("QUANTITY", number), ("REPEATED", repeated.into())]
 }

@@ -135,10 +135,19 @@ function ndcFromPoint(c, p) {
   return s > 0 ? [x / s, y / s] : null;
 }
 
-/** The texel that covers a point of the plane. @param {Grid} grid @param {[number, number]} point @returns {[number, number] | null} */
-function texelAt(grid, [x, y]) {
+/** @typedef {{texel: [number, number], cell: [number, number]}} Seen  A texel, and the cell of the plane that shows it. */
+
+/**
+ * What covers a point of the plane. Where the material is repeated, cells are counted from the first one of the plane.
+ * @param {Grid} grid @param {[number, number]} point @param {boolean} tiled @returns {Seen | null}
+ */
+function seenAt(grid, [x, y], tiled) {
   const spacings = Math.max(grid.width, 2) - 1;
-  const column = Math.floor(0.5 * (x * spacings + grid.width));
-  const row = Math.floor(0.5 * (-y * spacings + grid.height));
-  return column >= 0 && row >= 0 && column < grid.width && row < grid.height ? [column, row] : null;
+  const [column, row] = [[x, grid.width], [-y, grid.height]].map(([at, count]) => {
+    const place = 0.5 * (at * spacings + count);
+    if (!(place >= 0 && place < count)) return null;
+    const shown = Math.floor(tiled ? 2 * place + 0.5 * count : place);
+    return { texel: shown % count, cell: shown - (tiled ? Math.floor(count / 2) : 0) };
+  });
+  return column && row && { texel: [column.texel, row.texel], cell: [column.cell, row.cell] };
 }

@@ -188,15 +188,29 @@ class Figure {
     return rgb;
   }
 
-  /** The numbers of a texel of a material. @param {number} material @param {[number, number]} texel */
-  value(material, [x, y]) {
-    const numbers = [...this.shading.read(this.shading.shade(material, this.how()), { x, y, width: 1, height: 1 })].slice(0, 3);
+  /** What covers a point of the plane. @param {[number, number]} point */
+  seen(point) {
+    return seenAt(this.grid, point, this.state.tiled);
+  }
+
+  /** Whether the panes show the plane on which materials are repeated, lit as one. */
+  isPlane() {
+    return this.state.tiled && isLitAsPlane(this.how());
+  }
+
+  /** The numbers of a texel of a material, as it is seen. @param {number} material @param {Seen} seen */
+  value(material, seen) {
+    const plane = this.isPlane();
+    const [x, y] = plane ? seen.cell : seen.texel;
+    const numbers = [...this.shading.read(this.shading.shade(material, this.how(), plane), { x, y, width: 1, height: 1 })].slice(0, 3);
     return this.state.quantity === "normal" ? numbers.map((n) => 2 * n - 1) : numbers;
   }
 
-  /** The difference of a texel of a prediction. @param {number} material @param {[number, number]} texel */
-  difference(material, [x, y]) {
-    const target = this.shading.differences(material, this.how(), this.kind().key);
+  /** The difference of a texel of a prediction, as it is seen. @param {number} material @param {Seen} seen */
+  difference(material, seen) {
+    const plane = this.isPlane();
+    const [x, y] = plane ? seen.cell : seen.texel;
+    const target = this.shading.differences(material, this.how(), this.kind().key, plane);
     return this.shading.read(target, { x, y, width: 1, height: 1 })[0];
   }
 

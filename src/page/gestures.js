@@ -11,7 +11,7 @@ const REACH = { mouse: 8, touch: 22 };
 /** @typedef {"light" | "view" | "orbit" | "pan" | "wipe"} Gesture */
 
 class Gestures {
-  /** @param {Figure} figure @param {(texel: [number, number] | null) => void} hovered */
+  /** @param {Figure} figure @param {(seen: Seen | null) => void} hovered */
   constructor(figure, hovered) {
     this.figure = figure;
     this.hovered = hovered;
@@ -99,7 +99,7 @@ class Gestures {
   /** @param {[number, number]} place */
   hover(place) {
     const point = this.point(place);
-    this.hovered(point && texelAt(this.figure.grid, point));
+    this.hovered(point && this.figure.seen(point));
   }
 
   /** @param {[number, number]} place @param {[number, number]} moved */

@@ -17,7 +17,7 @@ async function start() {
   const figure = new Figure(canvas, data, materials);
   const reset = () => { Object.assign(figure.state, figure.start()); };
   const overlay = new Overlay(figure, element("panes"));
-  const gestures = new Gestures(figure, (texel) => overlay.hover(texel));
+  const gestures = new Gestures(figure, (seen) => overlay.hover(seen));
   new Legend(figure, element);
   bindControls(figure, element, reset);
   listenToKeys(figure, element("figure"), gestures, reset);

@@ -21,8 +21,8 @@ class Overlay {
   constructor(figure, root) {
     this.figure = figure;
     this.root = root;
-    /** @type {[number, number] | null} */
-    this.texel = null;
+    /** @type {Seen | null} */
+    this.seen = null;
     figure.watchers.push(() => this.update());
   }
 
@@ -40,7 +40,7 @@ class Overlay {
       this.handle(light, "light", box);
       this.handle(view, "view", box);
       title.textContent = this.title(box.pane);
-      readout.textContent = this.texel ? this.readout(box.pane, this.texel) : "";
+      readout.textContent = this.seen ? this.readout(box.pane, this.seen) : "";
     });
   }
 
@@ -63,18 +63,18 @@ class Overlay {
     return material === 0 && materials.length > 1 ? `${name} (ground truth)` : `${name}${state.quantity === "rendering" ? "" : `, ${state.quantity}`}`;
   }
 
-  /** @param {Pane} pane @param {[number, number]} texel */
-  readout({ material, difference }, texel) {
-    const value = this.figure.value(material, texel);
+  /** @param {Pane} pane @param {Seen} seen */
+  readout({ material, difference }, seen) {
+    const value = this.figure.value(material, seen);
     const numbers = (this.figure.state.quantity === "roughness" ? value.slice(0, 1) : value).map(digits).join("  ");
-    const off = difference ? `\n${this.figure.kind().unit} = ${digits(this.figure.difference(material, texel))}` : "";
-    return `(${texel.join(", ")})  ${numbers}${off}`;
+    const off = difference ? `\n${this.figure.kind().unit} = ${digits(this.figure.difference(material, seen))}` : "";
+    return `(${seen.texel.join(", ")})  ${numbers}${off}`;
   }
 
-  /** The texel whose numbers are shown. @param {[number, number] | null} texel */
-  hover(texel) {
-    if (String(texel) === String(this.texel)) return;
-    this.texel = texel;
+  /** The texel whose numbers are shown. @param {Seen | null} seen */
+  hover(seen) {
+    if (JSON.stringify(seen) === JSON.stringify(this.seen)) return;
+    this.seen = seen;
     requestAnimationFrame(() => this.update());
   }
 }

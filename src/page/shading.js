@@ -6,7 +6,8 @@
  * @typedef {{program: WebGLProgram, text: ShaderText, blocks: Map<string, {buffer: WebGLBuffer, index: number}>,
  *   textures: string[]}} Program
  * @typedef {{texture: WebGLTexture, framebuffer: WebGLFramebuffer, key: string}} Target
- * @typedef {{maps: WebGLTexture[], shaded: Target, difference: Target}} Uploaded
+ * @typedef {{shaded: Target, difference: Target, size: [number, number]}} Targets
+ * @typedef {{maps: WebGLTexture[], once: Targets, plane: Targets | null}} Uploaded  The plane on which the material is repeated
  * @typedef {{x: number, y: number, width: number, height: number}} Box  In pixels, y upwards from the lower edge.
  */
 
@@ -20,8 +21,11 @@ const BACKGROUND = [0.141, 0.149, 0.165];
 /** The members of a uniform that hold whole numbers. */
 const WHOLE = new Set([
   "stride", "size", "corner", "rays.near", "model.clamp_n_dot_h", "quantity", "mode", "difference", "encoding", "show_clipping",
-  "tiled", "false_colour", "nearest", "kind",
+  "tiling", "repeated", "false_colour", "nearest", "kind",
 ]);
+
+/** Whether a repeated material is lit as the one plane that it would be: every copy of it looks the same otherwise. @param {Shaded} how */
+const isLitAsPlane = ({ quantity, scene }) => quantity === "rendering" && scene.kind === "near";
 
 class Shading {
   /** @param {HTMLCanvasElement} canvas @param {Record<string, ShaderText>} shaders @param {Maps[]} materials */
@@ -79,7 +83,7 @@ class Shading {
   upload({ width, height, normalRoughness, diffuse, specular }) {
     const gl = this.gl;
     const maps = [normalRoughness, diffuse, specular].map((numbers) => this.texture(gl.RGBA32F, width, height, numbers));
-    return { maps, shaded: this.target(width, height), difference: this.target(width, height) };
+    return { maps, once: this.targets([width, height]), plane: null };
   }
 
   /** @param {number} format @param {number} width @param {number} height @param {Float32Array | null} numbers */
@@ -136,9 +140,27 @@ class Shading {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  /** The texels of a material, shaded unless they are already. @param {number} index @param {Shaded} how */
-  shade(index, { scene, quantity, model }) {
-    const { maps, shaded } = this.uploaded[index];
+  /** @param {[number, number]} size @returns {Targets} */
+  targets(size) {
+    return { shaded: this.target(...size), difference: this.target(...size), size };
+  }
+
+  /** The targets of a material, or of the cells of the plane on which it is repeated. @param {number} index @param {boolean} repeated */
+  targetsOf(index, repeated) {
+    const { width, height } = this.materials[index];
+    const uploaded = this.uploaded[index];
+    if (!repeated) return uploaded.once;
+    uploaded.plane ??= this.targets([2 * width + width % 2, 2 * height + height % 2]);
+    return uploaded.plane;
+  }
+
+  /**
+   * The texels of a material, or the cells of its plane, shaded unless they are already.
+   * @param {number} index @param {Shaded} how @param {boolean} repeated
+   */
+  shade(index, { scene, quantity, model }, repeated = false) {
+    const { maps } = this.uploaded[index];
+    const { shaded, size } = this.targetsOf(index, repeated);
     const { width, height } = this.materials[index];
     const rendered = quantity === "rendering" ? scene : null;
     const key = JSON.stringify([rendered, quantity]);
@@ -150,24 +172,26 @@ class Shading {
       ...Object.fromEntries(Object.entries(model).map(([name, value]) => [`model.${name}`, value])),
       largest: this.largest, stride: 1, size: [width, height],
     };
-    const page = { quantity: QUANTITIES.indexOf(quantity) };
+    const page = { quantity: QUANTITIES.indexOf(quantity), repeated: repeated ? 1 : 0 };
     const textures = { normal_roughness: maps[0], diffuse: maps[1], specular: maps[2] };
-    this.draw("shade", { shading, page }, textures, shaded.framebuffer, { x: 0, y: 0, width, height });
+    this.draw("shade", { shading, page }, textures, shaded.framebuffer, { x: 0, y: 0, width: size[0], height: size[1] });
     shaded.key = key;
     return shaded;
   }
 
-  /** The difference of every texel from the ground truth, computed unless it is already. @param {number} index @param {Shaded} how @param {string} kind */
-  differences(index, how, kind) {
-    const { width, height } = this.materials[index];
-    const prediction = this.shade(index, how);
-    const reference = this.shade(0, how);
-    const { difference } = this.uploaded[index];
+  /**
+   * The difference of every texel or cell from the ground truth, computed unless it is already.
+   * @param {number} index @param {Shaded} how @param {string} kind @param {boolean} repeated
+   */
+  differences(index, how, kind, repeated = false) {
+    const prediction = this.shade(index, how, repeated);
+    const reference = this.shade(0, how, repeated);
+    const { difference, size } = this.targetsOf(index, repeated);
     const key = `${prediction.key} ${kind}`;
     if (difference.key !== key) {
       const page = { kind: DIFFERENCES[kind], epsilon: how.epsilon };
       const textures = { prediction: prediction.texture, reference: reference.texture };
-      this.draw("difference", { page }, textures, difference.framebuffer, { x: 0, y: 0, width, height });
+      this.draw("difference", { page }, textures, difference.framebuffer, { x: 0, y: 0, width: size[0], height: size[1] });
       difference.key = key;
     }
     return difference;
@@ -188,11 +212,11 @@ class Shading {
    */
   pane(pane, how, camera, box, shown) {
     const { width, height } = this.materials[pane.material];
-    const material = this.shade(pane.material, how);
-    const reference = this.shade(0, how);
+    const repeated = shown.tiled && isLitAsPlane(how);
+    const [material, reference] = [pane.material, 0].map((index) => this.shade(index, how, repeated));
     const page = {
       mode: pane.wipe === null ? 0 : 1, difference: DIFFERENCES[pane.difference ?? "none"], encoding: ENCODINGS[how.quantity],
-      show_clipping: shown.clipping ? 1 : 0, tiled: shown.tiled ? 1 : 0,
+      show_clipping: shown.clipping ? 1 : 0, tiling: repeated ? 2 : Number(shown.tiled),
       false_colour: shown.falseColour && how.quantity === "roughness" ? 1 : 0, nearest: 0,
     };
     const params = {

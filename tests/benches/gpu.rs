@@ -58,7 +58,8 @@ impl Picture {
     }
 
     fn shade(&self, textures: &MaterialTextures) {
-        let params = ShadeParams { scene: SCENE, convention: PRINTED, quantity: Quantity::Rendering };
+        let params =
+            ShadeParams { scene: SCENE, convention: PRINTED, quantity: Quantity::Rendering, repeated: false };
         self.shading.draw(self.gpu, textures, &params, &self.target);
         self.wait();
     }

@@ -103,7 +103,7 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
     let shading = Shading::new(&half).expect("compiled");
     let textures = MaterialTextures::upload(&half, &mirror()).expect("uploaded");
     let target = shading.target(&half, [2, 2]).expect("created");
-    let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering };
+    let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering, repeated: false };
     shading.draw(&half, &textures, &params, &target);
     // Brings the largest 16-bit number, and nothing larger, just below 1.
     let exposed =

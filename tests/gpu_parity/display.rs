@@ -23,7 +23,12 @@ fn shaded(gpu: &Gpu, material: &Material<f32>, quantity: Quantity) -> Shaded {
     let shading = Shading::new(gpu).expect("compiled");
     let textures = MaterialTextures::upload(gpu, material).expect("uploaded");
     let target = shading.target(gpu, material.size()).expect("created");
-    shading.draw(gpu, &textures, &ShadeParams { scene: ABOVE, convention: PRINTED, quantity }, &target);
+    shading.draw(
+        gpu,
+        &textures,
+        &ShadeParams { scene: ABOVE, convention: PRINTED, quantity, repeated: false },
+        &target,
+    );
     target
 }
 

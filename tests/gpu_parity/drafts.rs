@@ -20,7 +20,7 @@ fn a_draft_shades_every_nth_texel_as_it_is_shaded_in_full() {
     let shading = Shading::new(gpu).unwrap();
     for quantity in [Quantity::Rendering, Quantity::Normal, Quantity::Roughness] {
         let scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 1.5], light: [-0.6, 0.5, 1.0] };
-        let params = ShadeParams { scene, convention: PRINTED, quantity };
+        let params = ShadeParams { scene, convention: PRINTED, quantity, repeated: false };
         let whole = shading.target(gpu, [width, height]).unwrap();
         shading.draw(gpu, &textures, &params, &whole);
         let full = whole.read_back(gpu).unwrap();

@@ -106,7 +106,7 @@ fn readouts_are_those_of_the_core() {
                 page.evaluate(&format!("Object.assign(window.svbrdf.figure.state.kinds, {state})"));
                 for texel in [[0, 0], [47, 0], [5, 31], [20, 20]] {
                     let [g, p] = [0, 1].map(|i| quantity.at(&materials[i], &scene, &PRINTED, texel));
-                    let place = json!(texel);
+                    let place = json!({ "texel": texel, "cell": texel });
                     let found = page.evaluate(&format!(
                         "[...window.svbrdf.figure.value(1, {place}), window.svbrdf.figure.difference(1, {place})]"
                     ));
@@ -127,6 +127,40 @@ fn readouts_are_those_of_the_core() {
         }
     }
     println!("largest deviation of a readout: {worst:e}");
+}
+
+/// Repeated, a rendering under near-field light is of the plane that the copies make; everything else is of texels.
+#[needs(browser)]
+#[test]
+fn readouts_of_a_repeated_material_are_of_what_is_seen() {
+    let materials = [noise(1), noise(2)];
+    let mut page = Page::open(&figure(&materials, PRINTED), [800, 600]);
+    let [near, distant] = [sample(5, 1, 0, &PRINTED)[0], sample(5, 0, 1, &PRINTED)[0]];
+    page.evaluate("window.svbrdf.figure.set({ tiled: true })");
+    for (scene, quantity) in
+        [(near, Quantity::Rendering), (distant, Quantity::Rendering), (near, Quantity::Normal)]
+    {
+        show(&mut page, &scene, quantity, 0.0);
+        for (cell, texel) in [([0, 0], [24, 24]), ([23, 24], [47, 0]), ([90, 40], [18, 16])] {
+            // The point of the cell's middle, in a plane of 2 x 48 cells between -48 / 47 and 48 / 47.
+            let [x, y] = cell.map(|number: i32| (f64::from(number) - 47.5) / 47.0);
+            let seen = page.evaluate(&format!("window.svbrdf.figure.seen([{x}, {}])", -y));
+            assert_eq!(seen, json!({ "texel": texel, "cell": cell }));
+            // The texel in its own place is lit so where light and view are moved by the distance of both places.
+            let own = texel.map(|number: usize| (2.0 * number as f64 - 47.0) / 47.0);
+            let moved = |[a, b, c]: [f64; 3]| [a + own[0] - x, b - own[1] + y, c];
+            let mut lit = scene;
+            if quantity == Quantity::Rendering && scene == near {
+                (lit.view, lit.light) = (moved(scene.view), moved(scene.light));
+            }
+            let expected = quantity.at(&materials[1], &lit, &PRINTED, texel);
+            let found = page.evaluate(&format!("window.svbrdf.figure.value(1, {seen})"));
+            for (found, expected) in found.as_array().unwrap().iter().zip(expected.map(f64::from)) {
+                let off = (found.as_f64().unwrap() - expected).abs() / expected.abs().max(1.0);
+                assert!(off < PAGE_NUMBERS, "{scene:?} {quantity:?} {cell:?}: {found}, expected {expected}");
+            }
+        }
+    }
 }
 
 #[needs(browser)]

@@ -76,7 +76,7 @@ pub fn from_above([half_width, half_height]: [f32; 2], encoding: Encoding) -> Di
         encoding,
         show_clipping: false,
         epsilon: 0.01,
-        tiled: false,
+        tiling: svbrdf_gpu::Tiling::Once,
         false_colour: false,
         nearest: false,
         background: BACKGROUND,

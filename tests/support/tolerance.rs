@@ -35,6 +35,10 @@ pub const NORMALIZATION_FUSED: f64 = 1e-5; // measured: 1.1e-7
 #[cfg(feature = "gpu")]
 pub const NORMALIZATION_GPU: f64 = 1e-5; // measured: 1.6e-7 (lavapipe)
 
+/// The shader's cells of the repeated plane against f64: relative, of radiances of at least 1e-3.
+#[cfg(feature = "gpu")]
+pub const PLANE: f64 = 2e-5; // measured: 2.8e-6 (lavapipe)
+
 /// Reciprocity: the relative change of the reflectance when light and view are swapped, in units of u. Only v.h and
 /// l.h differ, by rounding, which a short l + v magnifies. Worst of 20,000 random points with light and view down to
 /// z = 0.01: 68.3 in f64, 32.8 in f32.

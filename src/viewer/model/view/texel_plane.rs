@@ -1,7 +1,9 @@
 //! Texels in the plane: each once or, where the material is repeated, in several cells. The one mapping between points of the
 //! plane and texels.
 
+use glam::DVec3;
 use svbrdf_core::material::Grid;
+use svbrdf_core::model::scene::{Kind, Scene};
 
 use crate::model::inspection::Region;
 
@@ -16,6 +18,14 @@ pub struct TexelPlane {
     repeats: f32,
     /// The cell of the upper left corner of the plane, a fraction where it cuts a texel.
     corner: [f32; 2],
+}
+
+/// A texel, and the cell of the plane that shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seen {
+    pub cell: [i64; 2],
+    /// (column, row).
+    pub texel: [usize; 2],
 }
 
 /// The part of the plane from one place to another, in cells.
@@ -58,15 +68,33 @@ impl TexelPlane {
         self.grid.point([0, 1].map(|axis| (place[axis] - self.corner[axis]) / self.repeats))
     }
 
-    /// The (column, row) of the texel that is seen at a point of the plane; `None` outside of it.
-    pub fn texel_at(&self, point: [f32; 2]) -> Option<[usize; 2]> {
+    /// What is seen at a point of the plane; `None` outside of it.
+    pub fn seen(&self, point: [f32; 2]) -> Option<Seen> {
         self.grid.texel_at(point)?;
-        Some(self.texel_of(self.place(point).map(|place| place.floor() as i64)))
+        Some(self.seen_in(self.place(point).map(|place| place.floor() as i64)))
+    }
+
+    /// What is seen in a cell.
+    pub fn seen_in(&self, cell: [i64; 2]) -> Seen {
+        Seen { cell, texel: self.texel_of(cell) }
     }
 
     /// The (column, row) of the texel that a cell shows.
     pub fn texel_of(&self, cell: [i64; 2]) -> [usize; 2] {
         [0, 1].map(|axis| cell[axis].rem_euclid(self.size()[axis]) as usize)
+    }
+
+    /// The scene in which a texel in its own place is lit as this cell of the plane is in `scene`.
+    pub fn scene_of_cell(&self, scene: &Scene, cell: [i64; 2]) -> Scene {
+        if scene.kind == Kind::Distant || self.repeats == 1.0 {
+            return *scene;
+        }
+        let [column, row] = cell.map(|number| number.max(0) as usize);
+        let at = self.grid.cell_position(column, row);
+        let [column, row] = self.texel_of(cell);
+        let own = self.grid.position::<DVec3>(column, row);
+        let moved = |[x, y, z]: [f64; 3]| [x + own.x - at[0], y + own.y - at[1], z];
+        Scene { kind: scene.kind, view: moved(scene.view), light: moved(scene.light) }
     }
 
     /// The first and the last cell between two points of the plane, both included; `None` where all lie outside of it.
@@ -164,6 +192,30 @@ mod tests {
     }
 
     #[test]
+    fn a_texel_in_its_own_place_is_lit_in_the_moved_scene_as_its_cell_is() {
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let scene = Scene { kind: Kind::Near, view: [0.2, -0.1, 2.0], light: [-0.6, 0.4, 1.2] };
+        let mut moved = 0;
+        for _ in 0..300 {
+            let plane = plane(&mut random);
+            let seen = point(plane, &mut random);
+            let Some(Seen { cell, texel: [column, row] }) = plane.seen(seen) else { continue };
+            let of_cell = plane.scene_of_cell(&scene, cell);
+            let own = plane.grid.position::<DVec3>(column, row).to_array();
+            let [x, y] = plane.point(CellRect::of_cell(cell).centre()).map(f64::from);
+            let [left, top, up] = [of_cell.light[0] - own[0], of_cell.light[1] - own[1], of_cell.light[2]];
+            let expected = [scene.light[0] - x, scene.light[1] - y, scene.light[2]];
+            let off = [left, top, up].iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-5, "{plane:?} {cell:?}: {off}");
+            moved += usize::from(of_cell != scene);
+        }
+        assert!(moved > 50, "{moved}");
+        let distant = Scene { kind: Kind::Distant, ..scene };
+        let repeated = TexelPlane::new(Grid { width: 4, height: 4 }, true);
+        assert_eq!(repeated.scene_of_cell(&distant, [3, 3]), distant);
+    }
+
+    #[test]
     fn a_region_has_the_texels_that_are_seen_between_its_corners_and_no_others() {
         let mut random = ChaCha8Rng::seed_from_u64(46);
         for _ in 0..300 {
@@ -178,10 +230,13 @@ mod tests {
             assert_eq!(texels(plane, region), of_cells, "{plane:?} {region:?}");
             for _ in 0..40 {
                 let seen = point(plane, &mut random);
-                let Some(texel) = plane.texel_at(seen).filter(|_| is_between(seen, a, b)) else { continue };
+                let Some(texel) = plane.seen(seen).map(|seen| seen.texel).filter(|_| is_between(seen, a, b))
+                else {
+                    continue;
+                };
                 assert!(of_cells.contains(&texel), "{texel:?} at {seen:?} in {plane:?}");
             }
-            for corner in [a, b].into_iter().filter_map(|corner| plane.texel_at(corner)) {
+            for corner in [a, b].into_iter().filter_map(|corner| plane.seen(corner).map(|seen| seen.texel)) {
                 assert!(of_cells.contains(&corner), "{plane:?}: {region:?} has its corner {corner:?}");
             }
         }
@@ -198,7 +253,7 @@ mod tests {
             let (inside, copies) = (texels(plane, region), plane.copies(region));
             for _ in 0..40 {
                 let seen = point(plane, &mut random);
-                let Some(texel) = plane.texel_at(seen) else { continue };
+                let Some(texel) = plane.seen(seen).map(|seen| seen.texel) else { continue };
                 let place = plane.place(seen);
                 let is_shown = copies.iter().any(|copy| is_between(place, copy.min, copy.max));
                 let is_near_edge = place.iter().any(|place| (place - place.round()).abs() < 1e-3);
@@ -220,7 +275,7 @@ mod tests {
             assert!((0..2).all(|axis| (found[axis] - seen[axis]).abs() < 1e-4), "{seen:?}, {found:?}");
             let half = plane.grid.half_extent();
             let is_inside = (0..2).all(|axis| seen[axis].abs() < half[axis]);
-            assert_eq!(plane.texel_at(seen).is_some(), is_inside, "{plane:?} {seen:?}");
+            assert_eq!(plane.seen(seen).map(|seen| seen.texel).is_some(), is_inside, "{plane:?} {seen:?}");
         }
     }
 }

@@ -10,6 +10,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use crate::model::command::{Command, DisplayCommand, InspectionCommand, SceneCommand};
 use crate::model::view::endpoint::{self, Endpoint};
 use crate::model::view::state::{Layout, Projection, ViewState};
+use crate::model::view::texel_plane::Seen;
 use crate::ui::pane::handles::{self, REACH};
 use crate::ui::pane::placed::Placed;
 
@@ -202,7 +203,7 @@ pub fn commands(
             commands.extend(target.carry_on(gesture, pos, Vec2::ZERO));
         }
         if gesture == Gesture::Pin
-            && let Some(texel) = target.placed.texel_at(pos)
+            && let Some(Seen { texel, .. }) = target.placed.seen(pos)
         {
             commands.push(InspectionCommand::TogglePin(texel).into());
         }

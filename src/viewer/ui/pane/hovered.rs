@@ -2,6 +2,7 @@
 
 use eframe::egui;
 
+use crate::model::view::texel_plane::Seen;
 use crate::ui::pane::handles::ndc_from_pos;
 use crate::ui::pane::placed::Placed;
 use crate::ui::pane::scenery::{PaneContent, Scenery};
@@ -12,8 +13,8 @@ use crate::ui::pane::texels::index_at;
 pub struct Hovered {
     /// The index of the material there; the number of materials for a photograph.
     pub index: usize,
-    /// The (column, row) of the texel there; `None` beside the material.
-    pub texel: Option<[usize; 2]>,
+    /// The texel there; `None` beside the material.
+    pub seen: Option<Seen>,
 }
 
 impl Hovered {
@@ -30,6 +31,6 @@ impl Hovered {
             return None;
         }
         let index = index_at(scenery, content, ndc_from_pos(placed.rect, pos)[0]);
-        placed.point(pos).map(|point| Self { index, texel: placed.texels.texel_at(point) })
+        placed.point(pos).map(|point| Self { index, seen: placed.texels.seen(point) })
     }
 }

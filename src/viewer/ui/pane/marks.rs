@@ -3,7 +3,7 @@
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, pos2, vec2};
 
 use crate::model::inspection::{Inspection, Region};
-use crate::model::view::texel_plane::CellRect;
+use crate::model::view::texel_plane::{CellRect, Seen};
 use crate::ui::pane::placed::Placed;
 
 /// Side of a texel, in points, from which on its numbers are drawn on it.
@@ -46,7 +46,7 @@ impl Placed {
     }
 
     /// The numbers of every visible texel of a flat view, on it; nothing where the texels are too small.
-    pub fn paint_numbers(&self, painter: &Painter, numbers: impl Fn([usize; 2]) -> Vec<f64>) {
+    pub fn paint_numbers(&self, painter: &Painter, numbers: impl Fn(Seen) -> Vec<f64>) {
         let Some([first, last]) = self.visible() else { return };
         if self.side(CellRect::of_cell(first).centre()) < READABLE {
             return;
@@ -55,7 +55,7 @@ impl Placed {
             (first[1]..=last[1]).flat_map(|row| (first[0]..=last[0]).map(move |column| [column, row]));
         for cell in cells {
             let Some(at) = self.pos(CellRect::of_cell(cell).centre()) else { continue };
-            let text: Vec<String> = numbers(self.texels.texel_of(cell)).iter().map(|v| short(*v)).collect();
+            let text: Vec<String> = numbers(self.texels.seen_in(cell)).iter().map(|v| short(*v)).collect();
             let galley = painter.layout_no_wrap(text.join("\n"), FontId::monospace(10.5), BRIGHT);
             let place = Align2::CENTER_CENTER.anchor_size(at, galley.size());
             painter.rect_filled(place.expand(1.5), 2.0, Color32::from_black_alpha(150));

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use svbrdf_core::picture::camera::Camera;
 
-use crate::model::view::texel_plane::{CellRect, TexelPlane};
+use crate::model::view::texel_plane::{CellRect, Seen, TexelPlane};
 use crate::ui::pane::handles::{ndc_from_pos, pos_from_ndc};
 
 /// A pane's picture on the screen.
@@ -23,9 +23,9 @@ impl Placed {
         self.camera.plane_from_ndc(x, y)
     }
 
-    /// The (column, row) of the texel that is seen at `pos`.
-    pub fn texel_at(&self, pos: Pos2) -> Option<[usize; 2]> {
-        self.texels.texel_at(self.point(pos)?)
+    /// The texel that is seen at `pos`.
+    pub fn seen(&self, pos: Pos2) -> Option<Seen> {
+        self.texels.seen(self.point(pos)?)
     }
 
     /// Where a place of the plane is, in cells.

@@ -6,7 +6,7 @@ use eframe::egui::{self, Rect, Sense, Vec2};
 
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
+use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams, Tiling};
 
 use super::cells::{TITLE, cells, free_cell, picture_rect};
 use super::gestures::{self, Gesture, PaneTarget};
@@ -21,9 +21,10 @@ use crate::jobs::reading::upload::{BAND, Uploads};
 use crate::model::command::Command;
 use crate::model::view::framing;
 use crate::model::view::state::{Projection, ViewState};
+use crate::model::view::texel_plane::{Seen, TexelPlane};
 use crate::ui::shading::draft_policy::{DraftPolicy, PAUSE, PaneView};
 use crate::ui::shading::gpu_view::GpuView;
-use crate::ui::shading::shaded::{ShadedPart, ShadingRequest};
+use crate::ui::shading::shaded::{ShadedPart, ShadingRequest, shaded_size};
 use crate::ui::shading::visible::shaded_part;
 use crate::ui::widgets::hint::{note, paint_hint};
 use crate::ui::widgets::readout::{self, Readout};
@@ -53,6 +54,8 @@ pub struct Viewport {
     drawn: Vec<DrawnPane>,
     /// What is under the pointer.
     pub hovered: Option<Hovered>,
+    /// The plane, where a repeated material is lit as one.
+    pub plane: Option<TexelPlane>,
     /// The texel that was under the pointer last.
     pub last_texel: Option<[usize; 2]>,
     policy: DraftPolicy,
@@ -74,6 +77,7 @@ impl Default for Viewport {
             gesture: None,
             drawn: Vec::new(),
             hovered: None,
+            plane: None,
             last_texel: None,
             policy: DraftPolicy::default(),
             is_draft: false,
@@ -138,6 +142,7 @@ impl Viewport {
         }
         let contents = scenery.contents();
         let grid = scenery.materials[0].grid();
+        self.plane = scenery.lights_plane().then(|| scenery.state.texels(grid));
         let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
         if let Some(cell) = cells.first() {
             let pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
@@ -161,8 +166,8 @@ impl Viewport {
             let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());
             Hovered::in_pane(ui, scenery, *content, &placed)
         });
-        if let Some(texel) = self.hovered.and_then(|hovered| hovered.texel) {
-            self.last_texel = Some(texel);
+        if let Some(seen) = self.hovered.and_then(|hovered| hovered.seen) {
+            self.last_texel = Some(seen.texel);
         }
         let mut commands = Vec::new();
         for (i, (content, cell)) in panes.into_iter().enumerate() {
@@ -224,7 +229,7 @@ impl Viewport {
             encoding: state.display.quantity.into(),
             show_clipping: state.display.show_clipping,
             epsilon: state.convention().epsilon as f32,
-            tiled: state.display.tiled,
+            tiling: tiling(scenery, content),
             false_colour: state.display.false_colour,
             nearest: self.is_draft,
             background: [background[0], background[1], background[2]],
@@ -270,6 +275,7 @@ impl Viewport {
             scene: state.scene,
             convention: state.convention(),
             quantity: state.display.quantity,
+            repeated: scenery.lights_plane(),
         };
         // Where the last frame did not ask for this one, the time between them is not that of a frame.
         let (now, seconds) = ui.input(|i| (i.time, i.stable_dt));
@@ -280,12 +286,13 @@ impl Viewport {
             ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
         }
         let grid = scenery.materials[0].grid();
-        let is_large = grid.width * grid.height > BAND && (software || self.policy.is_slow());
+        let [columns, rows] = shaded_size([grid.width, grid.height], params.repeated);
+        let is_large = columns * rows > BAND && (software || self.policy.is_slow());
         // What is compared with a computed map or a photograph, and what is saved, is never shaded in part.
         let is_exact = self.is_exact || state.is_computed() || scenery.photograph.is_some();
         self.is_draft = moves && !is_exact;
         let part = if self.is_draft || is_large && !is_exact {
-            shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state))
+            shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state), params.repeated)
         } else {
             ShadedPart::Whole
         };
@@ -317,17 +324,18 @@ impl Viewport {
                 state,
                 computed_maps: scenery.computed_maps,
                 photographs,
+                plane: self.plane,
             };
-            placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
+            placed.paint_numbers(painter, |seen| match (content.photograph, photographs) {
                 (PhotographUse::Displayed, Some(photographs)) => {
-                    readout::photograph(photographs, index, texel)
+                    readout::photograph(photographs, index, seen.texel)
                 }
-                _ => readout::numbers(readout, index, difference, texel),
+                _ => readout::numbers(readout, index, difference, seen),
             });
         }
         placed.paint_inspected(painter, scenery.inspection);
-        let texel = self.hovered.and_then(|hovered| hovered.texel);
-        if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
+        let seen = self.hovered.and_then(|hovered| hovered.seen);
+        if let Some(Seen { texel, .. }) = seen.filter(|_| self.gesture.is_none()) {
             placed.paint_crosshair(painter, texel);
         }
     }
@@ -341,6 +349,16 @@ impl Viewport {
     /// Width and height of the picture of a pane, in physical pixels; 0 before there is one.
     pub fn pane_pixels(&self) -> [f32; 2] {
         self.pane_pixels.into()
+    }
+}
+
+/// How often a pane shows its material. What is computed elsewhere is of texels in their own places.
+fn tiling(scenery: &Scenery<'_>, content: PaneContent) -> Tiling {
+    let is_computed = content.difference && scenery.state.is_computed();
+    match scenery.state.display.tiled {
+        false => Tiling::Once,
+        true if scenery.lights_plane() && !is_computed => Tiling::Plane,
+        true => Tiling::Copies,
     }
 }
 

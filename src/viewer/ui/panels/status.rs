@@ -9,6 +9,7 @@ use crate::jobs::photograph::Photographs;
 use crate::model::command::{Command, InspectionCommand};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::ViewState;
+use crate::model::view::texel_plane::{Seen, TexelPlane};
 use crate::ui::widgets::readout::{self, Readout};
 use crate::ui::widgets::theme;
 
@@ -29,7 +30,9 @@ pub struct StatusBar<'a> {
     /// Where renderings are compared with a photograph, the photograph beside every slot.
     pub photographs: Option<&'a Photographs>,
     /// The texel under the pointer.
-    pub texel: Option<[usize; 2]>,
+    pub seen: Option<Seen>,
+    /// The plane, where a repeated material is lit as one.
+    pub plane: Option<TexelPlane>,
     /// The slot of the pane under the pointer.
     pub hovered: Option<usize>,
     /// Screen pixels per texel.
@@ -84,8 +87,8 @@ impl StatusBar<'_> {
     fn columns(&self, ui: &mut egui::Ui) {
         let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 10.5 };
         let font = egui::FontId::monospace(size);
-        let place = match self.texel {
-            Some([column, row]) => format!("{column},{row}"),
+        let place = match self.seen {
+            Some(Seen { texel: [column, row], .. }) => format!("{column},{row}"),
             None => "-".to_owned(),
         };
         let mono = |text: String| RichText::new(text).font(font.clone());
@@ -114,8 +117,8 @@ impl StatusBar<'_> {
     /// The column of the photograph, at the exposure of the chosen material.
     fn photograph(&self, ui: &mut egui::Ui, photographs: &Photographs, mono: impl Fn(String) -> RichText) {
         let chosen = (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1));
-        let numbers: Vec<String> = match self.texel {
-            Some(texel) => {
+        let numbers: Vec<String> = match self.seen {
+            Some(Seen { texel, .. }) => {
                 readout::photograph(photographs, chosen, texel).into_iter().map(readout::fixed).collect()
             }
             None => vec![format!("{:>1$}", "-", readout::WIDTH); 3],
@@ -143,10 +146,10 @@ impl StatusBar<'_> {
     /// The numbers of material `index` at the texel, always of the same width.
     fn numbers(&self, index: usize) -> String {
         let unit = readout::unit(self.state, index);
-        let Self { materials, state, computed_maps, photographs, .. } = *self;
-        let readout = Readout { materials, state, computed_maps, photographs };
-        let numbers: Vec<String> = match self.texel {
-            Some(texel) => readout::numbers(readout, index, self.state.display.difference, texel)
+        let Self { materials, state, computed_maps, photographs, plane, .. } = *self;
+        let readout = Readout { materials, state, computed_maps, photographs, plane };
+        let numbers: Vec<String> = match self.seen {
+            Some(seen) => readout::numbers(readout, index, self.state.display.difference, seen)
                 .into_iter()
                 .map(readout::fixed)
                 .collect(),

@@ -62,7 +62,8 @@ mod tests {
     fn view(x: f64) -> PaneView {
         let mut scene = ViewState::default().scene;
         scene.light[0] = x;
-        let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering };
+        let params =
+            ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering, repeated: false };
         PaneView { params, framing: None }
     }
 
