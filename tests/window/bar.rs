@@ -1,6 +1,6 @@
 //! The bar at the top, in windows of all sizes.
 
-use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand};
+use svbrdf_viewer::model::command::{DisplayCommand, MaterialsCommand, PhotographCommand};
 
 use super::*;
 
@@ -51,29 +51,34 @@ fn in_bar(window: &Window<'_>) -> Vec<(&'static str, egui::Rect)> {
 
 #[needs(adapter)]
 #[test]
-fn the_bar_is_one_line_in_every_window_and_what_it_has_no_room_for_is_in_the_menu() {
+fn the_bar_is_one_line_at_every_width_and_what_it_has_no_room_for_is_in_the_menu() {
     let mut window = built_in();
-    for width in [640.0, 860.0, 1100.0, 1330.0] {
-        window.set_size(vec2(width, 600.0));
-        for difference in [false, true] {
-            for key in 0..5 {
-                apply(&mut window, DisplayCommand::ShowDifference(difference));
-                press(&mut window, egui::Key::M);
-                let bar = in_bar(&window);
-                let first = bar[0].1;
-                for (label, rect) in &bar {
-                    assert!(
-                        (rect.center().y - first.center().y).abs() < 3.0 && rect.right() <= width,
-                        "{label} at {rect:?} in a window of {width}, quantity {key}, difference {difference}"
-                    );
-                }
-            }
+    let mut most = 0;
+    for width in (640..=2600).step_by(35) {
+        window.set_size(vec2(width as f32, 500.0));
+        window.run_steps(3);
+        let mut bar = in_bar(&window);
+        bar.sort_by(|a, b| a.1.left().total_cmp(&b.1.left()));
+        for pair in bar.windows(2) {
+            let [(left, one), (right, other)] = [pair[0], pair[1]];
+            assert!(one.right() <= other.left() + 0.5, "{left} {one:?} covers {right} {other:?} at {width}");
         }
-        let visible = in_bar(&window).len();
-        assert_eq!(visible == CONTROLS.len(), width >= 1330.0, "{visible} in {width}");
+        let level = |(_, rect): &(&str, egui::Rect)| (rect.center().y - bar[0].1.center().y).abs() < 3.0;
+        assert!(bar.iter().all(level) && bar.last().unwrap().1.right() <= width as f32, "{width}: {bar:?}");
+        assert!(bar.len() >= most, "{width} has room for {}, less had for {most}", bar.len());
+        most = bar.len();
     }
+    assert_eq!(most, CONTROLS.len());
+    for (difference, quantity) in [(true, 1), (false, 2)] {
+        apply(&mut window, DisplayCommand::ShowDifference(difference));
+        apply(&mut window, DisplayCommand::CycleQuantity(quantity));
+        assert_eq!(in_bar(&window).len(), most, "nothing comes and goes with what is shown");
+    }
+    window.set_size(vec2(1330.0, 600.0));
+    window.run_steps(3);
+    assert_eq!(in_bar(&window).len(), most, "a window of the first start has room for all");
     // Undo is in the menu of a narrow window, and works there.
-    window.set_size(vec2(900.0, 600.0));
+    window.set_size(vec2(800.0, 600.0));
     let before = window.state().parts.model.view.exposure_ev;
     press(&mut window, egui::Key::E);
     assert_eq!(window.state().parts.model.view.exposure_ev, before + 0.5);
@@ -83,22 +88,59 @@ fn the_bar_is_one_line_in_every_window_and_what_it_has_no_room_for_is_in_the_men
     assert_eq!(window.state().parts.model.view.exposure_ev, before);
 }
 
+/// The panes of all materials.
+fn panes(window: &Window<'_>) -> [egui::Rect; 3] {
+    [GROUND_TRUTH, PREDICTIONS[0], PREDICTIONS[1]].map(|title| pane(window, title))
+}
+
 #[needs(adapter)]
 #[test]
-fn panes_stay_in_their_places_when_a_texel_is_pinned() {
+fn the_drawer_takes_its_room_from_the_panes_and_covers_none_of_them() {
     let mut window = built_in();
-    window.set_size(vec2(1360.0, 860.0));
+    for size in [vec2(1360.0, 860.0), vec2(700.0, 500.0)] {
+        window.set_size(size);
+        window.run_steps(6);
+        let before = panes(&window);
+        hover(&mut window, before[0].center());
+        let texel = texel_read(&window);
+        press(&mut window, egui::Key::I);
+        window.run_steps(6);
+        let heading = window.get_by_label("Pinned texels").rect();
+        let after = panes(&window);
+        assert!(after.iter().all(|pane| pane.bottom() <= heading.top()), "{after:?} {heading:?}");
+        assert!(after[0].height() > 60.0, "{size:?}: {after:?}");
+        // Fitted, the material keeps its middle; the pane has become smaller.
+        hover(&mut window, after[0].center());
+        assert_eq!(texel_read(&window), texel, "{size:?}");
+        // The edge between them is a handle.
+        let edge = heading.top() - 4.0;
+        let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, vec2(1.0, 1.0));
+        let at = egui::pos2(after[0].center().x, edge);
+        drag_primary(&mut window, screen, at.to_vec2(), at.to_vec2() - vec2(0.0, 60.0));
+        window.run_steps(6);
+        assert!(window.get_by_label("Pinned texels").rect().top() < heading.top() - 30.0, "{size:?}");
+        click(&mut window, "Remove all pins");
+        window.run_steps(6);
+        assert_eq!(panes(&window), before, "{size:?}");
+    }
+}
+
+#[needs(adapter)]
+#[test]
+fn the_scale_of_differences_is_there_where_a_difference_is_shown() {
+    let mut window = built_in();
+    // One prediction leaves no place for a difference beside it.
+    apply(&mut window, MaterialsCommand::Close(2));
     window.run_steps(6);
-    let all = [GROUND_TRUTH, PREDICTIONS[0], PREDICTIONS[1]];
-    let corners = |window: &Window<'_>| all.map(|title| pane(window, title).left_top());
-    let before = corners(&window);
-    assert_eq!(before[0].x, before[2].x, "a grid of 2 x 2");
-    let at = pane(&window, GROUND_TRUTH).center();
-    hover(&mut window, at);
-    press(&mut window, egui::Key::I);
-    window.run_steps(6);
-    window.get_by_label("Pinned texels");
-    assert_eq!(before, corners(&window));
+    let has_scale = |window: &Window<'_>| window.query_by_label("Difference range").is_some();
+    let whole = pane(&window, GROUND_TRUTH);
+    assert!(!has_scale(&window));
+    press(&mut window, egui::Key::D);
+    assert!(has_scale(&window));
+    assert!(pane(&window, GROUND_TRUTH).height() < whole.height());
+    press(&mut window, egui::Key::D);
+    assert!(!has_scale(&window));
+    assert_eq!(pane(&window, GROUND_TRUTH), whole);
 }
 
 #[needs(adapter)]

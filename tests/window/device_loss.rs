@@ -4,18 +4,19 @@ use svbrdf_viewer::model::command::DisplayCommand;
 
 use super::*;
 
+/// Of windows so high that the message of the loss covers neither of the panes that are compared, in points.
+const SIZE: egui::Vec2 = vec2(1200.0, 1100.0);
+
 /// The application in a window with a device of its own, after the device of the last one was lost.
 fn resumed<'a>(last: Window<'a>) -> Window<'a> {
     let mut app = last.into_state();
-    let mut window = Harness::builder()
-        .with_size(vec2(1200.0, 800.0))
-        .with_max_steps(16)
-        .with_step_dt(1.0 / 30.0)
-        .wgpu()
-        .build_eframe(|cc| {
-            app.resume(cc);
-            app
-        });
+    let mut window =
+        Harness::builder().with_size(SIZE).with_max_steps(16).with_step_dt(1.0 / 30.0).wgpu().build_eframe(
+            |cc| {
+                app.resume(cc);
+                app
+            },
+        );
     window.set_render_cursor(false);
     window
 }
@@ -54,6 +55,7 @@ fn state(window: &Window<'_>) -> String {
 fn a_device_that_is_lost_in_a_drag_again_and_again_loses_nothing_else() {
     const LOSSES: usize = 8;
     let mut window = built_in();
+    window.set_size(SIZE);
     press(&mut window, egui::Key::D);
     let rect = pane(&window, GROUND_TRUTH);
     hover(&mut window, rect.center());

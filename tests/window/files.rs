@@ -1,6 +1,6 @@
 //! Opening and saving.
 
-use super::materials::{SIDE, strip, strips};
+use super::materials::{SIDE, strip, strips, write_packed};
 use super::*;
 
 const FIELD: &str = "Files, folders or name prefixes, one a line:";
@@ -24,6 +24,45 @@ fn dropped_files_replace_the_built_in_pair() {
     drop_files(&mut window, ["blurred_normals.png", "worn_tiles.png"].map(|name| assets.join(name)));
     wait(&mut window, "the dropped files", |app| app.names().len() == 2);
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+}
+
+#[needs(adapter)]
+#[test]
+fn files_dropped_on_a_comparison_are_added_and_can_be_a_comparison_of_their_own() {
+    let mut window = built_in();
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples");
+    let dropped = |names: &[&str]| names.iter().map(|name| assets.join(name)).collect::<Vec<_>>();
+    drop_files(&mut window, dropped(&["worn_tiles.png"]));
+    wait(&mut window, "the first", |app| app.names().len() == 1);
+    assert!(window.query_by_label("New comparison").is_none(), "in place of the built-in materials");
+    drop_files(&mut window, dropped(&["blurred_normals.png", "wrong_roughness.png"]));
+    wait(&mut window, "two more", |app| app.names().len() == 3);
+    window.run_steps(3);
+    click(&mut window, "New comparison");
+    wait(&mut window, "their comparison", |app| app.names().len() == 2);
+    assert!(window.query_by_label("New comparison").is_none());
+}
+
+#[needs(adapter)]
+#[test]
+fn every_one_of_several_files_of_one_name_is_told() {
+    let mut window = built_in();
+    let folder = tempfile::tempdir().unwrap();
+    let strip = |name: &str, side: u32| {
+        let path = folder.path().join(name).join("same.png");
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        let tiles = [[128, 128, 255], [120, 90, 60], [140; 3], [20; 3]];
+        write_packed(&path, side, |tile, _, _| tiles[tile as usize]);
+        path
+    };
+    let paths = [("a", 8), ("b", 16), ("c", 16), ("d", 8)].map(|(name, side)| strip(name, side));
+    drop_files(&mut window, paths.clone());
+    wait(&mut window, "the end of reading", |app| !app.is_reading() && app.names().len() == 2);
+    let messages = window.state().messages();
+    for path in &paths[1..3] {
+        let path = path.display().to_string();
+        assert!(messages.iter().any(|message| message.contains(&path)), "{path}: {messages:?}");
+    }
 }
 
 #[needs(adapter)]

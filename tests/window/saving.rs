@@ -9,7 +9,7 @@ use svbrdf_files::session::Session;
 use svbrdf_viewer::model::command::{
     DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand,
 };
-use svbrdf_viewer::model::inspection::Region;
+use svbrdf_viewer::model::inspection::{Inspection, Region};
 use svbrdf_viewer::model::view::state::{Layout, Projection};
 
 use super::materials::strips;
@@ -141,6 +141,9 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let mut settings = first.state().parts.model.settings.loss.clone();
     settings.near = 17;
     apply(&mut first, LossCommand::SetSettings(settings));
+    let region = Some(Region { first: [2, 1], last: [5, 3] });
+    let inspection = Inspection { pins: vec![[3, 2], [0, 0]], region, is_armed: false };
+    first.state_mut().parts.model.inspection = inspection.clone();
     let path = folder.path().join("a.svbrdf-session.json");
     save(&mut first, SaveKind::Session, &path);
     let (state, materials) =
@@ -151,6 +154,7 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
         assert_eq!(window.state().parts.model.view, state);
         assert_eq!(window.state().materials().cloned().collect::<Vec<_>>(), materials);
         assert_eq!(window.state().parts.model.settings.loss.near, 17);
+        assert_eq!(window.state().parts.model.inspection, inspection);
     };
     let session = Some(Session::read(&path).unwrap());
     same(&window(ViewerOptions { session, ..ViewerOptions::default() }));

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use crate::{command, finish};
 
 /// States of the window: a name, the settings that it starts with, and the keys that are pressed.
-const STATES: [(&str, &str, &[&str]); 9] = [
+const STATES: [(&str, &str, &[&str]); 11] = [
     ("loss", "()", &[]),
     ("why", "(tab:Why)", &[]),
     ("metrics", "(tab:Why,sections:[\"metrics\"])", &[]),
@@ -20,6 +20,8 @@ const STATES: [(&str, &str, &[&str]); 9] = [
     ("map", "()", &["m"]),
     ("histograms", "(histograms:true)", &["d"]),
     ("help", "()", &["F1"]),
+    ("tiled", "()", &["t"]),
+    ("pinned", "()", &["i"]),
 ];
 /// The longest that the window takes to come to rest.
 const PATIENCE: Duration = Duration::from_secs(120);

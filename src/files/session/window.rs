@@ -19,12 +19,24 @@ use svbrdf_core::picture::quantity::Quantity;
 pub struct SessionWindow {
     pub display: Option<SessionDisplay>,
     pub loss: Option<LossSettings>,
+    pub inspection: Option<SessionInspection>,
+}
+
+/// Inspected texels of a material, as (column, row)s.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct SessionInspection {
+    pub pins: Vec<[usize; 2]>,
+    /// The first and the last texel of the rectangle. Over a seam of a repeated material it ends in the next copy.
+    pub rectangle: Option<[[usize; 2]; 2]>,
 }
 
 /// The key of [`SessionWindow::display`] in a file.
 const DISPLAY: &str = "view";
 /// The key of [`SessionWindow::loss`] in a file.
 const LOSS: &str = "loss";
+/// The key of [`SessionWindow::inspection`] in a file.
+const INSPECTION: &str = "texels";
 
 /// How the panes are arranged.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -192,7 +204,8 @@ impl From<SessionWindow> for Map<String, Value> {
         let display = window.display.map(|display| (DISPLAY, serde_json::to_value(display)));
         let loss = window.loss.map(|loss| (LOSS, serde_json::to_value(loss)));
         // Numbers, names and lists have a value.
-        let parts = [display, loss].into_iter().flatten();
+        let inspection = window.inspection.map(|inspection| (INSPECTION, serde_json::to_value(inspection)));
+        let parts = [display, loss, inspection].into_iter().flatten();
         parts.map(|(key, value)| (key.to_owned(), value.unwrap_or_default())).collect()
     }
 }
@@ -206,7 +219,7 @@ impl TryFrom<Map<String, Value>> for SessionWindow {
         if let Some(loss) = &loss {
             loss.check().map_err(|problem| format!("window.{LOSS}.{problem}"))?;
         }
-        Ok(Self { display, loss })
+        Ok(Self { display, loss, inspection: part(&mut parts, INSPECTION)? })
     }
 }
 
@@ -238,6 +251,7 @@ mod tests {
             (r#"{"loss": {"seed": 3, "ask": "Acuracy"}}"#, "window.loss.ask"),
             (r#"{"view": {"wipe": "large"}, "loss": {}}"#, "window.view.wipe"),
             (r#"{"view": 7}"#, "window.view"),
+            (r#"{"texels": {"pins": [[1, -2]]}}"#, "window.texels.pins"),
         ] {
             let problem = read(text).unwrap_err();
             assert!(problem.contains(field), "{problem}");
@@ -254,6 +268,9 @@ mod tests {
         let expected =
             SessionDisplay { wipe: 0.25, auto_exposure: AutoExposure::Off, ..SessionDisplay::default() };
         assert_eq!((window.display.clone(), window.loss.clone()), (Some(expected), Some(loss)));
+        let rectangle = Some([[3, 4], [5, 6]]);
+        let inspection = Some(SessionInspection { pins: vec![[1, 2]], rectangle });
+        let window = SessionWindow { inspection, ..window };
         assert_eq!(read(&serde_json::to_string(&window).unwrap()), Ok(window));
     }
 }

@@ -1,6 +1,6 @@
 //! Effects of commands, carried out.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use eframe::egui;
 
@@ -97,8 +97,10 @@ fn carry_out_on_dialogs(parts: &mut Parts, effect: DialogEffect) {
         DialogEffect::FillPhotograph(path) => {
             dialogs.photograph.iter_mut().for_each(|dialog| dialog.fill(&path));
         }
-        DialogEffect::Browse { folder } => {
-            parts.jobs.browsing = Some(browse::start(&parts.jobs.waker, folder));
+        DialogEffect::Browse(what) => {
+            // Where what is open came from.
+            let from = parts.model.files().next().and_then(Path::parent);
+            parts.jobs.browsing = Some(browse::start(&parts.jobs.waker, what, from));
         }
     }
 }

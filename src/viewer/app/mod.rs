@@ -57,6 +57,8 @@ pub struct App {
     opened_at: f64,
     /// The title that the window was given.
     title: String,
+    /// Whether the scale of text and controls is to be chosen by the monitor: at the first start.
+    unscaled: bool,
     /// What egui remembered of a window whose device was lost.
     memory: Option<egui::Memory>,
 }
@@ -66,6 +68,7 @@ impl App {
     pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
         theme::install(&cc.egui_ctx);
         let mut model = Model::default();
+        let unscaled = cc.storage.is_none_or(|storage| storage.get_string(storage::SETTINGS).is_none());
         let stored = Stored::load(cc.storage, &mut model);
         cc.egui_ctx.set_zoom_factor(model.settings.ui_scale);
         let context = CurrentContext::new(&cc.egui_ctx);
@@ -77,7 +80,7 @@ impl App {
         let start = parts.model.start(options);
         effects::carry_out(&mut parts, &cc.egui_ctx, start);
         let crash = CrashGuard::default();
-        Self { parts, stored, crash, context, opened_at: 0.0, title: String::new(), memory: None }
+        Self { parts, stored, crash, context, opened_at: 0.0, title: String::new(), unscaled, memory: None }
     }
 
     /// The colour below everything that is drawn.
@@ -120,6 +123,7 @@ impl App {
         let start = Instant::now();
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.parts.model.settings.dark);
+        self.suit_monitor(&ctx);
         self.parts.model.settings.ui_scale = scale_in_range(&ctx);
         self.parts.model.time = self.opened_at + ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
@@ -141,6 +145,16 @@ impl App {
         self.parts.ui.frame_ms = start.elapsed().as_secs_f32() * 1e3;
     }
 
+    /// Chooses the scale of text and controls at the first start: systems without one of their own draw text of 2 mm on a 4K screen.
+    fn suit_monitor(&mut self, ctx: &egui::Context) {
+        let (monitor, native) =
+            ctx.input(|i| (i.viewport().monitor_size, i.viewport().native_pixels_per_point));
+        let Some(monitor) = monitor.filter(|_| std::mem::take(&mut self.unscaled)) else { return };
+        if native.is_none_or(|native| native <= 1.0) {
+            ctx.set_zoom_factor(scale_of_monitor(monitor.y * ctx.pixels_per_point()));
+        }
+    }
+
     /// Gives the window the name of what is open.
     fn name_window(&mut self, ctx: &egui::Context) {
         let open = self.parts.model.materials.title();
@@ -153,6 +167,11 @@ impl App {
 
     /// Lets the jobs follow the model, and takes in what they have found.
     fn follow(&mut self, ctx: &egui::Context) {
+        if self.parts.jobs.openings.is_empty()
+            && let Some(inspection) = self.parts.model.inspected_later.take()
+        {
+            self.parts.model.inspection = inspection;
+        }
         if let Some(ground_truth) = self.parts.model.materials.ground_truth() {
             self.parts.model.inspection.keep_within(ground_truth.material().size());
         }
@@ -232,6 +251,11 @@ fn is_by_hand(event: &egui::Event) -> bool {
     matches!(event, Key { .. } | Text(_) | PointerButton { .. } | MouseWheel { .. })
 }
 
+/// The scale of text and controls for a monitor of this height in pixels, in quarters: 1 up to 1080.
+fn scale_of_monitor(height: f32) -> f32 {
+    ((height / 1080.0 * 4.0).floor() / 4.0).clamp(1.0, 3.0)
+}
+
 /// The scale of text and controls, which Ctrl with plus, minus or 0 changes, too.
 fn scale_in_range(ctx: &egui::Context) -> f32 {
     let scale = ctx.zoom_factor().clamp(*UI_SCALE.start(), *UI_SCALE.end());
@@ -252,4 +276,15 @@ fn adapter(cc: &eframe::CreationContext<'_>, model: &mut Model, context: &Curren
     let context = context.clone();
     gpu.gpu.at_loss(move || context.get().request_repaint());
     Some(gpu)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_monitor_has_larger_text_at_the_first_start() {
+        let scales = [600.0, 1080.0, 1200.0, 1440.0, 2160.0, 4320.0].map(scale_of_monitor);
+        assert_eq!(scales, [1.0, 1.0, 1.0, 1.25, 2.0, 3.0]);
+    }
 }

@@ -79,6 +79,7 @@ impl Stored {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::ranges::UI_SCALE;
     use std::collections::HashMap;
     use std::path::PathBuf;
     use svbrdf_core::loss::{Ask, FileScenes, LossSettings};
@@ -151,7 +152,7 @@ mod tests {
             memory.0.insert(SETTINGS.to_owned(), format!("(dark: false, ui_scale: {scale})"));
             let mut model = Model::default();
             Stored::load(Some(&memory), &mut model);
-            assert!((0.5..=4.0).contains(&model.settings.ui_scale) && !model.settings.dark, "{scale}");
+            assert!(UI_SCALE.contains(&model.settings.ui_scale) && !model.settings.dark, "{scale}");
             let messages: Vec<_> = model.messages.iter().map(ToString::to_string).collect();
             assert!(messages.len() == 1 && messages[0].contains("UI scale"), "{scale}: {messages:?}");
         }

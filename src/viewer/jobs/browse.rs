@@ -7,6 +7,7 @@ use svbrdf_files::read::EXTENSIONS;
 
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
+use crate::model::command::BrowseFor;
 
 /// Nobody cancels a dialog sooner than this.
 const AT_ONCE: Duration = Duration::from_millis(300);
@@ -20,15 +21,17 @@ pub enum Browsed {
     Unavailable,
 }
 
-/// Asks for files or folders.
-pub fn start(waker: &Waker, folder: bool) -> Job<Browsed> {
-    let dialog = rfd::AsyncFileDialog::new().set_title("Open materials");
+/// Asks for what is needed, at first in the folder `from`.
+pub fn start(waker: &Waker, what: BrowseFor, from: Option<&Path>) -> Job<Browsed> {
+    let title = if what == BrowseFor::Saving { "Save" } else { "Open materials" };
+    let dialog = rfd::AsyncFileDialog::new().set_title(title);
+    let dialog = from.into_iter().fold(dialog, rfd::AsyncFileDialog::set_directory);
     Job::start(waker, move |_| {
         let start = Instant::now();
-        let chosen = if folder {
-            pollster::block_on(dialog.pick_folders())
-        } else {
-            pollster::block_on(dialog.add_filter("materials", &EXTENSIONS).pick_files())
+        let chosen = match what {
+            BrowseFor::Folders => pollster::block_on(dialog.pick_folders()),
+            BrowseFor::Files => pollster::block_on(dialog.add_filter("materials", &EXTENSIONS).pick_files()),
+            BrowseFor::Saving => pollster::block_on(dialog.save_file()).map(|file| vec![file]),
         };
         Ok(match chosen {
             Some(handles) => Browsed::Chosen(handles.iter().map(|handle| handle.path().to_owned()).collect()),

@@ -50,6 +50,8 @@ pub struct Model {
     pub photograph: PhotographState,
     pub training: TrainingState,
     pub inspection: Inspection,
+    /// The inspected texels of a session whose materials are being read.
+    pub inspected_later: Option<Inspection>,
     pub why: WhyState,
     /// What the automatic exposure was last computed for.
     pub exposed: Exposed,

@@ -16,8 +16,8 @@ const PIXELS_PER_TEXEL: RangeInclusive<f32> = 1e-4..=1e6;
 const CENTRE: RangeInclusive<f32> = 0.0..=1e6;
 /// Greatest exposure either way, in stops.
 pub const STOPS: f32 = 20.0;
-/// Scale of text and controls.
-pub const UI_SCALE: RangeInclusive<f32> = 0.5..=4.0;
+/// Scale of text and controls. The smallest text has 11 points, and 8 at the smallest scale.
+pub const UI_SCALE: RangeInclusive<f32> = 0.75..=4.0;
 /// Target error of a loss in percent.
 const TARGET_PERCENT: RangeInclusive<f64> = 0.001..=100.0;
 /// Time for a loss in milliseconds.

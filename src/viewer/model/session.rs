@@ -8,13 +8,14 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
-use svbrdf_files::session::window::SessionWindow;
+use svbrdf_files::session::window::{SessionInspection, SessionWindow};
 use svbrdf_files::session::{Session, SessionMaterial};
 use svbrdf_files::steps::RunId;
 
 use super::Model;
 use super::command::effect::Effect;
 use super::exposed::Exposed;
+use super::inspection::Inspection;
 use super::material::read::Rules;
 use super::material::request::{ReadRequest, Target};
 use super::message::Message;
@@ -77,7 +78,9 @@ impl Model {
             ..source.clone()
         });
         let (display, loss) = (Some(view.display.clone()), Some(self.settings.loss.clone()));
-        session.window = SessionWindow { display, loss };
+        let inspection =
+            Some(SessionInspection::from(&self.inspection)).filter(|one| *one != Default::default());
+        session.window = SessionWindow { display, loss, inspection };
         session
     }
 
@@ -93,6 +96,9 @@ impl Model {
         if let Some(loss) = &session.window.loss {
             self.settings.loss = loss.clone();
         }
+        // Of its materials, once they are there.
+        self.inspection = Inspection::default();
+        self.inspected_later = session.window.inspection.as_ref().map(Inspection::from);
         let out_of_range = bring_into_range(self).map(Message::OutOfRange);
         self.report(out_of_range);
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));

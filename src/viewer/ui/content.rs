@@ -5,16 +5,13 @@ use eframe::egui;
 use super::legend::histograms::ValueStrip;
 use super::legend::strip::LegendStrip;
 use super::pane::scenery::Scenery;
-use super::pane::viewport::{PaneTools, Viewport};
+use super::pane::viewport::{PaneTools, STRIP, Viewport};
 use super::shading::gpu_view::GpuView;
 use super::widgets::bare;
 use super::widgets::texture::PanelTextures;
 use crate::jobs::displayed::Displayed;
 use crate::model::command::Command;
 use crate::model::view::state::ViewState;
-
-/// Height of the strip below the panes, in points.
-const STRIP: f32 = 92.0;
 
 /// The panes and what is below them.
 #[derive(Debug)]
@@ -30,15 +27,15 @@ impl CentralArea<'_> {
     pub fn ui(&mut self, ui: &mut egui::Ui, gpu: Option<&mut GpuView>) -> Vec<Command> {
         let displayed = self.displayed;
         let mut commands = Vec::new();
-        if let Some(strip) = BelowPanes::of(displayed, self.viewport.has_extra) {
+        let strip = BelowPanes::of(displayed, self.viewport.has_extra);
+        if let Some(strip) = &strip {
             let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
             panel.show(ui, |ui| match strip {
-                BelowPanes::Legend { enabled } => {
-                    ui.add_enabled_ui(enabled, |ui| commands.extend(LegendStrip::new(displayed).ui(ui)));
-                }
+                BelowPanes::Legend => commands.extend(LegendStrip::new(displayed).ui(ui)),
                 BelowPanes::Values => ValueStrip::new(displayed).ui(ui),
             });
         }
+        self.viewport.has_strip = strip.is_some();
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let scenery = scenery(ui.ctx(), displayed, self.view);
             let drawing = PaneTools { gpu, uploads: &displayed.jobs.uploads, textures: self.textures };
@@ -48,9 +45,9 @@ impl CentralArea<'_> {
     }
 }
 
-/// What is below the panes. It has the same height in every mode: the panes stay where they are.
+/// What is below the panes, of one height.
 enum BelowPanes {
-    Legend { enabled: bool },
+    Legend,
     Values,
 }
 
@@ -61,7 +58,7 @@ impl BelowPanes {
         if model.settings.histograms && !difference && model.materials.ground_truth().is_some() {
             Some(Self::Values)
         } else {
-            compares(displayed).then_some(Self::Legend { enabled: difference || has_extra })
+            (compares(displayed) && (difference || has_extra)).then_some(Self::Legend)
         }
     }
 }

@@ -48,6 +48,8 @@ pub struct WindowUi {
     textures: PanelTextures,
     /// Size of the panes and the legend, in pixels.
     picture_size: [u32; 2],
+    /// Whether the drawer is there.
+    has_drawer: bool,
     /// Processor time of the last frame, in milliseconds.
     pub frame_ms: f32,
 }
@@ -106,6 +108,13 @@ impl WindowUi {
         if is_open != was_open {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
+        // Panes stay where they are in a drag.
+        if !ui.input(|i| i.pointer.any_down()) {
+            self.has_drawer = !model.inspection.is_empty();
+        }
+        if self.has_drawer && model.materials.ground_truth().is_some() {
+            commands.extend(Drawer::new(displayed).ui(ui));
+        }
         let area = ui.available_rect_before_wrap();
         self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
         let mut content = CentralArea {
@@ -116,9 +125,6 @@ impl WindowUi {
         };
         commands.extend(content.ui(ui, gpu));
         let panes = self.viewport.area;
-        if !model.inspection.is_empty() && model.materials.ground_truth().is_some() {
-            commands.extend(Drawer::new(displayed).over(ui.ctx(), panes));
-        }
         commands.extend(panels::messages::ui(ui.ctx(), panes, &model.messages));
         if model.help {
             commands.extend(input::help::ui(ui.ctx()));

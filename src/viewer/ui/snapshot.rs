@@ -4,7 +4,6 @@ use eframe::egui;
 
 use super::WindowUi;
 use super::content::CentralArea;
-use super::pane::viewport::Viewport;
 use super::shading::gpu_view::GpuView;
 use super::shading::snapshot::{Size, snapshot};
 use crate::error::Error;
@@ -38,7 +37,7 @@ impl WindowUi {
         }
         // Gestures and corner handles stay in the window.
         let displayed = Displayed { hides_corners: true, hides_handles: !handles, ..displayed };
-        let mut viewport = Viewport::exact();
+        let mut viewport = self.viewport.exact();
         // A larger picture shows the same part of the material.
         let mut magnified = displayed.model.view.clone();
         if let Some(framing) = &mut magnified.display.framing {

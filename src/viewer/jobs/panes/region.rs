@@ -26,6 +26,8 @@ pub struct RegionKey {
     ids: Vec<MaterialId>,
     pub region: Region,
     pub quantity: Quantity,
+    /// The difference that the panes show; `None` for values, and for the maps that are not of single texels.
+    difference: Option<Difference>,
     scene: Scene,
     convention: &'static str,
 }
@@ -33,8 +35,10 @@ pub struct RegionKey {
 /// The numbers of one material in the rectangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionNumbers {
-    /// Of each channel of the quantity; `None` where nothing is finite.
-    pub channels: [Option<Statistics>; 3],
+    /// The name and the statistics of each channel of the quantity, or of the difference; `None` where nothing is finite.
+    pub rows: Vec<(&'static str, Option<Statistics>)>,
+    /// Whether they are of the difference from the ground truth.
+    pub is_difference: bool,
     /// The rendering loss of the rectangle under this scene; `None` for the ground truth.
     pub loss: Option<f64>,
 }
@@ -51,10 +55,10 @@ impl RegionJob {
         let convention = work.view.convention();
         self.0.follow(wanted, |key| {
             let materials = work.materials();
-            let (region, quantity, scene) = (key.region, key.quantity, key.scene);
+            let key = key.clone();
             Job::start(work.waker, move |_| {
                 let materials = materials.iter().map(|loaded| loaded.material());
-                Ok(numbers(materials, region, quantity, &scene, &convention))
+                Ok(numbers(materials, &key, &convention))
             })
         })
     }
@@ -68,15 +72,18 @@ impl RegionJob {
     ) -> Option<(&[RegionNumbers], bool)> {
         let (of, numbers) = self.0.get()?;
         let now = key(region, materials, state);
-        (of.ids == now.ids && of.quantity == now.quantity).then_some((numbers.as_slice(), *of == now))
+        (of.ids == now.ids && of.quantity == now.quantity && of.difference == now.difference)
+            .then_some((numbers.as_slice(), *of == now))
     }
 }
 
 fn key(region: Region, materials: &[LoadedMaterial], state: &ViewState) -> RegionKey {
+    let shows_difference = state.display.difference && !state.is_computed() && materials.len() > 1;
     RegionKey {
         ids: materials.iter().map(LoadedMaterial::id).collect(),
         region,
         quantity: state.display.quantity,
+        difference: shows_difference.then(|| state.difference_kind()),
         scene: state.scene,
         convention: state.convention().name,
     }
@@ -84,16 +91,15 @@ fn key(region: Region, materials: &[LoadedMaterial], state: &ViewState) -> Regio
 
 fn numbers<'a>(
     materials: impl Iterator<Item = &'a Material<f32>>,
-    region: Region,
-    quantity: Quantity,
-    scene: &Scene,
+    RegionKey { region, quantity, difference, scene, .. }: &RegionKey,
     convention: &Convention,
 ) -> Vec<RegionNumbers> {
     let mut materials = materials.peekable();
     let size = materials.peek().map_or([0; 2], |material| material.size());
     let texels: Vec<[usize; 2]> = region.texels(size).collect();
     let (model, rays) = (Model::<f32>::from(convention), scene.rays::<f32>());
-    let mut ground_truth: Option<Vec<[f32; 3]>> = None;
+    // Renderings and values of the ground truth.
+    let mut ground_truth: Option<[Vec<[f32; 3]>; 2]> = None;
     let mut all = Vec::new();
     for material in materials {
         let render = |at: &[usize; 2]| render_texel(material, &model, &rays, at[0], at[1]);
@@ -103,16 +109,38 @@ fn numbers<'a>(
             map => texels.iter().map(|at| map.at(material, scene, convention, *at)).collect(),
         };
         let channel = |c: usize| Statistics::of(&values.iter().map(|v| v[c]).collect::<Vec<f32>>());
-        let loss = ground_truth.as_ref().map(|ground_truth| {
+        let of_difference = |kind: &Difference, expected: &[[f32; 3]]| {
+            let pairs = expected.iter().zip(&values);
+            let terms = pairs.map(|(g, p)| kind.of_texel(*g, *p, convention.epsilon) as f32);
+            Statistics::of(&terms.collect::<Vec<f32>>())
+        };
+        let of_values =
+            || channels(*quantity).iter().enumerate().map(|(c, name)| (*name, channel(c))).collect();
+        let (rows, is_difference) = match (difference, &ground_truth) {
+            (Some(kind), Some([_, expected])) => (vec![(kind.unit(), of_difference(kind, expected))], true),
+            // The ground truth has no difference.
+            (Some(_), None) => (Vec::new(), false),
+            (None, _) => (of_values(), false),
+        };
+        let loss = ground_truth.as_ref().map(|[ground_truth, _]| {
             let pairs = ground_truth.par_iter().zip(&renderings);
             let terms: Vec<f64> =
                 pairs.map(|(g, p)| Difference::Log.of_texel(*g, *p, convention.epsilon)).collect();
             terms.iter().sum::<f64>() / terms.len() as f64
         });
-        all.push(RegionNumbers { channels: [channel(0), channel(1), channel(2)], loss });
-        ground_truth.get_or_insert(renderings);
+        all.push(RegionNumbers { rows, is_difference, loss });
+        ground_truth.get_or_insert([renderings, values]);
     }
     all
+}
+
+/// The names of the channels that differ from each other.
+fn channels(quantity: Quantity) -> &'static [&'static str] {
+    match quantity {
+        Quantity::Normal => &["x", "y", "z"],
+        Quantity::Roughness => &["r"],
+        Quantity::Rendering | Quantity::Diffuse | Quantity::Specular => &["R", "G", "B"],
+    }
 }
 
 #[cfg(test)]
@@ -145,12 +173,29 @@ mod tests {
         let part = Region { first: [200, 10], last: [255, 12] };
         let over_seams = Region { first: [250, 240], last: [260, 257] };
         for region in [all, part, over_seams] {
-            let found = numbers(materials.iter(), region, Quantity::Roughness, &scene, &PRINTED);
+            let key = |difference| RegionKey {
+                ids: Vec::new(),
+                region,
+                quantity: Quantity::Roughness,
+                difference,
+                scene,
+                convention: PRINTED.name,
+            };
+            let found = numbers(materials.iter(), &key(None), &PRINTED);
             assert!(found[0].loss.is_none());
             assert!((found[1].loss.unwrap() - of(region)).abs() < 1e-5, "{found:?}, expected {}", of(region));
             let rough: Vec<f32> =
                 region.texels([256; 2]).map(|[c, r]| materials[1].texel(r * 256 + c).roughness).collect();
-            assert_eq!(found[1].channels[0], Statistics::of(&rough));
+            assert_eq!(found[1].rows, [("r", Statistics::of(&rough))]);
+            let signed: Vec<f32> = region
+                .texels([256; 2])
+                .map(|[c, r]| r * 256 + c)
+                .map(|i| materials[1].texel(i).roughness - materials[0].texel(i).roughness)
+                .collect();
+            let found = numbers(materials.iter(), &key(Some(Difference::Signed)), &PRINTED);
+            let [(_, Some(found))] = found[1].rows[..] else { panic!("{found:?}") };
+            let expected = Statistics::of(&signed).unwrap();
+            assert!((found.mean - expected.mean).abs() < 1e-6, "{found:?}, expected {expected:?}");
         }
         assert!((of(all) - of(part)).abs() > 1e-3, "the planted fault differs");
     }

@@ -18,6 +18,13 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
     let materials = &mut model.materials;
     match command {
         MaterialsCommand::Open { paths, replace, read } => open(model, paths, replace, read),
+        MaterialsCommand::AddDropped { paths, read } => {
+            let opens_alone = |path: &PathBuf| scene_file::is_named(path) || Session::is_named(path);
+            if !paths.iter().any(opens_alone) {
+                model.report([Message::Dropped { paths: paths.clone(), read }]);
+            }
+            open(model, paths, false, read)
+        }
         MaterialsCommand::OpenAgain(source) => {
             vec![Effect::Read(ReadRequest::new(vec![*source], Target::Predictions))]
         }

@@ -70,7 +70,7 @@ fn apply_to_loss(model: &mut Model, command: LossCommand) -> Vec<Effect> {
 fn apply_to_window(model: &mut Model, command: WindowCommand) -> Vec<Effect> {
     let effect = match command {
         WindowCommand::ShowOpen(on) => Effect::Dialog(DialogEffect::ShowOpen(on)),
-        WindowCommand::Browse { folder } => Effect::Dialog(DialogEffect::Browse { folder }),
+        WindowCommand::Browse(what) => Effect::Dialog(DialogEffect::Browse(what)),
         WindowCommand::ShowSave(on) => Effect::Dialog(DialogEffect::ShowSave(on.then(SaveKind::default))),
         WindowCommand::SaveScenes => Effect::Dialog(DialogEffect::ShowSave(Some(SaveKind::Scenes))),
         WindowCommand::Save(request) => Effect::Save(request),
@@ -97,7 +97,7 @@ fn change_window(model: &mut Model, command: WindowCommand) {
         WindowCommand::DismissMessage(number) => model.messages.dismiss(number),
         WindowCommand::DismissMessages => model.messages.dismiss_all(),
         WindowCommand::ShowOpen(_)
-        | WindowCommand::Browse { .. }
+        | WindowCommand::Browse(_)
         | WindowCommand::ShowSave(_)
         | WindowCommand::SaveScenes
         | WindowCommand::Save(_)

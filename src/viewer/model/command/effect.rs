@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::scene_file::PhotographLight;
 
+use super::BrowseFor;
 use crate::model::material::request::ReadRequest;
 use crate::model::settings::save_kind::{SaveKind, SaveRequest};
 
@@ -83,7 +84,5 @@ pub enum DialogEffect {
     /// Puts a path into the photograph dialog.
     FillPhotograph(PathBuf),
     /// Asks for files or folders with the dialog of the system.
-    Browse {
-        folder: bool,
-    },
+    Browse(BrowseFor),
 }

@@ -50,6 +50,11 @@ pub enum MaterialsCommand {
         replace: bool,
         read: ReadOptions,
     },
+    /// Opens materials that were dropped as predictions, and offers to compare them with each other.
+    AddDropped {
+        paths: Vec<PathBuf>,
+        read: ReadOptions,
+    },
     /// Opens a prediction that was refused or closed.
     OpenAgain(Box<MaterialSource>),
     /// Lets files name others by absolute paths from now on, and opens these, which were refused for that.
@@ -193,14 +198,21 @@ pub enum LossCommand {
     RemoveFileScenes,
 }
 
+/// What the file dialog of the system is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrowseFor {
+    Files,
+    Folders,
+    /// A file to save.
+    Saving,
+}
+
 /// The window itself and its dialogs.
 #[derive(Clone, Debug, PartialEq)]
 pub enum WindowCommand {
     ShowOpen(bool),
-    /// Asks for files or folders with the system's dialog; the choice goes into the open dialog's path field.
-    Browse {
-        folder: bool,
-    },
+    /// Asks with the system's dialog; the choice goes into the path field of the dialog that is open.
+    Browse(BrowseFor),
     ShowSave(bool),
     /// Shows the dialog that saves the scenes of the loss.
     SaveScenes,

@@ -6,6 +6,8 @@ pub mod region;
 pub use pin::{HEADS, csv, rows};
 pub use region::Region;
 
+use svbrdf_files::session::window::SessionInspection;
+
 /// Most pinned texels.
 const MOST: usize = 12;
 
@@ -26,6 +28,11 @@ impl Inspection {
             self.pins.remove(index);
             return;
         }
+        self.pin(texel);
+    }
+
+    fn pin(&mut self, texel: [usize; 2]) {
+        self.pins.retain(|pin| *pin != texel);
         if self.pins.len() == MOST {
             self.pins.remove(0);
         }
@@ -41,6 +48,24 @@ impl Inspection {
     /// Whether the drawer has something to show.
     pub fn is_empty(&self) -> bool {
         self.pins.is_empty() && self.region.is_none()
+    }
+}
+
+impl From<&Inspection> for SessionInspection {
+    fn from(inspection: &Inspection) -> Self {
+        let rectangle = inspection.region.map(|region| [region.first, region.last]);
+        Self { pins: inspection.pins.clone(), rectangle }
+    }
+}
+
+impl From<&SessionInspection> for Inspection {
+    /// Leaves out what no material has.
+    fn from(saved: &SessionInspection) -> Self {
+        let mut inspection = Self::default();
+        saved.pins.iter().for_each(|pin| inspection.pin(*pin));
+        let is_ordered = |[first, last]: &[[usize; 2]; 2]| (0..2).all(|axis| first[axis] <= last[axis]);
+        inspection.region = saved.rectangle.filter(is_ordered).map(|[first, last]| Region { first, last });
+        inspection
     }
 }
 
@@ -61,5 +86,20 @@ mod tests {
         assert_eq!(inspection.pins, [[8, 9], [9, 9]]);
         inspection.keep_within([10, 9]);
         assert!(inspection.is_empty());
+    }
+
+    #[test]
+    fn what_a_session_holds_comes_back_and_no_number_of_it_breaks_the_window() {
+        let region = Some(Region { first: [2, 3], last: [9, 3] });
+        let inspection = Inspection { pins: vec![[1, 2], [3, 4]], region, is_armed: false };
+        assert_eq!(Inspection::from(&SessionInspection::from(&inspection)), inspection);
+        let rectangles = [[[5, 5], [4, 6]], [[0, 0], [usize::MAX, usize::MAX]], [[usize::MAX; 2]; 2]];
+        for rectangle in rectangles {
+            let pins = (0..40).map(|i| [usize::MAX - i, 0]).collect();
+            let mut found = Inspection::from(&SessionInspection { pins, rectangle: Some(rectangle) });
+            assert_eq!(found.pins.len(), MOST);
+            found.keep_within([256, 256]);
+            assert!(found.is_empty(), "{found:?}");
+        }
     }
 }

@@ -15,7 +15,7 @@ pub struct Region {
 impl Region {
     /// (columns, rows).
     pub fn size(&self) -> [usize; 2] {
-        [0, 1].map(|axis| self.last[axis] - self.first[axis] + 1)
+        [0, 1].map(|axis| (self.last[axis] - self.first[axis]).saturating_add(1))
     }
 
     /// Whether a material of `size` = (width, height) has all of it.

@@ -1,9 +1,11 @@
 //! Loaded material: a material in the window, with its unique name and whether its files still hold it.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use svbrdf_core::material::{Grid, Material};
 use svbrdf_evaluate::report::distinct_names;
+use svbrdf_files::source::Place;
 
 use super::problem::SizeMismatch;
 use super::read::{MaterialId, ReadMaterial};
@@ -20,7 +22,7 @@ pub struct LoadedMaterial {
 
 impl LoadedMaterial {
     pub fn new(read: Arc<ReadMaterial>) -> Self {
-        let name = read.material().name().to_owned();
+        let name = drawable(read.material().name());
         Self { read, problem: None, name }
     }
 
@@ -58,6 +60,28 @@ impl LoadedMaterial {
     }
 }
 
+/// The text with every character written as `\u{...}` for which the fonts of the window have no picture: a name of boxes tells
+/// nothing, and letters from right to left would come in the wrong order.
+pub fn drawable(text: &str) -> String {
+    let has_picture = |c: &char| DRAWN.iter().any(|range| range.contains(c));
+    text.chars()
+        .map(|c| if has_picture(&c) { c.to_string() } else { c.escape_unicode().to_string() })
+        .collect()
+}
+
+/// The characters that the window draws, of names.
+pub const DRAWN: [RangeInclusive<char>; 9] = [
+    ' '..='~',
+    '\u{a1}'..='\u{ac}',
+    '\u{ae}'..='\u{17f}',
+    '\u{391}'..='\u{3a1}',
+    '\u{3a3}'..='\u{3ce}',
+    '\u{400}'..='\u{45f}',
+    '\u{2013}'..='\u{2015}',
+    '\u{2018}'..='\u{201a}',
+    '\u{2026}'..='\u{2026}',
+];
+
 /// The ids of materials, in their order: what results of them depend on.
 pub fn ids(materials: &[LoadedMaterial]) -> Vec<MaterialId> {
     materials.iter().map(LoadedMaterial::id).collect()
@@ -67,19 +91,27 @@ pub fn ids(materials: &[LoadedMaterial]) -> Vec<MaterialId> {
 pub fn rename(materials: &mut [LoadedMaterial]) {
     let named: Vec<_> = materials.iter().map(|one| (one.material().name(), one.read.path())).collect();
     let names = distinct_names(&named);
-    materials.iter_mut().zip(names).for_each(|(material, name)| material.name = name);
+    materials.iter_mut().zip(names).for_each(|(material, name)| material.name = drawable(&name));
 }
 
 /// The two sizes, where `prediction` has another size than the ground truth.
 pub fn mismatch(ground_truth: &LoadedMaterial, prediction: &ReadMaterial) -> Option<SizeMismatch> {
     let [gt, material] = [ground_truth.material(), prediction.material()];
     (gt.size() != material.size()).then(|| SizeMismatch {
-        prediction: material.name().to_owned(),
+        prediction: named(prediction),
         prediction_size: material.size(),
         ground_truth: gt.name().to_owned(),
         ground_truth_size: gt.size(),
         source: prediction.reopened(),
     })
+}
+
+/// The name of a material that is not in the window, and where it is: several may have one name.
+fn named(read: &ReadMaterial) -> String {
+    match &read.source.place {
+        Place::Path(path) => format!("{} ({})", read.material().name(), path.display()),
+        Place::BuiltIn(_) => read.material().name().to_owned(),
+    }
 }
 
 #[cfg(test)]

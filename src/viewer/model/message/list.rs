@@ -4,8 +4,9 @@ use std::path::Path;
 
 use super::{Message, Severity};
 
-/// How long a success is shown, in seconds.
+/// How long a success and an offer are shown, in seconds.
 const MOMENT: f64 = 6.0;
+const OFFER: f64 = 20.0;
 
 /// A message, and the time at which it disappears.
 #[derive(Debug)]
@@ -24,8 +25,13 @@ impl MessageList {
     /// Adds a message at this time; a repeated one moves to the end.
     pub fn add(&mut self, message: Message, now: f64) {
         let text = message.to_string();
-        self.posted.retain(|earlier| earlier.message.to_string() != text);
-        let until = (message.severity() == Severity::Success).then_some(now + MOMENT);
+        let is_same = |earlier: &Message| earlier.path() == message.path() && earlier.to_string() == text;
+        self.posted.retain(|earlier| !is_same(&earlier.message));
+        let until = match message.severity() {
+            Severity::Success => Some(now + MOMENT),
+            Severity::Offer => Some(now + OFFER),
+            Severity::Warning | Severity::Error => None,
+        };
         self.posted.push(Posted { message, until });
     }
 
@@ -33,15 +39,17 @@ impl MessageList {
         self.posted.iter().map(|posted| &posted.message)
     }
 
-    /// The messages that stay until they are dismissed, each with its number.
+    /// The messages that can be dismissed, each with its number.
     pub fn lasting(&self) -> impl DoubleEndedIterator<Item = (usize, &Message)> {
         let all = self.posted.iter().enumerate();
-        all.filter(|(_, posted)| posted.until.is_none()).map(|(i, posted)| (i, &posted.message))
+        all.filter(|(_, posted)| posted.message.severity() != Severity::Success)
+            .map(|(i, posted)| (i, &posted.message))
     }
 
-    /// The latest of the messages that disappear by themselves.
+    /// The latest success.
     pub fn passing(&self) -> Option<&Message> {
-        self.posted.iter().rev().find(|posted| posted.until.is_some()).map(|posted| &posted.message)
+        let is_success = |posted: &&Posted| posted.message.severity() == Severity::Success;
+        self.posted.iter().rev().find(is_success).map(|posted| &posted.message)
     }
 
     /// Removes what has been shown for long enough; the seconds until the next one disappears.

@@ -18,6 +18,8 @@ use svbrdf_files::source::MaterialSource;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     Success,
+    /// A success that something can be done about.
+    Offer,
     Warning,
     Error,
 }
@@ -34,6 +36,11 @@ pub enum Message {
     /// The loss is over the n scenes of the file of this name.
     ScenesOpened(String, usize),
     NotPasted(PasteProblem),
+    /// These were dropped on a window with materials, and are opened as predictions.
+    Dropped {
+        paths: Vec<PathBuf>,
+        read: ReadOptions,
+    },
     /// There is no session of materials from files.
     NothingToReopen,
     Failed(Error),
@@ -69,6 +76,7 @@ impl Message {
     pub fn severity(&self) -> Severity {
         match self {
             Self::Saved(_) | Self::Copied(_) | Self::ScenesOpened(..) => Severity::Success,
+            Self::Dropped { .. } => Severity::Offer,
             Self::Material(MaterialProblem::Closed(_))
             | Self::OutOfRange(_)
             | Self::SettingsDamaged(_)
@@ -85,6 +93,10 @@ impl Message {
             Self::Material(MaterialProblem::Refused(sizes) | MaterialProblem::Closed(sizes)) => {
                 let source = MaterialSource { fit: true, ..sizes.source.clone() };
                 Some(("Fit and open", MaterialsCommand::OpenAgain(Box::new(source)).into()))
+            }
+            Self::Dropped { paths, read } => {
+                let (paths, read) = (paths.clone(), *read);
+                Some(("New comparison", MaterialsCommand::Open { paths, replace: true, read }.into()))
             }
             Self::Material(MaterialProblem::NotRead { source, error, .. }) => {
                 error.names_outside()?;
@@ -132,6 +144,14 @@ impl fmt::Display for Message {
             Self::NotPasted(PasteProblem::Unusable(problem)) => {
                 write!(f, "Not pasted: the scene cannot be rendered, {problem}.")
             }
+            Self::Dropped { paths, .. } => match &paths[..] {
+                [_] => f.write_str("What was dropped is added as a prediction. Or look at it alone:"),
+                all => write!(
+                    f,
+                    "The {} that were dropped are added as predictions. Or compare them with each other, the first as ground truth:",
+                    all.len()
+                ),
+            },
             Self::NothingToReopen => f.write_str(
                 "Nothing to reopen: no materials from files have been open yet. Open some with Ctrl+O.",
             ),

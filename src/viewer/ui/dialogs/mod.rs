@@ -55,7 +55,8 @@ impl Dialogs {
         commands
     }
 
-    /// Takes over what was chosen in the dialog of the system: the photograph dialog where it is open, otherwise the open dialog.
+    /// Takes over what was chosen in the dialog of the system: the photograph or the save dialog where it is open, otherwise the
+    /// open dialog.
     pub fn browsed(&mut self, result: Result<Browsed, Error>) {
         let chosen = match result {
             Ok(Browsed::Chosen(paths)) => Ok(paths),
@@ -63,6 +64,12 @@ impl Dialogs {
             Ok(Browsed::Unavailable) => Err(NO_DIALOG.to_owned()),
             Err(error) => Err(error.to_string()),
         };
+        if let Some(dialog) = &mut self.save {
+            return match chosen {
+                Ok(paths) => paths.first().into_iter().for_each(|path| dialog.fill(path)),
+                Err(problem) => dialog.fail(problem),
+            };
+        }
         match (&mut self.photograph, chosen) {
             (Some(dialog), Ok(paths)) => paths.first().into_iter().for_each(|path| dialog.fill(path)),
             (Some(dialog), Err(problem)) => dialog.fail(problem),

@@ -8,7 +8,7 @@ use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
 use super::path_field::{PathField, dialog};
-use crate::model::command::{Command, MaterialsCommand, WindowCommand};
+use crate::model::command::{BrowseFor, Command, MaterialsCommand, WindowCommand};
 use crate::model::material::source::file_name;
 use crate::ui::widgets::read_options::read_options;
 
@@ -68,6 +68,7 @@ impl OpenDialog {
                 .show(ui, |ui| recent_comparisons(ui, recent, &mut commands));
             ui.separator();
             self.choices(ui, entered, &mut commands);
+            self.field.problem(ui);
         });
         if !open {
             commands.push(WindowCommand::ShowOpen(false).into());
@@ -92,21 +93,20 @@ impl OpenDialog {
         let entered =
             field.has_focus() && ui.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Enter));
         field.on_hover_text("Return opens them; Shift + Return begins a new line");
-        self.field.problem(ui);
         ui.horizontal(|ui| {
             if ui
                 .button("Browse files...")
                 .on_hover_text("Adds files with the file dialog of the system")
                 .clicked()
             {
-                commands.push(WindowCommand::Browse { folder: false }.into());
+                commands.push(WindowCommand::Browse(BrowseFor::Files).into());
             }
             if ui
                 .button("Browse folders...")
                 .on_hover_text("Adds folders, each with the maps of one material")
                 .clicked()
             {
-                commands.push(WindowCommand::Browse { folder: true }.into());
+                commands.push(WindowCommand::Browse(BrowseFor::Folders).into());
             }
         });
         entered

@@ -30,9 +30,13 @@ impl PathField {
         if !std::mem::replace(&mut self.focused, true) {
             field.request_focus();
         }
+        if field.changed() {
+            self.problem = None;
+        }
         field
     }
 
+    /// What went wrong, at the end of the dialog: nothing moves where it comes and goes.
     pub fn problem(&self, ui: &mut egui::Ui) {
         if let Some(problem) = &self.problem {
             ui.label(RichText::new(problem).color(theme::problem(ui.visuals())));

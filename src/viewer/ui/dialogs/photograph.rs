@@ -8,7 +8,7 @@ use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::scene_file::PhotographLight;
 
 use super::path_field::{PathField, dialog};
-use crate::model::command::{Command, PhotographCommand, WindowCommand};
+use crate::model::command::{BrowseFor, Command, PhotographCommand, WindowCommand};
 use crate::ui::widgets::number;
 
 /// The choices so far.
@@ -72,13 +72,12 @@ impl PhotographDialog {
             "Photograph: PNG, JPEG, EXR or another picture format; or the folder of a capture, which has its own lights",
             field,
         );
-        self.field.problem(ui);
         if ui
             .button("Browse...")
             .on_hover_text("Chooses a photograph with the file dialog of the system")
             .clicked()
         {
-            commands.push(WindowCommand::Browse { folder: false }.into());
+            commands.push(WindowCommand::Browse(BrowseFor::Files).into());
         }
         ui.separator();
         ui.label("Light and view of the photograph");
@@ -98,6 +97,7 @@ impl PhotographDialog {
             self.field.clear();
             commands.push(PhotographCommand::Open { photograph, light: self.chosen() }.into());
         }
+        self.field.problem(ui);
     }
 
     fn light(&mut self, ui: &mut egui::Ui) {

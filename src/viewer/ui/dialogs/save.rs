@@ -1,12 +1,12 @@
 //! Dialog that saves the view, the renderings, a strip, a report, the session or the scenes of the loss.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use eframe::egui::{self, RichText};
 
 use super::path_field::{PathField, dialog};
 use crate::jobs::work::job::Job;
-use crate::model::command::{Command, WindowCommand};
+use crate::model::command::{BrowseFor, Command, WindowCommand};
 use crate::model::settings::save_kind::{SaveKind, SaveRequest};
 use crate::ui::widgets::number;
 use crate::ui::widgets::theme;
@@ -70,6 +70,19 @@ impl SaveDialog {
         self.choice(ui);
         let field = self.field.ui(ui, "To file:", egui::TextEdit::singleline(&mut self.path));
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+        ui.horizontal(|ui| {
+            if ui
+                .button("Browse...")
+                .on_hover_text("Chooses the file with the dialog of the system")
+                .clicked()
+            {
+                commands.push(WindowCommand::Browse(BrowseFor::Saving).into());
+            }
+            let folder = std::path::absolute(self.path.trim()).ok();
+            let folder = folder.as_deref().and_then(Path::parent).map(|folder| folder.display().to_string());
+            let folder = folder.map(|folder| format!("in {folder}")).unwrap_or_default();
+            ui.add(egui::Label::new(RichText::new(&folder).small().weak()).truncate()).on_hover_text(folder);
+        });
         ui.label(RichText::new(self.what.explanation()).small().weak());
         if self.what == SaveKind::View {
             self.sizes(ui, view_size);
@@ -77,21 +90,30 @@ impl SaveDialog {
                 .on_hover_text("The sun and the eye, which mark light and view");
         }
         let replaces = self.replaces.as_deref() == Some(self.path.trim());
-        if replaces {
-            ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
-        }
-        self.field.problem(ui);
         if let Some(job) = saving {
             progress(ui, job, commands);
-            return;
+        } else {
+            ui.horizontal(|ui| {
+                let button = ui.button(if replaces { "Replace it" } else { "Save file" });
+                if std::mem::take(&mut self.focus_button) {
+                    button.request_focus();
+                }
+                if button.on_hover_text("Return in the field").clicked() || entered {
+                    self.save(commands);
+                }
+                if replaces {
+                    ui.colored_label(theme::problem(ui.visuals()), "This file exists.");
+                }
+            });
         }
-        let button = ui.button(if replaces { "Replace it" } else { "Save file" });
-        if std::mem::take(&mut self.focus_button) {
-            button.request_focus();
-        }
-        if button.on_hover_text("Return in the field").clicked() || entered {
-            self.save(commands);
-        }
+        self.field.problem(ui);
+    }
+
+    /// Puts a path into the field. That a file exists, the dialog of the system has asked.
+    pub fn fill(&mut self, path: &Path) {
+        self.path = path.display().to_string();
+        self.replaces = Some(self.path.clone()).filter(|_| path.exists());
+        self.field.clear();
     }
 
     /// What is saved; a name that was proposed follows.

@@ -77,18 +77,22 @@ fn split(groups: &[(&str, Vec<HelpLine>)], columns: usize) -> usize {
     if columns == 1 { groups.len() } else { (1..=groups.len()).min_by_key(longer).unwrap_or(0) }
 }
 
+/// A group, each line laid out by itself: a grid measures its rows for a frame, in which keys stand beside effects of others.
 fn group(ui: &mut egui::Ui, name: &str, lines: &[HelpLine]) {
     ui.strong(name);
-    egui::Grid::new(name).num_columns(2).striped(true).show(ui, |ui| {
-        for (key, effect) in lines {
-            ui.scope(|ui| {
-                ui.set_width(KEYS);
-                ui.add(egui::Label::new(RichText::new(*key).monospace().size(11.5)).wrap());
+    for (number, (key, effect)) in lines.iter().enumerate() {
+        let fill = if number % 2 == 1 { ui.visuals().faint_bg_color } else { egui::Color32::TRANSPARENT };
+        egui::Frame::NONE.fill(fill).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                let key = egui::Label::new(RichText::new(*key).monospace().size(11.5)).wrap();
+                ui.allocate_ui(egui::vec2(KEYS, 0.0), |ui| {
+                    ui.set_width(KEYS);
+                    ui.add(key);
+                });
+                ui.add(egui::Label::new(*effect).wrap());
             });
-            ui.add(egui::Label::new(*effect).wrap());
-            ui.end_row();
-        }
-    });
+        });
+    }
     ui.add_space(8.0);
 }
 

@@ -86,6 +86,9 @@ fn dropped(ctx: &egui::Context, displayed: Displayed<'_>, dialogs: &Dialogs) -> 
     let replace = displayed.model.materials.only_built_in();
     let is_empty = paths.is_empty();
     let read = displayed.model.materials.read_of_added();
-    let open = MaterialsCommand::Open { paths, replace, read };
+    let open = match replace {
+        true => MaterialsCommand::Open { paths, replace, read },
+        false => MaterialsCommand::AddDropped { paths, read },
+    };
     (!is_empty).then(|| open.into())
 }

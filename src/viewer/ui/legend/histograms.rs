@@ -7,7 +7,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::panes::histograms::{Channel, Values};
 use crate::model::material::loaded::LoadedMaterial;
-use crate::ui::legend::strip::{beyond, outline};
+use crate::ui::legend::strip::{axes, beyond, outline};
 use crate::ui::widgets::bounds::inset;
 use crate::ui::widgets::numbers::digits;
 use crate::ui::widgets::theme;
@@ -49,7 +49,7 @@ impl<'a> ValueStrip<'a> {
         }
         let letters: &[&str] = match self.quantity {
             Quantity::Normal => &["x", "y", "z"],
-            Quantity::Roughness => &["roughness"],
+            Quantity::Roughness => &[""],
             _ => &["red", "green", "blue"],
         };
         let width = (ui.available_width() - 16.0) / values.len() as f32 - 8.0;
@@ -81,8 +81,9 @@ impl<'a> ValueStrip<'a> {
             let font = FontId::monospace(11.0);
             let (low, high) = (digits(first.histogram.low), digits(first.histogram.high));
             painter.text(area.left_bottom(), Align2::LEFT_TOP, low, font.clone(), ink);
-            painter.text(area.center_bottom(), Align2::CENTER_TOP, letter, font.clone(), ink);
             painter.text(area.right_bottom(), Align2::RIGHT_TOP, high, font, ink);
+            let what = axes(format!("{} {letter}", self.quantity.name()).trim());
+            painter.text(area.center_bottom(), Align2::CENTER_TOP, what, FontId::proportional(11.0), ink);
         }
         response.on_hover_ui(|ui| self.numbers(ui, letter, channel));
     }

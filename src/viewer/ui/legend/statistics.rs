@@ -9,7 +9,7 @@ use svbrdf_core::picture::statistics::{Histogram, Statistics};
 use crate::jobs::panes::error_map::ErrorMapSummary;
 use crate::ui::legend::strip::{BAR, HISTOGRAM, LegendStrip, STATISTICS};
 use crate::ui::widgets::names::{FEWEST, Names, fitted};
-use crate::ui::widgets::numbers::digits;
+use crate::ui::widgets::numbers::{aligned, digits};
 use crate::ui::widgets::theme;
 
 /// Width of a name, in points.
@@ -20,9 +20,6 @@ impl LegendStrip<'_> {
     pub fn statistics(&self, ui: &mut egui::Ui) {
         let Some(distributions) = self.distributions else {
             match &self.error_map {
-                _ if !ui.is_enabled() => {
-                    ui.weak("Difference (D) has this scale");
-                }
                 Some(ErrorMapSummary { progress: Some(fraction), scenes }) => {
                     let text = format!("{:.0}% of {scenes} scenes", 100.0 * fraction);
                     ui.add(egui::ProgressBar::new(*fraction).text(text).desired_width(STATISTICS * 0.6));
@@ -62,8 +59,16 @@ impl LegendStrip<'_> {
                     ui.label(RichText::new(head).small().weak()).on_hover_text(hover);
                 }
                 ui.end_row();
+                let columns = columns(&distributions.statistics);
                 for (index, statistics) in distributions.statistics.iter().enumerate() {
-                    self.row(ui, index, &short, statistics.as_ref(), distributions.histograms.get(index));
+                    let numbers = columns.each_ref().map(|column| column[index].as_str());
+                    self.row(
+                        ui,
+                        index,
+                        &short,
+                        (statistics.as_ref(), numbers),
+                        distributions.histograms.get(index),
+                    );
                     ui.end_row();
                 }
             });
@@ -83,7 +88,7 @@ impl LegendStrip<'_> {
         ui: &mut egui::Ui,
         index: usize,
         names: &Names<'_>,
-        statistics: Option<&Statistics>,
+        (statistics, numbers): (Option<&Statistics>, [&str; 4]),
         histogram: Option<&Histogram>,
     ) {
         let colour = theme::series(self.series(index), ui.visuals().dark_mode);
@@ -98,7 +103,7 @@ impl LegendStrip<'_> {
             ui.set_max_width(NAME);
             ui.add(egui::Label::new(text).truncate())
         });
-        let Some(Statistics { mean, minimum, median, p95, maximum, not_finite }) = statistics else {
+        let Some(Statistics { minimum, not_finite, .. }) = statistics else {
             ui.label("not finite");
             return;
         };
@@ -107,8 +112,16 @@ impl LegendStrip<'_> {
             "{name}\nminimum {}; {beyond} texels beyond the axis, {not_finite} not finite",
             digits(*minimum)
         ));
-        for value in [mean, median, p95, maximum] {
-            ui.label(RichText::new(digits(*value)).monospace());
+        for number in numbers {
+            ui.label(RichText::new(number).monospace());
         }
     }
+}
+
+/// Mean, median, 95th percentile and maximum of every row, as texts of one width in each column.
+fn columns(rows: &[Option<Statistics>]) -> [Vec<String>; 4] {
+    let values: [fn(&Statistics) -> f64; 4] = [|s| s.mean, |s| s.median, |s| s.p95, |s| s.maximum];
+    values.map(|value| {
+        aligned(&rows.iter().map(|row| row.as_ref().map_or(f64::NAN, value)).collect::<Vec<f64>>())
+    })
 }

@@ -149,11 +149,14 @@ impl<'a> LegendStrip<'a> {
                 }
             }
         });
-        let unit = match &self.error_map {
+        ui.label(RichText::new(self.unit()).small().weak());
+    }
+
+    fn unit(&self) -> String {
+        match &self.error_map {
             Some(summary) => format!("mean {} of {} scenes", self.kind.unit(), summary.scenes),
             None => self.kind.unit().to_owned(),
-        };
-        ui.label(RichText::new(unit).small().weak());
+        }
     }
 
     /// The low and high end of the axis.
@@ -196,6 +199,9 @@ impl<'a> LegendStrip<'a> {
             painter.circle_filled(pos2(at, bar.center().y), 4.5, ink);
         }
         self.paint_numbers(&painter, area, [low, high], ink);
+        let weak = ui.visuals().weak_text_color();
+        let at = area.right_top() + vec2(-3.0, 1.0);
+        painter.text(at, Align2::RIGHT_TOP, axes(&self.unit()), FontId::proportional(11.0), weak);
         let value = |pos: Pos2| low + f64::from((pos.x - area.left()) / area.width()) * (high - low);
         self.dragged(&response, value)
     }
@@ -220,6 +226,11 @@ impl<'a> LegendStrip<'a> {
             painter.text(at, align, format!("{}{unit}", digits(value)), FontId::monospace(11.0), ink);
         }
     }
+}
+
+/// What the axes of a histogram are: counts, upwards, of the texels by the quantity.
+pub fn axes(quantity: &str) -> String {
+    format!("texels (log) by {quantity}")
 }
 
 /// The logarithms of the counts as a line over `area`. A single texel leaves a mark that is seen.

@@ -52,6 +52,10 @@ impl<'a> StudyWindow<'a> {
                         ui.label(
                             "Computing the reference: the loss over many more scenes than any setting samples.",
                         );
+                        if let Some(job) = self.job.job() {
+                            let text = format!("{:.0}%, {:.0} s", 100.0 * job.fraction(), job.elapsed().as_secs_f32());
+                            ui.add(egui::ProgressBar::new(job.fraction()).text(text));
+                        }
                         ui.allocate_space(ui.available_size());
                     }
                 }

@@ -11,6 +11,7 @@ use crate::jobs::reading::opening::Openings;
 use crate::model::command::{Command, MaterialsCommand};
 use crate::model::material::list::MaterialList;
 use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::loaded::drawable;
 use crate::ui::widgets::read_options::read_options;
 use crate::ui::widgets::remedy::{is_offered, remedy_button};
 use crate::ui::widgets::theme;
@@ -169,7 +170,7 @@ fn section(
     ui.add(egui::Label::new(RichText::new(material.name()).strong()).truncate());
     let location = match place {
         Place::BuiltIn(_) => "built in".to_owned(),
-        Place::Path(path) => path.display().to_string(),
+        Place::Path(path) => drawable(&path.display().to_string()),
     };
     ui.add(
         egui::Label::new(RichText::new(format!("{width} x {height}, {location}")).small().weak()).truncate(),

@@ -12,19 +12,22 @@ const GAP: f32 = 6.0;
 /// How many times smaller panes may be where a place stays free beside them: it shows the difference, too.
 const FREE: f32 = 1.1;
 
-/// Splits `area` into `count` cells. All have the same size in whole pixels (`scale` pixels per point): only then are
-/// equal pictures equal pixel by pixel. The number of columns is that which shows the material largest,
-/// or nearly so with a place that stays free.
-pub fn cells(area: Rect, count: usize, grid: Grid, scale: f32) -> Vec<Rect> {
-    let whole = |v: Vec2| (v * scale).floor() / scale;
-    let area = Rect::from_min_max(((area.min.to_vec2() * scale).ceil() / scale).to_pos2(), area.max);
+/// The number of columns of `count` cells that shows the material largest in `area`, or nearly so with a place that stays free.
+pub fn columns(area: Rect, count: usize, grid: Grid) -> usize {
     let [half_width, half_height] = grid.half_extent();
     let size = |columns: usize| {
         let cell = cell_size(area.size(), columns, count.div_ceil(columns));
         (cell.x / half_width).min((cell.y - TITLE) / half_height)
     };
     let worth = |columns: usize| size(columns) * if has_free_place(columns, count) { FREE } else { 1.0 };
-    let columns = (1..=count.max(1)).max_by(|a, b| worth(*a).total_cmp(&worth(*b))).unwrap_or(1);
+    (1..=count.max(1)).max_by(|a, b| worth(*a).total_cmp(&worth(*b))).unwrap_or(1)
+}
+
+/// Splits `area` into `count` cells. All have the same size in whole pixels (`scale` pixels per point): only then are
+/// equal pictures equal pixel by pixel.
+pub fn cells(area: Rect, count: usize, columns: usize, scale: f32) -> Vec<Rect> {
+    let whole = |v: Vec2| (v * scale).floor() / scale;
+    let area = Rect::from_min_max(((area.min.to_vec2() * scale).ceil() / scale).to_pos2(), area.max);
     let cell = whole(cell_size(area.size(), columns, count.div_ceil(columns)));
     let step = cell + whole(Vec2::splat(GAP));
     (0..count)
@@ -69,6 +72,10 @@ pub fn picture_rect(ui: &egui::Ui, cell: Rect) -> Rect {
 mod tests {
     use super::*;
 
+    fn arranged(area: Rect, count: usize, scale: f32) -> Vec<Rect> {
+        cells(area, count, columns(area, count, SQUARE), scale)
+    }
+
     const SQUARE: Grid = Grid { width: 256, height: 256 };
 
     fn area(width: f32, height: f32) -> Rect {
@@ -81,7 +88,7 @@ mod tests {
             [(1, (800.0, 600.0)), (3, (1000.0, 300.0)), (5, (700.0, 900.0)), (9, (640.0, 480.0))]
         {
             let area = area(size.0, size.1);
-            let cells = cells(area, count, SQUARE, 1.5);
+            let cells = arranged(area, count, 1.5);
             let off = |cell: &Rect| (cell.size() - cells[0].size()).length();
             assert!(cells.iter().all(|cell| off(cell) < 1e-3), "{cells:?}");
             let pixels = cells.iter().flat_map(|cell| [cell.min, cell.max]).map(|p| p.to_vec2() * 1.5);
@@ -97,21 +104,21 @@ mod tests {
     #[test]
     fn a_grid_of_three_has_a_free_cell_and_a_row_has_none() {
         let square = area(900.0, 900.0);
-        let three = cells(square, 3, SQUARE, 1.0);
+        let three = arranged(square, 3, 1.0);
         let free = free_cell(square, &three).unwrap();
         assert!(
             three.iter().all(|cell| !cell.shrink(0.1).intersects(free.shrink(0.1))),
             "{three:?}, {free:?}"
         );
         assert_eq!((free.left(), free.top()), (three[1].left(), three[2].top()));
-        assert_eq!(free_cell(square, &cells(square, 4, SQUARE, 1.0)), None);
+        assert_eq!(free_cell(square, &arranged(square, 4, 1.0)), None);
         let wide = area(1200.0, 400.0);
-        assert_eq!(free_cell(wide, &cells(wide, 3, SQUARE, 1.0)), None);
+        assert_eq!(free_cell(wide, &arranged(wide, 3, 1.0)), None);
     }
 
     #[test]
     fn a_wide_area_has_its_panes_in_a_row_and_a_high_one_in_a_column() {
-        assert!(cells(area(1200.0, 400.0), 3, SQUARE, 1.0).iter().all(|c| c.top() == 20.0));
-        assert!(cells(area(300.0, 1200.0), 3, SQUARE, 1.0).iter().all(|c| c.left() == 10.0));
+        assert!(arranged(area(1200.0, 400.0), 3, 1.0).iter().all(|c| c.top() == 20.0));
+        assert!(arranged(area(300.0, 1200.0), 3, 1.0).iter().all(|c| c.left() == 10.0));
     }
 }

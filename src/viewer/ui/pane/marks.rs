@@ -5,6 +5,7 @@ use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, pos2, 
 use crate::model::inspection::{Inspection, Region};
 use crate::model::view::texel_plane::{CellRect, Seen};
 use crate::ui::pane::placed::Placed;
+use crate::ui::widgets::readout::in_width;
 
 /// Side of a texel, in points, from which on its numbers are drawn on it.
 pub const READABLE: f32 = 48.0;
@@ -55,8 +56,9 @@ impl Placed {
             (first[1]..=last[1]).flat_map(|row| (first[0]..=last[0]).map(move |column| [column, row]));
         for cell in cells {
             let Some(at) = self.pos(CellRect::of_cell(cell).centre()) else { continue };
-            let text: Vec<String> = numbers(self.texels.seen_in(cell)).iter().map(|v| short(*v)).collect();
-            let galley = painter.layout_no_wrap(text.join("\n"), FontId::monospace(10.5), BRIGHT);
+            let text: Vec<String> =
+                numbers(self.texels.seen_in(cell)).iter().map(|v| in_width(*v, 6, 3)).collect();
+            let galley = painter.layout_no_wrap(text.join("\n"), FontId::monospace(11.0), BRIGHT);
             let place = Align2::CENTER_CENTER.anchor_size(at, galley.size());
             painter.rect_filled(place.expand(1.5), 2.0, Color32::from_black_alpha(150));
             painter.galley(pos2(place.left(), place.top()), galley, BRIGHT);
@@ -80,15 +82,5 @@ fn paint_pin(painter: &Painter, at: Pos2, number: usize) {
     for (offset, colour) in [(vec2(1.0, 1.0), DARK), (vec2(0.0, 0.0), PIN)] {
         let text = number.to_string();
         painter.text(place + offset, Align2::LEFT_BOTTOM, text, FontId::proportional(12.0), colour);
-    }
-}
-
-/// A number in at most 6 characters, for the side of a texel.
-fn short(value: f64) -> String {
-    match value.abs() {
-        v if v < 10.0 => format!("{value:.3}"),
-        v if v < 100.0 => format!("{value:.2}"),
-        v if v < 1e5 => format!("{value:.0}"),
-        _ => format!("{value:.0e}"),
     }
 }

@@ -8,7 +8,7 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams, Tiling};
 
-use super::cells::{TITLE, cells, free_cell, picture_rect};
+use super::cells::{TITLE, cells, columns, free_cell, picture_rect};
 use super::gestures::{self, Gesture, PaneTarget};
 use super::handles;
 use super::hovered::Hovered;
@@ -37,6 +37,9 @@ const STEEP: f64 = 0.999;
 /// Side of a pane below which handles would cover its picture, in points: they are shown under the pointer.
 const HANDLES: f32 = 120.0;
 
+/// Height of the strip below the panes, in points.
+pub const STRIP: f32 = 92.0;
+
 /// What panes are drawn with.
 #[derive(Debug)]
 pub struct PaneTools<'a> {
@@ -63,8 +66,10 @@ pub struct Viewport {
     is_draft: bool,
     /// Whether everything is shaded in full at once, for pictures that are saved.
     is_exact: bool,
-    /// Whether the difference or the value of the chosen prediction fills an empty place.
+    /// Whether the difference or the value of the chosen prediction fills an empty place, where there is a strip below the panes.
     pub has_extra: bool,
+    /// Whether there is a strip below the panes.
+    pub has_strip: bool,
     /// Where the panes are.
     pub area: Rect,
     /// Size of a pane in physical pixels.
@@ -83,6 +88,7 @@ impl Default for Viewport {
             is_draft: false,
             is_exact: false,
             has_extra: false,
+            has_strip: false,
             area: Rect::ZERO,
             pane_pixels: Vec2::ZERO,
         }
@@ -97,9 +103,9 @@ struct DrawnPane {
 }
 
 impl Viewport {
-    /// Panes that are shaded in full before they are drawn.
-    pub fn exact() -> Self {
-        Self { is_exact: true, ..Self::default() }
+    /// Panes like these that are shaded in full before they are drawn.
+    pub fn exact(&self) -> Self {
+        Self { is_exact: true, has_extra: self.has_extra, ..Self::default() }
     }
 
     /// The commands of the mouse in the panes, as the last frame has drawn them.
@@ -143,7 +149,10 @@ impl Viewport {
         let contents = scenery.contents();
         let grid = scenery.materials[0].grid();
         self.plane = scenery.lights_plane().then(|| scenery.state.texels(grid));
-        let cells = cells(area, contents.len(), grid, ui.pixels_per_point());
+        // The strip comes and goes with the difference: the arrangement, and whether a place is free, are those beside it.
+        let beside_strip = if self.has_strip { area } else { area.with_max_y(area.bottom() - STRIP) };
+        let columns = columns(beside_strip, contents.len(), grid);
+        let cells = cells(area, contents.len(), columns, ui.pixels_per_point());
         if let Some(cell) = cells.first() {
             let pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
             if pixels != self.pane_pixels {
@@ -156,11 +165,13 @@ impl Viewport {
             note(ui, area, &problem);
             return Vec::new();
         }
-        let free = free_cell(area, &cells);
-        let mut panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
-        let extra = scenery.extra().zip(free);
+        let extra = scenery.extra().zip(free_cell(area, &cells));
         self.has_extra = extra.is_some();
-        panes.extend(extra);
+        if self.has_extra && !self.has_strip {
+            ui.ctx().request_repaint();
+        }
+        let mut panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
+        panes.extend(extra.filter(|_| self.has_strip));
         let mut on_material = panes.iter().filter(|(content, _)| scenery.corner_editor(*content).is_none());
         self.hovered = on_material.find_map(|(content, cell)| {
             let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());

@@ -4,24 +4,49 @@ use egui_material_icons::icons;
 
 use crate::model::command::{Command, DisplayCommand, WindowCommand};
 
-/// How much room the bar has: what does not fit into one line is in the menu.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Room {
-    Little,
-    Some,
-    Full,
+/// What of the bar has room in its line. The rest is in the menu.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Room {
+    pub exposure: bool,
+    pub items: Vec<BarItem>,
 }
 
 impl Room {
-    /// Of a bar of this width, in points.
-    pub fn of(width: f32) -> Self {
-        match width {
-            1130.0.. => Self::Full,
-            860.0.. => Self::Some,
-            _ => Self::Little,
+    /// The parts that fit into `width`, the most needed ones first; each needs what `width_of` says, `None` being the exposure.
+    pub fn new(mut width: f32, width_of: impl Fn(Option<BarItem>) -> f32) -> Self {
+        let mut room = Self { exposure: false, items: Vec::new() };
+        for part in NEEDED {
+            width -= width_of(part);
+            match part {
+                _ if width < 0.0 => break,
+                Some(item) => room.items.push(item),
+                None => room.exposure = true,
+            }
         }
+        room
+    }
+
+    pub fn has(&self, item: BarItem) -> bool {
+        self.items.contains(&item)
     }
 }
+
+/// The parts of the bar that may be in the menu, the most needed one first; `None` is the exposure.
+const NEEDED: [Option<BarItem>; 13] = [
+    Some(BarItem::Perspective),
+    None,
+    Some(BarItem::Fit),
+    Some(BarItem::Reset),
+    Some(BarItem::Swap),
+    Some(BarItem::Tile),
+    Some(BarItem::Undo),
+    Some(BarItem::Redo),
+    Some(BarItem::Histogram),
+    Some(BarItem::OneToOne),
+    Some(BarItem::Clip),
+    Some(BarItem::FalseColour),
+    Some(BarItem::Copy),
+];
 
 /// A button that is in the bar where there is room, and in the menu otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,15 +80,6 @@ impl BarItem {
         Self::Undo,
         Self::Redo,
     ];
-
-    /// The least room in which it is in the bar.
-    pub fn needs(self) -> Room {
-        match self {
-            Self::Perspective => Room::Little,
-            Self::Swap | Self::Fit | Self::Reset => Room::Some,
-            _ => Room::Full,
-        }
-    }
 
     /// A letter of the icon font, or a short text.
     pub fn icon(self) -> &'static str {

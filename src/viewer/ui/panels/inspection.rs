@@ -1,10 +1,9 @@
-//! Drawer below the panes: every number of the pinned texels, and the statistics of the rectangle.
+//! Drawer below the panes, with a handle between: every number of the pinned texels, and the statistics of the rectangle.
 
 use std::ops::Range;
 
 use eframe::egui::{self, FontId, RichText, TextStyle};
 
-use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Statistics;
 
 use crate::jobs::displayed::Displayed;
@@ -13,14 +12,18 @@ use crate::model::command::{Command, InspectionCommand};
 use crate::model::inspection::{self, HEADS, Inspection, Region};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::ViewState;
+use crate::ui::widgets::bare;
 use crate::ui::widgets::readout::{fixed, in_width};
 use crate::ui::widgets::theme;
 
 /// Width of a name, and between columns, in points.
 const NAME: f32 = 110.0;
 const SPACING: f32 = 8.0;
-/// Between the edge of the drawer and its contents, in points.
-const MARGIN: f32 = 8.0;
+/// Least height of the drawer, and of what is left to the panes, in points.
+const LEAST: f32 = 48.0;
+const PANES: f32 = 140.0;
+/// The share of the height that the drawer takes at most, unless it is dragged.
+const SHARE: f32 = 0.4;
 /// Size of the numbers, in points.
 const NUMBERS: f32 = 11.0;
 /// Characters of a number in the columns of [`HEADS`].
@@ -49,31 +52,16 @@ impl<'a> Drawer<'a> {
         Self { inspection, materials, state: view, region: inspection.region.and_then(numbers) }
     }
 
-    /// The drawer over the lower edge of the panes, which stay where they are.
-    pub fn over(&self, ctx: &egui::Context, panes: egui::Rect) -> Vec<Command> {
-        let area = egui::Area::new(egui::Id::unique("drawer"))
-            .order(egui::Order::Middle)
-            .pivot(egui::Align2::LEFT_BOTTOM)
-            .fixed_pos(panes.left_bottom());
-        let frame = |ui: &egui::Ui| egui::Frame::side_top_panel(ui.style());
-        let response = area.show(ctx, |ui| {
-            frame(ui).show(ui, |ui| {
-                ui.set_width((panes.width() - 2.0 * MARGIN).max(0.0));
-                self.ui(ui)
-            })
-        });
-        response.inner.inner
-    }
-
-    fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
+    /// The drawer at the lower end of `ui`; the panes have the room above it.
+    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let tables = tables(ui);
-        let height = self.height(tables.len());
-        egui::ScrollArea::both()
-            .auto_shrink([false, true])
-            .max_height(height)
-            .min_scrolled_height(height)
-            .show(ui, |ui| {
+        let (height, room) = (self.height(tables.len()), ui.available_height());
+        // Other contents have a height of their own, until it is dragged.
+        let panel = bare(egui::Panel::bottom(("drawer", height as u32)), ui).resizable(true);
+        let panel = panel.default_size(height.min(SHARE * room));
+        panel.size_range(LEAST..=(room - PANES).max(LEAST)).show(ui, |ui| {
+            egui::ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
                 if let Some(region) = self.inspection.region {
                     self.region(ui, region, &mut commands);
                 }
@@ -81,17 +69,18 @@ impl<'a> Drawer<'a> {
                     self.pins(ui, &tables, &mut commands);
                 }
             });
+        });
         commands
     }
 
-    /// Of the contents, as far as the window has room for it.
+    /// The height of all contents.
     fn height(&self, tables: usize) -> f32 {
-        const MOST: f32 = 260.0;
         let rows = (self.materials.len() + 1) as f32;
         let pins = self.inspection.pins.len() as f32 * tables as f32 * (19.0 * rows + 5.0);
         let pins = if pins > 0.0 { 28.0 + pins } else { 0.0 };
-        let region = if self.inspection.region.is_some() { 31.0 + 19.0 * rows } else { 0.0 };
-        (pins + region + 14.0).min(MOST)
+        let channels = self.region.map_or(3, |(numbers, _)| numbers.iter().map(|one| one.rows.len()).sum());
+        let region = if self.inspection.region.is_some() { 50.0 + 19.0 * channels as f32 } else { 0.0 };
+        pins + region + 18.0
     }
 
     fn pins(&self, ui: &mut egui::Ui, tables: &[Range<usize>], commands: &mut Vec<Command>) {
@@ -169,7 +158,13 @@ impl<'a> Drawer<'a> {
         let [right, bottom] = [0, 1].map(|axis| region.last[axis] % size[axis]);
         ui.horizontal(|ui| {
             ui.strong(format!("Rectangle {left},{top} to {right},{bottom}"));
-            ui.label(format!("{columns} x {rows} texels, {}", self.state.display.quantity.name()));
+            let of = match self.region {
+                Some((numbers, _)) if numbers.iter().any(|one| one.is_difference) => {
+                    format!("{} of {}", self.state.difference_name(), self.state.display.quantity.name())
+                }
+                _ => self.state.display.quantity.name().to_owned(),
+            };
+            ui.label(format!("{columns} x {rows} texels, {of}"));
             if ui.small_button("Remove rectangle").on_hover_text("Esc").clicked() {
                 commands.push(InspectionCommand::SetRegion(None).into());
             }
@@ -188,38 +183,49 @@ impl<'a> Drawer<'a> {
         });
     }
 
+    /// A row for each channel of each material. The loss stands beside the name, where it is seen first.
     fn region_rows(&self, ui: &mut egui::Ui, numbers: &[RegionNumbers]) {
-        let letters: &[&str] = match self.state.display.quantity {
-            Quantity::Normal => &["x", "y", "z"],
-            Quantity::Roughness => &[""],
-            _ => &["R", "G", "B"],
-        };
+        let head = |text: &str| RichText::new(text).small().weak();
         ui.label("");
-        for letter in letters {
-            for head in ["mean", "min", "median", "95%", "max"] {
-                ui.label(RichText::new(format!("{letter} {head}").trim()).small().weak());
-            }
+        ui.label(head("loss")).on_hover_text("Rendering loss of the rectangle under this light and view");
+        for text in ["", "mean", "min", "median", "95%", "max"] {
+            ui.label(head(text));
         }
-        ui.label(RichText::new("loss").small().weak())
-            .on_hover_text("Rendering loss of the rectangle under this light and view");
         ui.end_row();
-        for (index, numbers) in numbers.iter().enumerate().take(self.materials.len()) {
-            self.name(ui, index);
-            for channel in &numbers.channels[..letters.len()] {
-                let Some(Statistics { mean, minimum, median, p95, maximum, .. }) = channel else {
-                    for _ in 0..5 {
-                        ui.label("-");
+        let number = |ui: &mut egui::Ui, value: f64| {
+            ui.label(RichText::new(fixed(value)).monospace().size(NUMBERS)).on_hover_text(value.to_string());
+        };
+        for (index, RegionNumbers { rows, loss, .. }) in numbers.iter().enumerate().take(self.materials.len())
+        {
+            for (line, (channel, statistics)) in rows.iter().enumerate() {
+                match (line, loss) {
+                    (0, loss) => {
+                        self.name(ui, index);
+                        ui.label(
+                            RichText::new(loss.map_or(String::new(), fixed))
+                                .monospace()
+                                .size(NUMBERS)
+                                .strong(),
+                        );
                     }
-                    continue;
-                };
-                for value in [mean, minimum, median, p95, maximum] {
-                    ui.label(RichText::new(fixed(*value)).monospace().size(11.5));
+                    _ => {
+                        ui.label("");
+                        ui.label("");
+                    }
                 }
+                ui.label(head(channel));
+                match statistics {
+                    Some(Statistics { mean, minimum, median, p95, maximum, .. }) => {
+                        [mean, minimum, median, p95, maximum]
+                            .into_iter()
+                            .for_each(|value| number(ui, *value));
+                    }
+                    None => {
+                        ui.label("not finite");
+                    }
+                }
+                ui.end_row();
             }
-            ui.label(
-                RichText::new(numbers.loss.map_or(String::new(), fixed)).monospace().size(11.5).strong(),
-            );
-            ui.end_row();
         }
     }
 }

@@ -5,6 +5,7 @@ use eframe::egui::{self, Align2, RichText};
 use svbrdf_core::text::line;
 
 use crate::model::command::{Command, WindowCommand};
+use crate::model::material::loaded::drawable;
 use crate::model::message::list::MessageList;
 use crate::model::message::{Message, Severity};
 use crate::ui::widgets::theme;
@@ -78,12 +79,12 @@ fn list(ui: &mut egui::Ui, messages: &[(usize, &Message)], commands: &mut Vec<Co
 
 /// The text of a message, in which names from files steer nothing.
 fn text_of(message: &Message) -> String {
-    line(&message.to_string())
+    drawable(&line(&message.to_string()))
 }
 
 fn text(ui: &egui::Ui, message: &Message) -> RichText {
     let colour = match message.severity() {
-        Severity::Success => ui.visuals().text_color(),
+        Severity::Success | Severity::Offer => ui.visuals().text_color(),
         Severity::Warning => ui.visuals().warn_fg_color,
         Severity::Error => theme::problem(ui.visuals()),
     };

@@ -85,7 +85,7 @@ impl StatusBar<'_> {
 
     /// The texel, then one column for each material whose numbers fit, the ground truth first.
     fn columns(&self, ui: &mut egui::Ui) {
-        let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 10.5 };
+        let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 11.0 };
         let font = egui::FontId::monospace(size);
         let place = match self.seen {
             Some(Seen { texel: [column, row], .. }) => format!("{column},{row}"),

@@ -16,6 +16,9 @@ use crate::ui::widgets::number;
 const HEIGHT: f32 = 24.0;
 const GAP: f32 = 3.0;
 const EXPOSURE: f32 = 62.0;
+/// Gap between the buttons of a segment, and width of a separator, in points.
+const SEGMENTS: f32 = 1.0;
+const SEPARATOR: f32 = 6.0;
 
 /// What the bar shows.
 #[derive(Debug)]
@@ -51,8 +54,8 @@ impl<'a> TopBar<'a> {
 
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
-        let room = Room::of(ui.available_width());
         ui.spacing_mut().item_spacing.x = GAP;
+        let room = &room(ui);
         ui.horizontal(|ui| {
             self.files(ui, room, &mut commands);
             ui.separator();
@@ -69,7 +72,7 @@ impl<'a> TopBar<'a> {
                 BarItem::Swap,
             ];
             self.items(ui, room, &toggles, &mut commands);
-            if room > Room::Little {
+            if room.exposure {
                 ui.separator();
                 self.exposure(ui, &mut commands);
                 self.items(ui, room, &[BarItem::Clip], &mut commands);
@@ -85,7 +88,7 @@ impl<'a> TopBar<'a> {
         commands
     }
 
-    fn files(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
+    fn files(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
         let open = Face::Icon.button(ui, icons::ICON_FOLDER_OPEN.codepoint, "Open", true, false);
         if open.on_hover_text("Open materials (Ctrl+O)").clicked() {
             commands.push(WindowCommand::ShowOpen(true).into());
@@ -125,12 +128,7 @@ impl<'a> TopBar<'a> {
     fn quantities(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         segments(ui, |ui| {
             for quantity in Quantity::ALL {
-                let name = quantity.name();
-                // The maps by their first letters.
-                let text = match quantity {
-                    Quantity::Rendering => "Rendering".to_owned(),
-                    _ => name.chars().take(1).flat_map(char::to_uppercase).collect(),
-                };
+                let (name, text) = (quantity.name(), letter(quantity));
                 let on = self.state.display.quantity == quantity;
                 let button = Face::Text.button(ui, &text, &format!("Show {name}"), true, on);
                 let hover = match quantity {
@@ -146,7 +144,7 @@ impl<'a> TopBar<'a> {
 
     fn differences(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         segments(ui, |ui| {
-            for (difference, name) in [(false, "Value"), (true, "Difference")] {
+            for (difference, name) in [false, true].into_iter().zip(DIFFERENCES) {
                 let on = self.state.display.difference == difference;
                 let button = Face::Text.button(ui, name, name, true, on);
                 let hover = "Show the value, or the difference of predictions from the ground truth (D)";
@@ -158,8 +156,8 @@ impl<'a> TopBar<'a> {
     }
 
     /// Those of `items` that have room.
-    fn items(&self, ui: &mut egui::Ui, room: Room, items: &[BarItem], commands: &mut Vec<Command>) {
-        for item in items.iter().filter(|item| item.needs() <= room) {
+    fn items(&self, ui: &mut egui::Ui, room: &Room, items: &[BarItem], commands: &mut Vec<Command>) {
+        for item in items.iter().filter(|item| room.has(**item)) {
             self.item(ui, *item, Face::Icon, commands);
         }
     }
@@ -234,7 +232,7 @@ impl<'a> TopBar<'a> {
     }
 
     /// From the right.
-    fn window(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
+    fn window(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
         let help = Face::Icon.button(ui, icons::ICON_HELP.codepoint, "?", true, false);
         if help.on_hover_text("Keys and mouse (?)").clicked() {
             commands.push(WindowCommand::ShowHelp(true).into());
@@ -254,9 +252,9 @@ impl<'a> TopBar<'a> {
         );
     }
 
-    fn menu(&self, ui: &mut egui::Ui, room: Room, commands: &mut Vec<Command>) {
-        let hidden: Vec<BarItem> = BarItem::ALL.into_iter().filter(|item| item.needs() > room).collect();
-        if room == Room::Little {
+    fn menu(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
+        let hidden: Vec<BarItem> = BarItem::ALL.into_iter().filter(|item| !room.has(*item)).collect();
+        if !room.exposure {
             self.exposure(ui, commands);
         }
         hidden.iter().for_each(|item| self.item(ui, *item, Face::Name, commands));
@@ -301,6 +299,41 @@ impl<'a> TopBar<'a> {
     }
 }
 
+/// The names of what panes of predictions show.
+const DIFFERENCES: [&str; 2] = ["Value", "Difference"];
+
+/// The name of a quantity in the bar: maps by their first letters.
+fn letter(quantity: Quantity) -> String {
+    match quantity {
+        Quantity::Rendering => "Rendering".to_owned(),
+        map => map.name().chars().take(1).flat_map(char::to_uppercase).collect(),
+    }
+}
+
+/// What of the bar fits into its line, by the widths that its parts have.
+fn room(ui: &egui::Ui) -> Room {
+    // Between it and the controls from the right.
+    const AIR: f32 = 10.0;
+    let icon = |text: &str| Face::Icon.width(ui, text) + GAP;
+    let texts = |texts: &[&str]| {
+        let widths: f32 = texts.iter().map(|text| Face::Text.width(ui, text) + SEGMENTS).sum();
+        widths - SEGMENTS + GAP
+    };
+    let separator = SEPARATOR + GAP;
+    let letters = Quantity::ALL.map(letter);
+    let letters: Vec<&str> = letters.iter().map(String::as_str).collect();
+    // Open, Save, three layouts; help, panel and menu.
+    let always =
+        8.0 * icon(icons::ICON_SAVE.codepoint) + 3.0 * separator + texts(&letters) + texts(&DIFFERENCES);
+    Room::new(ui.available_width() - always - AIR, |part| match part {
+        Some(item) => icon(item.icon()),
+        None => {
+            let number = Face::Text.width(ui, "EV \u{2212}20.0").max(EXPOSURE) + SEGMENTS;
+            2.0 * separator + number + texts(&["\u{2212}", "+", "Auto", "Follow"])
+        }
+    })
+}
+
 /// What a button shows.
 #[derive(Clone, Copy, Debug)]
 enum Face {
@@ -319,12 +352,25 @@ impl Face {
         response
     }
 
+    /// The size of its text, and its least width.
+    fn size(self, text: &str) -> [f32; 2] {
+        match self {
+            Self::Icon if text.is_ascii() => [13.0, HEIGHT + 4.0],
+            Self::Icon => [17.0, HEIGHT + 4.0],
+            Self::Text | Self::Name => [13.0, 0.0],
+        }
+    }
+
+    /// The width of the button with this text, in points.
+    fn width(self, ui: &egui::Ui, text: &str) -> f32 {
+        let [size, least] = self.size(text);
+        let font = egui::FontId::proportional(size);
+        let galley = ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::PLACEHOLDER);
+        (galley.size().x + 2.0 * ui.spacing().button_padding.x).max(least)
+    }
+
     fn shaped(self, text: &str, on: bool) -> egui::Button<'static> {
-        let (size, width) = match self {
-            Self::Icon if text.is_ascii() => (13.0, HEIGHT + 4.0),
-            Self::Icon => (17.0, HEIGHT + 4.0),
-            Self::Text | Self::Name => (13.0, 0.0),
-        };
+        let [size, width] = self.size(text);
         egui::Button::selectable(on, RichText::new(text).size(size)).min_size(egui::vec2(width, HEIGHT))
     }
 }
@@ -332,7 +378,7 @@ impl Face {
 /// Buttons without gaps, of which usually one is on.
 fn segments(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui)) {
     ui.scope(|ui| {
-        ui.spacing_mut().item_spacing.x = 1.0;
+        ui.spacing_mut().item_spacing.x = SEGMENTS;
         contents(ui);
     });
 }

@@ -28,28 +28,35 @@ pub fn fitted(ui: &Ui, font: &FontId, width: f32, text: impl Fn(usize) -> String
 #[derive(Clone, Debug)]
 pub struct Names<'a> {
     names: Vec<&'a str>,
-    /// Characters of the longest, and of the beginning that all have in common.
+    /// Characters of the longest, and of the beginning and the ending that all have in common.
     longest: usize,
     common: usize,
+    ending: usize,
 }
 
 impl<'a> Names<'a> {
     pub fn new(names: &[&'a str]) -> Self {
         let longest = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
-        let common = if names.len() > 1 { common_beginning(names) } else { 0 };
-        Self { names: names.to_vec(), longest, common }
+        let shortest = names.iter().map(|name| name.chars().count()).min().unwrap_or(0);
+        let (common, ending) =
+            if names.len() > 1 { (common_beginning(names), common_ending(names)) } else { (0, 0) };
+        Self { names: names.to_vec(), longest, common, ending: ending.min(shortest - common.min(shortest)) }
     }
 
     /// The name in place `index` in at most `most` characters. Where one of the names is too long, the beginning that all have in
-    /// common becomes an ellipsis; a name that is still too long loses its middle.
+    /// common becomes an ellipsis, then the ending; a name that is still too long loses its middle.
     pub fn shortened(&self, index: usize, most: usize) -> String {
         let Some(name) = self.names.get(index) else { return String::new() };
         if self.longest <= most {
             return (*name).to_owned();
         }
-        let ending: String = name.chars().skip(self.common).collect();
-        let text = if self.common > 2 { format!("\u{2026}{ending}") } else { (*name).to_owned() };
-        without_middle(&text, most)
+        // An ellipsis takes the room of a character.
+        let (start, dots) = if self.common > 2 { (self.common, "\u{2026}") } else { (0, "") };
+        let cuts_ending = self.ending > 2 && self.longest - start + dots.chars().count() > most;
+        let (ending, more) = if cuts_ending { (self.ending, "\u{2026}") } else { (0, "") };
+        let count = name.chars().count() - start - ending;
+        let own: String = name.chars().skip(start).take(count).collect();
+        without_middle(&format!("{dots}{own}{more}"), most)
     }
 }
 
@@ -68,6 +75,12 @@ fn common_beginning(names: &[&str]) -> usize {
     beginning.iter().rposition(|c| SEPARATORS.contains(c)).map_or(0, |at| at + 1)
 }
 
+/// The number of characters, from a separator on, that all names end with.
+fn common_ending(names: &[&str]) -> usize {
+    let reversed: Vec<String> = names.iter().map(|name| name.chars().rev().collect()).collect();
+    common_beginning(&reversed.iter().map(String::as_str).collect::<Vec<_>>())
+}
+
 /// The text with an ellipsis for its middle where it has more than `most` characters. The end, which counts epochs and names
 /// files, keeps more.
 fn without_middle(text: &str, most: usize) -> String {
@@ -84,7 +97,21 @@ fn without_middle(text: &str, most: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::material::loaded::{DRAWN, drawable};
     use eframe::egui;
+
+    #[test]
+    fn every_character_that_names_keep_has_a_picture_and_the_others_are_written_out() {
+        let ctx = egui::Context::default();
+        ctx.run_ui(egui::RawInput::default(), |_| ()).textures_delta.clear();
+        let font = FontId::proportional(13.0);
+        let has = |c: char| ctx.fonts_mut(|fonts| fonts.has_glyph(&font, c));
+        let lacking: Vec<char> = DRAWN.into_iter().flatten().filter(|c| !has(*c)).collect();
+        assert!(lacking.is_empty(), "{lacking:?}");
+        assert!(!has('\u{5317}') && !has('\u{05e9}'), "what is written out has none");
+        assert_eq!(drawable("bois_été Ω ж\u{2026}"), "bois_été Ω ж\u{2026}");
+        assert_eq!(drawable("\u{5317}\u{4eac}.png"), r"\u{5317}\u{4eac}.png");
+    }
 
     #[test]
     fn names_that_fit_stay_as_they_are() {
@@ -99,6 +126,15 @@ mod tests {
         let one = shortened(&["a_rather_long_name_of_a_run_0007"], 16);
         assert_eq!(one, ["a_rath\u{2026}_run_0007"]);
         assert_eq!(one[0].chars().count(), 16);
+    }
+
+    #[test]
+    fn a_folder_that_tells_names_apart_is_kept_and_the_file_that_all_have_is_not() {
+        let names = ["ours/mat17.png", "diffusion-large/mat17.png", "theirs/mat17.png"];
+        assert_eq!(shortened(&names, 16), ["ours\u{2026}", "diffusion-large\u{2026}", "theirs\u{2026}"]);
+        let both = ["runs/a/mat17.png", "runs/bcdef/mat17.png"];
+        assert_eq!(shortened(&both, 17), ["\u{2026}a/mat17.png", "\u{2026}bcdef/mat17.png"]);
+        assert_eq!(shortened(&both, 8), ["\u{2026}a\u{2026}", "\u{2026}bcdef\u{2026}"]);
     }
 
     #[test]

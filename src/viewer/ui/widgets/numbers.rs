@@ -20,6 +20,20 @@ pub fn digits(value: f64) -> String {
     }
 }
 
+/// The numbers of a column, as [`digits`], of one width: their points stand below each other.
+pub fn aligned(values: &[f64]) -> Vec<String> {
+    let texts: Vec<String> = values.iter().map(|value| digits(*value)).collect();
+    let split = |text: &str| text.find('.').map(|point| (point, text.len() - point));
+    let parts: Vec<(usize, usize)> = texts.iter().filter_map(|text| split(text)).collect();
+    let before = parts.iter().map(|(before, _)| *before).max().unwrap_or(0);
+    let after = parts.iter().map(|(_, after)| *after).max().unwrap_or(0);
+    let padded = |text: &String| match split(text) {
+        Some((point, _)) => format!("{:>before$}{:<after$}", &text[..point], &text[point..]),
+        None => format!("{text:>width$}", width = before + after),
+    };
+    texts.iter().map(padded).collect()
+}
+
 /// An estimate as text: its mean in significant digits only, and its 95% interval with one digit more; at most five decimals,
 /// and exponents below 0.001.
 pub fn significant(estimate: &Estimate) -> [String; 2] {
@@ -78,6 +92,13 @@ mod tests {
     fn numbers_have_about_four_digits() {
         let all = [0.0, -0.123_456, 1.234_56, 45.678_9, 123.456, 123_456.0].map(digits);
         assert_eq!(all, ["0.0000", "-0.1235", "1.235", "45.68", "123.5", "1.23e5"]);
+    }
+
+    #[test]
+    fn points_of_a_column_stand_below_each_other() {
+        let column = aligned(&[0.5, 12.25, -0.000_12, f64::NAN]);
+        assert_eq!(column, [" 0.5000", "12.25  ", "-1.2e-4", "    NaN"]);
+        assert_eq!(aligned(&[]), Vec::<String>::new());
     }
 
     #[test]
