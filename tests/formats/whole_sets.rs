@@ -214,6 +214,7 @@ fn a_material_of_an_engine_says_what_to_open_instead() {
     for (name, text) in [
         ("lid.vmat", "Layer0\n{\n\tTextureColor \"materials/lid_color.tga\"\n}\n"),
         ("lid.tres", "[gd_resource]\n[ext_resource path=\"res://materials/lid_color.tga\"]\n"),
+        ("lid.usda", "#usda 1.0\n asset inputs:file = @materials/lid_color.tga@\n"),
         ("lid.xml", "<material><texture unit=\"diffuse\" name=\"materials/lid_color.tga\"/></material>"),
     ] {
         let path = folder.path().join(name);

@@ -4,12 +4,14 @@ use tiff::ColorType;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use super::place::{DecodedFile, MAX_BYTES};
+use super::place::{Decoded, DecodedFile, MAX_BYTES, alone};
 use super::reader::Reader;
+use super::tiff_jpeg;
 use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
+use crate::read::record::Note;
 
-pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |error: tiff::TiffError| match error {
         tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
         other => place.invalid("TIFF", other),
@@ -28,16 +30,39 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
     let planar = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(invalid)? == Some(2);
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(invalid)?.unwrap_or(1);
     let mut result = DecodingResult::U8(Vec::new());
-    decoder.read_image_to_buffer(&mut result).map_err(invalid)?;
+    let of_jpeg = tiff_jpeg::pixels(&mut decoder, colour, count, place)?;
+    let is_ycbcr = colour == ColorType::YCbCr(8) && of_jpeg.is_none();
+    match of_jpeg {
+        Some(pixels) => result = DecodingResult::U8(pixels),
+        None => drop(decoder.read_image_to_buffer(&mut result).map_err(invalid)?),
+    }
     let (width, height) = (width as usize, height as usize);
     let layout = Interleaving { count, planar, texels: width * height };
-    if let (ColorType::YCbCr(8), DecodingResult::U8(samples)) = (colour, &mut result) {
+    if let (true, DecodingResult::U8(samples)) = (is_ycbcr, &mut result) {
         layout.to_rgb(samples);
     }
     let (channels, depth) = layout
         .samples(result)
         .ok_or_else(|| place.bad("expected 8, 16 or 32 bits for each sample, found others", "convert it"))?;
-    Ok(Raster::with_alpha(width, height, depth, channels).oriented(orientation))
+    let raster = Raster::with_alpha(width, height, depth, channels).oriented(orientation);
+    let notes = has_pages(&mut decoder).then_some(Note::FirstOnly(place.what)).into_iter().collect();
+    Ok(Decoded { notes, ..alone(raster) })
+}
+
+/// Whether there are pictures after the first which are no smaller levels of it.
+fn has_pages(decoder: &mut Decoder<Reader<'_>>) -> bool {
+    const REDUCED: u32 = 1;
+    const MOST: usize = 32;
+    let mut next = || -> tiff::TiffResult<bool> {
+        decoder.next_image()?;
+        Ok(decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType)?.unwrap_or(0) & REDUCED == 0)
+    };
+    let mut count = 0;
+    std::iter::from_fn(|| {
+        count += 1;
+        (count <= MOST).then(|| next().ok())?
+    })
+    .any(|is_page| is_page)
 }
 
 fn channels_of(colour: ColorType) -> Option<usize> {
@@ -68,7 +93,9 @@ impl Interleaving {
             DecodingResult::U8(all) => (self.channels(all)?, "8-bit"),
             DecodingResult::U16(all) => (self.channels(all)?, "16-bit"),
             DecodingResult::U32(all) => {
-                (self.floats(all, |s| (f64::from(s) / f64::from(u32::MAX)) as f32)?, "32-bit")
+                // Integers, which are encoded as others are: as 16 bits, which are enough.
+                let of = |s: u32| ((u64::from(s) + 0x8000) / 0x1_0001) as u16;
+                (self.channels(all.into_iter().map(of).collect::<Vec<_>>())?, "32-bit")
             }
             DecodingResult::F16(all) => (self.floats(all, f32::from)?, "half"),
             DecodingResult::F32(all) => (self.channels(all)?, "float"),

@@ -58,12 +58,15 @@ pub(crate) fn planes<T: Real>(
     let is_usual = encoding == NormalEncoding::Unsigned || raster.is_float();
     // Where few texels have unit length, either reading may be wrong.
     let is_unit = !match why {
-        Reason::UnitLength { share, .. } => raster.is_float() && share < NORMAL_AT_LEAST,
+        Reason::UnitLength { share, .. } => share < NORMAL_AT_LEAST,
         ref why => matches!(why, Reason::NormalsAsColours { .. }),
     };
     let certainty = if is_usual && is_unit { Certainty::Likely } else { Certainty::Unsure };
+    // A format that defines all three components leaves none to be rebuilt.
+    let is_rebuilt = matches!(encoding, NormalEncoding::Xy | NormalEncoding::Ag) && raster.channels.len() > 2;
+    let defined = found.inferred.normal_encoding.take().filter(|_| is_rebuilt);
     let encoding =
-        decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, None, || {
+        decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, defined, || {
             (encoding, why, certainty)
         });
     let y = normal_y(raster, encoding, found, heights, options);

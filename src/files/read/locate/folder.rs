@@ -10,8 +10,8 @@ use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::read::located::set::{LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located, WholePicture};
-use crate::read::names::listing;
-use crate::read::options::Role;
+use crate::read::names::{Label, listing};
+use crate::read::options::{Role, extensions};
 
 /// Locates the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
 ///
@@ -35,6 +35,18 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
         names.extend(others);
         names.sort();
         names.dedup();
+    }
+    if prefix.is_empty()
+        && !names.iter().any(|name| grouping::is_picture(name))
+        && let Some(archive) =
+            names.iter().find(|name| ["zip", "rar", "7z"].contains(&extensions::of_name(name).as_str()))
+    {
+        return Err(Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: "pictures".to_owned(),
+            found: format!("the archive {archive}"),
+            remedy: "unpack it, and open the folder".to_owned(),
+        });
     }
     let wanted = if prefix.is_empty() { Wanted::All } else { Wanted::Named(prefix) };
     let (mut files, _) = grouping::choose(path, &names, wanted, bound)?;
@@ -98,11 +110,18 @@ fn not_packed(path: &Path, names: &[String], picture: &str) -> Error {
 /// Locates the material of the only one of `folders` within a folder without pictures.
 fn within(path: &Path, folder: &Path, folders: &[String], bound: &[Role]) -> Result<Located, Error> {
     let [only] = folders else {
+        let are_maps = folders.iter().filter(|name| Label::of(name).is_some()).count() > 1;
+        let remedy = match are_maps {
+            true => {
+                "one folder per map is a data set: put the maps of one material into a folder of its own, or specify each map by its file"
+            }
+            false => "open one of them",
+        };
         return Err(Error::NotAMaterial {
             path: path.to_owned(),
             expected: "pictures".to_owned(),
             found: format!("none, but the folders {}", listing(folders)),
-            remedy: "open one of them".to_owned(),
+            remedy: remedy.to_owned(),
         });
     };
     let within = folder.join(only);

@@ -8,7 +8,7 @@ use crate::read::names::listing;
 use crate::read::options::extensions::{self, PICTURES};
 
 /// Extensions of these files, and what they are.
-const KINDS: [(&str, &str); 8] = [
+const KINDS: [(&str, &str); 21] = [
     ("vmat", "a material of Source 2"),
     ("vmt", "a material of Source"),
     ("tres", "a resource of Godot"),
@@ -17,6 +17,19 @@ const KINDS: [(&str, &str); 8] = [
     ("xml", "an XML file, such as a material of Urho3D"),
     ("uasset", "an asset of Unreal"),
     ("blend", "a file of Blender"),
+    ("usd", "a scene of USD"),
+    ("usda", "a scene of USD"),
+    ("usdc", "a scene of USD"),
+    ("usdz", "a scene of USD"),
+    ("sbs", "a graph of Substance"),
+    ("sbsar", "an archive of Substance, which computes its maps"),
+    ("mdl", "a material of MDL"),
+    ("axf", "a measured material of AxF"),
+    ("pbrt", "a scene of pbrt"),
+    ("safetensors", "arrays of safetensors"),
+    ("pt", "arrays of PyTorch"),
+    ("pth", "arrays of PyTorch"),
+    ("pkl", "a pickle of Python"),
 ];
 /// Longest file in bytes whose text is searched.
 const LONGEST: u64 = 1 << 20;
@@ -49,7 +62,7 @@ pub(super) fn refusal(path: &Path) -> Option<Error> {
 
 /// The names of pictures in a text, each once.
 fn pictures(text: &str) -> Vec<String> {
-    let is_border = |c: char| c.is_control() || "\"'<>=;,()[]{}".contains(c);
+    let is_border = |c: char| c.is_control() || "\"'<>=;,()[]{}@".contains(c);
     let mut names = Vec::new();
     for word in text.split(is_border).map(str::trim) {
         let name = word.strip_prefix("res://").unwrap_or(word).to_owned();

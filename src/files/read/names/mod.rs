@@ -6,6 +6,6 @@ mod set_labels;
 mod words;
 
 pub(crate) use label::Label;
-pub(crate) use listing::listing;
+pub(crate) use listing::{is_junk, listing};
 pub(crate) use set_labels::set_labels;
-pub(crate) use words::{is_named_as, is_named_within, words};
+pub(crate) use words::{is_named_as, is_named_within, size, words};

@@ -64,6 +64,10 @@ pub enum Reason {
     NameOfSet {
         file: String,
     },
+    #[display("{} has an alpha that varies, as Unity stores smoothness, and no other file is the roughness", file.display())]
+    SmoothnessInAlpha {
+        file: PathBuf,
+    },
     #[display("{} has no alpha, which holds smoothness", file.display())]
     OpaqueSmoothness {
         file: PathBuf,
@@ -135,6 +139,23 @@ pub enum Reason {
     ListedNormals {
         document: String,
     },
+    #[display("the {} map has an alpha below 1, and EXR multiplies colours by it", map.name())]
+    Premultiplied {
+        map: Role,
+    },
+    #[display("the file declares primaries other than those of Rec. 709, which are not converted")]
+    OtherPrimaries,
+    /// A document beside a picture that holds several maps.
+    #[display("{document} lists the picture and binds it so")]
+    ListedChannels {
+        document: String,
+    },
+    /// Of a packed picture.
+    #[display(
+        "metallic is 1 everywhere, but the median of the base colour is {_0:.3}, darker than metals: where the surface is no \
+        metal, specify metallic=0"
+    )]
+    DarkMetal(f64),
     #[display(
         "the slopes of {} correlate by {:+.2} with x of the normals and by {:+.2} with y",
         file.display(), correlations[0], correlations[1]
