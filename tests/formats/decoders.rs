@@ -27,6 +27,14 @@ fn tga_bmp_and_webp_open_with_the_values_of_png() {
     }
 }
 
+/// A PFM of RGB, the lowest row first, whose scale tells the order of the bytes.
+pub fn pfm(image: &image::Rgb32FImage, scale: &str, order: fn(f32) -> [u8; 4]) -> Vec<u8> {
+    let (width, height) = image.dimensions();
+    let texels = (0..height).rev().flat_map(|y| (0..width).map(move |x| (x, y)));
+    let values = texels.flat_map(|(x, y)| image.get_pixel(x, y).0).flat_map(order);
+    format!("PF\n{width} {height}\n{scale}\n").into_bytes().into_iter().chain(values).collect()
+}
+
 #[test]
 fn pnm_qoi_and_pfm_open_with_the_values_of_png() {
     let folder = tempdir().unwrap();
@@ -34,14 +42,9 @@ fn pnm_qoi_and_pfm_open_with_the_values_of_png() {
     for (name, format) in [("m.ppm", ImageFormat::Pnm), ("m.qoi", ImageFormat::Qoi)] {
         assert_same(&open(&save(folder.path(), name, &image, format)), EIGHT_BITS);
     }
-    let (width, height) = (image.width(), image.height());
-    let rows = || (0..height).rev().flat_map(|y| (0..width).map(move |x| (x, y)));
     let rgb = image.to_rgb32f();
-    for (scale, order) in [("-1.0", f32::to_le_bytes as fn(f32) -> [u8; 4]), ("1", f32::to_be_bytes)] {
-        let head = format!("PF\n{width} {height}\n{scale}\n").into_bytes();
-        let values = rows().flat_map(|(x, y)| rgb.get_pixel(x, y).0).flat_map(order);
-        let pfm = put_bytes(folder.path(), "m.pfm", &head.into_iter().chain(values).collect::<Vec<_>>());
-        assert_same(&open(&pfm), EIGHT_BITS);
+    for bytes in [pfm(&rgb, "-1.0", f32::to_le_bytes), pfm(&rgb, "1", f32::to_be_bytes)] {
+        assert_same(&open(&put_bytes(folder.path(), "m.pfm", &bytes)), EIGHT_BITS);
     }
     let cut = std::fs::read(folder.path().join("m.pfm")).unwrap();
     assert_refused(
@@ -244,6 +247,8 @@ fn formats_that_are_not_read_are_refused_by_name() {
         (b"\0\0\0\x20ftypavif\0\0\0\0", "AVIF"),
         (b"\xff\x0a\0\0\0\0\0\0", "JPEG XL"),
         (b"GIF89a\x01\0\x01\0\0\0\0", "GIF"),
+        (b"\xff\xd8\xff\xf7\0\x0b\x08\0\0", "JPEG-LS"),
+        (b"\x50\0\0\0\0\0\0\0{\"x\":{}}", "safetensors"),
     ] {
         assert_refused(&put_bytes(folder.path(), "m.png", begins), &[name, "TGA"]);
     }

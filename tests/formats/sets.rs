@@ -255,6 +255,15 @@ fn maps_in_the_only_folder_within_open_and_several_folders_are_listed() {
     assert_notes(&read, &["in the folder textures within"]);
     std::fs::create_dir(folder.path().join("other")).unwrap();
     assert_refused(folder.path(), &["none, but the folders other, textures", "open one of them"]);
+    // Pictures beside it that name no map are previews.
+    gray(folder.path(), "preview", 0.5);
+    gray(folder.path(), "wall", 0.5);
+    let read = open(folder.path());
+    assert_same(&read, EIGHT_BITS);
+    assert_notes(
+        &read,
+        &["in the folder textures within", "preview.png is not used", "wall.png is not used"],
+    );
     let data_set = tempdir().unwrap();
     for name in ["basecolor", "normal", "roughness"] {
         std::fs::create_dir(data_set.path().join(name)).unwrap();

@@ -76,7 +76,11 @@ fn check(meta: &MetaData, place: DecodedFile<'_>) -> Result<u64, Error> {
 fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let mut decoded = Decoded::default();
     let display = image.attributes.display_window;
-    let is_far = |c: &Chromaticities| (c.red.0 - 0.64).abs() + (c.red.1 - 0.33).abs() > 0.01;
+    let is_far = |c: &Chromaticities| {
+        let [red, green, blue] = [c.red, c.green, c.blue].map(|one| [one.0, one.1]);
+        let rec709 = [0.64, 0.33, 0.3, 0.6, 0.15, 0.06];
+        [red, green, blue].concat().into_iter().zip(rec709).any(|(a, b)| (a - b).abs() > 0.01)
+    };
     if !place.is_data() && image.attributes.chromaticities.as_ref().is_some_and(is_far) {
         decoded.notes.push(Note::Primaries);
     }

@@ -35,8 +35,8 @@ const LONGEST: u32 = 1 << 10;
 
 /// The code of linear values in cICP (ITU-T H.273).
 const LINEAR: u8 = 8;
-/// The chromaticity of red of Rec. 709, in 1/100000.
-const RED: [u32; 2] = [64_000, 33_000];
+/// The chromaticities of red, green and blue of Rec. 709, in 1/100000.
+const REC709: [u32; 6] = [64_000, 33_000, 30_000, 60_000, 15_000, 6_000];
 
 /// The first numbers of a chunk, of whose bytes so many are `left`.
 fn numbers<const N: usize>(reader: &mut Reader<'_>, left: &mut i64) -> io::Result<[u32; N]> {
@@ -53,7 +53,7 @@ fn numbers<const N: usize>(reader: &mut Reader<'_>, left: &mut i64) -> io::Resul
 pub(crate) fn png(reader: &mut Reader<'_>) -> io::Result<PngHead> {
     const KEYWORD: &[u8] = b"svbrdf\0packed ";
     let (mut gamma_is_one, mut srgb, mut is_animated, mut meaning) = (false, false, false, None);
-    let (mut cicp, mut red): (Option<[u8; 4]>, Option<[u32; 2]>) = (None, None);
+    let (mut cicp, mut primaries): (Option<[u8; 4]>, Option<[u32; 6]>) = (None, None);
     reader.seek_relative(8)?;
     loop {
         let (mut length, mut name) = ([0; 4], [0; 4]);
@@ -68,10 +68,10 @@ pub(crate) fn png(reader: &mut Reader<'_>) -> io::Result<PngHead> {
                     None => (gamma_is_one && !srgb).then_some("gAMA"),
                 };
                 // Of cICP, 2 are not specified.
-                let is_far = |red: &[u32; 2]| red.iter().zip(RED).any(|(a, b)| a.abs_diff(b) > 1000);
+                let is_far = |all: &[u32; 6]| all.iter().zip(REC709).any(|(a, b)| a.abs_diff(b) > 1000);
                 let other_primaries = match cicp {
                     Some([primaries, ..]) => (!matches!(primaries, 1 | 2)).then_some("cICP"),
-                    None => red.filter(is_far).filter(|_| !srgb).map(|_| "cHRM"),
+                    None => primaries.filter(is_far).filter(|_| !srgb).map(|_| "cHRM"),
                 };
                 return Ok(PngHead { linear, other_primaries, is_animated, meaning });
             }
@@ -87,8 +87,8 @@ pub(crate) fn png(reader: &mut Reader<'_>) -> io::Result<PngHead> {
             }
             b"gAMA" => gamma_is_one = numbers::<1>(reader, &mut left)?[0].abs_diff(100_000) < 1000,
             b"cHRM" => {
-                let [_, _, x, y] = numbers(reader, &mut left)?;
-                red = Some([x, y]);
+                let [_, _, rest @ ..]: [u32; 8] = numbers(reader, &mut left)?;
+                primaries = Some(rest);
             }
             b"cICP" => cicp = Some(numbers::<1>(reader, &mut left)?[0].to_be_bytes()),
             _ => (),

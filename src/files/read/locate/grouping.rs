@@ -88,15 +88,7 @@ pub(crate) fn choose(
         (Some(stem), _) => (stem.clone(), groups.remove(&stem).unwrap_or_default()),
         (None, [only]) => (only.clone(), groups.remove(only).unwrap_or_default()),
         (None, []) => (Vec::new(), std::mem::take(&mut groups).into_values().flatten().collect()),
-        (None, several) => {
-            let found = several.iter().map(|stem| stem.join("_")).collect::<Vec<_>>();
-            return Err(Error::NotAMaterial {
-                path: path.to_owned(),
-                expected: "the maps of one material".to_owned(),
-                found: format!("several: {}", listing(&found)),
-                remedy: "give the prefix that only the files of one material share".to_owned(),
-            });
-        }
+        (None, several) => return Err(several_materials(path, several)),
     };
     let named = if let Wanted::SetOf(file) = wanted { Some(file) } else { None };
     let files = variants::of_one_size(files, named, |files| is_complete(files, bound), &mut set.notes);
@@ -108,6 +100,16 @@ pub(crate) fn choose(
     let others = groups.into_iter().filter(|(stem, _)| !complete.contains(stem)).chain(lone);
     set.leave(others.flat_map(|(_, files)| files).collect(), &stem, !matches!(wanted, Wanted::SetOf(_)));
     Ok((set, stem))
+}
+
+fn several_materials(path: &Path, stems: &[Vec<String>]) -> Error {
+    let found = stems.iter().map(|stem| stem.join("_")).collect::<Vec<_>>();
+    Error::NotAMaterial {
+        path: path.to_owned(),
+        expected: "the maps of one material".to_owned(),
+        found: format!("several: {}", listing(&found)),
+        remedy: "give the prefix that only the files of one material share".to_owned(),
+    }
 }
 
 /// The stems of the groups that are a material with what is `bound` already.
@@ -143,7 +145,8 @@ fn is_foreign(name: &str) -> bool {
     !is_picture(name) && !is_unread(name) && !is_junk(name) && !is_known(&TEXTS) && !is_known(&EXTENSIONS)
 }
 
-fn is_complete(files: &[LabelledFile], bound: &[Role]) -> bool {
+/// Whether the files with what is `bound` already have a colour and roughness.
+pub(super) fn is_complete(files: &[LabelledFile], bound: &[Role]) -> bool {
     let has = |is: fn(Role) -> bool| files.iter().map(|f| f.label.role).chain(bound.iter().copied()).any(is);
     has(|role| matches!(role, Role::Base | Role::Diffuse)) && has(Role::has_roughness)
 }

@@ -153,7 +153,7 @@ fn meaning(word: &str) -> Option<(Role, Option<NormalY>)> {
         }
     }
     // Passes of renderers that are light, not reflectance: DiffDir, "Glossy Indirect".
-    let is_light = |end: &&str| word.strip_suffix(end).is_some_and(|rest| is_whole_word(rest));
+    let is_light = |end: &&str| word.strip_suffix(end).is_some_and(is_whole_word);
     if ["direct", "indirect", "dir", "ind"].iter().any(is_light) {
         return Some((Role::Ignored, None));
     }

@@ -1,10 +1,12 @@
 //! Names of files and layers, and the map that each stands for.
 
+mod convention;
 mod label;
 mod listing;
 mod set_labels;
 mod words;
 
+pub(crate) use convention::word_beside;
 pub(crate) use label::Label;
 pub(crate) use listing::{is_junk, listing};
 pub(crate) use set_labels::set_labels;

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::error::Error;
+use crate::read::names::{Label, word_beside};
 use crate::read::options::{Preset, ReadOptions, Role, Workflow};
 use crate::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};
 use crate::read::stored::{Inferences, StoredMap, StoredMaterial};
@@ -73,6 +74,12 @@ impl MapsByRole {
         self.take(Role::Metallic).or_else(|| self.packed(1))
     }
 
+    /// The telling words of the files.
+    fn words(&self) -> Vec<String> {
+        let label = |source: &StoredMap| Label::of(&source.file.file_stem()?.to_string_lossy());
+        self.all.iter().filter_map(|(_, source)| label(source)).map(|label| label.word).collect()
+    }
+
     /// Assumptions about pictures whose channels their names do not define for sure.
     fn doubts_of_packing(&self) -> Vec<Assumption> {
         let mut assumptions = Vec::new();
@@ -107,10 +114,11 @@ impl MapsByRole {
         listed: &str,
         options: &ReadOptions,
     ) -> Result<StoredMaterial, Error> {
+        let words = self.words();
         let missing = |role: Role| Error::MissingMap {
             path: path.to_owned(),
             map: role.name(),
-            examples: role.examples(),
+            examples: examples(role, &words),
             found: if listed.is_empty() { "none".to_owned() } else { listed.to_owned() },
         };
         let mut assumptions = self.doubts_of_packing();
@@ -166,6 +174,14 @@ impl MapsByRole {
             notes,
             files,
         })
+    }
+}
+
+/// Names of a map that is missing, for messages; `words` are those of the files that are there.
+fn examples(role: Role, words: &[String]) -> String {
+    match word_beside(role, words) {
+        Some(own) => format!("{own} as the other files, or {}", role.examples()),
+        None => role.examples(),
     }
 }
 
