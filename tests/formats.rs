@@ -3,6 +3,7 @@
 mod arrays;
 mod conventions;
 pub mod decoders;
+mod engines;
 mod glb;
 mod named_sets;
 mod normals;
@@ -11,10 +12,12 @@ mod packed;
 mod pictures;
 mod png;
 mod practice;
+mod renderers;
 mod sets;
 mod sidecar;
 mod surfaces;
 mod texture_sets;
+mod variants;
 mod whole_sets;
 mod written;
 

@@ -95,3 +95,44 @@ fn arrays_that_are_no_pictures_are_named_and_left_out_and_a_batch_of_one_is_a_pi
     let alone = archive(folder.path(), &maps[3..]);
     assert_refused(&alone, &["array loss: expected the shape"]);
 }
+
+#[test]
+fn integers_of_any_type_are_codes_where_they_fit() {
+    let folder = tempdir().unwrap();
+    let array = |kind: &str, values: &[i64], size: usize| {
+        let header =
+            format!("{{'descr': '<{kind}', 'fortran_order': False, 'shape': (1,{},), }}", values.len());
+        let values = values.iter().flat_map(|value| value.to_le_bytes()[..size].to_vec());
+        let header = format!("{header:117}\n").into_bytes();
+        b"\x93NUMPY\x01\x00\x76\x00".iter().copied().chain(header).chain(values).collect::<Vec<u8>>()
+    };
+    let diffuse =
+        archive(folder.path(), &[("diffuse", &[1, 2], &[0.5; 2]), ("specular", &[1, 2], &[0.04; 2])]);
+    let of = |kind: &str, values: &[i64], size: usize| {
+        let mut archive = zip::ZipWriter::new_append(
+            std::fs::File::options().read(true).write(true).open(&diffuse).unwrap(),
+        )
+        .unwrap();
+        archive.start_file("roughness.npy", zip::write::SimpleFileOptions::default()).unwrap();
+        archive.write_all(&array(kind, values, size)).unwrap();
+        archive.finish().unwrap();
+    };
+    for (kind, size, values, expected) in [
+        ("i8", 8, [51, 255], Some([0.2, 1.0])),
+        ("i4", 4, [0, 1], Some([0.0, 1.0])),
+        ("i2", 2, [13_107, 0], Some([0.2, 0.0])),
+        ("u4", 4, [65_535, 0], Some([1.0, 0.0])),
+        ("i8", 8, [-1, 3], None),
+        ("i8", 8, [70_000, 3], None),
+    ] {
+        archive(folder.path(), &[("diffuse", &[1, 2], &[0.5; 2]), ("specular", &[1, 2], &[0.04; 2])]);
+        of(kind, &values, size);
+        match expected {
+            Some(expected) => {
+                let read = open(&diffuse);
+                assert_near([0, 1].map(|index| read.material.texel(index).roughness), expected);
+            }
+            None => assert_refused(&diffuse, &["array roughness", "integers from 0 to 255"]),
+        }
+    }
+}

@@ -1,14 +1,14 @@
 //! Formats of games and of the web: TGA, BMP, WebP, DDS, KTX2; and those that are refused by name.
 
 use super::*;
-use crate::support::textures::{bc1_block, bc5_block, dds_blocks, dds_plain, ktx2_uastc};
+use crate::support::textures::{bc1_block, bc5_block, dds, dds_blocks, dds_dx10, dds_plain, ktx2_uastc};
 
 /// The packed strip of the four maps, linear.
 fn strip() -> DynamicImage {
     packed("NDRS", 4, |_, v| v)
 }
 
-fn put_bytes(folder: &Path, name: &str, bytes: &[u8]) -> std::path::PathBuf {
+pub fn put_bytes(folder: &Path, name: &str, bytes: &[u8]) -> std::path::PathBuf {
     let path = folder.join(name);
     std::fs::write(&path, bytes).unwrap();
     path
@@ -24,6 +24,80 @@ fn tga_bmp_and_webp_open_with_the_values_of_png() {
         let read = open(&folder.path().join(name));
         assert_same(&read, EIGHT_BITS);
         assert_eq!(read.maps[0].depth, "8-bit", "{name}");
+    }
+}
+
+/// A PFM of RGB, the lowest row first, whose scale tells the order of the bytes.
+pub fn pfm(image: &image::Rgb32FImage, scale: &str, order: fn(f32) -> [u8; 4]) -> Vec<u8> {
+    let (width, height) = image.dimensions();
+    let texels = (0..height).rev().flat_map(|y| (0..width).map(move |x| (x, y)));
+    let values = texels.flat_map(|(x, y)| image.get_pixel(x, y).0).flat_map(order);
+    format!("PF\n{width} {height}\n{scale}\n").into_bytes().into_iter().chain(values).collect()
+}
+
+#[test]
+fn pnm_qoi_and_pfm_open_with_the_values_of_png() {
+    let folder = tempdir().unwrap();
+    let image = strip();
+    for (name, format) in [("m.ppm", ImageFormat::Pnm), ("m.qoi", ImageFormat::Qoi)] {
+        assert_same(&open(&save(folder.path(), name, &image, format)), EIGHT_BITS);
+    }
+    let rgb = image.to_rgb32f();
+    for bytes in [pfm(&rgb, "-1.0", f32::to_le_bytes), pfm(&rgb, "1", f32::to_be_bytes)] {
+        assert_same(&open(&put_bytes(folder.path(), "m.pfm", &bytes)), EIGHT_BITS);
+    }
+    let cut = std::fs::read(folder.path().join("m.pfm")).unwrap();
+    assert_refused(
+        &put_bytes(folder.path(), "cut.pfm", &cut[..cut.len() - 4]),
+        &["expected the whole image"],
+    );
+    assert_refused(&put_bytes(folder.path(), "bad.pfm", b"PF\n4 x\n1\n"), &["PFM", "`4 x`"]);
+}
+
+#[test]
+fn a_gray_map_in_pgm_is_read_and_one_of_another_maximum_refused() {
+    let folder = grays(&[("x_basecolor", srgb(0.5)), ("x_roughness", 0.5)]);
+    put(folder.path(), "x_normal_gl", bumps);
+    let pgm =
+        |top: u32| [format!("P5\n{SIDE} {SIDE}\n{top}\n").into_bytes(), vec![255; SIDE * SIDE]].concat();
+    put_bytes(folder.path(), "x_metallic.pgm", &pgm(255));
+    assert_near(open(folder.path()).material.texel(0).specular, [0.5; 3]);
+    put_bytes(folder.path(), "x_metallic.pgm", &pgm(254));
+    assert_refused(folder.path(), &["x_metallic.pgm", "at most 254"]);
+}
+
+/// The half float of a number of at most 1, cut.
+fn half(value: f64) -> [u8; 2] {
+    exr::prelude::f16::from_f64(value).to_le_bytes()
+}
+
+#[test]
+fn dds_of_two_floats_holds_x_and_y_and_dds_of_luminance_is_gray() {
+    let folder = grays(&[("x_diffuse", 0.5), ("x_specular", 0.2)]);
+    let side = SIDE as u32;
+    let texels = || (0..SIDE * SIDE).map(|i| (i % SIDE, i / SIDE));
+    let xy: Vec<u8> = texels().flat_map(|(x, y)| [0, 1].map(|c| half(texel(0, x, y)[c]))).flatten().collect();
+    // DXGI_FORMAT_R16G16_FLOAT.
+    put_bytes(folder.path(), "x_normal_gl.dds", &dds_dx10(side, side, 34, &xy));
+    let gray = |alpha: bool| {
+        texels().flat_map(move |(x, y)| {
+            let code = (255.0 * texel(2, x, y)[0]).round() as u8;
+            if alpha { vec![code, 77] } else { vec![code] }
+        })
+    };
+    // A8L8, of luminance and alpha, and A8.
+    for (words, pixels) in [
+        ([32, 0x2_0001, 0, 16, 0xff, 0, 0, 0xff00], gray(true).collect::<Vec<_>>()),
+        ([32, 2, 0, 8, 0, 0, 0, 0xff], gray(false).collect()),
+    ] {
+        put_bytes(folder.path(), "x_roughness.dds", &dds(side, side, words, &pixels));
+        let read = open(folder.path());
+        for index in [0, 77, 200] {
+            let got = read.material.texel(index);
+            let [normal, roughness] = [0, 2].map(|map| texel(map, index % SIDE, index / SIDE));
+            assert_near(got.normal.to_array(), normal);
+            assert_near([got.roughness], [roughness[0]]);
+        }
     }
 }
 
@@ -173,6 +247,8 @@ fn formats_that_are_not_read_are_refused_by_name() {
         (b"\0\0\0\x20ftypavif\0\0\0\0", "AVIF"),
         (b"\xff\x0a\0\0\0\0\0\0", "JPEG XL"),
         (b"GIF89a\x01\0\x01\0\0\0\0", "GIF"),
+        (b"\xff\xd8\xff\xf7\0\x0b\x08\0\0", "JPEG-LS"),
+        (b"\x50\0\0\0\0\0\0\0{\"x\":{}}", "safetensors"),
     ] {
         assert_refused(&put_bytes(folder.path(), "m.png", begins), &[name, "TGA"]);
     }

@@ -44,3 +44,17 @@ fn x_in_alpha_and_y_in_green_are_found() {
     assert_eq!(chosen(&read, What::NormalEncoding), "ag", "{:#?}", read.assumptions);
     assert_same(&read, 2.0 * EIGHT_BITS);
 }
+
+#[test]
+fn normals_of_8_bits_that_are_no_unit_vectors_are_asked_about() {
+    for (of, dark, is_doubted) in
+        [(1.0, 0, false), (1.0, SIDE / 2, false), (0.6, 0, true), (0.6, SIDE / 2, true)]
+    {
+        let at = |x: usize, y: usize| bumps(x, y).map(|v| 0.5 + of * (v - 0.5));
+        let image = picture(SIDE, SIDE, |x, y| if y < dark { [0.0; 3] } else { at(x, y) });
+        let (_folder, read) = with_normals("a_normal", &image);
+        assert_eq!(chosen(&read, What::NormalEncoding), "unsigned");
+        let doubts = certainty(&read, What::NormalEncoding) == Some(Certainty::Unsure);
+        assert_eq!(doubts, is_doubted, "{of}: {:#?}", read.assumptions);
+    }
+}

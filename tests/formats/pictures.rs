@@ -81,6 +81,46 @@ fn tiff_of_8_and_16_bits_and_floats_opens() {
     }
 }
 
+#[test]
+fn tiff_of_32_bit_integers_is_encoded_as_others_are_and_pages_after_the_first_are_said() {
+    use tiff::encoder::{TiffEncoder, colortype};
+    let folder = grays(&[("roughness", 0.5)]);
+    put(folder.path(), "normal_gl", bumps);
+    let colours: Vec<u32> = (0..SIDE * SIDE)
+        .flat_map(|_| [0.5, 0.4, 0.3].map(|v| (srgb(v) * f64::from(u32::MAX)) as u32))
+        .collect();
+    for pages in [1, 2] {
+        let file = std::fs::File::create(folder.path().join("basecolor.tif")).unwrap();
+        let mut tiff = TiffEncoder::new(file).unwrap();
+        for _ in 0..pages {
+            tiff.write_image::<colortype::RGB32>(SIDE as u32, SIDE as u32, &colours).unwrap();
+        }
+        let read = open(folder.path());
+        assert_near(read.material.texel(9).diffuse, [0.5, 0.4, 0.3]);
+        assert_eq!(chosen(&read, What::Albedo), "srgb");
+        assert_eq!(notes(&read).contains("several pages or frames"), pages > 1, "{}", notes(&read));
+    }
+}
+
+#[test]
+fn tiff_of_other_samples_and_compressions_is_refused_by_name() {
+    use tiff::encoder::{TiffEncoder, colortype};
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("m.tif");
+    let file = std::fs::File::create(&path).unwrap();
+    TiffEncoder::new(file).unwrap().write_image::<colortype::GrayI16>(4, 4, &[7; 16]).unwrap();
+    assert_refused(&path, &["signed integers of 16 bits"]);
+    let mut bytes = std::fs::read(&path).unwrap();
+    // The entry of the compression: tag 259, a short, one value.
+    let entry = [3_u8, 1, 3, 0, 1, 0, 0, 0];
+    let at = bytes.windows(entry.len()).position(|window| window == entry).unwrap() + entry.len();
+    for (code, name) in [(34_925_u16, "LZMA"), (34_712, "JPEG 2000"), (50_000, "ZSTD")] {
+        bytes[at..at + 2].copy_from_slice(&code.to_le_bytes());
+        std::fs::write(&path, &bytes).unwrap();
+        assert_refused(&path, &[name, "LZW"]);
+    }
+}
+
 /// Worst difference of the diffuse, specular and roughness of a strip N D R S, read as linear, from its pixels.
 fn worst_from_pixels(material: &Material<f64>, strip: &image::RgbImage) -> f64 {
     let side = SIDE as u32;

@@ -114,6 +114,31 @@ fn chunks_about_colour_and_orientation_change_nothing_and_are_said_where_they_mi
 }
 
 #[test]
+fn what_chunks_declare_of_light_primaries_and_frames_is_said() {
+    let numbers = |all: &[u32]| all.iter().flat_map(|n| n.to_be_bytes()).collect::<Vec<u8>>();
+    let wide = numbers(&[31_270, 32_900, 68_000, 32_000, 26_500, 69_000, 15_000, 6_000]);
+    let usual = numbers(&[31_270, 32_900, 64_000, 33_000, 30_000, 60_000, 15_000, 6_000]);
+    for (name, content, said) in [
+        (*b"cICP", vec![1, 8, 0, 1], Some("cICP chunk that declares it linear")),
+        (*b"cICP", vec![9, 13, 0, 1], Some("cICP chunk with primaries other")),
+        (*b"cICP", vec![1, 13, 0, 1], None),
+        (*b"cHRM", wide, Some("cHRM chunk with primaries other")),
+        (*b"cHRM", usual, None),
+        (*b"acTL", numbers(&[3, 0]), Some("several pages or frames")),
+        (*b"acTL", numbers(&[1, 0]), None),
+    ] {
+        let chunks = [(name, content)];
+        let png = Png { chunks: &chunks, ..plain(8, RGB) };
+        let read = with("diffuse.png", &png.bytes(|x, y, c| bytes_at(1, x as u32, y as u32)[c].into()));
+        let count = |words: &str| notes(&read).matches(words).count();
+        let all =
+            ["declares it linear", "chunk with primaries", "several pages"].map(count).iter().sum::<usize>();
+        assert_eq!(all, usize::from(said.is_some()), "{chunks:?}: {}", notes(&read));
+        assert!(said.is_none_or(|said| notes(&read).contains(said)), "{chunks:?}: {}", notes(&read));
+    }
+}
+
+#[test]
 fn a_wrong_checksum_in_an_ancillary_chunk_is_no_reason_to_refuse() {
     let chunks = colour_chunks();
     let png = Png { chunks: &chunks, ..plain(8, GRAY) };

@@ -254,5 +254,38 @@ fn maps_in_the_only_folder_within_open_and_several_folders_are_listed() {
     assert_same(&read, EIGHT_BITS);
     assert_notes(&read, &["in the folder textures within"]);
     std::fs::create_dir(folder.path().join("other")).unwrap();
-    assert_refused(folder.path(), &["none, but the folders other, textures"]);
+    assert_refused(folder.path(), &["none, but the folders other, textures", "open one of them"]);
+    // Pictures beside it that name no map are previews.
+    gray(folder.path(), "preview", 0.5);
+    gray(folder.path(), "wall", 0.5);
+    let read = open(folder.path());
+    assert_same(&read, EIGHT_BITS);
+    assert_notes(
+        &read,
+        &["in the folder textures within", "preview.png is not used", "wall.png is not used"],
+    );
+    let data_set = tempdir().unwrap();
+    for name in ["basecolor", "normal", "roughness"] {
+        std::fs::create_dir(data_set.path().join(name)).unwrap();
+    }
+    assert_refused(data_set.path(), &["one folder per map"]);
+    let archive = tempdir().unwrap();
+    std::fs::write(archive.path().join("Rock_1K.zip"), b"PK").unwrap();
+    assert_refused(archive.path(), &["the archive Rock_1K.zip", "unpack it"]);
+}
+
+#[test]
+fn spec_of_texture_haven_is_the_level_of_specular_and_asked_about() {
+    for (names, expected, is_doubted) in [
+        (["x_diff", "x_rough", "x_spec"], 0.04, true),
+        (["x_diffuse", "x_roughness", "x_spec"], 0.214, false),
+    ] {
+        let folder = tempdir().unwrap();
+        put(folder.path(), "x_nor_gl", bumps);
+        names.iter().for_each(|name| gray(folder.path(), name, 0.5));
+        let read = open(folder.path());
+        assert_near([read.material.texel(0).specular[0]], [expected]);
+        let doubts = read.unsure().any(|a| a.why.to_string().contains("Texture Haven"));
+        assert_eq!(doubts, is_doubted, "{names:?}: {:#?}", read.assumptions);
+    }
 }

@@ -158,6 +158,7 @@ fn one_file_of_an_incomplete_set_says_what_is_missing() {
     gray(folder.path(), "shield_AlbedoTransparency.png", 0.5);
     let refused = refusal(&folder.path().join("shield_Normal.png"));
     assert!(refused.contains("the roughness map") && !refused.contains("strip"), "{refused}");
+    assert!(refused.contains("Smoothness as the other files, or roughness, rough"), "{refused}");
     let smooth = RgbaImage::from_pixel(BUMPS as u32, BUMPS as u32, Rgba([0, 0, 0, 204]));
     put(folder.path(), "shield_MetallicSmoothness.png", &smooth.into());
     for file in ["shield_Normal.png", "shield_AlbedoTransparency.png"] {
@@ -214,11 +215,25 @@ fn a_material_of_an_engine_says_what_to_open_instead() {
     for (name, text) in [
         ("lid.vmat", "Layer0\n{\n\tTextureColor \"materials/lid_color.tga\"\n}\n"),
         ("lid.tres", "[gd_resource]\n[ext_resource path=\"res://materials/lid_color.tga\"]\n"),
+        ("lid.usda", "#usda 1.0\n asset inputs:file = @materials/lid_color.tga@\n"),
         ("lid.xml", "<material><texture unit=\"diffuse\" name=\"materials/lid_color.tga\"/></material>"),
     ] {
         let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();
         assert_refused(&path, &["materials/lid_color.tga", "open the folder"]);
+    }
+    for (name, kind) in [
+        ("lid.safetensors", "safetensors"),
+        ("lid.pt", "PyTorch"),
+        ("lid.sbsar", "Substance"),
+        ("lid.mdl", "MDL"),
+        ("lid.axf", "AxF"),
+        ("lid.pbrt", "pbrt"),
+        ("lid.usdz", "USD"),
+    ] {
+        let path = folder.path().join(name);
+        std::fs::write(&path, b"PK\x03\x04").unwrap();
+        assert_refused(&path, &[kind]);
     }
 }
 

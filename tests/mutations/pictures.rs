@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use exr::prelude::Compression;
 
 use super::*;
-use crate::formats::decoders::{ETC1S, blocks};
+use crate::formats::decoders::{ETC1S, blocks, pfm};
 use crate::support::pictures::{SIDE, compressed, layered, multi_part, npy, npz, stored};
 use crate::support::png::{self, Png, crc32};
 use crate::support::textures::{bc1_block, dds_blocks, dds_dx10, dds_plain};
@@ -27,6 +27,8 @@ pub fn pictures() -> Vec<(String, Vec<u8>)> {
         ("TIFF of floats", &float, ImageFormat::Tiff),
         ("BMP", &eight, ImageFormat::Bmp),
         ("WebP", &eight, ImageFormat::WebP),
+        ("PNM", &eight, ImageFormat::Pnm),
+        ("QOI", &eight, ImageFormat::Qoi),
     ];
     let others = [
         ("PNG of a palette", palette()),
@@ -40,6 +42,9 @@ pub fn pictures() -> Vec<(String, Vec<u8>)> {
         ("KTX2 of ETC1S", ETC1S.to_vec()),
         ("EXR of one part", written(|path| layered(path, true))),
         ("EXR of four parts", written(multi_part)),
+        ("PFM", pfm(&numbers, "-1", f32::to_le_bytes)),
+        // Strips of JPEG with halved chroma, by tifffile.
+        ("TIFF of JPEG", include_bytes!("jpeg.tif").to_vec()),
         ("npy", npy([u64::from(numbers.height()), u64::from(numbers.width()), 3], numbers.as_raw())),
         ("npz", written(npz)),
     ];
@@ -64,7 +69,7 @@ fn try_kinds(kinds: &[&str]) {
     let all: Vec<_> = pictures().into_iter().filter(|(name, _)| of_kind(name)).collect();
     assert!(all.len() >= kinds.len());
     for (name, whole) in all {
-        let is_strip = ["BMP", "WebP", "DDS", "KTX2"].iter().any(|kind| name.starts_with(kind));
+        let is_strip = ["BMP", "WebP", "PNM", "QOI", "DDS", "KTX2"].iter().any(|kind| name.starts_with(kind));
         let options = if is_strip { &STRIP } else { &OPTIONS };
         try_all(&name, &whole, damaged, |bytes| read_bytes("damaged", bytes, options), of_picture);
     }
@@ -77,7 +82,7 @@ fn damaged_pictures_never_panic() {
 
 #[test]
 fn damaged_textures_of_games_never_panic() {
-    try_kinds(&["BMP", "WebP", "DDS", "KTX2"]);
+    try_kinds(&["BMP", "WebP", "PNM", "QOI", "PFM", "DDS", "KTX2"]);
 }
 
 #[test]

@@ -194,3 +194,56 @@ fn extensions_that_are_not_modelled_are_named_unless_they_are_off() {
     assert!(said(0.5));
     assert!(!said(0.0));
 }
+
+#[test]
+fn transforms_that_differ_by_rounding_turns_and_tiles_are_one_and_other_coordinates_are_said() {
+    let folder = textures();
+    let text = |of_base: &str, of_others: &str| {
+        let material = PLAIN
+            .replace(r#""index": 0}"#, &format!(r#""index": 0{of_base}}}"#))
+            .replace(r#""index": 2}"#, &format!(r#""index": 2{of_others}}}"#));
+        document(&IMAGES, THREE, &material, "")
+    };
+    let transform = |of: &str| format!(r#", "extensions": {{"KHR_texture_transform": {{{of}}}}}"#);
+    for (of, is_same) in [
+        (r#""offset": [4e-7, -4e-7]"#, true),
+        (r#""rotation": 6.283185307179586"#, true),
+        (r#""rotation": -12.566370614359172, "offset": [2, -1]"#, true),
+        (r#""scale": [1, 1.0000001]"#, true),
+        (r#""offset": [0.5, 0]"#, false),
+        (r#""rotation": 1.57"#, false),
+        (r#""scale": [2, 2]"#, false),
+    ] {
+        let path = put(&folder, &text(&transform(of), ""));
+        match is_same {
+            true => assert_is_of_textures(&open(&path), 1.0),
+            false => assert!(refusal(&path).contains("KHR_texture_transform"), "{of}"),
+        }
+    }
+    let said = "TEXCOORD_1 of baseColorTexture, TEXCOORD_0 of metallicRoughnessTexture";
+    for (of, is_said) in [
+        (r#", "texCoord": 1"#.to_owned(), true),
+        (transform(r#""texCoord": 1"#), true),
+        (transform(""), false),
+    ] {
+        assert_eq!(says(&open(&put(&folder, &text(&of, ""))), said), is_said, "{of}");
+    }
+}
+
+#[test]
+fn normals_of_a_gltf_are_three_components_though_blue_is_1_everywhere() {
+    let folder = textures();
+    let flat = |x: usize, y: usize| [stored(0, x, y, |v| v)[0], stored(0, x, y, |v| v)[1], 1.0];
+    save(folder.path(), "n.png", &picture(SIDE, SIDE, flat), ImageFormat::Png);
+    let read = open(&put(&folder, &document(&IMAGES, THREE, PLAIN, "")));
+    assert_eq!(certainty(&read, What::NormalEncoding), Some(Certainty::Sure), "{:#?}", read.assumptions);
+    for index in [3, 77, 200] {
+        let [x, y, _] = texel(0, index % SIDE, index / SIDE);
+        let length = (x * x + y * y + 1.0).sqrt();
+        assert_near(
+            read.material.texel(index).normal.to_array(),
+            [x / length, y / length, 1.0 / length],
+            BOUND,
+        );
+    }
+}

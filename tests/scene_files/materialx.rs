@@ -80,3 +80,78 @@ fn what_is_not_modelled_is_named_where_it_is_on() {
         assert_eq!(says(&read_of("standard_surface", &value("coat", coat)).unwrap(), "coat"), is_said);
     }
 }
+
+/// A surface with these pictures, which the document names as an exporter does: with tiles, and green turned around by nodes.
+fn tiled(tile: &str, more: &str) -> String {
+    format!(
+        r#"<materialx version="1.39" colorspace="lin_rec709">
+          <image name="base" type="color3"><input name="file" type="filename" colorspace="srgb_tx" value="base.{tile}.png"/></image>
+          <image name="n" type="vector3"><input name="file" type="filename" value="turned.png"/></image>
+          <extract name="r" type="float"><input name="in" nodename="n"/><input name="index" value="0"/></extract>
+          <extract name="g" type="float"><input name="in" nodename="n"/><input name="index" value="1"/></extract>
+          <extract name="b" type="float"><input name="in" nodename="n"/><input name="index" value="2"/></extract>
+          <invert name="i" type="float"><input name="in" nodename="g"/></invert>
+          <combine3 name="c" type="vector3"><input name="in1" nodename="r"/><input name="in2" nodename="i"/><input name="in3" nodename="b"/></combine3>
+          <normalmap name="nm" type="vector3"><input name="in" nodename="c"/></normalmap>
+          <image name="orm" type="vector3"><input name="file" type="filename" value="orm.png"/></image>
+          <extract name="rough" type="float"><input name="in" nodename="orm"/><input name="index" value="1"/></extract>{more}
+          <open_pbr_surface name="wall" type="surfaceshader"><input name="base_color" nodename="base"/>
+            <input name="specular_roughness" nodename="rough"/><input name="geometry_normal" nodename="nm"/></open_pbr_surface>
+        </materialx>"#
+    )
+}
+
+#[test]
+fn the_only_tile_of_a_picture_and_normals_whose_green_is_turned_by_nodes_open() {
+    for (tile, file) in
+        [("<UDIM>", "base.1001.png"), ("<UVTILE>", "base.u1_v1.png"), ("&lt;UDIM&gt;", "base.1012.png")]
+    {
+        let folder = textures();
+        let turned = picture(SIDE, SIDE, |x, y| {
+            let [r, g, b] = stored(0, x, y, |v| v);
+            [r, 1.0 - g, b]
+        });
+        save(folder.path(), "turned.png", &turned, ImageFormat::Png);
+        std::fs::copy(folder.path().join("base colour.png"), folder.path().join(file)).unwrap();
+        let path = folder.path().join("a.mtlx");
+        std::fs::write(&path, tiled(tile, "")).unwrap();
+        assert_is_of_textures(&open(&path), 1.0);
+        std::fs::copy(folder.path().join(file), folder.path().join("base.1002.png")).unwrap();
+        std::fs::copy(folder.path().join(file), folder.path().join("base.u2_v1.png")).unwrap();
+        let refused = refusal(&path);
+        assert!(refused.contains("one tile of base.") && refused.contains(file), "{refused}");
+    }
+}
+
+#[test]
+fn channels_of_two_pictures_are_no_normals() {
+    let folder = textures();
+    let path = folder.path().join("a.mtlx");
+    let text = tiled("1001", "")
+        .replace(r#"<input name="in1" nodename="r"/>"#, r#"<input name="in1" nodename="rough"/>"#);
+    std::fs::write(&path, text).unwrap();
+    std::fs::copy(folder.path().join("base colour.png"), folder.path().join("base.1001.png")).unwrap();
+    save(folder.path(), "turned.png", &picture(SIDE, SIDE, |_, _| [0.5, 0.5, 1.0]), ImageFormat::Png);
+    let refused = refusal(&path);
+    assert!(refused.contains("c (combine3)"), "{refused}");
+}
+
+#[test]
+fn a_colour_without_a_colour_space_is_not_converted_and_asked_about() {
+    let folder = textures();
+    let path = folder.path().join("a.mtlx");
+    let text = |space: &str| {
+        document(
+            "gltf_pbr",
+            r#"<input name="base_color" nodename="base"/><input name="metallic" value="0"/>"#,
+        )
+        .replace(r#" colorspace="lin_rec709""#, "")
+        .replace(r#" colorspace="srgb_texture""#, space)
+    };
+    std::fs::write(&path, text("")).unwrap();
+    let read = open(&path);
+    assert_near(read.material.texel(3).diffuse, BASE.map(srgb), BOUND);
+    assert_eq!(certainty(&read, What::Albedo), Some(Certainty::Unsure), "{:#?}", read.assumptions);
+    std::fs::write(&path, text(r#" colorspace="srgb_tx""#)).unwrap();
+    assert_near(open(&path).material.texel(3).diffuse, BASE, BOUND);
+}

@@ -50,6 +50,7 @@ fn other_ways_to_say_it_in_mtl_are_the_same_material() {
         ("one channel", "norm n.png\nmap_Pr -imfchan g orm.png"),
         ("nvdiffrec", "bsdf pbr\nmap_Ks orm.png\nbump n.png"),
         ("nvdiffrec by the name", "map_Ks orm.png\nbump n.png"),
+        ("ORM by its statement", "map_ORM orm.png\nbump n.png\nPr 0.3"),
         ("paths of another machine", "norm C:\\art\\n.png\nmap_Pr .\\old rough.png"),
     ] {
         let (_folder, path) =
@@ -146,4 +147,12 @@ fn an_mtl_without_what_is_needed_is_refused() {
         assert!(message.contains(expected), "{message}");
         assert!(message.contains(&folder.path().display().to_string()), "{message}");
     }
+}
+
+#[test]
+fn a_picture_of_roughness_metallic_and_occlusion_has_a_statement_of_its_own() {
+    let (folder, path) = wall("newmtl wall\nmap_Kd base colour.png\nmap_RMA rma.png\nnorm n.png\n");
+    let rma = picture(SIDE, SIDE, |x, y| [texel(2, x, y)[0], 0.0, 0.9]);
+    save(folder.path(), "rma.png", &rma, ImageFormat::Png);
+    assert_is_of_textures(&open(&path), 1.0);
 }

@@ -79,7 +79,8 @@ pub fn plane(map: usize, channel: usize) -> Vec<f32> {
     (0..SIDE * SIDE).map(|i| texel(map, i % SIDE, i / SIDE)[channel] as f32).collect()
 }
 
-fn channel(name: &str, samples: FlatSamples) -> AnyChannel<FlatSamples> {
+/// A channel of this name.
+pub fn channel(name: &str, samples: FlatSamples) -> AnyChannel<FlatSamples> {
     AnyChannel::new(Text::new_or_none(name).unwrap(), samples)
 }
 
@@ -99,6 +100,15 @@ fn channels(map: usize, prefix: &str) -> Vec<AnyChannel<FlatSamples>> {
 
 /// One EXR of the given parts: (name, channels).
 pub fn exr(path: &Path, parts: Vec<(Option<&str>, Vec<AnyChannel<FlatSamples>>)>) {
+    exr_of(path, ImageAttributes::new(IntegerBounds::from_dimensions((SIDE, SIDE))), parts);
+}
+
+/// As [`exr`], with a display window, primaries and the like of its own.
+pub fn exr_of(
+    path: &Path,
+    attributes: ImageAttributes,
+    parts: Vec<(Option<&str>, Vec<AnyChannel<FlatSamples>>)>,
+) {
     let layers: SmallVec<[Layer<AnyChannels<FlatSamples>>; 2]> = parts
         .into_iter()
         .map(|(name, channels)| {
@@ -110,7 +120,6 @@ pub fn exr(path: &Path, parts: Vec<(Option<&str>, Vec<AnyChannel<FlatSamples>>)>
             Layer::new((SIDE, SIDE), attributes, Encoding::FAST_LOSSLESS, channels)
         })
         .collect();
-    let attributes = ImageAttributes::new(IntegerBounds::from_dimensions((SIDE, SIDE)));
     Image::from_layers(attributes, layers).write().to_file(path).unwrap();
 }
 

@@ -1,7 +1,7 @@
 //! Texture files of games byte by byte: DDS and KTX2.
 
 /// A DDS of `width` x `height` texels: the pixel format as 8 words, then the pixels.
-fn dds(width: u32, height: u32, pixel_format: [u32; 8], pixels: &[u8]) -> Vec<u8> {
+pub fn dds(width: u32, height: u32, pixel_format: [u32; 8], pixels: &[u8]) -> Vec<u8> {
     let mut file = b"DDS ".to_vec();
     let mut words = vec![124, 0x1007, height, width, 0, 0, 0];
     words.extend([0; 11]);

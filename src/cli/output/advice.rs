@@ -46,7 +46,7 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
 pub fn with_option(note: &Note) -> String {
     match note {
         Note::Rows { .. } | Note::Materials { .. } => format!("{note} Another: --read exemplar=K."),
-        Note::LinearGamma(Subject::Map(_) | Subject::Material | Subject::Picture) => {
+        Note::LinearChunk(Subject::Map(_) | Subject::Material | Subject::Picture, _) => {
             format!("{note} --read albedo=linear uses it.")
         }
         _ => note.to_string(),

@@ -15,7 +15,7 @@ use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::read::options::{Albedo, transfer};
 use crate::read::raster::{Raster, Samples};
-use crate::read::record::{Note, Subject};
+use crate::read::record::Note;
 
 choices! {
     /// How the samples of a photograph encode radiance.
@@ -95,15 +95,17 @@ pub fn read_photograph(path: &Path, options: &PhotographOptions) -> Result<Photo
 pub fn read_named_photograph(file: &NamedFile, options: &PhotographOptions) -> Result<Photograph, Error> {
     let (raster, mut notes) = decode::photograph(file)?;
     inputs::protect(file.path());
-    let declared_linear = Note::LinearGamma(Subject::Photograph);
+    let chunk = |note: &Note| if let Note::LinearChunk(_, chunk) = note { Some(*chunk) } else { None };
+    let declared = notes.iter().find_map(chunk);
     let (transfer, transfer_from) = match options.transfer {
         Some(transfer) => (transfer, "as specified"),
-        None if notes.contains(&declared_linear) => (Transfer::Linear, "declared by its gAMA chunk"),
+        None if declared == Some("cICP") => (Transfer::Linear, "declared by its cICP chunk"),
+        None if declared.is_some() => (Transfer::Linear, "declared by its gAMA chunk"),
         None if raster.is_float() => (Transfer::Linear, "since it stores floats"),
         None => (Transfer::Srgb, "since it stores integers"),
     };
     if transfer == Transfer::Linear {
-        notes.retain(|note| *note != declared_linear);
+        notes.retain(|note| chunk(note).is_none());
     }
     let clip = options.clip.unwrap_or(if raster.is_float() { f64::INFINITY } else { 1.0 });
     let channels = [0, 1, 2].map(|c| &raster.channels[c.min(raster.channels.len() - 1)]);

@@ -2,13 +2,16 @@
 
 use std::io::ErrorKind;
 
+use dds::header::{Dx9Header, Dx9PixelFormat, Header, PixelFormatFlags};
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
 use super::place::DecodedFile;
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::error::Error;
+use crate::read::options::Role;
 use crate::read::raster::{Buffer, Raster, Samples};
+use crate::read::record::Subject;
 
 pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
     let contradiction = |_| place.invalid("DDS", "a contradiction in it");
@@ -27,7 +30,8 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
     let (channels, count) = match native.channels {
         Channels::Grayscale => (Channels::Grayscale, 1),
         Channels::Rgb => (Channels::Rgb, 3),
-        Channels::Alpha | Channels::Rgba => (Channels::Rgba, 4),
+        Channels::Alpha => (Channels::Alpha, 1),
+        Channels::Rgba => (Channels::Rgba, 4),
     };
     let texels = u64::from(size.width).saturating_mul(u64::from(size.height));
     let _reserved =
@@ -39,12 +43,16 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
         Precision::F32 => (pixels(&mut decoder, vec![0.0_f32; values], channels, place)?, "float"),
     };
     let mut channels = Samples::interleaved(buffer, count);
+    let (width, height) = (size.width as usize, size.height as usize);
     if is_two_channel(decoder.format()) {
         channels.truncate(2);
-        let (width, height) = (size.width as usize, size.height as usize);
-        return Ok(Raster { width, height, depth, channels, alpha: None });
+        // Gray and alpha; but writers of x and y claim that, too.
+        let is_gray = is_luminance(decoder.header()) && place.what != Subject::Map(Role::Normal);
+        if !is_gray {
+            return Ok(Raster { width, height, depth, channels, alpha: None });
+        }
     }
-    Ok(Raster::with_alpha(size.width as usize, size.height as usize, depth, channels))
+    Ok(Raster::with_alpha(width, height, depth, channels))
 }
 
 /// A type that samples are decoded into.
@@ -109,5 +117,14 @@ fn is_signed(format: Format) -> bool {
 
 /// Formats of x and y alone, as normal maps have; the library adds a third channel.
 fn is_two_channel(format: Format) -> bool {
-    matches!(format, Format::BC5_UNORM | Format::R8G8_UNORM | Format::R16G16_UNORM)
+    use Format as F;
+    matches!(format, F::BC5_UNORM | F::R8G8_UNORM | F::R16G16_UNORM | F::R16G16_FLOAT | F::R32G32_FLOAT)
+}
+
+/// Whether the header claims gray and alpha.
+fn is_luminance(header: &Header) -> bool {
+    let Header::Dx9(Dx9Header { pixel_format: Dx9PixelFormat::Mask(mask), .. }) = header else {
+        return false;
+    };
+    mask.flags.contains(PixelFormatFlags::LUMINANCE_ALPHA)
 }

@@ -5,7 +5,7 @@ use std::io::Seek as _;
 
 use exr::image::FlatSamples;
 use exr::meta::MetaData;
-use exr::meta::attribute::{IntegerBounds, Text};
+use exr::meta::attribute::{Chromaticities, IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
 use super::dwa;
@@ -13,8 +13,10 @@ use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE};
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::error::Error;
+use crate::read::names::Label;
+use crate::read::options::Role;
 use crate::read::raster::{Raster, Samples};
-use crate::read::record::Note;
+use crate::read::record::{Note, Subject, Unused};
 
 /// The beginning of the comments of an EXR that this program wrote as a material.
 pub(crate) const NATIVE: &str = "svbrdf:version=1\n";
@@ -74,8 +76,12 @@ fn check(meta: &MetaData, place: DecodedFile<'_>) -> Result<u64, Error> {
 fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let mut decoded = Decoded::default();
     let display = image.attributes.display_window;
-    if image.attributes.chromaticities.is_some_and(|c| (c.red.0 - 0.64).abs() + (c.red.1 - 0.33).abs() > 0.01)
-    {
+    let is_far = |c: &Chromaticities| {
+        let [red, green, blue] = [c.red, c.green, c.blue].map(|one| [one.0, one.1]);
+        let rec709 = [0.64, 0.33, 0.3, 0.6, 0.15, 0.06];
+        [red, green, blue].concat().into_iter().zip(rec709).any(|(a, b)| (a - b).abs() > 0.01)
+    };
+    if !place.is_data() && image.attributes.chromaticities.as_ref().is_some_and(is_far) {
         decoded.notes.push(Note::Primaries);
     }
     for part in image.layer_data {
@@ -93,9 +99,19 @@ fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
             named.entry(layer).or_default().push((channel, samples));
         }
         for (name, channels) in named {
-            let Some(raster) = raster(size, depth, channels) else { continue };
+            let is_normal = place.what == Subject::Map(Role::Normal)
+                || Label::of(&name).is_some_and(|label| label.role == Role::Normal);
+            let Some((raster, mut left)) = raster(size, depth, channels, is_normal) else { continue };
+            left.sort_by_key(|name| "RGBXYZ".find(name.as_str()));
+            if !left.is_empty() {
+                let layer = if name.is_empty() { String::new() } else { format!(" of layer {name}") };
+                let what = format!("Channel {}{layer}", left.join(", "));
+                decoded.notes.push(Note::Unused { what, why: Unused::NotAMap });
+            }
+            let stored = raster.clone();
             let raster = windowed(raster, data, display, &name, &mut decoded.notes);
-            decoded.layers.push(Layer { name, raster });
+            let uncropped = (raster.size() != stored.size()).then_some(stored);
+            decoded.layers.push(Layer { name, raster, uncropped });
         }
     }
     if decoded.layers.is_empty() {
@@ -123,24 +139,36 @@ fn samples(samples: FlatSamples) -> (Samples, &'static str) {
     }
 }
 
-/// RGB, XYZ or XY in their order whatever the file's, or a single channel of any name; `None` without any.
-fn raster([width, height]: [usize; 2], depth: &'static str, mut channels: NamedSamples) -> Option<Raster> {
-    let mut take = |names: &[&str]| {
-        let place = channels.iter().position(|(name, _)| names.contains(&name.as_str()))?;
-        Some(channels.swap_remove(place).1)
+/// RGB, XYZ or XY in their order whatever the file's, or a single channel of any name; with the names of those that are left. Of a layer
+/// with both, XYZ are the normals, and RGB is a preview of them. `None` without any channel.
+fn raster(
+    [width, height]: [usize; 2],
+    depth: &'static str,
+    mut channels: NamedSamples,
+    is_normal: bool,
+) -> Option<(Raster, Vec<String>)> {
+    const RGB: [[&str; 2]; 3] = [["R", "RED"], ["G", "GREEN"], ["B", "BLUE"]];
+    const XYZ: [[&str; 2]; 3] = [["X", "U"], ["Y", "V"], ["Z", "W"]];
+    let place = |channels: &NamedSamples, names: &[&str]| {
+        channels.iter().position(|(name, _)| names.contains(&name.as_str()))
     };
-    let alpha = take(&["A", "ALPHA"]);
-    let ordered: Vec<Samples> = [["R", "RED", "X", "U"], ["G", "GREEN", "Y", "V"], ["B", "BLUE", "Z", "W"]]
-        .iter()
-        .filter_map(|n| take(n))
-        .collect();
-    let channels = if ordered.is_empty() {
-        channels.into_iter().next().map(|(_, samples)| samples).or(alpha.clone()).into_iter().collect()
-    } else {
-        ordered
-    };
+    let alpha = place(&channels, &["A", "ALPHA"]).map(|at| channels.remove(at).1);
+    // The last of those with the most channels.
+    let sets = if is_normal { [RGB, XYZ] } else { [XYZ, RGB] };
+    let set =
+        sets.iter().max_by_key(|set| set.iter().filter(|names| place(&channels, *names).is_some()).count());
+    let mut take = |names: &[&str; 2]| place(&channels, names).map(|at| channels.remove(at).1);
+    let mut taken: Vec<Samples> = set.into_iter().flatten().filter_map(&mut take).collect();
+    if taken.is_empty() {
+        taken = if channels.is_empty() {
+            alpha.clone().into_iter().collect()
+        } else {
+            vec![channels.remove(0).1]
+        };
+    }
     let alpha = alpha.filter(|alpha| !alpha.is_all(1.0));
-    (!channels.is_empty()).then_some(Raster { width, height, depth, channels, alpha })
+    let left = channels.into_iter().map(|(name, _)| name).collect();
+    (!taken.is_empty()).then_some((Raster { width, height, depth, channels: taken, alpha }, left))
 }
 
 /// The picture in its display window where the two differ; 0 where the file has no data, normals up.

@@ -20,8 +20,12 @@ pub(crate) fn is_hdr_head_short(reader: &mut Reader<'_>) -> io::Result<bool> {
 /// The fields of a PNG before its pixels.
 #[derive(Debug, Default)]
 pub(crate) struct PngHead {
-    /// Whether a gAMA chunk, without an sRGB one, declares its values linear.
-    pub linear: bool,
+    /// The chunk that declares its values linear: cICP, or else gAMA without sRGB.
+    pub linear: Option<&'static str>,
+    /// The chunk that declares primaries other than those of Rec. 709: cICP, or else cHRM without sRGB.
+    pub other_primaries: Option<&'static str>,
+    /// Whether it is an animation.
+    pub is_animated: bool,
     /// The text that this program writes into packed pictures: their order and encoding.
     pub meaning: Option<String>,
 }
@@ -29,9 +33,27 @@ pub(crate) struct PngHead {
 /// Longest text that is looked at.
 const LONGEST: u32 = 1 << 10;
 
+/// The code of linear values in cICP (ITU-T H.273).
+const LINEAR: u8 = 8;
+/// The chromaticities of red, green and blue of Rec. 709, in 1/100000.
+const REC709: [u32; 6] = [64_000, 33_000, 30_000, 60_000, 15_000, 6_000];
+
+/// The first numbers of a chunk, of whose bytes so many are `left`.
+fn numbers<const N: usize>(reader: &mut Reader<'_>, left: &mut i64) -> io::Result<[u32; N]> {
+    let mut numbers = [0; N];
+    for number in &mut numbers {
+        let mut bytes = [0; 4];
+        reader.read_exact(&mut bytes)?;
+        *number = u32::from_be_bytes(bytes);
+        *left -= 4;
+    }
+    Ok(numbers)
+}
+
 pub(crate) fn png(reader: &mut Reader<'_>) -> io::Result<PngHead> {
     const KEYWORD: &[u8] = b"svbrdf\0packed ";
-    let (mut gamma_is_one, mut srgb, mut meaning) = (false, false, None);
+    let (mut gamma_is_one, mut srgb, mut is_animated, mut meaning) = (false, false, false, None);
+    let (mut cicp, mut primaries): (Option<[u8; 4]>, Option<[u32; 6]>) = (None, None);
     reader.seek_relative(8)?;
     loop {
         let (mut length, mut name) = ([0; 4], [0; 4]);
@@ -40,8 +62,21 @@ pub(crate) fn png(reader: &mut Reader<'_>) -> io::Result<PngHead> {
         let length = u32::from_be_bytes(length);
         let mut left = i64::from(length) + 4;
         match &name {
-            b"IDAT" => return Ok(PngHead { linear: gamma_is_one && !srgb, meaning }),
+            b"IDAT" => {
+                let linear = match cicp {
+                    Some([_, transfer, ..]) => (transfer == LINEAR).then_some("cICP"),
+                    None => (gamma_is_one && !srgb).then_some("gAMA"),
+                };
+                // Of cICP, 2 are not specified.
+                let is_far = |all: &[u32; 6]| all.iter().zip(REC709).any(|(a, b)| a.abs_diff(b) > 1000);
+                let other_primaries = match cicp {
+                    Some([primaries, ..]) => (!matches!(primaries, 1 | 2)).then_some("cICP"),
+                    None => primaries.filter(is_far).filter(|_| !srgb).map(|_| "cHRM"),
+                };
+                return Ok(PngHead { linear, other_primaries, is_animated, meaning });
+            }
             b"sRGB" => srgb = true,
+            b"acTL" => is_animated = numbers::<1>(reader, &mut left)?[0] > 1,
             b"tEXt" if length <= LONGEST => {
                 let mut text = vec![0; length as usize];
                 reader.read_exact(&mut text)?;
@@ -50,12 +85,12 @@ pub(crate) fn png(reader: &mut Reader<'_>) -> io::Result<PngHead> {
                     text.strip_prefix(KEYWORD).map(|text| String::from_utf8_lossy(text).into_owned());
                 meaning = written.or(meaning);
             }
-            b"gAMA" => {
-                let mut gamma = [0; 4];
-                reader.read_exact(&mut gamma)?;
-                left -= 4;
-                gamma_is_one = u32::from_be_bytes(gamma).abs_diff(100_000) < 1000;
+            b"gAMA" => gamma_is_one = numbers::<1>(reader, &mut left)?[0].abs_diff(100_000) < 1000,
+            b"cHRM" => {
+                let [_, _, rest @ ..]: [u32; 8] = numbers(reader, &mut left)?;
+                primaries = Some(rest);
             }
+            b"cICP" => cicp = Some(numbers::<1>(reader, &mut left)?[0].to_be_bytes()),
             _ => (),
         }
         reader.seek_relative(left)?;

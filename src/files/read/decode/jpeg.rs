@@ -1,4 +1,5 @@
-//! JPEG: the values that libjpeg-turbo gives, on which this field trains and evaluates.
+//! JPEG: the values that libjpeg-turbo gives, on which this field trains and evaluates. Of YCCK with halved chroma, the last column of
+//! libjpeg-turbo-rs 0.8.0 differs by up to 4 codes.
 
 use std::io::{Read as _, Seek as _, SeekFrom};
 
@@ -13,6 +14,17 @@ use crate::read::raster::{Raster, Samples};
 /// The bytes of a pixel that the decoder takes beside its result: planes of coefficients and of colours.
 const WORKING: u64 = 9;
 
+/// The content of a JPEG.
+pub(super) struct Pixels {
+    pub size: [usize; 2],
+    /// Channels of a pixel: 1 or 3.
+    pub count: usize,
+    /// Pixel by pixel.
+    pub values: Vec<u8>,
+    orientation: u8,
+    profile: Option<Vec<u8>>,
+}
+
 pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let unreadable = |error| Error::unreadable(place.path, error);
     let length = reader.seek(SeekFrom::End(0)).map_err(unreadable)?;
@@ -20,6 +32,18 @@ pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     reader.rewind().map_err(unreadable)?;
     let mut bytes = Vec::new();
     reader.read_to_end(&mut bytes).map_err(unreadable)?;
+    let Pixels { size: [width, height], count, values, orientation, profile } = pixels(&bytes, place)?;
+    let notes = place.metadata_notes(orientation, profile.as_deref());
+    let raster = Raster::with_alpha(width, height, "8-bit", Samples::interleaved(values, count));
+    let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };
+    Ok(Decoded { notes, ..alone(raster) })
+}
+
+/// Decodes the JPEG of these bytes.
+///
+/// # Errors
+/// [`Error::BadImage`], [`Error::Memory`].
+pub(super) fn pixels(bytes: &[u8], place: DecodedFile<'_>) -> Result<Pixels, Error> {
     let contradiction = |_| place.invalid("JPEG", "a contradiction in it");
     let broken = |error: JpegError| match error {
         JpegError::UnexpectedEof => place.truncated(),
@@ -29,33 +53,51 @@ pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     let [max_width, max_height] = [usize::from(u16::MAX); 2];
     let limits = DecodeLimits { max_width, max_height, max_pixels: u64::MAX, ..DecodeLimits::default() };
     let mut decoder =
-        caught(|| Decoder::new_with_limits(&bytes, limits)).map_err(contradiction)?.map_err(broken)?;
+        caught(|| Decoder::new_with_limits(bytes, limits)).map_err(contradiction)?.map_err(broken)?;
     let header = decoder.header();
     let ([width, height], count) = ([header.width, header.height], header.components.len());
     let format = match count {
         1 => PixelFormat::Grayscale,
         3 => PixelFormat::Rgb,
-        4 => return Err(place.bad("expected gray or RGB, found a JPEG in CMYK", "convert it to RGB")),
+        4 => PixelFormat::Cmyk,
         _ => {
-            return Err(
-                place.bad(format!("expected gray or RGB, found {count} components"), "convert it to RGB")
-            );
+            let problem = format!("expected gray, RGB or CMYK, found {count} components");
+            return Err(place.bad(problem, "convert it to RGB"));
         }
     };
-    let pixels = u64::from(width) * u64::from(height);
-    let _reserved = place.check_size(width.into(), height.into(), pixels * count as u64)?;
-    let _reserved_for_work = place.reserve(pixels * WORKING)?;
-    if !is_whole(&bytes) {
+    // libjpeg-turbo-rs 0.8.0 does not enlarge black.
+    let sampling = header.components.iter().map(|one| (one.horizontal_sampling, one.vertical_sampling));
+    let sampling: Vec<_> = sampling.collect();
+    if count == 4 && sampling[3] != sampling[0] {
+        return Err(
+            place.bad("expected CMYK with black at full size, found it subsampled", "convert it to RGB")
+        );
+    }
+    let size = u64::from(width) * u64::from(height);
+    let _reserved = place.check_size(width.into(), height.into(), size * count as u64)?;
+    let _reserved_for_work = place.reserve(size * WORKING)?;
+    if !is_whole(bytes) {
         return Err(place.truncated());
     }
     let orientation = decoder.exif_orientation().unwrap_or(1);
     decoder.set_output_format(format);
     let image = caught(|| decoder.decode_image()).map_err(contradiction)?.map_err(broken)?;
-    let notes = place.metadata_notes(orientation, image.icc_profile());
-    let channels = Samples::interleaved(image.into_vec(), count);
-    let raster = Raster::with_alpha(width.into(), height.into(), "8-bit", channels);
-    let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };
-    Ok(Decoded { notes, ..alone(raster) })
+    let profile = image.icc_profile().map(<[u8]>::to_vec);
+    let values = image.into_vec();
+    let values = if count == 4 { rgb_of(&values) } else { values };
+    Ok(Pixels { size: [width.into(), height.into()], count: count.min(3), values, orientation, profile })
+}
+
+/// Cyan, magenta, yellow and black, stored inverted as Adobe does, as red, green and blue: in the integers of Pillow.
+fn rgb_of(stored: &[u8]) -> Vec<u8> {
+    let texels = stored.as_chunks::<4>().0;
+    let rgb = |[cyan, magenta, yellow, black]: &[u8; 4]| {
+        [cyan, magenta, yellow].map(|ink| {
+            let product = u32::from(255 - ink) * u32::from(*black) + 128;
+            black.saturating_sub((((product >> 8) + product) >> 8) as u8)
+        })
+    };
+    texels.iter().flat_map(rgb).collect()
 }
 
 /// Whether the end of the image is there: libjpeg-turbo-rs 0.8.0 fills what is missing of a single scan with gray, without a word.
@@ -93,7 +135,7 @@ mod tests {
     use crate::read::record::Subject;
 
     /// Pictures of 10 x 7 pixels that Pillow 13.0 has written and read with libjpeg-turbo 3.2: the file, and its values.
-    const OF_PILLOW: [(&str, &str, &str); 3] = [
+    const OF_PILLOW: [(&str, &str, &str); 5] = [
         (
             "4:2:0",
             "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYnKSopGR8tMC0oMCUoKSj/2wBDAQcHBwoIChMKChMoGhYaKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCj/wAARCAAHAAoDASIAAhEBAxEB/8QAFgABAQEAAAAAAAAAAAAAAAAAAAMF/8QAIhAAAQMDBAMBAAAAAAAAAAAAAQIDBQAGEgQRIWETMTJS/8QAFQEBAQAAAAAAAAAAAAAAAAAABQb/xAAiEQABAgMJAAAAAAAAAAAAAAABAgMABRESEyIxQVFxgcH/2gAMAwEAAhEDEQA/ANCBgJbQ29q3zFwah48NsFj6IT++6iqyrqeUXUSTLKVnINNstYoB5xG4J2Hrkk90pR775YduWwAmleySPInVzBaS2LKTgGYrqd+I/9k=",
@@ -108,6 +150,16 @@ mod tests {
             "gray",
             "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYnKSopGR8tMC0oMCUoKSj/wAALCAAHAAoBAREA/8QAFQABAQAAAAAAAAAAAAAAAAAAAwX/xAAiEAABAwMEAwEAAAAAAAAAAAABAgMFBhESAAQhYRMxMlL/2gAIAQEAAD8AoQMBLbGnt2+YuDUPHhbBY+iE/vvQqoqqnlF1EkyylZyDTbLWKAecRcE2Hrkk96//2Q==",
             "MUBNY26GmFhyf2Nwe4+asr6FloyKlqK3xODhtsMuIi48UF96Z0o3PUdTYnJ+kmVUbn92gpSkscJ/fH2wmqa6y9rtnaa32A==",
+        ),
+        (
+            "CMYK",
+            "/9j/7gAOQWRvYmUAZAAAAAAA/9sAQwAGBAUGBQQGBgUGBwcGCAoQCgoJCQoUDg8MEBcUGBgXFBYWGh0lHxobIxwWFiAsICMmJykqKRkfLTAtKDAlKCko/8AAFAgABwAKBEMRAE0RAFkRAEsRAP/EAB8AAAEFAQEBAQEBAAAAAAAAAAABAgMEBQYHCAkKC//EALUQAAIBAwMCBAMFBQQEAAABfQECAwAEEQUSITFBBhNRYQcicRQygZGhCCNCscEVUtHwJDNicoIJChYXGBkaJSYnKCkqNDU2Nzg5OkNERUZHSElKU1RVVldYWVpjZGVmZ2hpanN0dXZ3eHl6g4SFhoeIiYqSk5SVlpeYmZqio6Slpqeoqaqys7S1tre4ubrCw8TFxsfIycrS09TV1tfY2drh4uPk5ebn6Onq8fLz9PX29/j5+v/aAA4EQwBNAFkASwAAPwDtfjl/y8fjU/8Awvm4/wCekv5Gu78b+KH/AHnLVU8Xfx18l3P/AB8S/wC+f50f8L5uP+ekv5GvKZPFD+Y3LdTXnD/fb61//9k=",
+            "mpmZhJGMbYZ6WHxqRXNdNmlQJl1CG1U5EEouCEMnmoSThH2FbXRzWGpkRWNYNlpLJlA+G0k1EEAqCDojmm+LhGl9bWFtWFleRVNTNkxGJkM5Gz0xEDUnCDAgmliEhFN4bU1nWEdZRUFONjxCJjU1GzAtECokCCYdmkN8hEBwbTtgWDZTRTJINi49JigxGyUpECAgCB0ami10hCpobSdZWCRMRSFBNh43JhsrGxkkEBUcCBMWmhhvhBZkbRVVWBNIRRI+NhAzJg4oGw0iEAsaCAoU",
+        ),
+        (
+            "YCCK",
+            "/9j/7gAOQWRvYmUAZAAAAAAC/9sAQwAGBAUGBQQGBgUGBwcGCAoQCgoJCQoUDg8MEBcUGBgXFBYWGh0lHxobIxwWFiAsICMmJykqKRkfLTAtKDAlKCko/8AAFAgABwAKBEMRAE0RAFkRAEsRAP/EAB8AAAEFAQEBAQEBAAAAAAAAAAABAgMEBQYHCAkKC//EALUQAAIBAwMCBAMFBQQEAAABfQECAwAEEQUSITFBBhNRYQcicRQygZGhCCNCscEVUtHwJDNicoIJChYXGBkaJSYnKCkqNDU2Nzg5OkNERUZHSElKU1RVVldYWVpjZGVmZ2hpanN0dXZ3eHl6g4SFhoeIiYqSk5SVlpeYmZqio6Slpqeoqaqys7S1tre4ubrCw8TFxsfIycrS09TV1tfY2drh4uPk5ebn6Onq8fLz9PX29/j5+v/aAA4EQwBNAFkASwAAPwDtfjl/y8fjU/8Awvm4/wCekv5Gu78b+KH/AHnLVU8Xfx18l3P/AB8S/wC+f50f8L5uP+ekv5GvKZPFD+Y3LdTXnD/fb61//9k=",
+            "AFAAAFYAAFgAAFkAAFsADFkAHFQAJlMALkoANEMBAEQAAEsAAE0AAE4AA1IAE1AAIk0ALEwFM0cLOUMRADgAAD4AAEIAAEQAC0gBG0cKKEUTMkUZOEEdPT8hACsAADMAADcLADoVEj4gIT8nLj4sNz4wPDsxQTozAB4SACcfACwqBzAzGTU7KDY/NDZCPTdEQTVDQzRDABA6ABpFACBNESRTIytZMC1bOy5aQzBVRy5KQy9DAAVfAA9pAxZuFhxxKCNzNSVpPyddRypVSilKQypD",
         ),
     ];
 

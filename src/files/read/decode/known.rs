@@ -7,7 +7,7 @@ const MATERIAL: &str = "export the material as glTF or MaterialX, or open the fo
 
 /// How files begin, from which byte on, what they are called, and what to do with them.
 #[rustfmt::skip]
-const BEGINNINGS: [(usize, &[u8], &str, &str); 26] = [
+const BEGINNINGS: [(usize, &[u8], &str, &str); 30] = [
     (0, b"8BPS", "a Photoshop document (PSD)", PICTURE),
     (0, b"\xff\x0a", "JPEG XL", PICTURE),
     (4, b"JXL ", "JPEG XL", PICTURE),
@@ -26,6 +26,10 @@ const BEGINNINGS: [(usize, &[u8], &str, &str); 26] = [
     (0, b"SDPX", "DPX", PICTURE),
     (0, b"XPDS", "DPX", PICTURE),
     (0, b"VTF\0", "a texture of Source (VTF)", PICTURE),
+    (0, b"\xff\xd8\xff\xf7", "JPEG-LS", PICTURE),
+    (0, b"7z\xbc\xaf\x27\x1c", "an archive (7z, or Substance)", "unpack it, or render its maps as pictures"),
+    (8, b"{\"", "safetensors", ARRAYS),
+    (0, b"\x80\x02", "a pickle of Python", ARRAYS),
     (0, b"[gd_resource", "a resource of Godot", MATERIAL),
     (0, b"[remap]", "an import file of Godot", "open the picture beside it"),
     (0, b"#usda", "USD", MATERIAL),

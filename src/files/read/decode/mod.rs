@@ -12,11 +12,13 @@ mod known;
 mod ktx2;
 mod layout;
 mod numpy;
+mod pfm;
 mod picture;
 pub(super) mod pictures;
 mod place;
 pub(super) mod reader;
 mod tiff;
+mod tiff_jpeg;
 
 use std::io::BufRead as _;
 use std::path::Path;
@@ -24,8 +26,9 @@ use std::path::Path;
 use crate::disk::lfs;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
+use crate::read::names::Label;
 use crate::read::raster::Raster;
-use crate::read::record::{Note, Subject};
+use crate::read::record::{Note, Subject, Unused};
 pub(super) use place::{Decoded, Layer};
 
 use place::{DecodedFile, alone};
@@ -55,7 +58,9 @@ pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) ->
     } else if begins(b"PK\x03\x04") || begins(b"PK\x05\x06") {
         numpy::decode_archive(reader, place)
     } else if begins(b"II*\0") || begins(b"MM\0*") || begins(b"II+\0") || begins(b"MM\0+") {
-        tiff::decode(reader, place).map(alone)
+        tiff::decode(reader, place)
+    } else if begins(b"PF\n") || begins(b"Pf\n") {
+        pfm::decode(reader, place).map(alone)
     } else if begins(b"DDS ") {
         dds::decode(reader, place).map(alone)
     } else if begins(ktx2::MAGIC) {
@@ -65,17 +70,29 @@ pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) ->
     }
 }
 
-/// The only picture of a file.
+/// The picture of a file: the only one, or of several layers the one without a name, or else the one that is named after its map.
 ///
 /// # Errors
-/// As [`whole`]; [`Error::BadImage`] where there are several.
-pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Raster, Vec<Note>), Error> {
-    let Decoded { mut layers, notes, .. } = whole(file, what)?;
-    match layers.pop() {
-        Some(only) if layers.is_empty() => Ok((only.raster, notes)),
-        _ => Err(DecodedFile { path: file.path(), what }
-            .bad("expected one picture, found several layers", "open the file itself")),
-    }
+/// As [`whole`]; [`Error::BadImage`] where several could be meant.
+pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>), Error> {
+    let Decoded { mut layers, mut notes, .. } = whole(file, what)?;
+    let is_named = |layer: &Layer| matches!(what, Subject::Map(role) if Label::of(&layer.name).is_some_and(|label| label.role == role));
+    let named: Vec<_> = (0..layers.len()).filter(|at| is_named(&layers[*at])).collect();
+    let unnamed = layers.iter().position(|layer| layer.name.is_empty());
+    let chosen = match (layers.len(), unnamed, named.as_slice()) {
+        (1, ..) => 0,
+        (_, Some(unnamed), _) => unnamed,
+        (_, None, [only]) => *only,
+        _ => {
+            let names: Vec<_> = layers.iter().map(|layer| layer.name.as_str()).collect();
+            let problem = format!("expected one picture, found the layers {}", names.join(", "));
+            return Err(DecodedFile { path: file.path(), what }.bad(problem, "open the file itself"));
+        }
+    };
+    let chosen = layers.swap_remove(chosen);
+    let unused = |layer: Layer| Note::Unused { what: format!("Layer {}", layer.name), why: Unused::NotAMap };
+    notes.extend(layers.into_iter().map(unused));
+    Ok((chosen, notes))
 }
 
 /// The picture of a photograph, of one or three channels: the only one of a file, or its layer without a name.

@@ -126,14 +126,18 @@ fn decode(
     let samples = values(reader, &header).map_err(|e| broken(&e, name, place))?;
     let (values, depth) = samples.ok_or_else(|| {
         place.bad(
-            format!("{whose}expected float16, float32, float64, uint8, uint16 or bool"),
+            format!("{whose}expected floats, bool, or integers from 0 to 255 or to 65535"),
             "convert it with astype",
         )
     })?;
     let (width, height, count) = (width as usize, height as usize, count as usize);
     let channels = if planar { Samples::planar } else { Samples::interleaved };
     let channels = channels(values, count);
-    Ok(Layer { name: name.to_owned(), raster: Raster::with_alpha(width, height, depth, channels) })
+    Ok(Layer {
+        name: name.to_owned(),
+        raster: Raster::with_alpha(width, height, depth, channels),
+        uncropped: None,
+    })
 }
 
 /// The values of an array and the name of their type; `None` of a type that is no sample of a picture.
@@ -145,8 +149,26 @@ fn values(reader: impl Read, header: &Header) -> io::Result<Option<(Buffer, &'st
         "b1" => (numbers(reader, header, |[byte]| if byte == 0 { 0_u8 } else { 255 })?.into(), "8-bit"),
         "u1" => (numbers(reader, header, u8::from_le_bytes)?.into(), "8-bit"),
         "u2" => (numbers(reader, header, u16::from_le_bytes)?.into(), "16-bit"),
+        "i1" => return Ok(codes(numbers(reader, header, |bytes| i64::from(i8::from_le_bytes(bytes)))?)),
+        "i2" => return Ok(codes(numbers(reader, header, |bytes| i64::from(i16::from_le_bytes(bytes)))?)),
+        "i4" => return Ok(codes(numbers(reader, header, |bytes| i64::from(i32::from_le_bytes(bytes)))?)),
+        "u4" => return Ok(codes(numbers(reader, header, |bytes| i64::from(u32::from_le_bytes(bytes)))?)),
+        "i8" | "u8" => return Ok(codes(numbers(reader, header, i64::from_le_bytes)?)),
         _ => return Ok(None),
     }))
+}
+
+/// Integers of a type that is wider than their codes: a mask of 0 and 1, or codes of 8 or of 16 bits; `None` of others.
+fn codes(values: Vec<i64>) -> Option<(Buffer, &'static str)> {
+    let (least, most) = values.iter().fold((0, 0), |(low, high), value| (low.min(*value), high.max(*value)));
+    let bytes = |of: fn(i64) -> u8| Buffer::from(values.iter().map(|value| of(*value)).collect::<Vec<_>>());
+    match most {
+        _ if least < 0 => None,
+        0 | 1 => Some((bytes(|value| 255 * value as u8), "8-bit")),
+        2..=255 => Some((bytes(|value| value as u8), "8-bit")),
+        256..=65_535 => Some((values.iter().map(|value| *value as u16).collect::<Vec<_>>().into(), "16-bit")),
+        _ => None,
+    }
 }
 
 /// The values of an array, each of `N` bytes, of which `of` takes the low one first.

@@ -1,10 +1,12 @@
-//! PNG, BMP, TGA, WebP and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
+//! PNG, BMP, TGA, WebP, PNM, QOI and HDR through the `image` library. Colour chunks are left alone, palettes and few bits expanded.
 
 use std::io::{BufRead as _, ErrorKind, Seek as _};
 
 use image::codecs::bmp::BmpDecoder;
 use image::codecs::hdr::HdrDecoder;
 use image::codecs::png::PngDecoder;
+use image::codecs::pnm::{PnmDecoder, PnmSubtype};
+use image::codecs::qoi::QoiDecoder;
 use image::codecs::tga::TgaDecoder;
 use image::codecs::webp::WebPDecoder;
 use image::error::{ImageError, LimitErrorKind};
@@ -28,22 +30,8 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     let unreadable = |e| Error::unreadable(place.path, e);
     let head = reader.fill_buf().map_err(unreadable)?;
     match image::guess_format(head) {
-        Ok(ImageFormat::Png) => {
-            // A row of it counts as metadata, too.
-            let width =
-                head.get(16..20).and_then(|bytes| bytes.try_into().ok()).map_or(0, u32::from_be_bytes);
-            let is_too_wide = width as usize > MAX_WIDTH;
-            let PngHead { linear, meaning } = head::png(&mut reader).unwrap_or_default();
-            reader.rewind().map_err(unreadable)?;
-            let decoder = PngDecoder::with_limits(reader, metadata_limits())
-                .map_err(|e| of_metadata(&e, is_too_wide, place))?;
-            let mut decoded = decode_with(Box::new(decoder), "PNG", place)?;
-            if linear && !place.is_data() {
-                decoded.notes.push(Note::LinearGamma(place.what));
-            }
-            Ok(Decoded { meaning, ..decoded })
-        }
-        Ok(ImageFormat::Jpeg) => jpeg::decode(reader, place),
+        Ok(ImageFormat::Png) => png(reader, place),
+        Ok(ImageFormat::Jpeg) if known::name(head).is_none() => jpeg::decode(reader, place),
         Ok(ImageFormat::Hdr) => {
             if !head::is_hdr_head_short(&mut reader).map_err(unreadable)? {
                 let problem =
@@ -58,9 +46,17 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             let decoder = BmpDecoder::new(reader).map_err(|error| explain(&error, "BMP", place))?;
             decode_with(Box::new(decoder), "BMP", place)
         }
+        Ok(ImageFormat::Pnm) => pnm(reader, place),
+        Ok(ImageFormat::Qoi) => {
+            let decoder = QoiDecoder::new(reader).map_err(|error| explain(&error, "QOI", place))?;
+            decode_with(Box::new(decoder), "QOI", place)
+        }
         Ok(ImageFormat::WebP) => {
             let decoder = WebPDecoder::new(reader).map_err(|error| explain(&error, "WebP", place))?;
-            decode_with(Box::new(decoder), "WebP", place)
+            let is_animated = decoder.has_animation();
+            let mut decoded = decode_with(Box::new(decoder), "WebP", place)?;
+            decoded.notes.extend(is_animated.then_some(Note::FirstOnly(place.what)));
+            Ok(decoded)
         }
         _ if known::name(head).is_none() && is_tga(place) => {
             let decoder = TgaDecoder::new(reader).map_err(|error| explain(&error, "TGA", place))?;
@@ -76,6 +72,41 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             })
         }
     }
+}
+
+fn png(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+    let unreadable = |e| Error::unreadable(place.path, e);
+    let head = reader.fill_buf().map_err(unreadable)?;
+    // A row of it counts as metadata, too.
+    let width = head.get(16..20).and_then(|bytes| bytes.try_into().ok()).map_or(0, u32::from_be_bytes);
+    let is_too_wide = width as usize > MAX_WIDTH;
+    let PngHead { linear, other_primaries, is_animated, meaning } =
+        head::png(&mut reader).unwrap_or_default();
+    reader.rewind().map_err(unreadable)?;
+    let decoder = PngDecoder::with_limits(reader, metadata_limits())
+        .map_err(|e| of_metadata(&e, is_too_wide, place))?;
+    let mut decoded = decode_with(Box::new(decoder), "PNG", place)?;
+    decoded.notes.extend(is_animated.then_some(Note::FirstOnly(place.what)));
+    if !place.is_data() {
+        decoded.notes.extend(linear.map(|chunk| Note::LinearChunk(place.what, chunk)));
+        decoded.notes.extend(other_primaries.map(|chunk| Note::PrimariesChunk(place.what, chunk)));
+    }
+    Ok(Decoded { meaning, ..decoded })
+}
+
+fn pnm(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+    let unreadable = |e| Error::unreadable(place.path, e);
+    let header = PnmDecoder::new(&mut reader).map_err(|e| explain(&e, "PNM", place))?.into_inner().1;
+    // The library does not scale samples by their maximum.
+    let top = header.maximal_sample();
+    let is_bitmap = matches!(header.subtype(), PnmSubtype::Bitmap(_));
+    if !is_bitmap && !matches!(top, 255 | 65_535) {
+        let problem = format!("expected samples of at most 255 or 65535, found a PNM of at most {top}");
+        return Err(place.bad(problem, "save it with 8 or 16 bits"));
+    }
+    reader.rewind().map_err(unreadable)?;
+    let decoder = PnmDecoder::new(reader).map_err(|error| explain(&error, "PNM", place))?;
+    decode_with(Box::new(decoder), "PNM", place)
 }
 
 /// By its name: a TGA begins with nothing of its own.

@@ -22,6 +22,8 @@ use crate::read::stored::StoredMap;
 #[derive(Clone, Debug)]
 pub(crate) struct DecodedPicture {
     pub map: StoredMap,
+    /// All that is stored, where the picture is another part of the plane.
+    pub uncropped: Option<Raster>,
     pub notes: Vec<Note>,
 }
 
@@ -83,15 +85,31 @@ fn all(pictures: &[LocatedPicture], progress: &Progress) -> Result<Vec<DecodedPi
     };
     // All are decoded before the first error is taken: so the same one is reported every time.
     let all: Vec<_> = pictures.par_iter().map(decode).collect();
-    all.into_iter().collect()
+    let mut all = all.into_iter().collect::<Result<Vec<_>, _>>()?;
+    use_all_that_is_stored(&mut all);
+    Ok(all)
+}
+
+/// Pictures whose display window alone has not the size of the other maps are meant as they are stored.
+fn use_all_that_is_stored(all: &mut [DecodedPicture]) {
+    let plain = |picture: &DecodedPicture| picture.uncropped.is_none().then(|| picture.map.raster.size());
+    let sizes: Vec<_> = all.iter().filter_map(plain).collect();
+    for DecodedPicture { map, uncropped, notes } in all {
+        let Some(stored) = uncropped.take() else { continue };
+        if sizes.contains(&stored.size()) && !sizes.contains(&map.raster.size()) {
+            map.raster = stored;
+            notes.retain(|note| !matches!(note, Note::PartialData { .. }));
+            notes.push(Note::DataWindow { layer: String::new() });
+        }
+    }
 }
 
 fn decoded(LocatedPicture { source, subject }: &LocatedPicture) -> Result<DecodedPicture, Error> {
     match source {
         PictureSource::File(file) => {
-            let (raster, notes) = one(file, *subject)?;
+            let (Layer { raster, uncropped, .. }, notes) = one(file, *subject)?;
             let map = StoredMap { raster, file: file.path().to_owned(), part: String::new() };
-            Ok(DecodedPicture { map, notes })
+            Ok(DecodedPicture { map, uncropped, notes })
         }
         PictureSource::Embedded { within, bytes } => {
             let Decoded { layers, notes, .. } = from_reader(Reader::of_bytes(bytes), within, *subject)?;
@@ -102,7 +120,7 @@ fn decoded(LocatedPicture { source, subject }: &LocatedPicture) -> Result<Decode
                 remedy: "export it again".to_owned(),
             })?;
             let map = StoredMap { raster, file: within.clone(), part: subject.to_string() };
-            Ok(DecodedPicture { map, notes })
+            Ok(DecodedPicture { map, uncropped: None, notes })
         }
     }
 }
@@ -123,7 +141,7 @@ pub(in crate::read) fn binding(binding: &LocatedBinding) -> Result<DecodedBindin
     let subject = Subject::Map(binding.role);
     match &binding.source {
         BoundSource::Constant(values) => Ok(DecodedBinding::Constant(values.clone())),
-        BoundSource::File { file, part: None } => Ok(DecodedBinding::Whole(one(file, subject)?.0)),
+        BoundSource::File { file, part: None } => Ok(DecodedBinding::Whole(one(file, subject)?.0.raster)),
         BoundSource::File { file, part: Some(part) } => {
             Ok(DecodedBinding::Parts(whole(file, subject)?.layers, part.clone()))
         }

@@ -16,7 +16,8 @@ pub(crate) const MAX_WIDTH: usize = 4 * MAX_SIDE;
 pub(crate) const MAX_BYTES: u64 = 4 << 30;
 
 /// The formats that open, for messages.
-pub(crate) const FORMATS: &str = "PNG, TIFF, JPEG, TGA, BMP, WebP, DDS, KTX2, HDR, EXR, npy or npz";
+pub(crate) const FORMATS: &str =
+    "PNG, TIFF, JPEG, TGA, BMP, WebP, PNM, PFM, QOI, DDS, KTX2, HDR, EXR, npy or npz";
 
 /// One picture of a file: of a layered file a layer, of an archive an array.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub(crate) struct Layer {
     /// Empty for the only picture of a file.
     pub name: String,
     pub raster: Raster,
+    /// All that is stored, where the picture is another part of the plane.
+    pub uncropped: Option<Raster>,
 }
 
 /// The content of a file.
@@ -134,6 +137,6 @@ pub(crate) fn alone(layer: impl Into<Layer>) -> Decoded {
 
 impl From<Raster> for Layer {
     fn from(raster: Raster) -> Self {
-        Self { name: String::new(), raster }
+        Self { name: String::new(), raster, uncropped: None }
     }
 }

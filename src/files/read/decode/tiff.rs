@@ -1,17 +1,30 @@
 //! TIFF through the `tiff` library: integers of 8, 16 and 32 bits, half, float and double, in pixels or planes.
 
 use tiff::ColorType;
+use tiff::TiffUnsupportedError as Unsupported;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use super::place::{DecodedFile, MAX_BYTES};
+use super::place::{Decoded, DecodedFile, MAX_BYTES, alone};
 use super::reader::Reader;
+use super::tiff_jpeg;
 use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
+use crate::read::record::Note;
 
-pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |error: tiff::TiffError| match error {
         tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
+        tiff::TiffError::UnsupportedError(Unsupported::UnsupportedCompressionMethod(method)) => {
+            let name = compression(method.to_u16()).map_or_else(|| format!("{method:?}"), str::to_owned);
+            place.bad(
+                format!("expected a compression that is read, found a TIFF in {name}"),
+                "save it with LZW or Deflate",
+            )
+        }
+        tiff::TiffError::UnsupportedError(what) => {
+            place.bad(format!("expected gray or RGB, found a TIFF in which {what}"), "convert it to RGB")
+        }
         other => place.invalid("TIFF", other),
     };
     let mut limits = Limits::default();
@@ -28,16 +41,68 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
     let planar = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(invalid)? == Some(2);
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(invalid)?.unwrap_or(1);
     let mut result = DecodingResult::U8(Vec::new());
-    decoder.read_image_to_buffer(&mut result).map_err(invalid)?;
+    let of_jpeg = tiff_jpeg::pixels(&mut decoder, colour, count, place)?;
+    let is_ycbcr = colour == ColorType::YCbCr(8) && of_jpeg.is_none();
+    if let Some(pixels) = of_jpeg {
+        result = DecodingResult::U8(pixels);
+    } else {
+        decoder.read_image_to_buffer(&mut result).map_err(invalid)?;
+    }
     let (width, height) = (width as usize, height as usize);
     let layout = Interleaving { count, planar, texels: width * height };
-    if let (ColorType::YCbCr(8), DecodingResult::U8(samples)) = (colour, &mut result) {
+    if let (true, DecodingResult::U8(samples)) = (is_ycbcr, &mut result) {
         layout.to_rgb(samples);
     }
-    let (channels, depth) = layout
-        .samples(result)
-        .ok_or_else(|| place.bad("expected 8, 16 or 32 bits for each sample, found others", "convert it"))?;
-    Ok(Raster::with_alpha(width, height, depth, channels).oriented(orientation))
+    let kind = kind(&result);
+    let (channels, depth) = layout.samples(result).ok_or_else(|| {
+        let problem = format!("expected unsigned integers of 8, 16 or 32 bits, or floats, found {kind}");
+        place.bad(problem, "convert it")
+    })?;
+    let raster = Raster::with_alpha(width, height, depth, channels).oriented(orientation);
+    let notes = has_pages(&mut decoder).then_some(Note::FirstOnly(place.what)).into_iter().collect();
+    Ok(Decoded { notes, ..alone(raster) })
+}
+
+/// The name of a compression by its code.
+fn compression(code: u16) -> Option<&'static str> {
+    Some(match code {
+        33_003 | 33_005 | 34_712 => "JPEG 2000",
+        34_887 => "LERC",
+        34_925 => "LZMA",
+        34_926 | 50_000 => "Zstandard (ZSTD)",
+        34_927 | 50_001 => "WebP",
+        34_933 => "PNG",
+        22_610 | 34_934 => "JPEG XR",
+        50_002 | 52_546 => "JPEG XL",
+        _ => return None,
+    })
+}
+
+/// What the samples are, for messages.
+fn kind(result: &DecodingResult) -> &'static str {
+    match result {
+        DecodingResult::I8(_) => "signed integers of 8 bits",
+        DecodingResult::I16(_) => "signed integers of 16 bits",
+        DecodingResult::I32(_) => "signed integers of 32 bits",
+        DecodingResult::I64(_) | DecodingResult::U64(_) => "integers of 64 bits",
+        _ => "others",
+    }
+}
+
+/// Whether there are pictures after the first which are no smaller levels of it.
+fn has_pages(decoder: &mut Decoder<Reader<'_>>) -> bool {
+    const REDUCED: u32 = 1;
+    const MOST: usize = 32;
+    let mut next = || -> tiff::TiffResult<bool> {
+        decoder.next_image()?;
+        Ok(decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType)?.unwrap_or(0) & REDUCED == 0)
+    };
+    let mut count = 0;
+    std::iter::from_fn(|| {
+        count += 1;
+        (count <= MOST).then(|| next().ok())?
+    })
+    .any(|is_page| is_page)
 }
 
 fn channels_of(colour: ColorType) -> Option<usize> {
@@ -68,7 +133,9 @@ impl Interleaving {
             DecodingResult::U8(all) => (self.channels(all)?, "8-bit"),
             DecodingResult::U16(all) => (self.channels(all)?, "16-bit"),
             DecodingResult::U32(all) => {
-                (self.floats(all, |s| (f64::from(s) / f64::from(u32::MAX)) as f32)?, "32-bit")
+                // Integers, which are encoded as others are: as 16 bits, which are enough.
+                let of = |s: u32| ((u64::from(s) + 0x8000) / 0x1_0001) as u16;
+                (self.channels(all.into_iter().map(of).collect::<Vec<_>>())?, "32-bit")
             }
             DecodingResult::F16(all) => (self.floats(all, f32::from)?, "half"),
             DecodingResult::F32(all) => (self.channels(all)?, "float"),

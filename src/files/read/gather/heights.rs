@@ -41,7 +41,9 @@ pub(super) fn evidence(found: &StoredMaterial, options: &ReadOptions) -> Option<
         return None;
     }
     let (raster, file) = match height {
-        StoredHeight::File(file) => (decode::one(file, Subject::Picture).ok()?.0, file.path().to_owned()),
+        StoredHeight::File(file) => {
+            (decode::one(file, Subject::Picture).ok()?.0.raster, file.path().to_owned())
+        }
         StoredHeight::Picture { raster, file } => (raster.clone(), file.clone()),
     };
     let correlations = measure::slope_correlations(normal, &raster)?;

@@ -53,7 +53,7 @@ impl Neighbours {
 
     /// The evidence of their pixels.
     pub(super) fn evidence(&self) -> Option<Evidence> {
-        let decoded = |file: &NamedFile| Some(decode::one(file, Subject::Picture).ok()?.0);
+        let decoded = |file: &NamedFile| Some(decode::one(file, Subject::Picture).ok()?.0.raster);
         let decoded = self.pairs.par_iter().filter_map(|[a, b]| Some([decoded(a)?, decoded(b)?]));
         let pairs: Vec<_> = decoded.collect();
         let of_pair = |[d, s]: &[_; 2]| measured(d, s).iter().map(|one| one.log_odds()).sum::<f64>();

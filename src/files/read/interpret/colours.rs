@@ -20,6 +20,12 @@ pub(super) fn encodings(
     // Without evidence the encoding is specified or inferred: then this is never asked.
     let detected = || diffuse.unwrap_or_else(|| alone(None));
     let albedo = decide(&mut found.assumptions, What::Albedo, options.albedo, inferred, detected);
+    let is_other = options.albedo.is_none() && found.notes.contains(&Note::Primaries);
+    if let Some(assumption) = found.assumptions.last_mut().filter(|_| is_other) {
+        let why = std::mem::replace(&mut assumption.why, Reason::OtherPrimaries);
+        assumption.why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::OtherPrimaries));
+        assumption.certainty = Certainty::Unsure;
+    }
     [albedo, specular_encoding(found, options, specular)]
 }
 

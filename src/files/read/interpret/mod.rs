@@ -54,6 +54,7 @@ pub(super) fn interpret<T: Real>(
 ) -> Result<LinearMaterial<T>, Error> {
     let Evidences { colours, heights } = evidence;
     note_alpha(&mut found);
+    refuse_two_channels(&found)?;
     let size = found.common_size()?;
     values::check(&mut found, options)?;
     let [colour_encoding, specular_encoding] = colours::encodings(&mut found, colours, options);
@@ -102,9 +103,38 @@ fn note_alpha(found: &mut StoredMaterial) {
     let is_noted = |(map, source): &(Role, &StoredMap)| {
         source.raster.alpha.is_some() && *map != Role::Normal && !holds_alpha(&source.file)
     };
-    let sources = found.sources().into_iter().filter(is_noted);
-    let notes: Vec<_> = sources.map(|(map, _)| Note::AlphaIgnored { map }).collect();
-    found.notes.extend(notes);
+    let maps: Vec<_> = found
+        .sources()
+        .into_iter()
+        .filter(is_noted)
+        .map(|(map, source)| (map, source.raster.is_float()))
+        .collect();
+    for (map, is_float) in maps {
+        found.notes.push(Note::AlphaIgnored { map });
+        // Colours of EXR are multiplied by their alpha.
+        if is_float && is_colour(map) {
+            let why = Reason::Premultiplied { map };
+            found.assumptions.push(Assumption::new(What::Values, "as stored", why, Certainty::Unsure));
+        }
+    }
+}
+
+fn is_colour(map: Role) -> bool {
+    matches!(map, Role::Base | Role::Diffuse | Role::Specular)
+}
+
+/// Refuses colours of two channels, such as an EXR without B: nothing tells the third.
+fn refuse_two_channels(found: &StoredMaterial) -> Result<(), Error> {
+    let sources = found.sources();
+    match sources.iter().find(|(role, source)| is_colour(*role) && source.raster.channels.len() == 2) {
+        None => Ok(()),
+        Some((role, source)) => Err(Error::NotAMaterial {
+            path: source.file.clone(),
+            expected: format!("a {} map of one channel or three", role.name()),
+            found: "one of two channels".to_owned(),
+            remedy: "save it with red, green and blue".to_owned(),
+        }),
+    }
 }
 
 /// The reading of a map of the specular level.

@@ -58,12 +58,15 @@ pub(crate) fn planes<T: Real>(
     let is_usual = encoding == NormalEncoding::Unsigned || raster.is_float();
     // Where few texels have unit length, either reading may be wrong.
     let is_unit = !match why {
-        Reason::UnitLength { share, .. } => raster.is_float() && share < NORMAL_AT_LEAST,
+        Reason::UnitLength { share, .. } => share < NORMAL_AT_LEAST * (1.0 - share_without_direction(raster)),
         ref why => matches!(why, Reason::NormalsAsColours { .. }),
     };
     let certainty = if is_usual && is_unit { Certainty::Likely } else { Certainty::Unsure };
+    // A format that defines all three components leaves none to be rebuilt.
+    let is_rebuilt = matches!(encoding, NormalEncoding::Xy | NormalEncoding::Ag) && raster.channels.len() > 2;
+    let defined = found.inferred.normal_encoding.take().filter(|_| is_rebuilt);
     let encoding =
-        decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, None, || {
+        decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, defined, || {
             (encoding, why, certainty)
         });
     let y = normal_y(raster, encoding, found, heights, options);
@@ -131,6 +134,15 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
         }
     }
     (NormalEncoding::Unsigned, Reason::UnitLength { signed: false, share: score })
+}
+
+/// The share of the texels that are black or gray, as outside of an island of coordinates.
+fn share_without_direction(raster: &Raster) -> f64 {
+    let has_none = |index: &usize| {
+        let n = raster.rgb(*index).map(|c| 2.0 * c - 1.0);
+        n.iter().sum::<f64>() < BLACK || n.iter().map(|c| c * c).sum::<f64>() < SHORTEST * SHORTEST
+    };
+    raster.sampled().filter(has_none).count() as f64 / raster.sampled().count().max(1) as f64
 }
 
 /// Of x and y alone: signed where a share of the components is negative that overshoot does not explain.

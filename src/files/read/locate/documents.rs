@@ -1,7 +1,8 @@
-//! Documents beside the pictures of a set that list them, too: glTF, MaterialX, MTL and texture sets of Minecraft.
+//! Documents beside the pictures of a set that list them, too: glTF, MaterialX, MTL, texture sets of Minecraft, and resources of Godot.
 
 use std::path::Path;
 
+use super::godot;
 use crate::disk::open::NamedFile;
 use crate::read::located::set::{ListingDocument, SetFiles};
 use crate::read::options::NormalY;
@@ -14,8 +15,9 @@ const LONGEST: u64 = 4 << 20;
 pub(super) fn beside(folder: &Path, names: &[String], set: &SetFiles) -> Vec<ListingDocument> {
     let listing = |name: &String| {
         let extension = extensions::of_name(name);
-        let is_listing =
+        let opens =
             ["gltf", "mtlx", "mtl"].contains(&extension.as_str()) || name.ends_with(".texture_set.json");
+        let is_listing = opens || extension == "tres";
         let path = folder.join(name);
         if !is_listing || !path.metadata().is_ok_and(|meta| meta.len() <= LONGEST) {
             return None;
@@ -31,10 +33,11 @@ pub(super) fn beside(folder: &Path, names: &[String], set: &SetFiles) -> Vec<Lis
         let is_directx = text.contains("ASOBO_normal_map_convention") && text.contains("DirectX");
         let normal_y = match extension.as_str() {
             "gltf" if is_directx => Some(NormalY::Down),
-            "gltf" | "mtlx" => Some(NormalY::Up),
+            "gltf" | "mtlx" | "tres" => Some(NormalY::Up),
             _ => None,
         };
-        (!files.is_empty()).then(|| ListingDocument { name: name.clone(), files, normal_y })
+        let grays = if extension == "tres" { godot::grays(&text) } else { Vec::new() };
+        (!files.is_empty()).then(|| ListingDocument { name: name.clone(), files, normal_y, opens, grays })
     };
     names.iter().filter_map(listing).collect()
 }

@@ -10,8 +10,9 @@ use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::read::located::set::{LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located, WholePicture};
-use crate::read::names::listing;
-use crate::read::options::Role;
+use crate::read::names::{Label, listing};
+use crate::read::options::{Role, extensions};
+use crate::read::record::{Note, Unused};
 
 /// Locates the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
 ///
@@ -19,11 +20,19 @@ use crate::read::options::Role;
 /// [`Error::Unreadable`], [`Error::NotAMaterial`].
 pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -> Result<Located, Error> {
     let mut names = list(path, folder, prefix)?;
-    if prefix.is_empty() && !names.iter().any(|name| grouping::is_picture(name)) {
+    let has_pictures = names.iter().any(|name| grouping::is_picture(name));
+    if prefix.is_empty() && !has_pictures {
         let folders = directory::folders(folder)?;
         if !folders.is_empty() {
             return within(path, folder, &folders, bound);
         }
+    }
+    if prefix.is_empty()
+        && has_pictures
+        && bound.is_empty()
+        && let Some(found) = beside_previews(path, folder, &names)?
+    {
+        return Ok(found);
     }
     if names.is_empty() && !prefix.is_empty() {
         let absent = io::Error::new(io::ErrorKind::NotFound, "no file, folder or prefix of files is there");
@@ -35,6 +44,18 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
         names.extend(others);
         names.sort();
         names.dedup();
+    }
+    if prefix.is_empty()
+        && !has_pictures
+        && let Some(archive) =
+            names.iter().find(|name| ["zip", "rar", "7z"].contains(&extensions::of_name(name).as_str()))
+    {
+        return Err(Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: "pictures".to_owned(),
+            found: format!("the archive {archive}"),
+            remedy: "unpack it, and open the folder".to_owned(),
+        });
     }
     let wanted = if prefix.is_empty() { Wanted::All } else { Wanted::Named(prefix) };
     let (mut files, _) = grouping::choose(path, &names, wanted, bound)?;
@@ -98,17 +119,59 @@ fn not_packed(path: &Path, names: &[String], picture: &str) -> Error {
 /// Locates the material of the only one of `folders` within a folder without pictures.
 fn within(path: &Path, folder: &Path, folders: &[String], bound: &[Role]) -> Result<Located, Error> {
     let [only] = folders else {
+        let are_maps = folders.iter().filter(|name| Label::of(name).is_some()).count() > 1;
+        let remedy = match are_maps {
+            true => {
+                "one folder per map is a data set: put the maps of one material into a folder of its own, or specify each map by its file"
+            }
+            false => "open one of them",
+        };
         return Err(Error::NotAMaterial {
             path: path.to_owned(),
             expected: "pictures".to_owned(),
             found: format!("none, but the folders {}", listing(folders)),
-            remedy: "open one of them".to_owned(),
+            remedy: remedy.to_owned(),
         });
     };
     let within = folder.join(only);
     let mut found = locate(&within, &within, "", bound)?;
     found.folders.insert(0, only.clone());
     Ok(Located { name: Some(material_name(path, "")), ..found })
+}
+
+/// The material of the only folder with a whole set, where the pictures beside it name no map: they are previews.
+fn beside_previews(path: &Path, folder: &Path, names: &[String]) -> Result<Option<Located>, Error> {
+    let stem = |name: &str| Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let is_map = |name: &&String| {
+        grouping::is_picture(name) && Label::of(&stem(name)).is_some_and(|label| label.role != Role::Ignored)
+    };
+    if names.iter().any(|name| is_map(&name)) {
+        return Ok(None);
+    }
+    let of = |name: &String| Some((name.clone(), set_within(&folder.join(name))?));
+    let mut sets: Vec<_> = directory::folders(folder)?.iter().filter_map(of).collect();
+    let Some((name, mut set)) = sets.pop().filter(|_| sets.is_empty()) else { return Ok(None) };
+    let pictures: Vec<_> = names.iter().filter(|name| grouping::is_picture(name)).collect();
+    let unused = |name: &&String| Note::Unused { what: (*name).clone(), why: Unused::NotAMap };
+    set.files.notes.extend([Note::InFolder { folder: name }].into_iter().chain(pictures.iter().map(unused)));
+    set.name = material_name(path, "");
+    // One that nothing is known of may be packed.
+    let unlabelled: Vec<_> = pictures.iter().filter(|name| Label::of(&stem(name)).is_none()).collect();
+    let file = |name: &String| NamedFile::by_file(folder.join(name), folder);
+    let packed = match unlabelled.as_slice() {
+        [only] => Some(Candidate::Picture(WholePicture { file: file(only), refusal: None })),
+        _ => None,
+    };
+    Ok(Some(Located::new(packed.into_iter().chain([Candidate::Set(set)]))))
+}
+
+/// The set of the folder, where its names are those of a whole one.
+fn set_within(folder: &Path) -> Option<LocatedSet> {
+    let names = list(folder, folder, "").ok()?;
+    let (mut files, _) = grouping::choose(folder, &names, Wanted::All, &[]).ok()?;
+    files.documents = documents::beside(folder, &names, &files);
+    let found = set(folder, folder, material_name(folder, ""), files, &names);
+    grouping::is_complete(&found.files.files, &[]).then_some(found)
 }
 
 /// Locates the set of maps that the file `path` belongs to by its name.

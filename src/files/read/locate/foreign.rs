@@ -8,7 +8,7 @@ use crate::read::names::listing;
 use crate::read::options::extensions::{self, PICTURES};
 
 /// Extensions of these files, and what they are.
-const KINDS: [(&str, &str); 8] = [
+const KINDS: [(&str, &str); 17] = [
     ("vmat", "a material of Source 2"),
     ("vmt", "a material of Source"),
     ("tres", "a resource of Godot"),
@@ -17,6 +17,23 @@ const KINDS: [(&str, &str); 8] = [
     ("xml", "an XML file, such as a material of Urho3D"),
     ("uasset", "an asset of Unreal"),
     ("blend", "a file of Blender"),
+    ("usd", "a scene of USD"),
+    ("usda", "a scene of USD"),
+    ("usdc", "a scene of USD"),
+    ("usdz", "a scene of USD"),
+    ("sbs", "a graph of Substance"),
+    ("sbsar", "an archive of Substance, which computes its maps"),
+    ("mdl", "a material of MDL"),
+    ("axf", "a measured material of AxF"),
+    ("pbrt", "a scene of pbrt"),
+];
+/// Extensions of files of arrays, and what they are.
+const ARRAYS: [(&str, &str); 5] = [
+    ("safetensors", "arrays of safetensors"),
+    ("pt", "arrays of PyTorch"),
+    ("pth", "arrays of PyTorch"),
+    ("ckpt", "arrays of PyTorch"),
+    ("pkl", "a pickle of Python"),
 ];
 /// Longest file in bytes whose text is searched.
 const LONGEST: u64 = 1 << 20;
@@ -24,7 +41,18 @@ const LONGEST: u64 = 1 << 20;
 /// The refusal of the file `path`; `None` where its name is not that of a material of an engine.
 pub(super) fn refusal(path: &Path) -> Option<Error> {
     let extension = extensions::of_name(path);
-    let (_, kind) = KINDS.into_iter().find(|(known, _)| *known == extension)?;
+    let of = |kinds: &[(&str, &'static str)]| {
+        kinds.iter().find(|(known, _)| *known == extension).map(|(_, kind)| *kind)
+    };
+    if let Some(kind) = of(&ARRAYS) {
+        return Some(Error::NotAMaterial {
+            path: path.to_owned(),
+            expected: "pictures, or arrays of NumPy (.npy, .npz)".to_owned(),
+            found: kind.to_owned(),
+            remedy: "save each map as an array of rows, columns and channels".to_owned(),
+        });
+    }
+    let kind = of(&KINDS)?;
     let is_short = path.metadata().is_ok_and(|meta| meta.len() <= LONGEST);
     let bytes = if is_short { NamedFile::by_user(path).bytes().unwrap_or_default() } else { Vec::new() };
     let pictures = pictures(&String::from_utf8_lossy(&bytes));
@@ -49,7 +77,7 @@ pub(super) fn refusal(path: &Path) -> Option<Error> {
 
 /// The names of pictures in a text, each once.
 fn pictures(text: &str) -> Vec<String> {
-    let is_border = |c: char| c.is_control() || "\"'<>=;,()[]{}".contains(c);
+    let is_border = |c: char| c.is_control() || "\"'<>=;,()[]{}@".contains(c);
     let mut names = Vec::new();
     for word in text.split(is_border).map(str::trim) {
         let name = word.strip_prefix("res://").unwrap_or(word).to_owned();

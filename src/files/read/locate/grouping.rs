@@ -3,16 +3,24 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::variants;
 use crate::error::Error;
 use crate::read::located::set::{LabelledFile, NUMBERED, SetFiles};
-use crate::read::names::{Label, is_named_as, listing, set_labels, words};
+use crate::read::names::{Label, is_junk, is_named_as, listing, set_labels, words};
 use crate::read::options::Role;
-use crate::read::options::extensions::{self, PICTURES};
+use crate::read::options::extensions::{self, EXTENSIONS, PICTURES};
 use crate::read::record::{Note, Unused};
 
 /// Extensions of pictures that cannot be read. Where nothing else is that map, opening one fails and names it: a map
 /// that is there is never replaced by a default.
-const UNREAD: [&str; 10] = ["psd", "avif", "jxl", "heic", "gif", "jp2", "ktx", "basis", "astc", "xcf"];
+#[rustfmt::skip]
+const UNREAD: [&str; 30] = [
+    "psd", "psb", "avif", "jxl", "heic", "heif", "gif", "jp2", "j2k", "jpf", "jpx", "jxr", "wdp", "ktx", "basis", "astc", "xcf",
+    "kra", "dpx", "cin", "vtf", "pcx", "sgi", "rgb", "rat", "pic", "iff", "ff", "ico", "svg",
+];
+/// Extensions of texts, which describe maps and are none.
+const TEXTS: [&str; 12] =
+    ["txt", "md", "json", "xml", "yaml", "yml", "csv", "html", "pdf", "tres", "blend", "py"];
 type Groups = BTreeMap<Vec<String>, Vec<LabelledFile>>;
 
 /// The file or all files of a material that are wanted of a folder.
@@ -38,21 +46,27 @@ pub(crate) fn choose(
     bound: &[Role],
 ) -> Result<(SetFiles, Vec<String>), Error> {
     let mut set = SetFiles::default();
-    let mut groups = Groups::new();
+    let (mut groups, mut foreign) = (Groups::new(), Vec::new());
     for (name, label) in names.iter().zip(set_labels(names)) {
         match label {
             Some(label) if is_picture(name) || (is_unread(name) && label.role != Role::Ignored) => {
                 groups.entry(label.stem.clone()).or_default().push(LabelledFile { file: name.clone(), label })
             }
             None if is_picture(name) => set.unlabelled.push(name.clone()),
+            Some(label) if is_foreign(name) && label.role != Role::Ignored => foreign.push((name, label)),
             _ => (),
         }
     }
     share(&mut groups);
+    variants::add_layers(&mut groups);
     // A short word counts beside other maps, or beside a picture that has the name of the set.
     let has_colour = |stem: &[String]| set.unlabelled.iter().any(|name| is_named_as(name, stem));
+    let stems: Vec<_> = groups.keys().cloned().collect();
+    let has_company = |stem: &[String]| {
+        stems.iter().any(|one| !one.is_empty() && one.len() < stem.len() && stem.starts_with(one))
+    };
     let counts = |stem: &[String], files: &[LabelledFile]| {
-        files.len() > 1 || !files[0].label.is_short() || has_colour(stem)
+        files.len() > 1 || !files[0].label.is_short() || has_colour(stem) || has_company(stem)
     };
     let (mut groups, lone): (Groups, Groups) = groups.into_iter().partition(|(s, files)| counts(s, files));
     let mut complete = complete(&groups, bound);
@@ -74,22 +88,28 @@ pub(crate) fn choose(
         (Some(stem), _) => (stem.clone(), groups.remove(&stem).unwrap_or_default()),
         (None, [only]) => (only.clone(), groups.remove(only).unwrap_or_default()),
         (None, []) => (Vec::new(), std::mem::take(&mut groups).into_values().flatten().collect()),
-        (None, several) => {
-            let found = several.iter().map(|stem| stem.join("_")).collect::<Vec<_>>();
-            return Err(Error::NotAMaterial {
-                path: path.to_owned(),
-                expected: "the maps of one material".to_owned(),
-                found: format!("several: {}", listing(&found)),
-                remedy: "give the prefix that only the files of one material share".to_owned(),
-            });
-        }
+        (None, several) => return Err(several_materials(path, several)),
     };
+    let named = if let Wanted::SetOf(file) = wanted { Some(file) } else { None };
+    let files = variants::of_one_size(files, named, |files| is_complete(files, bound), &mut set.notes);
     set.heights = files.iter().filter(|file| file.label.is_height()).map(|file| file.file.clone()).collect();
     let (files, normals) = best(path, files, bound, &mut set.notes)?;
     (set.files, set.other_normals) = (files, normals);
+    let foreign = foreign.into_iter().filter(|(_, label)| label.stem == stem);
+    set.notes.extend(foreign.map(|(name, _)| Note::Unused { what: name.clone(), why: Unused::Format }));
     let others = groups.into_iter().filter(|(stem, _)| !complete.contains(stem)).chain(lone);
     set.leave(others.flat_map(|(_, files)| files).collect(), &stem, !matches!(wanted, Wanted::SetOf(_)));
     Ok((set, stem))
+}
+
+fn several_materials(path: &Path, stems: &[Vec<String>]) -> Error {
+    let found = stems.iter().map(|stem| stem.join("_")).collect::<Vec<_>>();
+    Error::NotAMaterial {
+        path: path.to_owned(),
+        expected: "the maps of one material".to_owned(),
+        found: format!("several: {}", listing(&found)),
+        remedy: "give the prefix that only the files of one material share".to_owned(),
+    }
 }
 
 /// The stems of the groups that are a material with what is `bound` already.
@@ -118,7 +138,15 @@ fn is_unread(name: &str) -> bool {
     UNREAD.contains(&extensions::of_name(name).as_str())
 }
 
-fn is_complete(files: &[LabelledFile], bound: &[Role]) -> bool {
+/// Whether a file of this name is no picture that is known, and none of the files that go with pictures.
+fn is_foreign(name: &str) -> bool {
+    let extension = extensions::of_name(name);
+    let is_known = |known: &[&str]| known.contains(&extension.as_str());
+    !is_picture(name) && !is_unread(name) && !is_junk(name) && !is_known(&TEXTS) && !is_known(&EXTENSIONS)
+}
+
+/// Whether the files with what is `bound` already have a colour and roughness.
+pub(super) fn is_complete(files: &[LabelledFile], bound: &[Role]) -> bool {
     let has = |is: fn(Role) -> bool| files.iter().map(|f| f.label.role).chain(bound.iter().copied()).any(is);
     has(|role| matches!(role, Role::Base | Role::Diffuse)) && has(Role::has_roughness)
 }

@@ -5,12 +5,14 @@ mod documents;
 mod folder;
 mod foreign;
 mod gltf;
+mod godot;
 mod grouping;
 mod mtl;
 mod mtlx;
 pub(super) mod neighbours;
 pub(super) mod sidecar;
 mod texture_set;
+mod variants;
 
 use std::path::Path;
 

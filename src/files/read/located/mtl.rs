@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::picture::LocatedPicture;
+use crate::read::options::Role;
 
 /// Statements for normals, the plainest first; those of `bump` may also hold heights.
 pub(crate) const NORMALS: [&str; 2] = ["norm", "map_kn"];
@@ -15,8 +16,8 @@ pub(crate) struct LocatedMtl {
     pub entry: MtlEntry,
     /// The pictures of the entry that are read.
     pub textures: Vec<MtlTexture>,
-    /// Whether `map_Ks` is occlusion, roughness and metallic.
-    pub is_packed: bool,
+    /// The statement of a picture of roughness and metallic.
+    pub packed: Option<(&'static str, Role)>,
     pub is_by_blender: bool,
     /// The names of all materials of the file, and which of them this is.
     pub materials: (Vec<String>, usize),

@@ -34,6 +34,19 @@ pub(crate) struct ListingDocument {
     pub files: Vec<String>,
     /// Where y of normals points by its format.
     pub normal_y: Option<NormalY>,
+    /// Whether it opens as a material itself.
+    pub opens: bool,
+    /// How it binds roughness and metallic, where its kind does not open.
+    pub grays: Vec<ListedGray>,
+}
+
+/// A gray map as a document binds it.
+#[derive(Clone, Debug)]
+pub(crate) struct ListedGray {
+    pub role: Role,
+    /// The name of its picture, and the channel of that, 3 for alpha; `None` of a constant.
+    pub picture: Option<(String, usize)>,
+    pub factor: f32,
 }
 
 /// One file for each map.

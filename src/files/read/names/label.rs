@@ -1,6 +1,6 @@
 //! The label of a file or layer: which map it holds, by the words of its name.
 
-use super::words::words;
+use super::words::telling_words;
 use crate::read::options::{NormalY, Role, Roughness};
 
 /// The map that a name stands for, and what else the name tells.
@@ -62,12 +62,14 @@ impl Label {
         HEIGHTS.contains(&self.word.as_str())
     }
 
-    /// Which of several files for one map is the better one: the higher. Y up before y down, gamma before linear.
+    /// Which of several files for one map is the better one: the higher. Y up before y down, gamma before linear, roughness before
+    /// glossiness.
     pub(crate) fn rank(&self) -> u8 {
         match self.normal_y {
             Some(NormalY::Up) => 2,
             Some(NormalY::Down) => 0,
             None if self.word.contains("gammad") => 2,
+            None if self.roughness() == Some(Roughness::Gloss) => 0,
             None => 1,
         }
     }
@@ -76,11 +78,6 @@ impl Label {
 /// Words of maps of heights.
 const HEIGHTS: [&str; 11] =
     ["displacement", "displace", "disp", "dsp", "height", "heightmap", "heights", "ht", "h", "bump", "bmp"];
-
-/// The words of a name without those of sizes and formats.
-pub(super) fn telling_words(name: &str) -> Vec<String> {
-    words(name).into_iter().filter(|word| !is_size_or_format(word)).collect()
-}
 
 /// The words of a name that stand for a map.
 struct Telling {
@@ -104,7 +101,7 @@ fn last_label(words: &[String], count: usize, common: usize) -> Option<Telling> 
     (common + 1..=words.len()).rev().find_map(|end| {
         (1..=(end - common).min(4)).rev().find_map(|many| {
             let start = end - many;
-            let word = words[start..end].concat();
+            let word = without_map(words[start..end].concat());
             // A letter alone names a map only at the end.
             let short = word.len() <= 2 && !["ao", "ht"].contains(&word.as_str()) && end < count;
             let (role, normal_y) = if short { None } else { meaning(&word) }?;
@@ -155,6 +152,11 @@ fn meaning(word: &str) -> Option<(Role, Option<NormalY>)> {
             return Some((Role::Normal, Some(y)));
         }
     }
+    // Passes of renderers that are light, not reflectance: DiffDir, "Glossy Indirect".
+    let is_light = |end: &&str| word.strip_suffix(end).is_some_and(is_whole_word);
+    if ["direct", "indirect", "dir", "ind"].iter().any(is_light) {
+        return Some((Role::Ignored, None));
+    }
     for family in ["outputsgammad", "outputs", "targets"] {
         let role = match word.strip_prefix(family) {
             Some("0") => Role::Normal,
@@ -176,13 +178,15 @@ fn meaning(word: &str) -> Option<(Role, Option<NormalY>)> {
     Role::of_word(plain).map(|role| (role, None))
 }
 
-/// Words such as 2k, 1024, jpg, 16bit, LOD0, texture and the tile 1001.
-fn is_size_or_format(word: &str) -> bool {
-    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
-    let number = word.parse::<u32>().is_ok_and(|n| n == 1001 || (n >= 64 && n.is_power_of_two()));
-    let ends = ["k", "bit", "px"].iter().any(|unit| word.strip_suffix(unit).is_some_and(digits));
-    let format = ["jpg", "jpeg", "jfif", "png", "exr", "tif", "tiff", "hdr", "texture"].contains(&word);
-    number || ends || format || word.strip_prefix("lod").is_some_and(digits)
+/// Whether a word of more than two letters stands for a map.
+fn is_whole_word(word: &str) -> bool {
+    word.len() > 2 && Role::of_word(word).is_some()
+}
+
+/// `roughness` of `roughnessmap`.
+fn without_map(word: String) -> String {
+    let plain = word.strip_suffix("map").filter(|rest| is_whole_word(rest) && Role::of_word(&word).is_none());
+    plain.map(str::to_owned).unwrap_or(word)
 }
 
 #[cfg(test)]
@@ -220,6 +224,14 @@ mod tests {
             ("moss_normal_gl_roughness", Role::NormalRoughness),
             ("moss_alb_ht", Role::Base),
             ("moss_normal_height", Role::Normal),
+            ("moss_RoughnessMap", Role::Roughness),
+            ("moss_metallic_gloss", Role::MetallicSmoothness),
+            ("ViewLayer.DiffCol", Role::Diffuse),
+            ("ViewLayer.Glossy Color", Role::Specular),
+            ("ViewLayer.DiffInd", Role::Ignored),
+            ("ViewLayer.Denoising Albedo", Role::Ignored),
+            ("RGBA_diffuse_albedo", Role::Diffuse),
+            ("moss_GlossMap", Role::Roughness),
         ] {
             assert_eq!(role(name), Some(expected), "{name}");
         }

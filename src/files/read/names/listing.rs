@@ -4,7 +4,7 @@
 const MOST_LISTED: usize = 12;
 
 /// Files that other programs leave beside pictures.
-fn is_junk(name: &str) -> bool {
+pub(crate) fn is_junk(name: &str) -> bool {
     let name = name.to_lowercase();
     [".import", ".meta", ".uid"].iter().any(|end| name.ends_with(end))
         || name == "thumbs.db"

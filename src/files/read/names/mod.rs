@@ -1,11 +1,13 @@
 //! Names of files and layers, and the map that each stands for.
 
+mod convention;
 mod label;
 mod listing;
 mod set_labels;
 mod words;
 
+pub(crate) use convention::word_beside;
 pub(crate) use label::Label;
-pub(crate) use listing::listing;
+pub(crate) use listing::{is_junk, listing};
 pub(crate) use set_labels::set_labels;
-pub(crate) use words::{is_named_as, is_named_within, words};
+pub(crate) use words::{is_named_as, is_named_within, size, words};

@@ -1,9 +1,9 @@
 //! Labels of the files of a folder: the words that the names of a set have in common tell no map.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
-use super::label::{Label, telling_words};
+use super::label::Label;
+use super::words::words_of_file;
 use crate::read::options::Role;
 
 /// The label of each of these files, in their order.
@@ -11,10 +11,7 @@ use crate::read::options::Role;
 /// `metal_albedo`, `metal_roughness` and `metal_xyz` are of a set named `metal`: what two maps or more have in common at
 /// the beginning of their names is the name of their set, and the maps are in the words after it.
 pub(crate) fn set_labels(names: &[String]) -> Vec<Option<Label>> {
-    let all: Vec<Vec<String>> = names
-        .iter()
-        .map(|name| telling_words(&Path::new(name).file_stem().unwrap_or_default().to_string_lossy()))
-        .collect();
+    let all: Vec<Vec<String>> = names.iter().map(|name| words_of_file(name)).collect();
     let mut roles: BTreeMap<&[String], Vec<Role>> = BTreeMap::new();
     for words in &all {
         for count in 1..words.len() {

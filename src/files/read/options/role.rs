@@ -53,6 +53,27 @@ const BASE: &[&str] = &[
     "basecoloralpha",
 ];
 
+/// Words of maps of specular.
+const SPECULAR: &[&str] = &[
+    "specular",
+    "spec",
+    "spe",
+    "spc",
+    "specularity",
+    "reflection",
+    "reflectance",
+    "f0",
+    "specularcolor",
+    "specularcolour",
+    "specularalbedo",
+    "speccol",
+    "glosscol",
+    "glossycolor",
+    "glossycolour",
+    "s",
+    "ps",
+];
+
 /// Words of pictures of roughness in green and metallic in blue.
 const PACKED: &[&str] = &[
     "occlusionroughnessmetallic",
@@ -106,6 +127,10 @@ const IGNORED: &[&str] = &[
     "thumb",
     "flow",
     "depth",
+    "transcol",
+    "transmissioncolor",
+    "denoisingalbedo",
+    "denoisingnormal",
 ];
 
 impl Role {
@@ -144,10 +169,22 @@ impl Role {
     /// The words that stand for this map, the plainest first. Words of one or two letters count only beside others.
     pub fn words(self) -> &'static [&'static str] {
         match self {
-            Self::Normal => &["normal", "normals", "nor", "nrm", "nrml", "norm", "nom", "nmap", "n"],
+            Self::Normal => {
+                &["normal", "normals", "nor", "nrm", "nrml", "norm", "nom", "nmap", "nm", "n", "normalao"]
+            }
             Self::Base => BASE,
-            Self::Diffuse => &["diffuse", "diff", "dif", "d", "pd"],
-            Self::Specular => &["specular", "spec", "spe", "spc", "specularity", "s", "ps"],
+            Self::Diffuse => &[
+                "diffuse",
+                "diff",
+                "dif",
+                "d",
+                "pd",
+                "diffcol",
+                "diffusecolor",
+                "diffusecolour",
+                "diffusealbedo",
+            ],
+            Self::Specular => SPECULAR,
             Self::SpecularLevel => &["specularlevel"],
             Self::Roughness => {
                 &["roughness", "rough", "rgh", "r", "glossiness", "gloss", "glossy", "smoothness", "axay"]
@@ -156,7 +193,14 @@ impl Role {
             Self::OcclusionRoughnessMetallic => PACKED,
             Self::RoughnessMetallicOcclusion => &["rmo", "rma", "roughnessmetallicocclusion"],
             Self::MetallicRoughnessOcclusion => &["mra"],
-            Self::MetallicSmoothness => &["metallicsmoothness", "maskmap"],
+            Self::MetallicSmoothness => &[
+                "metallicsmoothness",
+                "maskmap",
+                "metallicgloss",
+                "metallicglossiness",
+                "metalgloss",
+                "metalsmoothness",
+            ],
             Self::MetallicEmissiveRoughness => &["mer", "mers", "metalnessemissiveroughness"],
             Self::NormalRoughness => &["normalroughness", "normalsmoothness", "normalgloss"],
             Self::SpecularGlossiness => &["specularglossiness", "specgloss", "specularsmoothness"],

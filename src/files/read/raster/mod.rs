@@ -42,6 +42,15 @@ impl Raster {
         Self { channels: channels.into_iter().collect(), ..self.without_samples() }
     }
 
+    /// Only channel number `index`, where 3 is alpha: alpha that is 1 everywhere is not stored.
+    pub(crate) fn channel_or_alpha(&self, index: usize) -> Self {
+        match (index, &self.alpha) {
+            (3, Some(alpha)) => self.of(alpha.clone()),
+            (3, None) => Self::constant("alpha", &[1.0]),
+            _ => self.channel(index),
+        }
+    }
+
     pub(crate) fn size(&self) -> [usize; 2] {
         [self.width, self.height]
     }

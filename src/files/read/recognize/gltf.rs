@@ -8,7 +8,7 @@ use super::scaled_normals::scaled;
 use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::gltf::{GltfSurface, LocatedGltf};
-use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
+use crate::read::options::{Albedo, NormalEncoding, NormalY, ReadOptions, Role, Roughness};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Note, StorageConvention, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
@@ -88,6 +88,7 @@ fn specify(found: &mut StoredMaterial, roughness: Roughness, is_linear: bool) {
     found.inferred.specular = found.inferred.albedo.clone();
     found.inferred.roughness = Some((roughness, why(), Certainty::Sure));
     found.inferred.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
+    found.inferred.normal_encoding = Some((NormalEncoding::Unsigned, why(), Certainty::Sure));
     let layout = Assumption::new(What::Layout, "glTF", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);
 }

@@ -39,7 +39,7 @@ pub(super) fn material(
     let mut maps = MapsByRole::default();
     let mut notes = Vec::new();
     let mut floats = true;
-    for Layer { name, raster } in layers {
+    for Layer { name, raster, .. } in layers {
         match Label::of(&name) {
             Some(label) if label.role == Role::Ignored => notes.push(unused(&name)),
             Some(label) if maps.has(label.role) => {

@@ -61,7 +61,9 @@ fn noticed(candidate: &DecodedCandidate) -> Vec<Note> {
         DecodedCandidate::Mtl(_, pictures) | DecodedCandidate::Mtlx(_, pictures) => (pictures, false),
         DecodedCandidate::Picture(..) | DecodedCandidate::Set(..) => return Vec::new(),
     };
-    let is_void = |note: &Note| is_specified && matches!(note, Note::LinearGamma(_) | Note::Profile(_));
+    let is_of_colours =
+        |note: &Note| matches!(note, Note::LinearChunk(..) | Note::Profile(_) | Note::PrimariesChunk(..));
+    let is_void = |note: &Note| is_specified && is_of_colours(note);
     let mut notes: Vec<Note> = Vec::new();
     for note in pictures.iter().flat_map(|picture| &picture.notes) {
         if !is_void(note) && !notes.contains(note) {

@@ -84,21 +84,27 @@ impl<'a> MtlMaps<'a> {
     fn recognized(&mut self) -> Result<MapsByRole, Error> {
         let mut maps = MapsByRole::default();
         let colour = self.colour("map_kd", "kd", Role::Diffuse)?;
-        let packed = self.located.is_packed;
-        let roughness = self.value("map_pr", "pr", Role::Roughness)?;
-        let specular =
-            if packed { self.picture(&["map_ks"], Role::OcclusionRoughnessMetallic) } else { None };
-        let metallic = if self.has("map_pm") || !self.has("map_ks") {
-            self.value("map_pm", "pm", Role::Metallic)?
-        } else {
-            None
+        let packed = self.located.packed;
+        let packed = packed.and_then(|(key, role)| Some((key, role, self.picture(&[key], role)?)));
+        let is_packed = packed.is_some();
+        // A picture of its own, or without a packed one a number, too.
+        let is_stated = |this: &Self, map: &str| !is_packed || this.has(map);
+        let roughness = match is_stated(self, "map_pr") {
+            true => self.value("map_pr", "pr", Role::Roughness)?,
+            false => None,
         };
-        let is_metallic = packed || metallic.is_some();
-        if let Some(packed) = specular {
-            let why = StorageConvention::NvdiffrecPacking;
-            let layout = "map_Ks is occlusion | roughness | metallic";
-            self.assumptions.push(Assumption::new(What::Layout, layout, why, Certainty::Likely));
-            maps.add(Role::OcclusionRoughnessMetallic, packed);
+        let metallic = match is_stated(self, "map_pm") && (self.has("map_pm") || !self.has("map_ks")) {
+            true => self.value("map_pm", "pm", Role::Metallic)?,
+            false => None,
+        };
+        let is_metallic = is_packed || metallic.is_some();
+        if let Some((key, role, source)) = packed {
+            if key == "map_ks" {
+                let why = StorageConvention::NvdiffrecPacking;
+                let layout = "map_Ks is occlusion | roughness | metallic";
+                self.assumptions.push(Assumption::new(What::Layout, layout, why, Certainty::Likely));
+            }
+            maps.add(role, source);
         } else if !is_metallic && self.has("map_ks") {
             let specular = self.colour("map_ks", "ks", Role::Specular)?;
             specular.into_iter().for_each(|source| maps.add(Role::Specular, source));
@@ -109,7 +115,7 @@ impl<'a> MtlMaps<'a> {
         if let Some(colour) = colour {
             maps.add(if is_metallic { Role::Base } else { Role::Diffuse }, colour);
         }
-        let roughness = if packed { roughness } else { roughness.or_else(|| self.by_exponent()) };
+        let roughness = if is_packed { roughness } else { roughness.or_else(|| self.by_exponent()) };
         if let Some(roughness) = roughness {
             maps.add(Role::Roughness, roughness);
         }
@@ -225,7 +231,7 @@ impl<'a> MtlMaps<'a> {
         if *file != self.located.path.with_file_name(named) {
             self.notes.push(Note::Substituted { file: named.clone(), by: file.clone() });
         }
-        let DecodedPicture { map: StoredMap { mut raster, .. }, notes } = self.pictures[place].clone();
+        let DecodedPicture { map: StoredMap { mut raster, .. }, notes, .. } = self.pictures[place].clone();
         self.notes.push(Note::MapFile { map, file: file.display().to_string() });
         self.notes.extend(notes);
         if !unused_options.is_empty() {

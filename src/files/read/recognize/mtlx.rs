@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::mtlx::{Bound, LocatedMtlx};
 use crate::read::located::surface_model::{SurfaceModel, USD_SPECULAR, USE_SPECULAR};
-use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
+use crate::read::options::{Albedo, NormalEncoding, NormalY, ReadOptions, Role};
 use crate::read::record::{Assumption, Certainty, Note, StorageConvention, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
@@ -33,8 +33,9 @@ pub(super) fn material(
     found.is_mapped = true;
     found.inferred.specular = albedo.clone();
     found.inferred.albedo = albedo;
-    let why = StorageConvention::MaterialXNormals.into();
-    found.inferred.normal_y = Some((NormalY::Up, why, Certainty::Likely));
+    let why = || StorageConvention::MaterialXNormals.into();
+    found.inferred.normal_y = Some((NormalY::Up, why(), Certainty::Likely));
+    found.inferred.normal_encoding = Some((NormalEncoding::Unsigned, why(), Certainty::Likely));
     let layout =
         Assumption::new(What::Layout, "MaterialX", StorageConvention::ListedTextures, Certainty::Sure);
     found.assumptions.insert(0, layout);

@@ -9,7 +9,7 @@ use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::located::surface_model::SurfaceInput;
 use crate::read::options::colour_space::ColourSpace;
 use crate::read::options::{Albedo, Role};
-use crate::read::record::{Certainty, Reason, SpaceKnown, Subject};
+use crate::read::record::{Certainty, Reason, SpaceKnown, StorageConvention, Subject};
 use crate::read::stored::{Inferred, StoredMap};
 
 /// Stored normals as nodes decode them: 2 n - 1.
@@ -114,11 +114,20 @@ impl MtlxInputs<'_> {
     }
 
     fn normals(&self, name: &str, picture: &BoundPicture) -> Result<LoadedInput, Error> {
-        if picture.affine != Affine::default() && picture.affine != DECODED_NORMALS {
+        let Affine { scale, offset } = picture.affine;
+        let is_as_stored = picture.affine == Affine::default() || picture.affine == DECODED_NORMALS;
+        // 1 - c turns the component around.
+        let is_turned = (0..3).all(|c| [(1.0, 0.0), (-1.0, 1.0)].contains(&(scale[c], offset[c])));
+        if picture.channel.is_some() || !(is_as_stored || is_turned) {
             let found = "a product or a sum of one".to_owned();
             return Err(self.refused(name, "a normal map", found));
         }
-        let source = scaled(self.picture(&picture.file, Role::Normal)?.clone(), picture.scale.into());
+        let mut source = self.picture(&picture.file, Role::Normal)?.clone();
+        if !is_as_stored {
+            source =
+                Field::of(&source, Albedo::Linear).affine(scale, offset).into_map(&source.file, "computed");
+        }
+        let source = scaled(source, picture.scale.into());
         Ok(LoadedInput::linear(source, None))
     }
 
@@ -160,7 +169,11 @@ impl MtlxInputs<'_> {
 
 /// A map stored in `space`; linear with the primaries of Rec. 709 where that space is none of the usual encodings.
 fn in_rec709(source: StoredMap, space: Option<&str>) -> LoadedInput {
-    let Some(name) = space else { return LoadedInput::linear(source, None) };
+    let Some(name) = space else {
+        let is_undeclared = source.raster.channels.len() > 1 && !source.raster.is_float();
+        let linear = (Albedo::Linear, StorageConvention::NoColourSpace.into(), Certainty::Unsure);
+        return LoadedInput::linear(source, is_undeclared.then_some(linear));
+    };
     let encoding = encoding(name);
     match ColourSpace::of_name(name) {
         Some(space) if space.albedo().is_none() && source.raster.channels.len() > 2 => {

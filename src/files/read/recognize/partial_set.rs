@@ -1,14 +1,15 @@
 //! A set of pictures while its maps are recognized, by names and pixels together.
 
-use super::roles::MapsByRole;
+use super::field::Field;
+use super::roles::{CHANNELS, MapsByRole};
 use crate::error::Error;
 use crate::read::decode;
-use crate::read::located::set::{LabelledFile, LocatedSet};
+use crate::read::located::set::{LabelledFile, ListedGray, ListingDocument, LocatedSet};
 use crate::read::measure::{Channels, is_flat, normal_score};
-use crate::read::names::is_named_as;
-use crate::read::options::{Reflectance, Role};
+use crate::read::names::{Label, is_named_as};
+use crate::read::options::{Albedo, Reflectance, Role};
 use crate::read::raster::Raster;
-use crate::read::record::{Assumption, Certainty, Note, Reason, Subject, Unused, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Subject, Unused, What};
 use crate::read::stored::{StoredHeight, StoredMap};
 
 /// An unlabelled picture is the normal map where this share of its pixels looks like normals.
@@ -71,7 +72,8 @@ impl<'a> PartialSet<'a> {
 
     /// The picture of a file that only the pixels of others call for.
     fn decoded(&self, file: &str, subject: Subject) -> Option<(Raster, Vec<Note>)> {
-        decode::one(&self.set.file(file), subject).ok()
+        let (layer, notes) = decode::one(&self.set.file(file), subject).ok()?;
+        Some((layer.raster, notes))
     }
 
     /// Adds the picture of the file `named`.
@@ -87,22 +89,57 @@ impl<'a> PartialSet<'a> {
             let raster = raster.of(heights);
             self.height = Some(StoredHeight::Picture { raster, file: self.set.path_of(file) });
         }
-        self.notes.push(Note::MapFile { map: label.role, file: file.clone() });
+        let role = self.role_of(label);
+        self.notes.push(Note::MapFile { map: role, file: file.clone() });
         self.are_floats &= raster.is_float() || !is_colour(label.role);
         if label.word == "ps" && self.set.files.files.iter().any(|f| f.label.word == "axay") {
             raster = raster.scaled(&[Reflectance::DIELECTRIC.value() as f32]);
             self.notes.push(Note::SpecularFactor { file: file.clone() });
         }
         let source = StoredMap { raster, file: self.set.path_of(file), part: String::new() };
-        match label.role {
+        match role {
             Role::SpecularGlossiness => self.add_glossy(source),
             Role::NormalRoughness => return self.add_normal_and_roughness(source),
             // The two widths of a roughness are in red and green.
-            Role::Roughness if label.word == "axay" => self.maps.add(label.role, source),
-            Role::Roughness | Role::Metallic => self.add_gray(label.role, source),
+            Role::Roughness if label.word == "axay" => self.maps.add(role, source),
+            Role::Roughness | Role::Metallic => self.add_gray(role, source),
             role => self.maps.add(role, source),
         }
         Ok(())
+    }
+
+    /// Takes roughness and metallic as a document binds them, where it lists the picture that seems to hold them.
+    pub(super) fn listed(&mut self, document: &ListingDocument) {
+        for ListedGray { role, picture, factor } in &document.grays {
+            let is_listed = |map: &&StoredMap| document.files.iter().any(|f| self.set.path_of(f) == map.file);
+            let Some(holder) = self.maps.holder(*role).filter(is_listed) else { continue };
+            let (map, chosen) = match picture {
+                None => {
+                    let path = self.set.path_of(&document.name);
+                    (StoredMap::constant(&path, &[*factor]), format!("{} {factor}", role.name()))
+                }
+                Some((file, channel)) if self.set.path_of(file) == holder.file => {
+                    let part = CHANNELS[*channel];
+                    let raster = holder.raster.channel_or_alpha(*channel).scaled(&[*factor]);
+                    let chosen = format!("{} in {part} of {file}", role.name());
+                    (StoredMap { raster, file: holder.file.clone(), part: part.to_owned() }, chosen)
+                }
+                Some(_) => continue,
+            };
+            let why = Reason::ListedChannels { document: document.name.clone() };
+            self.doubts.push(Assumption::new(What::Layout, chosen, why, Certainty::Likely));
+            self.maps.replace(*role, map);
+        }
+    }
+
+    /// The map that a label means in this set: `spec` of Texture Haven, beside `diff` and `rough`, scales 0.08.
+    fn role_of(&mut self, label: &Label) -> Role {
+        let has = |word: &str| self.set.files.files.iter().any(|file| file.label.word == word);
+        if label.word != "spec" || !(has("diff") && has("rough")) {
+            return label.role;
+        }
+        self.doubt("specular is its level", StorageConvention::TextureHavenNames.into());
+        Role::SpecularLevel
     }
 
     /// Normals in red, green and blue, roughness in alpha.
@@ -145,9 +182,27 @@ impl<'a> PartialSet<'a> {
         self.maps.add(Role::Specular, source);
     }
 
+    /// Metallic in red, smoothness in alpha, as Unity has it.
+    fn add_smooth(&mut self, source: StoredMap) {
+        let part = |channel: usize| StoredMap {
+            raster: source.raster.channel_or_alpha(channel),
+            file: source.file.clone(),
+            part: CHANNELS[channel].to_owned(),
+        };
+        let roughness = Field::of(&part(3), Albedo::Linear).complement();
+        self.maps.add(Role::Roughness, roughness.into_map(&source.file, "1 - alpha"));
+        self.maps.add(Role::Metallic, part(0));
+        let why = Reason::SmoothnessInAlpha { file: source.file };
+        self.doubt("metallic in red, roughness in 1 - alpha", why);
+    }
+
     /// A picture that is named after a gray map, and may hold others.
     fn add_gray(&mut self, role: Role, source: StoredMap) {
         let file = source.file.clone();
+        let lacks = |other: Role| !self.has_named(|role| role == other || role.packing().is_some());
+        if role == Role::Metallic && source.raster.alpha.is_some() && lacks(Role::Roughness) {
+            return self.add_smooth(source);
+        }
         let channels = Channels::of(&source.raster);
         if channels != Channels::Gray && normal_score(&source.raster) > NORMAL_ALL_OVER {
             self.doubt(role.name(), Reason::LooksLikeNormals { map: role, file });
@@ -157,7 +212,6 @@ impl<'a> PartialSet<'a> {
             let raster = source.raster.channel(channel);
             StoredMap { raster, file: source.file.clone(), part: part.to_owned() }
         };
-        let lacks = |other: Role| !self.has_named(|role| role == other || role.packing().is_some());
         let (chosen, other) = match (channels, role) {
             (Channels::RoughnessMetallic, Role::Roughness) => {
                 let metallic = lacks(Role::Metallic).then(|| (Role::Metallic, part(2, "blue")));

@@ -3,10 +3,13 @@
 use std::path::Path;
 
 use crate::error::Error;
+use crate::read::names::{Label, word_beside};
 use crate::read::options::{Preset, ReadOptions, Role, Workflow};
-use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};
 use crate::read::stored::{Inferences, StoredMap, StoredMaterial};
+
+/// The names of the channels of a picture.
+pub(super) const CHANNELS: [&str; 4] = ["red", "green", "blue", "alpha"];
 
 /// The maps of a material that have been recognized, by role.
 #[derive(Debug, Default)]
@@ -31,6 +34,12 @@ impl MapsByRole {
         self.all.iter().any(|(r, _)| *r == role)
     }
 
+    /// The picture that holds roughness or metallic, by itself or among others.
+    pub(super) fn holder(&self, role: Role) -> Option<&StoredMap> {
+        let of = |is: &dyn Fn(Role) -> bool| self.all.iter().find(|(r, _)| is(*r)).map(|(_, source)| source);
+        of(&|r| r == role).or_else(|| of(&|r| r.packing().is_some()))
+    }
+
     /// Replaces the picture of a role; diffuse and base colour replace each other.
     pub(super) fn replace(&mut self, role: Role, source: StoredMap) {
         let colours = [Role::Base, Role::Diffuse];
@@ -47,16 +56,11 @@ impl MapsByRole {
     fn packed(&self, which: usize) -> Option<StoredMap> {
         self.all.iter().find_map(|(role, source)| {
             let channel = role.packing()?[which];
-            let raster = match channel {
-                // Alpha that is 1 everywhere is not stored.
-                3 => source
-                    .raster
-                    .alpha
-                    .clone()
-                    .map_or_else(|| Raster::constant("alpha", &[1.0]), |alpha| source.raster.of(alpha)),
-                _ => source.raster.of(source.raster.channels.get(channel)?.clone()),
-            };
-            let name = ["red", "green", "blue", "alpha"][channel];
+            // A gray picture has no other channels.
+            if channel < 3 && channel >= source.raster.channels.len() {
+                return None;
+            }
+            let (raster, name) = (source.raster.channel_or_alpha(channel), CHANNELS[channel]);
             let before = if source.part.is_empty() { String::new() } else { format!("{}, ", source.part) };
             Some(StoredMap { raster, file: source.file.clone(), part: before + name })
         })
@@ -68,6 +72,12 @@ impl MapsByRole {
 
     fn metallic(&mut self) -> Option<StoredMap> {
         self.take(Role::Metallic).or_else(|| self.packed(1))
+    }
+
+    /// The telling words of the files.
+    fn words(&self) -> Vec<String> {
+        let label = |source: &StoredMap| Label::of(&source.file.file_stem()?.to_string_lossy());
+        self.all.iter().filter_map(|(_, source)| label(source)).map(|label| label.word).collect()
     }
 
     /// Assumptions about pictures whose channels their names do not define for sure.
@@ -104,10 +114,11 @@ impl MapsByRole {
         listed: &str,
         options: &ReadOptions,
     ) -> Result<StoredMaterial, Error> {
+        let words = self.words();
         let missing = |role: Role| Error::MissingMap {
             path: path.to_owned(),
             map: role.name(),
-            examples: role.examples(),
+            examples: examples(role, &words),
             found: if listed.is_empty() { "none".to_owned() } else { listed.to_owned() },
         };
         let mut assumptions = self.doubts_of_packing();
@@ -163,6 +174,14 @@ impl MapsByRole {
             notes,
             files,
         })
+    }
+}
+
+/// Names of a map that is missing, for messages; `words` are those of the files that are there.
+fn examples(role: Role, words: &[String]) -> String {
+    match word_beside(role, words) {
+        Some(own) => format!("{own} as the other files, or {}", role.examples()),
+        None => role.examples(),
     }
 }
 

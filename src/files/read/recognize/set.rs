@@ -5,9 +5,11 @@ use super::partial_set::{PartialSet, is_colour};
 use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
-use crate::read::measure::{NORMAL_AT_LEAST, normal_score};
+use crate::read::measure::{NORMAL_AT_LEAST, dark_metal, normal_score};
 use crate::read::options::{NormalY, ReadOptions, Role, Workflow};
-use crate::read::record::{Assumption, Certainty, Note, SpecifiedBy, StorageConvention, Unused, What};
+use crate::read::record::{
+    Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, Unused, What,
+};
 use crate::read::stored::{StoredHeight, StoredMap, StoredMaterial};
 
 /// The material of the set `located`, whose files hold `pictures`, with the maps `bound`.
@@ -21,7 +23,7 @@ pub(super) fn material(
     options: &ReadOptions,
 ) -> Result<StoredMaterial, Error> {
     let mut set = PartialSet::new(located);
-    for (file, DecodedPicture { map, notes }) in located.files.files.iter().zip(pictures) {
+    for (file, DecodedPicture { map, notes, .. }) in located.files.files.iter().zip(pictures) {
         let (file, raster, notes) = match set.other_normals(file, &map.raster) {
             Some(other) => other,
             None => (file, map.raster, notes),
@@ -36,6 +38,7 @@ pub(super) fn material(
         }
         set.add(file, raster)?;
     }
+    located.files.documents.iter().for_each(|document| set.listed(document));
     // A caller who specifies a specular map wants it to be used.
     let has_specular = bound.iter().any(|(role, _)| *role == Role::Specular) && options.workflow.is_none();
     let workflow = if has_specular { Some(Workflow::Specular) } else { options.workflow };
@@ -55,10 +58,19 @@ pub(super) fn material(
     let options = &ReadOptions { workflow, ..*options };
     let mut found = maps.material(&located.path, located.name.clone(), &located.listing, options)?;
     found.assumptions.append(&mut doubts);
+    let packed = found
+        .metallic
+        .as_ref()
+        .filter(|metallic| !metallic.part.is_empty() && metallic.raster.size() != [1, 1]);
+    if let Some(median) = packed.and_then(|metallic| dark_metal(&metallic.raster, &found.colour.raster)) {
+        let why = Reason::DarkMetal(median);
+        found.assumptions.push(Assumption::new(What::Layout, "metallic 1", why, Certainty::Unsure));
+    }
     hints::add(&mut found, located, are_floats, is_glossy);
     let file = located.files.heights.first().map(|file| StoredHeight::File(located.file(file)));
     found.height = file.or(height);
-    notes.extend(located.files.documents.iter().map(|one| Note::ListedBy { file: one.name.clone() }));
+    let opening = located.files.documents.iter().filter(|one| one.opens);
+    notes.extend(opening.map(|one| Note::ListedBy { file: one.name.clone() }));
     if let Some(document) = &located.listed_by {
         let why = StorageConvention::ListedTextures;
         found.assumptions.insert(0, Assumption::new(What::Layout, "texture set", why, Certainty::Sure));

@@ -26,6 +26,8 @@ pub enum Unused {
     /// It is a number, a text or an array of another shape.
     #[display(": it is no picture")]
     NoPicture,
+    #[display(": its format is not read")]
+    Format,
     #[display(": its name does not name a map")]
     Unlabelled,
     #[display(": it is not named as the other maps are")]
@@ -144,12 +146,17 @@ pub enum Note {
         shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
     )]
     ChannelsLast { array: String, shape: Vec<u64> },
-    #[display("The {_0} has a gAMA chunk that declares it linear, which is ignored.")]
-    LinearGamma(Subject),
+    /// A chunk of a PNG, by its name.
+    #[display("The {_0} has a {_1} chunk that declares it linear, which is ignored.")]
+    LinearChunk(Subject, &'static str),
+    #[display("The file of the {_0} holds several pages or frames; the first is used.")]
+    FirstOnly(Subject),
     #[display("The {_0} has an EXIF orientation, which is ignored: rows are read as stored.")]
     Orientation(Subject),
     #[display("The {_0} has an ICC profile other than sRGB, which is ignored.")]
     Profile(Subject),
+    #[display("The {_0} has a {_1} chunk with primaries other than those of Rec. 709, which is ignored.")]
+    PrimariesChunk(Subject, &'static str),
     #[display("The EXR has primaries other than those of Rec. 709; its RGB is used as it is.")]
     Primaries,
     /// The layer may have no name.
@@ -189,10 +196,17 @@ impl Note {
     pub fn changes_look(&self) -> bool {
         match self {
             Self::ChannelsDiffer { .. } | Self::Anisotropic { .. } | Self::SpecularMedian { .. } => true,
-            Self::LinearGamma(_) | Self::Profile(_) | Self::Primaries | Self::Gamut { .. } => true,
+            Self::LinearChunk(..)
+            | Self::Profile(_)
+            | Self::Primaries
+            | Self::PrimariesChunk(..)
+            | Self::Gamut { .. } => true,
             Self::DataWindow { .. } | Self::PartialData { .. } | Self::OptionsUnused { .. } => true,
             Self::Unused { why, .. } => {
-                matches!(why, Unused::FactorZero { .. } | Unused::Heights | Unused::NotNormals)
+                matches!(
+                    why,
+                    Unused::FactorZero { .. } | Unused::Heights | Unused::NotNormals | Unused::Format
+                )
             }
             _ => false,
         }

@@ -64,6 +64,10 @@ pub enum Reason {
     NameOfSet {
         file: String,
     },
+    #[display("{} has an alpha that varies, as Unity stores smoothness, and no other file is the roughness", file.display())]
+    SmoothnessInAlpha {
+        file: PathBuf,
+    },
     #[display("{} has no alpha, which holds smoothness", file.display())]
     OpaqueSmoothness {
         file: PathBuf,
@@ -105,8 +109,9 @@ pub enum Reason {
     #[display("red is 1 everywhere, alpha varies")]
     RedConstant,
     #[display(
-        "{:.0}% of the texels have length 1 {}",
-        100.0 * share, if *signed { "as stored" } else { "if read so" }
+        "{:.0}% of the texels have length 1 {}{}",
+        100.0 * share, if *signed { "as stored" } else { "if read so" },
+        if *share < 0.6 { "; blue may hold another map, or they are no normals" } else { "" }
     )]
     UnitLength {
         signed: bool,
@@ -135,6 +140,23 @@ pub enum Reason {
     ListedNormals {
         document: String,
     },
+    #[display("the {} map has an alpha below 1, and EXR multiplies colours by it", map.name())]
+    Premultiplied {
+        map: Role,
+    },
+    #[display("the file declares primaries other than those of Rec. 709, which are not converted")]
+    OtherPrimaries,
+    /// A document beside a picture that holds several maps.
+    #[display("{document} lists the picture and binds it so")]
+    ListedChannels {
+        document: String,
+    },
+    /// Of a packed picture.
+    #[display(
+        "metallic is 1 everywhere, but the median of the base colour is {_0:.3}, darker than metals: where the surface is no \
+        metal, specify metallic=0"
+    )]
+    DarkMetal(f64),
     #[display(
         "the slopes of {} correlate by {:+.2} with x of the normals and by {:+.2} with y",
         file.display(), correlations[0], correlations[1]

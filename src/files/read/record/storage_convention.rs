@@ -46,6 +46,13 @@ pub enum StorageConvention {
     MaterialXNormals,
     #[display("computed as the specification of the surface defines it")]
     MaterialXSurface,
+    /// A colour of MaterialX.
+    #[display(
+        "the file declares no colorspace, and MaterialX converts nothing then; colours of 8 bits are mostly sRGB"
+    )]
+    NoColourSpace,
+    #[display("Texture Haven names the level of specular so, beside diff and rough; F0 is named so, too")]
+    TextureHavenNames,
     #[display("the file lists its textures")]
     ListedTextures,
     #[display("Minecraft does not define it, and most maps point up")]

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::map::{StoredHeight, StoredMap};
 use crate::error::Error;
-use crate::read::options::{Albedo, Energy, NormalY, Role, Roughness};
+use crate::read::options::{Albedo, Energy, NormalEncoding, NormalY, Role, Roughness};
 use crate::read::record::{Assumption, Certainty, Note, Reason, What};
 
 /// Inferences from the files about stored values. `None` where they tell nothing.
@@ -14,6 +14,8 @@ pub(crate) struct Inferences {
     pub specular: Inferred<Albedo>,
     pub roughness: Inferred<Roughness>,
     pub normal_y: Inferred<NormalY>,
+    /// Where three channels are those of a vector.
+    pub normal_encoding: Inferred<NormalEncoding>,
     pub energy: Inferred<Energy>,
 }
 

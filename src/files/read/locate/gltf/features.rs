@@ -53,17 +53,45 @@ pub(super) fn textures(json: &Value) -> Vec<(String, Value)> {
 pub(super) fn transforms_differ(material: &Value) -> Option<String> {
     let textures = textures(material);
     let (first, others) = textures.split_first()?;
-    let other = others.iter().find(|other| transform(&other.1) != transform(&first.1))?;
+    let other = others.iter().find(|other| !is_same(transform(&other.1), transform(&first.1)))?;
     Some(format!(
         "expected one KHR_texture_transform for all maps, found different ones for {} and {}",
         first.0, other.0
     ))
 }
 
-/// Offset, rotation and scale of a texture; of 32 bits, since the library keeps some of them so.
-fn transform(texture: &Value) -> [f32; 5] {
+/// The textures of a material whose coordinates are not those of the first, by their sets: the maps may not lie over one another.
+pub(super) fn unlike_coordinates(material: &Value) -> Option<String> {
+    let set = |texture: &Value| {
+        let transform = texture.pointer("/extensions/KHR_texture_transform/texCoord");
+        transform.or(texture.get("texCoord")).and_then(Value::as_u64).unwrap_or(0)
+    };
+    let textures = textures(material);
+    let (first, others) = textures.split_first()?;
+    let other = others.iter().find(|other| set(&other.1) != set(&first.1))?;
+    let named = |(name, texture): &(String, Value)| format!("TEXCOORD_{} of {name}", set(texture));
+    Some(format!(
+        "coordinates of different sets ({}, {}): the maps are read as if both were one",
+        named(first),
+        named(other)
+    ))
+}
+
+/// Whether two transforms place textures alike: but for rounding, whole turns, and whole tiles, which repeat.
+fn is_same(a: [f64; 5], b: [f64; 5]) -> bool {
+    const ROUNDING: f64 = 1e-6;
+    let periods = [1.0, 1.0, std::f64::consts::TAU, f64::INFINITY, f64::INFINITY];
+    a.into_iter().zip(b).zip(periods).all(|((a, b), period)| {
+        let difference = (a - b).abs();
+        let rest = if period.is_finite() { difference % period } else { difference };
+        rest.min(period - rest) < ROUNDING
+    })
+}
+
+/// Offset, rotation and scale of a texture.
+fn transform(texture: &Value) -> [f64; 5] {
     let declared = texture.get("extensions").and_then(|all| all.get("KHR_texture_transform"));
-    let number = |value: Option<&Value>, usual: f64| value.and_then(Value::as_f64).unwrap_or(usual) as f32;
+    let number = |value: Option<&Value>, usual: f64| value.and_then(Value::as_f64).unwrap_or(usual);
     let of = |key: &str, index: usize| declared.and_then(|all| all.get(key)?.get(index));
     let rotation = number(declared.and_then(|all| all.get("rotation")), 0.0);
     let [u, v] = [0, 1].map(|index| number(of("offset", index), 0.0));

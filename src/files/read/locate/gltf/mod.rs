@@ -69,6 +69,7 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
     if vertex_colours::has(&file, index) {
         not_modelled.push("vertex colours (COLOR_0), which multiply the base colour".to_owned());
     }
+    not_modelled.extend(features::unlike_coordinates(declared));
     let (pictures, textures) = pictures(&file, material)?;
     let names =
         materials.iter().map(|material| specified_name(material).unwrap_or("unnamed").to_owned()).collect();

@@ -36,11 +36,11 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtl, E
         });
     }
     let entry = all.swap_remove(index);
-    let is_packed = is_packed(&entry);
+    let packed = packed(&entry);
     Ok(LocatedMtl {
         path: path.to_owned(),
-        textures: textures(path, &entry, is_packed),
-        is_packed,
+        textures: textures(path, &entry, packed),
+        packed,
         is_by_blender: text.starts_with("# Blender"),
         entry,
         materials: (names, index),
@@ -56,9 +56,12 @@ fn bytes_of(text: &[u8]) -> u64 {
     4 * text.len() as u64 + LINE * lines
 }
 
-/// Whether `map_Ks` is occlusion, roughness and metallic, by its name or by the `bsdf` of nvdiffrec.
-fn is_packed(entry: &MtlEntry) -> bool {
+/// The statement of a picture of roughness and metallic: one of its own, or `map_Ks` by the name of its file or by the `bsdf` of
+/// nvdiffrec.
+fn packed(entry: &MtlEntry) -> Option<(&'static str, Role)> {
     let has = |key: &str| entry.lines.iter().any(|(k, _)| k == key);
+    let orm = Role::OcclusionRoughnessMetallic;
+    let own = [("map_orm", orm), ("map_rma", Role::RoughnessMetallicOcclusion)];
     let specular = entry.lines.iter().find(|(key, _)| key == "map_ks");
     let named = |rest: &str| {
         let file = Texture::of(rest).file;
@@ -66,19 +69,21 @@ fn is_packed(entry: &MtlEntry) -> bool {
         Label::of(&stem).is_some_and(|label| label.role == Role::OcclusionRoughnessMetallic)
     };
     let lone = has("map_kd") && !has("map_pr") && !has("map_pm");
-    lone && specular.is_some_and(|(_, rest)| has("bsdf") || named(rest))
+    let is_specular = lone && specular.is_some_and(|(_, rest)| has("bsdf") || named(rest));
+    own.into_iter().find(|(key, _)| has(key)).or(is_specular.then_some(("map_ks", orm)))
 }
 
 /// The pictures that are read of a material, and the maps that they are read as.
-fn textures(path: &Path, entry: &MtlEntry, is_packed: bool) -> Vec<MtlTexture> {
+fn textures(path: &Path, entry: &MtlEntry, packed: Option<(&'static str, Role)>) -> Vec<MtlTexture> {
     let line = |key: &str| entry.lines.iter().find(|(k, _)| k == key).map(|(_, rest)| rest);
     let normal = NORMALS.into_iter().chain(BUMPS).find(|key| line(key).is_some());
-    let specular = line("map_pm").is_none().then_some("map_ks");
+    let specular = (line("map_pm").is_none() && packed.is_none()).then_some("map_ks");
     let keys = [
         (Some("map_kd"), Role::Diffuse),
         (Some("map_pr"), Role::Roughness),
         (Some("map_pm"), Role::Metallic),
-        (specular, if is_packed { Role::OcclusionRoughnessMetallic } else { Role::Specular }),
+        (specular, Role::Specular),
+        (packed.map(|(key, _)| key), packed.map_or(Role::Specular, |(_, role)| role)),
         (normal, Role::Normal),
     ];
     let texture = |(key, role): (Option<&'static str>, Role)| {

@@ -23,6 +23,7 @@ pub(super) fn value(
         "add" => sum(operand("in1", 0.0)?, operand("in2", 0.0)?),
         "subtract" => minus(operand("in2", 0.0)?).and_then(|by| sum(operand("in1", 0.0).ok()?, by)),
         "invert" => minus(operand("in", 0.0)?).and_then(|by| sum(operand("amount", 1.0).ok()?, by)),
+        "combine3" => gathered([operand("in1", 0.0)?, operand("in2", 0.0)?, operand("in3", 0.0)?]),
         // bg + mix (fg - bg)
         "mix" => {
             let (fg, bg, mix) = (operand("fg", 0.0)?, operand("bg", 0.0)?, operand("mix", 0.0)?);
@@ -30,6 +31,33 @@ pub(super) fn value(
         }
         _ => None,
     })
+}
+
+/// Red, green and blue of constants and of the same channels of one picture, or all of one channel of it.
+fn gathered(channels: [Bound; 3]) -> Option<Bound> {
+    let mut picture: Option<BoundPicture> = None;
+    let (mut scale, mut offset) = ([0.0; 3], [0.0; 3]);
+    let mut sources = Vec::new();
+    for (place, channel) in channels.into_iter().enumerate() {
+        match channel {
+            Bound::Values { values, space } => offset[place] = linear(&values, space.as_deref())?[0],
+            Bound::Picture(one) => {
+                (scale[place], offset[place]) = (one.affine.scale[place], one.affine.offset[place]);
+                sources.push((place, one.channel?));
+                if picture.as_ref().is_some_and(|other| other.file != one.file || other.space != one.space) {
+                    return None;
+                }
+                picture.get_or_insert(one);
+            }
+        }
+    }
+    let Some(picture) = picture else { return Some(Bound::Values { values: offset.to_vec(), space: None }) };
+    let first = sources.first().map(|(_, source)| *source);
+    let channel = match sources.iter().all(|(place, source)| place == source) {
+        true => None,
+        false => Some(first.filter(|first| sources.iter().all(|(_, source)| source == first))?),
+    };
+    Some(Bound::Picture(BoundPicture { channel, affine: Affine { scale, offset }, ..picture }))
 }
 
 fn mixed(fg: Bound, bg: Bound, mix: Bound) -> Option<Bound> {

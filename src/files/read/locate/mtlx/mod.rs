@@ -3,6 +3,7 @@
 
 mod arithmetic;
 mod graph;
+mod tiles;
 
 use std::path::Path;
 
@@ -38,6 +39,7 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtlx, 
     if has_many_attributes(&text) {
         return Err(bad(format!("expected at most {MOST_ATTRIBUTES} attributes in an element, found more")));
     }
+    let text = tiles::escaped(&text);
     let document = Document::parse(&text).map_err(|e| bad(format!("expected MaterialX, found: {e}")))?;
     let surfaces: Vec<_> = document.descendants().filter_map(|node| Some((node, model_of(node)?))).collect();
     let index = options.exemplar_of(surfaces.len(), path)?;
@@ -59,6 +61,11 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtlx, 
         not_modelled: not_modelled(model, node),
         surfaces: (surfaces.iter().map(|(node, _)| name(node)).collect(), index),
     };
+    for (_, bound) in &mut located.inputs {
+        if let Ok(Bound::Picture(picture)) = bound {
+            picture.file = tiles::only(&picture.file, path)?;
+        }
+    }
     located.pictures = pictures(&located, &wanted);
     Ok(located)
 }
