@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test reads its own files")]
 
+mod alone;
 mod animation;
 mod assumptions;
 mod bar;
@@ -158,7 +159,11 @@ fn more(window: &mut Window<'_>) {
 }
 
 /// Opens a tab of the side panel.
+/// Chooses a tab. A material alone has no tabs: its files are shown.
 fn tab(window: &mut Window<'_>, name: &str) {
+    if name == "Files" && has(window, "Open a prediction to compare") {
+        return;
+    }
     click(window, &format!("Tab {name}"));
 }
 

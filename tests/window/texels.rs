@@ -56,7 +56,9 @@ fn opened<'a>(quantity: Quantity, scale: f32) -> (Window<'a>, egui::Rect, tempfi
 }
 
 fn numbered_pane(window: &Window<'_>) -> egui::Rect {
-    pane(window, &format!("GROUND TRUTH  {}", window.state().names()[0]))
+    let names = window.state().names();
+    let role = if names.len() == 1 { "MATERIAL" } else { "GROUND TRUTH" };
+    pane(window, &format!("{role}  {}", names[0]))
 }
 
 fn held(window: &mut Window<'_>, modifiers: Modifiers) {

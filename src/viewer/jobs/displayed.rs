@@ -38,6 +38,15 @@ impl<'a> Displayed<'a> {
         &self.jobs.panes.displayed
     }
 
+    /// The material that is looked at alone: there is nothing to compare it with.
+    pub fn alone(self) -> Option<&'a LoadedMaterial> {
+        let [material] = &self.model.materials.all[..] else { return None };
+        let runs =
+            self.jobs.training.views(&self.model.materials.all, self.model.training.requested.as_ref());
+        let is_compared = self.model.photograph.source().is_some() || !runs.is_empty();
+        (!is_compared && self.jobs.openings.is_empty()).then_some(material)
+    }
+
     fn view(self) -> &'a ViewState {
         &self.model.view
     }

@@ -49,6 +49,8 @@ pub struct Model {
     pub materials: MaterialList,
     pub photograph: PhotographState,
     pub training: TrainingState,
+    /// Whether the last opening was of one material, which has no prediction yet.
+    pub opened_alone: bool,
     pub inspection: Inspection,
     /// The inspected texels of a session whose materials are being read.
     pub inspected_later: Option<Inspection>,

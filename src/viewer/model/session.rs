@@ -36,6 +36,9 @@ impl Model {
             (Some(session), _) => self.open_session(session),
             (None, None) => ReadRequest::built_in(),
             (None, Some(ground_truth)) => {
+                if options.predictions.is_empty() && options.photograph.is_none() {
+                    self.light_alone();
+                }
                 let predictions = sources(options.predictions);
                 let all = std::iter::once(ground_truth).chain(predictions).collect();
                 ReadRequest::new(all, Target::Everything)
@@ -48,6 +51,14 @@ impl Model {
         }
         options.scenes.into_iter().for_each(|file| self.use_scenes(file));
         Effect::Read(request)
+    }
+
+    /// Lights a material that is looked at alone from the side and from afar, unless light or view were moved.
+    pub fn light_alone(&mut self) {
+        self.opened_alone = true;
+        if self.view.scene == ViewState::default().scene {
+            self.view.scene.light = [1.0, 1.0, 2.4];
+        }
     }
 
     /// The current session.
@@ -92,6 +103,7 @@ impl Model {
             exposure_ev: session.exposure,
             display: session.window.display.clone().unwrap_or_default(),
         };
+        self.opened_alone = false;
         self.exposed = Exposed::Restored;
         if let Some(loss) = &session.window.loss {
             self.settings.loss = loss.clone();

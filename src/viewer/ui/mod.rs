@@ -22,6 +22,7 @@ use eframe::egui;
 use content::CentralArea;
 use dialogs::Dialogs;
 use input::KeyInput;
+use materials::alone::MapThumbnails;
 use pane::viewport::Viewport;
 use panels::inspection::Drawer;
 use panels::status::StatusBar;
@@ -46,6 +47,7 @@ pub struct WindowUi {
     input: KeyInput,
     viewport: Viewport,
     textures: PanelTextures,
+    thumbnails: MapThumbnails,
     /// Size of the panes and the legend, in pixels.
     picture_size: [u32; 2],
     /// Whether the drawer is there.
@@ -103,7 +105,10 @@ impl WindowUi {
             ui,
             &mut is_open,
             // Contents that are too wide are cut off: the panel does not grow.
-            |ui| commands.extend(fixed(ui, |ui| side::ui(ui, displayed, &mut self.textures))),
+            |ui| {
+                commands
+                    .extend(fixed(ui, |ui| side::ui(ui, displayed, &mut self.thumbnails, &mut self.textures)))
+            },
         );
         if is_open != was_open {
             commands.push(WindowCommand::ToggleSidePanel.into());

@@ -7,6 +7,7 @@ use svbrdf_files::read::Certainty;
 
 use super::loss::panel::LossPanel;
 use super::loss::training::TrainingPanel;
+use super::materials::alone::{AloneCard, MapThumbnails};
 use super::materials::panel::MaterialsPanel;
 use super::panels::light_and_view::ScenePanel;
 use super::photograph::card::PhotographCard;
@@ -19,9 +20,20 @@ use crate::model::command::{Command, WindowCommand};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::Tab;
 
-pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextures) -> Vec<Command> {
+pub fn ui(
+    ui: &mut egui::Ui,
+    displayed: Displayed<'_>,
+    thumbnails: &mut MapThumbnails,
+    textures: &mut PanelTextures,
+) -> Vec<Command> {
     let (model, jobs) = (displayed.model, displayed.jobs);
-    let mut commands = tabs(ui, displayed);
+    let mut commands = match displayed.alone() {
+        Some(material) => {
+            let card = AloneCard { material, view: &model.view, animation: &model.animation };
+            card.ui(ui, thumbnails, textures)
+        }
+        None => tabs(ui, displayed),
+    };
     bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
         let header = egui::CollapsingHeader::new("Light and view").default_open(true);
         let scene = ScenePanel { state: &model.view, settings: &model.settings, animation: &model.animation };
@@ -38,9 +50,11 @@ pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextu
             .resizable(false)
             .show(ui, |ui| commands.extend(card.ui(ui, textures)));
     }
-    let scroll = egui::ScrollArea::vertical().id_salt(model.settings.tab as usize);
+    // Of a material alone, only its files.
+    let tab = if displayed.alone().is_some() { Tab::Files } else { model.settings.tab };
+    let scroll = egui::ScrollArea::vertical().id_salt(tab as usize);
     scroll.auto_shrink([false, false]).show(ui, |ui| {
-        commands.extend(match model.settings.tab {
+        commands.extend(match tab {
             Tab::Loss => loss_tab(ui, displayed),
             Tab::Why => why_tab(ui, displayed, textures),
             Tab::Files => {

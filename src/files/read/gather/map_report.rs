@@ -66,7 +66,7 @@ impl fmt::Display for MapContent {
             write!(f, ", {:.1}% at 1", 100.0 * self.clipped)?;
         }
         if let Some(share) = self.non_unit {
-            write!(f, ", {:.1}% not unit vectors", 100.0 * share)?;
+            write!(f, ", {:.1}% not of length 1, normalized", 100.0 * share)?;
         }
         if let Some(curl) = self.curl {
             write!(f, ", curl correlation {curl:+.2}")?;
@@ -116,7 +116,9 @@ fn report(map: Role, source: &StoredMap) -> MapContent {
 
 /// Share of the texels that are not unit vectors, and the curl correlation.
 fn of_normals(raster: &Raster) -> [Option<f64>; 2] {
-    let [unsigned, signed] = [measure::normal_score(raster), measure::signed_normal_score(raster)];
+    let unsigned = measure::normal_score(raster);
+    // Codes of integers are never read as signed numbers.
+    let signed = if raster.is_float() { measure::signed_normal_score(raster) } else { 0.0 };
     let vector = |index| raster.rgb(index).map(|c| if signed > unsigned { c } else { 2.0 * c - 1.0 });
     let curl = measure::curl(raster.width, raster.height, vector);
     [Some(1.0 - unsigned.max(signed)), curl]

@@ -109,8 +109,9 @@ pub enum Reason {
     #[display("red is 1 everywhere, alpha varies")]
     RedConstant,
     #[display(
-        "{:.0}% of the texels have length 1 {}{}",
+        "{:.0}% of the texels have length 1 {}{}{}",
         100.0 * share, if *signed { "as stored" } else { "if read so" },
+        if *share < 0.995 { ", the others are normalized" } else { "" },
         if *share < 0.6 { "; blue may hold another map, or they are no normals" } else { "" }
     )]
     UnitLength {

@@ -1,4 +1,5 @@
-//! Automatic exposure: the brightest 1% of the rendering of the ground truth just clip.
+//! Automatic exposure: the brightest 1% of the rendering of the ground truth just clip; of a material alone, the median is a middle
+//! gray.
 
 use svbrdf_core::picture::exposure;
 
@@ -24,7 +25,9 @@ pub fn follow(model: &mut Model) {
         (AutoExposure::Once, Exposed::Pending) => true,
     };
     if is_due {
-        let ev = exposure::automatic(ground_truth.material(), &model.view.scene, &model.view.convention());
+        let is_alone = model.opened_alone && model.materials.all.len() == 1;
+        let of = if is_alone { exposure::by_median } else { exposure::automatic };
+        let ev = of(ground_truth.material(), &model.view.scene, &model.view.convention());
         model.view.exposure_ev = ev.clamp(-STOPS, STOPS);
     }
     if is_due || model.exposed == Exposed::Restored {

@@ -32,7 +32,10 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
             let opened = open(model, paths, false, read);
             std::iter::once(Effect::AllowOutside).chain(opened).collect()
         }
-        MaterialsCommand::OpenBuiltIn => vec![Effect::Read(ReadRequest::built_in())],
+        MaterialsCommand::OpenBuiltIn => {
+            model.opened_alone = false;
+            vec![Effect::Read(ReadRequest::built_in())]
+        }
         MaterialsCommand::CancelReading(number) => vec![Effect::CancelReading(number)],
         MaterialsCommand::Reopen(index) => reopen(model, index),
         MaterialsCommand::Reload => {
@@ -76,6 +79,10 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
         return vec![Effect::ReadSession(paths)];
     }
     model.read = read;
+    model.opened_alone &= !replace;
+    if replace && paths.len() == 1 && model.photograph.source().is_none() {
+        model.light_alone();
+    }
     let target = if replace { Target::Everything } else { Target::Predictions };
     let (first, predictions) = paths.split_at(usize::from(replace).min(paths.len()));
     let material = |path: &PathBuf| MaterialSource::path(path.clone(), read);

@@ -83,6 +83,7 @@ fn group(ui: &mut egui::Ui, name: &str, lines: &[HelpLine]) {
     for (number, (key, effect)) in lines.iter().enumerate() {
         let fill = if number % 2 == 1 { ui.visuals().faint_bg_color } else { egui::Color32::TRANSPARENT };
         egui::Frame::NONE.fill(fill).show(ui, |ui| {
+            ui.set_width(ui.available_width());
             ui.horizontal_top(|ui| {
                 let key = egui::Label::new(RichText::new(*key).monospace().size(11.5)).wrap();
                 ui.allocate_ui(egui::vec2(KEYS, 0.0), |ui| {

@@ -181,13 +181,18 @@ impl Scenery<'_> {
         }
     }
 
+    /// What the first material is: alone it is the ground truth of nothing.
+    fn role(&self) -> &'static str {
+        if self.materials.len() == 1 && self.photograph.is_none() { "MATERIAL" } else { "GROUND TRUTH" }
+    }
+
     /// The name of material `index` in titles. Of names that are too long, what all have in common is left out.
     fn title(&self, index: usize, most: usize) -> String {
         let labels: Vec<String> = self.materials.iter().map(LoadedMaterial::label).collect();
         let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
         let (ground_truth, predictions) = labels.split_at(labels.len().min(1));
         match index.checked_sub(1) {
-            None => format!("GROUND TRUTH  {}", shortened(ground_truth, most).concat()),
+            None => format!("{}  {}", self.role(), shortened(ground_truth, most).concat()),
             Some(prediction) => format!("{index}  {}", shortened(predictions, most)[prediction]),
         }
     }
