@@ -35,7 +35,8 @@ fn a_resource_of_godot_beside_a_packed_picture_tells_what_its_channels_are() {
     let at = read.material.texel(77);
     assert_near(at.diffuse, [0.05; 3]);
     assert_near([at.roughness], [0.5 * texel(2, 77 % SIDE, 77 / SIDE)[0]]);
-    assert!(read.assumptions.iter().any(|a| a.chosen == "metallic 0" && a.to_string().contains("bark.tres")));
+    let metallic = read.assumptions.iter().find(|a| a.chosen == "metallic 0").unwrap();
+    assert!(metallic.why.is_stated() && metallic.to_string().contains("bark.tres"), "{metallic}");
     assert!(read.files.contains(&folder.path().join("bark.tres")), "{:?}", read.files);
     // Bound, it is a metal, and so it is in a resource of packed pictures or of others.
     let bound = "metallic_texture = ExtResource( \"2_x\" )\nmetallic_texture_channel = 2\n";

@@ -269,9 +269,23 @@ fn maps_in_the_only_folder_within_open_and_several_folders_are_listed() {
         std::fs::create_dir(data_set.path().join(name)).unwrap();
     }
     assert_refused(data_set.path(), &["one folder per map"]);
-    let archive = tempdir().unwrap();
-    std::fs::write(archive.path().join("Rock_1K.zip"), b"PK").unwrap();
-    assert_refused(archive.path(), &["the archive Rock_1K.zip", "unpack it"]);
+}
+
+#[test]
+fn the_only_file_of_a_folder_opens_or_is_refused_by_its_format() {
+    for (name, bytes, said) in [
+        ("Rock_1K.zip", b"PK\x05\x06\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0".as_slice(), "Rock_1K.zip"),
+        ("maps.h5", b"\x89HDF\r\n\x1a\n", "HDF5"),
+        ("maps.pt", b"PK", "PyTorch"),
+    ] {
+        let folder = tempdir().unwrap();
+        std::fs::write(folder.path().join(name), bytes).unwrap();
+        std::fs::write(folder.path().join("README.md"), "how it was made").unwrap();
+        assert_refused(folder.path(), &[said]);
+    }
+    let folder = tempdir().unwrap();
+    npz(&folder.path().join("m.npz"));
+    assert_same(&open(folder.path()), 1e-6);
 }
 
 #[test]

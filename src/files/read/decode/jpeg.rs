@@ -32,25 +32,26 @@ pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     reader.rewind().map_err(unreadable)?;
     let mut bytes = Vec::new();
     reader.read_to_end(&mut bytes).map_err(unreadable)?;
-    let Pixels { size: [width, height], count, values, orientation, profile } = pixels(&bytes, place)?;
+    // Sizes are checked with the memory, for a message with their numbers.
+    let most = [usize::from(u16::MAX); 2];
+    let Pixels { size: [width, height], count, values, orientation, profile } = pixels(&bytes, most, place)?;
     let notes = place.metadata_notes(orientation, profile.as_deref());
     let raster = Raster::with_alpha(width, height, "8-bit", Samples::interleaved(values, count));
     let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };
     Ok(Decoded { notes, ..alone(raster) })
 }
 
-/// Decodes the JPEG of these bytes.
+/// Decodes the JPEG of these bytes, of `most` pixels (width, height).
 ///
 /// # Errors
 /// [`Error::BadImage`], [`Error::Memory`].
-pub(super) fn pixels(bytes: &[u8], place: DecodedFile<'_>) -> Result<Pixels, Error> {
+pub(super) fn pixels(bytes: &[u8], most: [usize; 2], place: DecodedFile<'_>) -> Result<Pixels, Error> {
     let contradiction = |_| place.invalid("JPEG", "a contradiction in it");
     let broken = |error: JpegError| match error {
         JpegError::UnexpectedEof => place.truncated(),
         error => place.invalid("JPEG", error),
     };
-    // Sizes are checked below, for a message with their numbers.
-    let [max_width, max_height] = [usize::from(u16::MAX); 2];
+    let [max_width, max_height] = most;
     let limits = DecodeLimits { max_width, max_height, max_pixels: u64::MAX, ..DecodeLimits::default() };
     let mut decoder =
         caught(|| Decoder::new_with_limits(bytes, limits)).map_err(contradiction)?.map_err(broken)?;

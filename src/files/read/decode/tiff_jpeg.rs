@@ -69,19 +69,22 @@ pub(super) fn pixels(
     let [across, down] = chunks.chunk.map(|side| side.max(1));
     let mut all = vec![0; width * height * count];
     for (number, (offset, length)) in chunks.places.iter().enumerate() {
+        let columns = width.div_ceil(across);
+        let (left, top) = (number % columns * across, number / columns * down);
+        if top >= height {
+            break;
+        }
         let _reserved = place.reserve(*length)?;
         let mut own = Vec::new();
         let reader = decoder.inner();
         reader.seek(SeekFrom::Start(*offset)).map_err(|error| Error::unreadable(place.path, error))?;
         reader.take(*length).read_to_end(&mut own).map_err(|error| Error::unreadable(place.path, error))?;
         let Pixels { size, count: found, values, .. } =
-            jpeg::pixels(&chunks.whole(&own, matches!(colour, ColorType::YCbCr(_))), place)?;
-        if found != count || size[0] > across {
+            jpeg::pixels(&chunks.whole(&own, matches!(colour, ColorType::YCbCr(_))), [across, down], place)?;
+        if found != count {
             return Err(place.invalid("TIFF", "a JPEG in it of another shape"));
         }
-        let columns = width.div_ceil(across);
-        let (left, top) = (number % columns * across, number / columns * down);
-        let rows = values.chunks_exact(size[0] * count).take(down.min(height.saturating_sub(top)));
+        let rows = values.chunks_exact(size[0] * count).take(down.min(height - top));
         for (row, stored) in rows.enumerate() {
             let texels = size[0].min(width - left) * count;
             let start = ((top + row) * width + left) * count;

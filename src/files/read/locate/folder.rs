@@ -1,7 +1,7 @@
 //! Sets of pictures, one file for each map: in a folder, behind a common prefix, or around one of the files.
 
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::directory::{self, folder_of, list, material_name};
 use super::documents;
@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::read::located::set::{LocatedSet, SetFiles};
 use crate::read::located::{Candidate, Located, WholePicture};
 use crate::read::names::{Label, listing};
-use crate::read::options::{Role, extensions};
+use crate::read::options::Role;
 use crate::read::record::{Note, Unused};
 
 /// Locates the maps in `folder` whose file names begin with `prefix`; `path` is what the user gave.
@@ -45,18 +45,6 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
         names.sort();
         names.dedup();
     }
-    if prefix.is_empty()
-        && !has_pictures
-        && let Some(archive) =
-            names.iter().find(|name| ["zip", "rar", "7z"].contains(&extensions::of_name(name).as_str()))
-    {
-        return Err(Error::NotAMaterial {
-            path: path.to_owned(),
-            expected: "pictures".to_owned(),
-            found: format!("the archive {archive}"),
-            remedy: "unpack it, and open the folder".to_owned(),
-        });
-    }
     let wanted = if prefix.is_empty() { Wanted::All } else { Wanted::Named(prefix) };
     let (mut files, _) = grouping::choose(path, &names, wanted, bound)?;
     files.documents = documents::beside(folder, &names, &files);
@@ -66,6 +54,20 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
     }
     let name = material_name(path, prefix);
     Ok(Located::new([Candidate::Set(set(path, folder, name, files, &names))]))
+}
+
+/// The only file of a folder without pictures and folders, as an archive or a glTF may be.
+///
+/// # Errors
+/// [`Error::Unreadable`].
+pub(super) fn only_file(folder: &Path) -> Result<Option<PathBuf>, Error> {
+    let mut names = list(folder, folder, "")?;
+    names.retain(|name| !grouping::is_beside(name));
+    let is_alone =
+        names.len() == 1 && !grouping::is_picture(&names[0]) && directory::folders(folder)?.is_empty();
+    let only = names.pop().filter(|_| is_alone).map(|name| folder.join(name));
+    // A pipe would be waited for.
+    Ok(only.filter(|only| only.is_file()))
 }
 
 fn set(path: &Path, folder: &Path, name: String, files: SetFiles, names: &[String]) -> LocatedSet {

@@ -20,7 +20,7 @@ const KINDS: [(&str, &str); 17] = [
     ("usd", "a scene of USD"),
     ("usda", "a scene of USD"),
     ("usdc", "a scene of USD"),
-    ("usdz", "a scene of USD"),
+    ("usdz", "a scene of USD (a zip archive)"),
     ("sbs", "a graph of Substance"),
     ("sbsar", "an archive of Substance, which computes its maps"),
     ("mdl", "a material of MDL"),

@@ -138,11 +138,15 @@ fn is_unread(name: &str) -> bool {
     UNREAD.contains(&extensions::of_name(name).as_str())
 }
 
+/// Whether a file of this name is none that holds maps, but a text or what programs leave beside pictures.
+pub(super) fn is_beside(name: &str) -> bool {
+    TEXTS.contains(&extensions::of_name(name).as_str()) || is_junk(name)
+}
+
 /// Whether a file of this name is no picture that is known, and none of the files that go with pictures.
 fn is_foreign(name: &str) -> bool {
-    let extension = extensions::of_name(name);
-    let is_known = |known: &[&str]| known.contains(&extension.as_str());
-    !is_picture(name) && !is_unread(name) && !is_junk(name) && !is_known(&TEXTS) && !is_known(&EXTENSIONS)
+    let is_known = EXTENSIONS.contains(&extensions::of_name(name).as_str());
+    !is_picture(name) && !is_unread(name) && !is_beside(name) && !is_known
 }
 
 /// Whether the files with what is `bound` already have a colour and roughness.

@@ -68,7 +68,10 @@ pub fn is_prefix(path: &Path) -> bool {
 /// What may be at `path` beside the maps of the roles `bound`.
 fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Located, Error> {
     if path.is_dir() {
-        return folder::locate(path, path, "", bound);
+        return match folder::only_file(path)? {
+            Some(only) => candidates(&only, bound, options),
+            None => folder::locate(path, path, "", bound),
+        };
     }
     if !path.exists()
         && let Some(prefix) = path.file_name()

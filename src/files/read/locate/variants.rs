@@ -20,8 +20,8 @@ pub(super) fn add_layers(groups: &mut BTreeMap<Vec<String>, Vec<LabelledFile>>) 
     for (stem, set) in stems {
         let roles: Vec<Role> = groups[&stem].iter().map(|file| file.label.role).collect();
         // A material may be a coat itself.
-        let is_whole =
-            roles.contains(&Role::Normal) && roles.contains(&Role::Base) && roles.contains(&Role::Roughness);
+        let has = |wanted: &[Role]| wanted.iter().any(|role| roles.contains(role));
+        let is_whole = has(&[Role::Normal]) && has(&[Role::Base, Role::Diffuse]) && has(&[Role::Roughness]);
         if groups.contains_key(&set) && !is_whole {
             let files = groups.remove(&stem).unwrap_or_default();
             let of_set = groups.entry(set).or_default();

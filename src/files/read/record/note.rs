@@ -202,6 +202,7 @@ impl Note {
             | Self::PrimariesChunk(..)
             | Self::Gamut { .. } => true,
             Self::DataWindow { .. } | Self::PartialData { .. } | Self::OptionsUnused { .. } => true,
+            Self::FirstOnly(_) => true,
             Self::Unused { why, .. } => {
                 matches!(
                     why,

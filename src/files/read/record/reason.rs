@@ -249,6 +249,7 @@ impl Reason {
                 true
             }
             Self::MetallicMap { .. } | Self::SpecularMap | Self::NeitherMap => true,
+            Self::ListedChannels { .. } => true,
             Self::ColourSpace { known, .. } => *known == SpaceKnown::Exactly,
             // A flat map points nowhere.
             Self::Curl(None) => true,
