@@ -29,6 +29,8 @@ fn a_material_alone_has_its_maps_and_files_first_and_a_prediction_makes_it_a_com
     let (scene, convention) = (model.view.scene, model.view.convention());
     assert_eq!(model.view.exposure_ev, exposure::by_median(&material, &scene, &convention));
 
+    let [first, last] = ["Map normal", "Map roughness"].map(|name| window.get_by_label(name).rect());
+    assert!(first.top() == last.top() && last.right() <= 1200.0, "{last:?} in a window of 1200");
     click(&mut window, "Map roughness");
     assert_eq!(window.state().parts.model.view.display.quantity, Quantity::Roughness);
     click(&mut window, "Map roughness");

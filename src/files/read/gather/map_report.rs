@@ -137,6 +137,19 @@ mod tests {
     use super::*;
 
     #[test]
+    fn lengths_are_those_of_the_reading_that_is_used() {
+        // As stored, the vectors have length 1; read as codes of numbers from -1 to 1, as integers are, a length of 0.41.
+        let short = [128u8, 128, 180].repeat(8);
+        let channels = Samples::interleaved(short, 3);
+        let raster = Raster { width: 4, height: 2, channels, ..Raster::constant("test", &[0.0]) };
+        assert_eq!(of_normals(&raster)[0], Some(1.0));
+        let floats = [0.5f32, 0.5, 0.7071].map(|value| Samples::floats(vec![value; 8]));
+        let raster =
+            Raster { width: 4, height: 2, channels: floats.into(), ..Raster::constant("test", &[0.0]) };
+        assert_eq!(of_normals(&raster)[0], Some(0.0), "numbers of floats may be stored as they are");
+    }
+
+    #[test]
     fn flat_texels_equal_their_right_neighbour_in_every_channel() {
         let raster = |values: &[f32]| {
             let channels = vec![Samples::floats(values.to_vec())];

@@ -16,7 +16,7 @@ use crate::model::view::state::ViewState;
 use crate::ui::widgets::texture::PanelTextures;
 
 /// Side of a thumbnail, in points, and in pixels.
-const SIDE: f32 = 68.0;
+const SIDE: f32 = 66.0;
 const PIXELS: usize = 136;
 /// The maps, in the order of their thumbnails.
 const MAPS: [Quantity; 4] = [Quantity::Normal, Quantity::Diffuse, Quantity::Specular, Quantity::Roughness];
@@ -71,6 +71,9 @@ impl AloneCard<'_> {
         ui.label(RichText::new("Material").size(14.5));
         ui.separator();
         ui.horizontal(|ui| {
+            // Four fit into the panel.
+            ui.spacing_mut().button_padding = vec2(2.0, 2.0);
+            ui.spacing_mut().item_spacing.x = 6.0;
             for (map, picture) in MAPS.iter().zip(thumbnails.of(self.material, self.view)) {
                 self.map(ui, *map, &picture, textures, &mut commands);
             }

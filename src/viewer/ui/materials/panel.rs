@@ -62,7 +62,12 @@ impl MaterialsPanel<'_> {
             // Its id changes whenever it is read again; what is unfolded stays unfolded.
             let findings = index.checked_sub(1).and_then(|prediction| self.findings.get(prediction));
             let findings = findings.map(Vec::as_slice).unwrap_or_default();
-            ui.push_id(index, |ui| section(ui, index, material, findings, &mut commands));
+            let role = match index {
+                0 if self.materials.all.len() == 1 => "MATERIAL".to_owned(),
+                0 => "GROUND TRUTH".to_owned(),
+                prediction => format!("Prediction {prediction}"),
+            };
+            ui.push_id(index, |ui| section(ui, (index, &role), material, findings, &mut commands));
         }
         commands
     }
@@ -146,13 +151,12 @@ fn finding_line(
 
 fn section(
     ui: &mut egui::Ui,
-    index: usize,
+    (index, role): (usize, &str),
     material: &LoadedMaterial,
     findings: &[&Finding],
     commands: &mut Vec<Command>,
 ) {
     let (record, place) = (&material.read.record, &material.read.source.place);
-    let role = if index == 0 { "GROUND TRUTH".to_owned() } else { format!("Prediction {index}") };
     let colour = if index == 0 { theme::ground_truth(ui.visuals()) } else { ui.visuals().text_color() };
     ui.horizontal(|ui| {
         ui.label(RichText::new(role).color(colour).small());
