@@ -11,6 +11,10 @@ pub enum Error {
     #[error("unknown {what} `{found}`; use one of: {known}")]
     UnknownName { what: &'static str, found: String, known: String },
 
+    /// The text of a convention that is none.
+    #[error("not a convention: {problem}; begin with the text of a named one")]
+    BadConvention { problem: String },
+
     /// Two things that must have the same size do not.
     #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; {remedy}",
         first_size[0], first_size[1], second_size[0], second_size[1])]

@@ -17,6 +17,7 @@
 //! # Ok::<(), svbrdf_files::Error>(())
 //! ```
 
+pub mod arrays;
 pub mod changes;
 pub mod disk;
 mod error;

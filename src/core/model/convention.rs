@@ -36,6 +36,9 @@ pub struct Convention {
     pub epsilon: f64,
 }
 
+/// Lower end of the uniform u1 of Algorithm 2.
+pub const U1_MIN: f64 = 0.001;
+
 /// The algorithms as printed (the default).
 pub const PRINTED: Convention = Convention {
     name: "printed",

@@ -14,7 +14,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::convention::Convention;
+use super::convention::{Convention, U1_MIN};
 use crate::error::Error;
 use crate::math::real::{Real, Vec3, Vector as _};
 
@@ -22,8 +22,6 @@ use crate::math::real::{Real, Vec3, Vector as _};
 const DISTANCE_MU: f64 = 0.5;
 /// Standard deviation of the logarithm of a near-field view's distance (Algorithm 1).
 const VIEW_DISTANCE_SIGMA: f64 = 0.75;
-/// Lower end of the uniform u1 (Algorithm 2).
-const U1_MIN: f64 = 0.001;
 /// Least height above the plane: closer to a texel, f32 squares of distances vanish.
 const LOWEST: f64 = 1e-18;
 /// Largest coordinate of a position; beyond it, f32 squares overflow.

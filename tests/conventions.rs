@@ -1,0 +1,3 @@
+//! Conventions against the numbers of their authors' code.
+
+mod peers;
