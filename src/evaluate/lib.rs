@@ -11,9 +11,11 @@
 //! | [`report`] | results with their settings as values, and their tables |
 //! | [`photograph`] | renderings against photographs of the real material |
 //! | [`dataset`] | methods over the materials of a data set, with a folder of results |
+//! | [`conform`] | whose renderer gave out radiances at known points |
 //! | [`schema`] | the JSON Schema of each report |
 
 pub mod analyses;
+pub mod conform;
 pub mod dataset;
 pub mod diagnose;
 mod error;

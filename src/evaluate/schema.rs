@@ -1,6 +1,8 @@
 //! JSON Schemas of the reports: the keys of their JSON with their types and meanings.
 
-use crate::report::{DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, schema_of};
+use crate::report::{
+    ConformReport, DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, schema_of,
+};
 use schemars::Schema;
 use serde_json::json;
 
@@ -12,7 +14,7 @@ use crate::photograph::PhotoReport;
 type ReportSchema = (&'static str, fn() -> Schema);
 
 /// The schema of each other report by its name: that of its command, `dataset` for `rank --dataset`.
-const OTHERS: [ReportSchema; 7] = [
+const OTHERS: [ReportSchema; 8] = [
     ("loss", schema_of::<LossReport>),
     ("rank", schema_of::<RankReport>),
     ("diagnose", schema_of::<DiagnoseReport>),
@@ -20,6 +22,7 @@ const OTHERS: [ReportSchema; 7] = [
     ("photo", schema_of::<PhotoReport>),
     ("dataset", schema_of::<DatasetReport>),
     ("info", schema_of::<InfoReport>),
+    ("conform", schema_of::<ConformReport>),
 ];
 
 /// The names of all reports.

@@ -86,6 +86,10 @@ pub enum Error {
         finite, light and view above the plane", path.display())]
     BadScene { path: PathBuf, problem: String },
 
+    /// A file whose text is no convention.
+    #[error("{}: {problem}", path.display())]
+    BadConvention { path: PathBuf, problem: CoreError },
+
     /// A file of arrays that is none, or that lacks what is needed.
     #[error("{} cannot be used: {problem}", path.display())]
     BadArrays { path: PathBuf, problem: String },

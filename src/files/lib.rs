@@ -19,6 +19,7 @@
 
 pub mod arrays;
 pub mod changes;
+pub mod convention;
 pub mod disk;
 mod error;
 pub mod export;

@@ -22,6 +22,7 @@
 
 mod analysis;
 mod blame;
+mod conform;
 mod diagnose;
 mod heading;
 mod info;
@@ -40,6 +41,7 @@ mod worst;
 
 pub use analysis::{Analysis, AnalysisInput, NoOptions, SceneOptions, schema_of};
 pub use blame::{BlameReport, parts};
+pub use conform::ConformReport;
 pub use diagnose::DiagnoseReport;
 pub use heading::{Compared, position, scenes_line};
 pub use info::InfoReport;

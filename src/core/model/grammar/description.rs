@@ -12,6 +12,7 @@ use super::{
     Terms,
 };
 use crate::error::Error;
+use crate::model::convention::PRINTED;
 
 /// A renderer, its loss and its scenes, with their name and source.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -82,40 +83,108 @@ const ALWAYS: [&str; 15] = [
     "orientation",
 ];
 
-/// The keys of what is not a term of the renderer.
-const OTHERS: [&str; 5] = ["name", "source", "version", "loss", "scenes"];
-
 impl Description {
-    /// Every key of a term with its section and its value.
+    /// What differs from [`PRINTED`]: one line.
+    pub fn summary(&self) -> String {
+        let printed = Self::from(&PRINTED);
+        let is_floor = |key: &str| key.ends_with("_min") || key.ends_with("_eps") || key == "nh_clamped";
+        let mut parts: Vec<String> = Vec::new();
+        let all = self.terms.differences(&printed.terms);
+        let words = all.iter().filter(|difference| !is_floor(&difference.key));
+        parts.extend(words.map(|difference| format!("{} {}", difference.key, difference.own)));
+        if all.iter().any(|difference| is_floor(&difference.key)) {
+            parts.push("other floors".to_owned());
+        }
+        if self.loss.epsilon.is_some_and(|epsilon| Some(epsilon) != printed.loss.epsilon) {
+            parts.push(format!("epsilon {}", self.loss.epsilon.unwrap_or_default()));
+        }
+        if self.loss.norm != printed.loss.norm {
+            parts.push(format!("norm {}", self.loss.norm));
+        }
+        if self.loss == printed.loss && parts.is_empty() {
+            return "the algorithms as printed".to_owned();
+        }
+        if self.scenes != printed.scenes && !self.scenes.is_empty() {
+            parts.push("other scenes".to_owned());
+        }
+        parts.join(", ")
+    }
+}
+
+/// A term in which two renderers differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TermDifference {
+    pub section: String,
+    pub key: String,
+    /// The value of the first, in words; "none" where it has none.
+    pub own: String,
+    /// That of the other.
+    pub other: String,
+}
+
+impl Terms {
+    /// The sections of keys. A struct of numbers, words and lists has no value that TOML lacks.
+    fn table(&self) -> Table {
+        Table::try_from(self).unwrap_or_default()
+    }
+
+    /// Every key with its section and its value.
     fn values(&self) -> Vec<(String, String, Value)> {
-        // A struct of numbers, words and lists has no value that TOML lacks.
-        let table = Table::try_from(self).unwrap_or_default();
-        let sections = table.into_iter().filter(|(section, _)| !OTHERS.contains(&section.as_str()));
-        let keys = sections.flat_map(|(section, keys)| {
+        let keys = self.table().into_iter().flat_map(|(section, keys)| {
             let keys = keys.as_table().cloned().unwrap_or_default().into_iter();
             keys.map(move |(key, value)| (section.clone(), key, value))
         });
         keys.collect()
     }
 
-    /// The terms in which `self` differs from `other`: the key, the value of `self`, and that of `other`.
-    pub fn differences(&self, other: &Self) -> Vec<(String, String, String)> {
+    /// The terms in which `self` differs from `other`.
+    pub fn differences(&self, other: &Self) -> Vec<TermDifference> {
         let (own, others) = (self.values(), other.values());
-        let value = |values: &[(String, String, Value)], key: &str| {
-            let found = values.iter().find(|(_, k, _)| k == key);
+        let value = |values: &[(String, String, Value)], section: &str, key: &str| {
+            let found = values.iter().find(|(s, k, _)| s == section && k == key);
             found.map_or_else(|| "none".to_owned(), |(_, _, value)| plain(value))
         };
-        let mut keys: Vec<&String> = own.iter().chain(&others).map(|(_, key, _)| key).collect();
-        let mut seen = std::collections::HashSet::new();
-        keys.retain(|key| seen.insert(key.as_str()));
-        let both = keys.into_iter().map(|key| (key.clone(), value(&own, key), value(&others, key)));
-        both.filter(|(_, own, other)| own != other).collect()
+        let missing = others.iter().filter(|(s, k, _)| !own.iter().any(|(os, ok, _)| os == s && ok == k));
+        let both = own.iter().chain(missing).map(|(section, key, _)| TermDifference {
+            section: section.clone(),
+            key: key.clone(),
+            own: value(&own, section, key),
+            other: value(&others, section, key),
+        });
+        both.filter(|difference| difference.own != difference.other).collect()
+    }
+
+    /// These terms with one of `other`.
+    pub fn with(&self, section: &str, key: &str, other: &Self) -> Self {
+        let (mut table, others) = (self.table(), other.table());
+        let value = others.get(section).and_then(|keys| keys.get(key));
+        if let Some(keys) = table.get_mut(section).and_then(Value::as_table_mut) {
+            match value {
+                Some(value) => drop(keys.insert(key.to_owned(), value.clone())),
+                None => drop(keys.remove(key)),
+            }
+        }
+        table.try_into().unwrap_or(*self)
     }
 }
 
 /// A value in words, without quotes.
 fn plain(value: &Value) -> String {
-    value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+    match value {
+        Value::String(word) => word.clone(),
+        Value::Float(number) => short(*number),
+        Value::Array(list) => format!("[{}]", list.iter().map(plain).collect::<Vec<_>>().join(", ")),
+        other => other.to_string(),
+    }
+}
+
+/// A number as it is written by hand.
+fn short(number: f64) -> String {
+    if number != 0.0 && number.is_finite() && !(1e-3..1e6).contains(&number.abs()) {
+        format!("{number:e}")
+    } else {
+        number.to_string()
+    }
 }
 
 /// TOML, without the terms that have the value of [`Terms::BASE`].
@@ -152,7 +221,7 @@ impl Description {
     /// Refuses what cannot be computed.
     fn checked(self) -> Result<Self, Error> {
         let bad = |problem: String| Err(Error::BadConvention { problem });
-        for (section, key, value) in self.values() {
+        for (section, key, value) in self.terms.values() {
             let numbers: Vec<f64> = match &value {
                 Value::Float(number) => vec![*number],
                 Value::Array(list) => list.iter().filter_map(Value::as_float).collect(),

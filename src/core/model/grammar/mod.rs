@@ -10,7 +10,7 @@ pub mod words;
 
 use serde::{Deserialize, Serialize};
 
-pub use description::Description;
+pub use description::{Description, TermDifference};
 pub use radiance::Point;
 pub use scenes::SceneTerms;
 use words::{
