@@ -7,7 +7,7 @@ mod random;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
-use svbrdf_core::model::grammar::{Description, Point, Terms};
+use svbrdf_core::model::grammar::{Description, Point, RendererTerms};
 use svbrdf_evaluate::conform::{Answer, Verdict, identify, probes, verdict};
 use svbrdf_files::arrays::{Array, Arrays};
 
@@ -79,7 +79,12 @@ pub fn arrays(radiance: &[[f64; 3]]) -> Arrays {
 }
 
 /// The verdict on radiances at points, against the renderer `asked`.
-pub fn judged(points: &[Point], radiance: Vec<[f64; 3]>, metallic: Option<bool>, asked: &Terms) -> Verdict {
+pub fn judged(
+    points: &[Point],
+    radiance: Vec<[f64; 3]>,
+    metallic: Option<bool>,
+    asked: &RendererTerms,
+) -> Verdict {
     let answer = Answer { points: points.to_vec(), radiance, metallic, picture: None };
     verdict(&identify(&answer), &Description { terms: *asked, ..Description::default() })
 }

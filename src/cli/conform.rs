@@ -19,9 +19,7 @@ use super::output::{CommandError, exit, watched};
 /// which lead from the point to light and camera and are not unit. Render each with your code, under one white light, and save the
 /// arrays with the result as `radiance`. Ends with exit code 1 where the renderer does not conform.
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Examples:\n  svbrdf conform --points probe.npz\n  svbrdf conform answer.npz --convention svbrdf-estimation-2022"
-)]
+#[command(after_help = "Example:\n  svbrdf conform answer.npz --convention svbrdf-estimation-2022")]
 pub struct ConformArgs {
     /// The points with `radiance`: an npz file
     #[arg(value_name = "ANSWER", required_unless_present = "points", conflicts_with = "points")]

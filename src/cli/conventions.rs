@@ -1,6 +1,7 @@
 //! `svbrdf conventions`: the named conventions, and their texts.
 
-use svbrdf_core::model::grammar::{Description, named};
+use svbrdf_core::model::grammar::Description;
+use svbrdf_core::model::named_conventions as named;
 use svbrdf_files::convention;
 
 use super::output::CommandError;
@@ -32,5 +33,5 @@ pub fn run(args: &ConventionsArgs) -> Result<(), CommandError> {
 
 /// The name, and what differs from `printed`.
 fn line(convention: &Description) -> String {
-    format!("{:24} {}\n", convention.name, convention.summary())
+    format!("{:24} {}\n", convention.name, named::summary(convention))
 }

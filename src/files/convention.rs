@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::model::grammar::{Description, named};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::grammar::Description;
+use svbrdf_core::model::named_conventions as named;
 
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
@@ -31,4 +33,12 @@ pub fn read(text: &str) -> Result<Description, Error> {
     Ok(found
         .cloned()
         .ok_or_else(|| CoreError::unknown_name("convention", text, known() + ", or a .toml file"))?)
+}
+
+/// [`read`], as a convention that losses are computed by.
+///
+/// # Errors
+/// As [`read`]; [`CoreError::BadConvention`] for scenes that cannot be sampled.
+pub fn of_loss(text: &str) -> Result<Convention, Error> {
+    Ok(Convention::try_from(&read(text)?)?)
 }

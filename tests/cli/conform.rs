@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use serde_json::Value;
-use svbrdf_core::model::grammar::{Description, named};
+use svbrdf_core::model::grammar::Description;
+use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::arrays::{self, Array};
 
@@ -94,4 +95,24 @@ fn a_convention_is_printed_as_it_is_read() {
     std::fs::write(folder.path().join("bad.toml"), "[material]\nr_min = -1.0\n").unwrap();
     let stderr = fail(folder.path(), "conventions bad.toml", 1);
     assert!(stderr.contains("[material] r_min") && stderr.contains("-1"), "{stderr}");
+}
+
+#[test]
+fn a_loss_takes_a_convention_of_the_grammar_and_shaders_refuse_it() {
+    let folder = folder();
+    let loss = |args: &str| -> f64 {
+        let text =
+            succeed(folder.path(), &format!("loss gt.png a.png --near 2 --distant 1 --format json {args}"));
+        let json: Value = serde_json::from_str(&text).unwrap();
+        json["results"][0]["loss"].as_f64().unwrap()
+    };
+    let text = succeed(folder.path(), "conventions svbrdf-estimation-2022");
+    std::fs::write(folder.path().join("mine.toml"), text.replace("\"1-F\"", "\"1\"")).unwrap();
+    let [printed, other, mine] =
+        ["", "--convention svbrdf-estimation-2022", "--convention mine.toml"].map(loss);
+    assert!(printed > 0.0 && other > 0.0 && printed != other && mine != other, "{printed}, {other}, {mine}");
+    let text = succeed(folder.path(), "loss gt.png a.png --near 2 --convention material-palette-2024");
+    assert!(text.contains("convention material-palette-2024, epsilon 0.1"), "{text}");
+    let stderr = fail(folder.path(), "report gt.png a.png -o r.html --convention matfuse-2024", 1);
+    assert!(stderr.contains("matfuse-2024 is rendered on the processor only"), "{stderr}");
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use svbrdf_core::model::grammar::words::{Fresnel, Shadowing, Weight};
-use svbrdf_core::model::grammar::{Point, Terms};
+use svbrdf_core::model::grammar::{Point, RendererTerms};
 use svbrdf_evaluate::conform::VerdictKind;
 
 use super::{Stored, judged, points};
@@ -13,8 +13,8 @@ use super::{Stored, judged, points};
 type Renderer = fn(&Point) -> [f64; 3];
 
 /// GGX, separable Smith, Schlick's fifth power, 1 - F.
-fn base() -> Terms {
-    let mut t = Terms::BASE;
+fn base() -> RendererTerms {
+    let mut t = RendererTerms::BASE;
     t.specular.g = Shadowing::Smith;
     t.specular.f = Fresnel::Fifth;
     t.diffuse.diffuse = Weight::Fresnel;

@@ -16,7 +16,6 @@ const ALL: [(&str, &str, Option<&str>); 17] = [
     ("deschaintre_multi_2019", "radiance", Some("multi-image-2019")),
     ("deschaintre_single_2018", "radiance", Some("single-image-2018")),
     ("diff_renderer", "radiance", Some("materialgan-2020")),
-    ("diffmat", "radiance", Some("diffmat-2022")),
     ("gltf_viewer", "radiance", Some("gltf-viewer")),
     ("learnopengl", "radiance", Some("learnopengl")),
     ("luo", "radiance", Some("luo-2024")),
@@ -28,6 +27,7 @@ const ALL: [(&str, &str, Option<&str>); 17] = [
     ("mitsuba_ds", "principled", None),
     ("mitsuba_ds", "roughplastic_ggx", None),
     ("mitsuba_metal", "principled", None),
+    ("mitsuba_metal", "roughplastic_ggx", None),
 ];
 
 fn file(name: &str) -> Arrays {
@@ -56,7 +56,7 @@ fn points() -> Vec<Point> {
     (0..normal.len()).map(point).collect()
 }
 
-/// Terms that the makers of the numbers set for the probes: intensities and frames.
+/// RendererTerms that the makers of the numbers set for the probes: intensities and frames.
 const OF_THE_PROBES: [&str; 6] = ["intensity", "factor", "normal_y", "ambient", "clip", "clip_terms"];
 
 #[needs(shared)]

@@ -3,7 +3,7 @@
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
-use svbrdf_core::model::grammar::Terms;
+use svbrdf_core::model::grammar::RendererTerms;
 use svbrdf_core::model::grammar::words::{
     Alpha, Denominator, Distribution, Falloff, Fresnel, K, Maps, NormalY, Normals, Shadowing, Transfer,
     Weight,
@@ -12,7 +12,7 @@ use svbrdf_evaluate::conform::VerdictKind;
 
 use super::{Stored, judged, points};
 
-/// Terms that are right, or cannot be told: floors and factors are not among them.
+/// RendererTerms that are right, or cannot be told: floors and factors are not among them.
 const STRUCTURE: [&str; 12] = [
     "material",
     "alpha",
@@ -32,9 +32,9 @@ fn pick<T: Copy>(random: &mut ChaCha8Rng, of: &[T]) -> T {
     of[random.random_range(0..of.len())]
 }
 
-fn member(seed: u64) -> Terms {
+fn member(seed: u64) -> RendererTerms {
     let random = &mut ChaCha8Rng::seed_from_u64(seed);
-    let mut terms = Terms::BASE;
+    let mut terms = RendererTerms::BASE;
     let (m, s) = (&mut terms.material, &mut terms.specular);
     m.material = pick(random, &[Maps::Diffuse, Maps::Diffuse, Maps::Metallic]);
     m.alpha = pick(random, &[Alpha::Square, Alpha::Square, Alpha::Linear]);

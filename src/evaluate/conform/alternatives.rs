@@ -1,6 +1,6 @@
 //! Renderers that differ from another in one term.
 
-use svbrdf_core::model::grammar::Terms;
+use svbrdf_core::model::grammar::RendererTerms;
 use svbrdf_core::model::grammar::words::{
     Alpha, Denominator, Distribution, F90, Falloff, Fresnel, K, Maps, NormalY, Normals, Shadowing, Weight,
 };
@@ -13,9 +13,9 @@ const LADDER: [f64; 16] =
 pub const SPOTS: [f64; 8] = [0.0, 1.0, 2.0, 4.0, 5.0, 8.0, 10.0, 16.0];
 
 /// Sets one number of a renderer.
-pub type Set = fn(&mut Terms, f64);
+pub type Set = fn(&mut RendererTerms, f64);
 
-/// Every number that is a floor or is added to something, by its key, and where it is 0 in [`Terms::BASE`].
+/// Every number that is a floor or is added to something, by its key, and where it is 0 in [`RendererTerms::BASE`].
 pub const FLOORS: [(&str, Set); 21] = [
     ("r_min", |t, x| t.material.r_min = x),
     ("D_den_min", |t, x| t.specular.d_den_min = x),
@@ -63,9 +63,9 @@ pub const SHADOWINGS: [(Shadowing, K); 8] = [
 ];
 
 /// Each choice of a word: the key, and the renderer with it.
-pub fn of_words(terms: &Terms) -> Vec<(&'static str, Terms)> {
+pub fn of_words(terms: &RendererTerms) -> Vec<(&'static str, RendererTerms)> {
     let mut all = Vec::new();
-    let mut add = |key, change: &dyn Fn(&mut Terms)| {
+    let mut add = |key, change: &dyn Fn(&mut RendererTerms)| {
         let mut changed = *terms;
         change(&mut changed);
         if changed != *terms {
@@ -108,7 +108,7 @@ pub fn of_words(terms: &Terms) -> Vec<(&'static str, Terms)> {
 }
 
 /// Each number that is tried: the key, its setter, its value, and the renderer with it.
-pub fn of_numbers(terms: &Terms) -> Vec<(&'static str, Set, f64, Terms)> {
+pub fn of_numbers(terms: &RendererTerms) -> Vec<(&'static str, Set, f64, RendererTerms)> {
     let floors = FLOORS.iter().map(|(key, set)| (*key, *set, &LADDER[..]));
     let mut all = Vec::new();
     for (key, set, values) in floors.chain(CAPS) {
@@ -122,9 +122,9 @@ pub fn of_numbers(terms: &Terms) -> Vec<(&'static str, Set, f64, Terms)> {
 }
 
 /// The renderer without one of its numbers.
-pub fn without_numbers(terms: &Terms) -> Vec<(&'static str, Terms)> {
-    let (base, mut all) = (Terms::BASE, Vec::new());
-    let mut add = |key, change: &dyn Fn(&mut Terms)| {
+pub fn without_numbers(terms: &RendererTerms) -> Vec<(&'static str, RendererTerms)> {
+    let (base, mut all) = (RendererTerms::BASE, Vec::new());
+    let mut add = |key, change: &dyn Fn(&mut RendererTerms)| {
         let mut changed = *terms;
         change(&mut changed);
         if changed != *terms {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use svbrdf_core::model::grammar::words::{Alpha, Maps, NormalY, Normals};
-use svbrdf_core::model::grammar::{Point, Terms};
+use svbrdf_core::model::grammar::{Point, RendererTerms};
 
 use super::observed::{Bound, Observed, Reading};
 
@@ -31,7 +31,7 @@ pub struct Problem {
 /// A renderer, and how it fits.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    pub terms: Terms,
+    pub terms: RendererTerms,
     /// Whether the maps of the metallic workflow are read.
     pub metallic: bool,
     /// Factor on each channel.
@@ -60,7 +60,7 @@ impl Problem {
         if metallic { &self.points } else { &self.diffuse_points }
     }
 
-    pub fn fit(&self, terms: &Terms, metallic: bool) -> Fit {
+    pub fn fit(&self, terms: &RendererTerms, metallic: bool) -> Fit {
         let points = self.points(metallic);
         let ambient = self.ambient(terms, points);
         let predicted: Vec<[f64; 3]> = points.iter().map(|point| terms.radiance(point, true)).collect();
@@ -138,7 +138,7 @@ impl Problem {
     }
 
     /// The relative rounding error of a radiance.
-    fn relative_error(&self, terms: &Terms, point: &Point) -> f64 {
+    fn relative_error(&self, terms: &RendererTerms, point: &Point) -> f64 {
         let (n, l, v) = vectors(terms, point);
         let h = (l + v).normalize_or(n);
         let (nl, nv, nh) = (n.dot(l).abs(), n.dot(v).abs(), n.dot(h));
@@ -150,7 +150,7 @@ impl Problem {
     }
 
     /// Light from everywhere: what is seen where the light is behind, as a multiple of the diffuse colour.
-    fn ambient(&self, terms: &Terms, points: &[Point]) -> f64 {
+    fn ambient(&self, terms: &RendererTerms, points: &[Point]) -> f64 {
         let mut ratios = Vec::new();
         for (point, readings) in points.iter().zip(&self.observed.readings) {
             let (n, l, _) = vectors(terms, point);
@@ -222,7 +222,7 @@ impl Fit {
 }
 
 /// Unit normal, light and view as the terms take them.
-pub fn vectors(terms: &Terms, point: &Point) -> (DVec3, DVec3, DVec3) {
+pub fn vectors(terms: &RendererTerms, point: &Point) -> (DVec3, DVec3, DVec3) {
     let mut n = DVec3::from(point.normal);
     if terms.material.normal_y == NormalY::Down {
         n.y = -n.y;

@@ -4,6 +4,7 @@
 //! grow with the condition number of a point and with the noise that is seen. What does not fit within these limits has no name.
 
 mod alternatives;
+mod columns;
 mod fit;
 mod noise;
 mod observed;
@@ -13,29 +14,17 @@ mod search;
 mod verdict;
 
 use svbrdf_core::model::grammar::words::Transfer;
-use svbrdf_core::model::grammar::{GridTerms, Point, Terms};
+use svbrdf_core::model::grammar::{GridTerms, RendererTerms};
 
 pub use fit::Fit;
 use fit::Problem;
 use observed::Observed;
 pub use observed::Storage;
-use pictures::Picture;
-pub use probes::probes;
+pub use probes::{Answer, probes};
 pub use verdict::{Difference, Verdict, VerdictKind, verdict};
 
 /// Unit roundoffs of the levels of the search, the coarsest first: the last two are those of float32 and float64.
 const LEVELS: [f64; 4] = [1e-4, 2e-6, f32::EPSILON as f64 / 2.0, f64::EPSILON];
-
-/// Radiances at points, as a renderer gave them out.
-#[derive(Clone, Debug)]
-pub struct Answer {
-    pub points: Vec<Point>,
-    pub radiance: Vec<[f64; 3]>,
-    /// Whether base colour and metallic were read; `None` where that is unknown.
-    pub metallic: Option<bool>,
-    /// A small picture, which tells the grid.
-    pub picture: Option<Picture>,
-}
 
 /// The best renderer of the grammar for an answer.
 #[derive(Clone, Debug)]
@@ -78,7 +67,7 @@ pub fn identify(answer: &Answer) -> Identified {
     best.unwrap_or_else(|| {
         let observed = Observed::new(&answer.radiance, storage, Transfer::Linear);
         let problem = Problem::new(&answer.points, observed, LEVELS[0]);
-        let fit = problem.fit(&Terms::BASE, workflows[0]);
+        let fit = problem.fit(&RendererTerms::BASE, workflows[0]);
         Identified { problem, fit, storage, explained: false, grid: None }
     })
 }

@@ -6,9 +6,9 @@ use svbrdf_core::model::grammar::words::{Rows, Sites};
 use svbrdf_core::model::grammar::{GridTerms, Point};
 use svbrdf_files::arrays::{Array, Arrays};
 
+use super::columns::rows;
 use super::fit::{Fit, Problem};
 use super::observed::{Bound, Observed, Storage};
-use super::probes::rows;
 
 /// Texels along a side. Centres and corners differ the less the more there are.
 const SIDE: usize = 8;

@@ -1,9 +1,9 @@
 //! Probe points and pictures, and answers: arrays by name.
 
 use svbrdf_core::model::grammar::Point;
-use svbrdf_files::arrays::{self, Array, Arrays};
+use svbrdf_files::arrays::{self, Arrays};
 
-use super::Answer;
+use super::columns::{column, rows};
 use super::pictures::{self, Picture};
 
 /// Points chosen so that all members of the grammar differ where float32 or 8 bits can see it; the last 20 are repeated.
@@ -21,6 +21,17 @@ pub fn probes() -> Result<Arrays, String> {
     let mut arrays = arrays::parse(POINTS)?;
     arrays.extend(pictures::probes());
     Ok(arrays)
+}
+
+/// Radiances at points, as a renderer gave them out.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    pub points: Vec<Point>,
+    pub radiance: Vec<[f64; 3]>,
+    /// Whether base colour and metallic were read; `None` where that is unknown.
+    pub metallic: Option<bool>,
+    /// A small picture, which tells the grid.
+    pub picture: Option<Picture>,
 }
 
 impl Answer {
@@ -97,33 +108,4 @@ fn check(points: &[Point]) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-fn array<'a>(arrays: &'a Arrays, name: &str) -> Result<&'a Array, String> {
-    arrays.get(name).ok_or_else(|| {
-        let found = arrays.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
-        format!("expected the array `{name}`, found {found}")
-    })
-}
-
-/// An array of `count` rows of three values.
-pub(super) fn rows(arrays: &Arrays, name: &str, count: usize) -> Result<Vec<[f64; 3]>, String> {
-    let array = array(arrays, name)?;
-    if array.values.len() != 3 * count || array.shape.last() != Some(&3) {
-        return Err(format!(
-            "array `{name}`: expected {count} x 3 values, found the shape {:?}",
-            array.shape
-        ));
-    }
-    // Levels of 8 bits.
-    let scale = if array.kind == "u1" { 255.0 } else { 1.0 };
-    Ok(array.values.chunks_exact(3).map(|v| [v[0] / scale, v[1] / scale, v[2] / scale]).collect())
-}
-
-fn column(arrays: &Arrays, name: &str, count: usize) -> Result<Vec<f64>, String> {
-    let array = array(arrays, name)?;
-    if array.values.len() != count {
-        return Err(format!("array `{name}`: expected {count} values, found the shape {:?}", array.shape));
-    }
-    Ok(array.values.clone())
 }

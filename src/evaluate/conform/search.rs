@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use svbrdf_core::model::grammar::words::{
     Alpha, Denominator, Distribution, Falloff, Fresnel, K, Maps, NormalY, Shadowing, Weight,
 };
-use svbrdf_core::model::grammar::{Point, Terms};
+use svbrdf_core::model::grammar::{Point, RendererTerms};
 
 use super::alternatives::{self, SHADOWINGS, SPOTS};
 use super::fit::{Fit, Problem, median, vectors};
@@ -21,7 +21,7 @@ const MOST_STEPS: usize = 16;
 /// A renderer, with the workflow whose maps it reads, and its mean absolute log ratio.
 #[derive(Clone, Copy, Debug)]
 pub struct Candidate {
-    pub terms: Terms,
+    pub terms: RendererTerms,
     pub metallic: bool,
     pub off: f64,
 }
@@ -37,11 +37,11 @@ struct Plain {
 impl Plain {
     fn new(problem: &Problem, metallic: bool) -> Self {
         let mut plain = Self { metallic, points: Vec::new(), logs: Vec::new(), weights: Vec::new() };
-        let ambient = problem.fit(&Terms::BASE, metallic).ambient;
+        let ambient = problem.fit(&RendererTerms::BASE, metallic).ambient;
         for (point, readings) in problem.points(metallic).iter().zip(&problem.observed.readings) {
             // Either direction of y.
             let is_plain = [NormalY::Up, NormalY::Down].into_iter().all(|y| {
-                let mut terms = Terms::BASE;
+                let mut terms = RendererTerms::BASE;
                 terms.material.normal_y = y;
                 let (n, l, v) = vectors(&terms, point);
                 n.dot(l) > 0.1 && n.dot(v) > 0.1 && l.z > 0.1
@@ -73,7 +73,7 @@ impl Plain {
         plain
     }
 
-    fn radiances(&self, terms: &Terms) -> Vec<[f64; 3]> {
+    fn radiances(&self, terms: &RendererTerms) -> Vec<[f64; 3]> {
         self.points.iter().map(|point| terms.radiance(point, true)).collect()
     }
 
@@ -95,7 +95,7 @@ impl Plain {
 }
 
 /// What is decided first: whose maps, the frame and the light.
-fn frames(metallic: bool) -> Vec<Terms> {
+fn frames(metallic: bool) -> Vec<RendererTerms> {
     let maps = if metallic { [Maps::Metallic, Maps::Dielectric] } else { [Maps::Diffuse, Maps::Dielectric] };
     let mut frames = Vec::new();
     for material in maps {
@@ -104,7 +104,7 @@ fn frames(metallic: bool) -> Vec<Terms> {
                 for falloff in Falloff::ALL {
                     let lights = SPOTS.iter().map(|spot| (None, *spot)).chain([(Some(0.0), 0.0)]);
                     for (lz, spot) in lights {
-                        let mut terms = Terms::BASE;
+                        let mut terms = RendererTerms::BASE;
                         (terms.material.material, terms.material.normal_y) = (material, normal_y);
                         terms.diffuse.diffuse = alternatives::weights(material)[0];
                         (terms.light.collocated, terms.light.falloff) = (collocated, falloff);
@@ -119,7 +119,7 @@ fn frames(metallic: bool) -> Vec<Terms> {
 }
 
 /// The frame with some lobes of each kind.
-fn coarse(frame: &Terms) -> Vec<Terms> {
+fn coarse(frame: &RendererTerms) -> Vec<RendererTerms> {
     let mut all = Vec::new();
     for alpha in Alpha::ALL {
         for g in [Shadowing::Schlick, Shadowing::Smith, Shadowing::None] {
@@ -136,7 +136,7 @@ const COSINES: [(Denominator, bool); 3] =
     [(Denominator::Cancelled, true), (Denominator::Cancelled, false), (Denominator::Light, false)];
 
 /// The lobes of a frame without their Fresnel term.
-fn lobes(frame: &Terms) -> Vec<Terms> {
+fn lobes(frame: &RendererTerms) -> Vec<RendererTerms> {
     let mut all = Vec::new();
     for d in Distribution::ALL {
         for alpha in Alpha::ALL {
@@ -160,9 +160,9 @@ fn lobes(frame: &Terms) -> Vec<Terms> {
 }
 
 /// All members of a frame by their parts: specular terms, and diffuse terms by weight and Fresnel term.
-fn members(plain: &Plain, frame: &Terms) -> Vec<Candidate> {
+fn members(plain: &Plain, frame: &RendererTerms) -> Vec<Candidate> {
     let weights = alternatives::weights(frame.material.material);
-    let with = |terms: &Terms, f: Fresnel| {
+    let with = |terms: &RendererTerms, f: Fresnel| {
         let mut terms = *terms;
         terms.specular.f = f;
         terms
@@ -178,7 +178,7 @@ fn members(plain: &Plain, frame: &Terms) -> Vec<Candidate> {
             (f, weight, plain.radiances(&terms))
         })
         .collect();
-    let of_lobe = |lobe: Terms| {
+    let of_lobe = |lobe: RendererTerms| {
         let mut found = Vec::new();
         for f in Fresnel::ALL {
             let mut specular = with(&lobe, f);
@@ -203,9 +203,9 @@ pub fn structures(problem: &Problem, workflows: &[bool], best_frame: &mut f64) -
     const FRAMES: usize = 3;
     const STRUCTURES: usize = 4;
     let plain: Vec<Plain> = workflows.iter().map(|metallic| Plain::new(problem, *metallic)).collect();
-    let mut scored: Vec<(f64, Terms, usize)> = Vec::new();
+    let mut scored: Vec<(f64, RendererTerms, usize)> = Vec::new();
     for (which, plain) in plain.iter().enumerate() {
-        let of = |frame: Terms| {
+        let of = |frame: RendererTerms| {
             let off = coarse(&frame).into_iter().map(|terms| {
                 let radiances = plain.radiances(&terms);
                 plain.off(|i, c| radiances[i][c])
@@ -246,7 +246,7 @@ pub fn refined(problem: &Problem, start: &Candidate) -> Fit {
         let numbers = numbers.map(|(_, set, value, terms)| (Some((set, value)), terms));
         // Maps that are out of range tell no number.
         let tried: Vec<_> = words.chain(numbers.filter(|_| !best.is_explained())).collect();
-        let of = |(number, terms): (Option<(alternatives::Set, f64)>, Terms)| {
+        let of = |(number, terms): (Option<(alternatives::Set, f64)>, RendererTerms)| {
             (number, problem.fit(&terms, best.metallic))
         };
         // Of a word and a number that do as well, the word.

@@ -1,7 +1,7 @@
 //! The verdict: whether a renderer conforms to a convention, and in which terms it differs.
 
 use svbrdf_core::model::grammar::words::{Falloff, Rows, Sites};
-use svbrdf_core::model::grammar::{Description, TermDifference, Terms};
+use svbrdf_core::model::grammar::{Description, RendererTerms, TermDifference};
 
 use super::fit::{Fit, Problem};
 use super::search::WORTH;
@@ -29,9 +29,9 @@ pub struct Difference {
 pub struct Verdict {
     pub kind: VerdictKind,
     /// The renderer; the nearest one where the kind is unknown.
-    pub terms: Terms,
+    pub terms: RendererTerms,
     pub differences: Vec<Difference>,
-    /// Terms that these points do not tell, with the values that fit as well.
+    /// RendererTerms that these points do not tell, with the values that fit as well.
     pub indistinguishable: Vec<(String, Vec<String>)>,
     /// The root mean square of the relative residuals, each at most 1.
     pub residual: f64,
@@ -84,9 +84,9 @@ fn is_decided_elsewhere(difference: &TermDifference) -> bool {
 }
 
 /// The fit with the values of the convention wherever they explain the radiances as well.
-fn adopted(problem: &Problem, mut fit: Fit, asked: &Terms) -> Fit {
+fn adopted(problem: &Problem, mut fit: Fit, asked: &RendererTerms) -> Fit {
     let first = fit.clone();
-    let open = |terms: &Terms| {
+    let open = |terms: &RendererTerms| {
         let differences = terms.differences(asked).into_iter();
         differences.filter(|difference| !is_decided_elsewhere(difference)).collect::<Vec<_>>()
     };
@@ -109,7 +109,7 @@ fn adopted(problem: &Problem, mut fit: Fit, asked: &Terms) -> Fit {
 }
 
 /// The terms with the light and the output that were seen, as the convention writes them where they are its own.
-fn finished(problem: &Problem, fit: &Fit, asked: &Terms) -> Terms {
+fn finished(problem: &Problem, fit: &Fit, asked: &RendererTerms) -> RendererTerms {
     let mut terms = fit.terms;
     terms.grid = asked.grid;
     terms.output = asked.output;
@@ -161,7 +161,7 @@ fn rounded(number: f64, tolerance: f64) -> f64 {
 }
 
 /// The largest relative change of a radiance by one term.
-fn gap(problem: &Problem, fit: &Fit, term: &TermDifference, asked: &Terms) -> f64 {
+fn gap(problem: &Problem, fit: &Fit, term: &TermDifference, asked: &RendererTerms) -> f64 {
     if is_decided_elsewhere(term) {
         let ratio = fit.factor[0] / (asked.light.factor * asked.light.intensity[0]);
         return if term.key == "factor" || term.key == "intensity" { (ratio - 1.0).abs() } else { f64::NAN };
@@ -174,9 +174,9 @@ fn gap(problem: &Problem, fit: &Fit, term: &TermDifference, asked: &Terms) -> f6
 
 /// The terms whose other values fit as well.
 fn indistinguishable(problem: &Problem, fit: &Fit) -> Vec<(String, Vec<String>)> {
-    let fits = |terms: &Terms| problem.fit(terms, fit.metallic).is_as_good_as(fit, WORTH);
+    let fits = |terms: &RendererTerms| problem.fit(terms, fit.metallic).is_as_good_as(fit, WORTH);
     let mut found: Vec<(String, Vec<String>)> = Vec::new();
-    let mut add = |terms: &Terms| {
+    let mut add = |terms: &RendererTerms| {
         for difference in fit.terms.differences(terms) {
             let at = found.iter().position(|(key, _)| *key == difference.key).unwrap_or_else(|| {
                 found.push((difference.key.clone(), vec![difference.own.clone()]));

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use svbrdf_core::model::grammar::{Description, Terms, named};
+use svbrdf_core::model::grammar::{Description, RendererTerms};
+use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::text::percent;
 
 use super::Report;
@@ -40,7 +41,7 @@ pub struct ConformReport {
     nearest: Option<TermsByKey>,
     /// From the convention; of the nearest member where the verdict is unknown.
     differences: Vec<TermDifference>,
-    /// Terms of which these points do not tell the value.
+    /// RendererTerms of which these points do not tell the value.
     indistinguishable: Vec<Indistinguishable>,
     /// Root mean square of what remains, relative to the radiances.
     residual: f64,
@@ -207,7 +208,7 @@ fn listed(words: &[String]) -> String {
 }
 
 /// The terms that are not at their defaults, and those that are always printed.
-fn by_key(terms: &Terms) -> TermsByKey {
+fn by_key(terms: &RendererTerms) -> TermsByKey {
     let text = Description { terms: *terms, ..Description::default() }.to_string();
     let mut sections: TermsByKey = toml::from_str::<BTreeMap<String, toml::Value>>(&text)
         .unwrap_or_default()

@@ -8,11 +8,10 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::{
-    DiffuseTerms, GridTerms, LightTerms, LossTerms, MaterialTerms, OutputTerms, SceneTerms, SpecularTerms,
-    Terms,
+    DiffuseTerms, GridTerms, LightTerms, LossTerms, MapTerms, OutputTerms, RendererTerms, SceneTerms,
+    SpecularTerms,
 };
 use crate::error::Error;
-use crate::model::convention::PRINTED;
 
 /// A renderer, its loss and its scenes, with their name and source.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -23,7 +22,7 @@ pub struct Description {
     pub source: Option<String>,
     /// The commit or release.
     pub version: Option<String>,
-    pub terms: Terms,
+    pub terms: RendererTerms,
     pub loss: LossTerms,
     pub scenes: Vec<SceneTerms>,
 }
@@ -37,7 +36,7 @@ struct Text {
     source: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     version: Option<String>,
-    material: MaterialTerms,
+    material: MapTerms,
     specular: SpecularTerms,
     diffuse: DiffuseTerms,
     light: LightTerms,
@@ -51,7 +50,7 @@ impl From<Text> for Description {
     fn from(text: Text) -> Self {
         let Text { name, source, version, material, specular, diffuse, light, output, grid, loss, scenes } =
             text;
-        let terms = Terms { material, specular, diffuse, light, output, grid };
+        let terms = RendererTerms { material, specular, diffuse, light, output, grid };
         Self { name, source, version, terms, loss, scenes }
     }
 }
@@ -59,7 +58,7 @@ impl From<Text> for Description {
 impl From<Description> for Text {
     fn from(description: Description) -> Self {
         let Description { name, source, version, terms, loss, scenes } = description;
-        let Terms { material, specular, diffuse, light, output, grid } = terms;
+        let RendererTerms { material, specular, diffuse, light, output, grid } = terms;
         Self { name, source, version, material, specular, diffuse, light, output, grid, loss, scenes }
     }
 }
@@ -83,34 +82,6 @@ const ALWAYS: [&str; 15] = [
     "orientation",
 ];
 
-impl Description {
-    /// What differs from [`PRINTED`]: one line.
-    pub fn summary(&self) -> String {
-        let printed = Self::from(&PRINTED);
-        let is_floor = |key: &str| key.ends_with("_min") || key.ends_with("_eps") || key == "nh_clamped";
-        let mut parts: Vec<String> = Vec::new();
-        let all = self.terms.differences(&printed.terms);
-        let words = all.iter().filter(|difference| !is_floor(&difference.key));
-        parts.extend(words.map(|difference| format!("{} {}", difference.key, difference.own)));
-        if all.iter().any(|difference| is_floor(&difference.key)) {
-            parts.push("other floors".to_owned());
-        }
-        if self.loss.epsilon.is_some_and(|epsilon| Some(epsilon) != printed.loss.epsilon) {
-            parts.push(format!("epsilon {}", self.loss.epsilon.unwrap_or_default()));
-        }
-        if self.loss.norm != printed.loss.norm {
-            parts.push(format!("norm {}", self.loss.norm));
-        }
-        if self.loss == printed.loss && parts.is_empty() {
-            return "the algorithms as printed".to_owned();
-        }
-        if self.scenes != printed.scenes && !self.scenes.is_empty() {
-            parts.push("other scenes".to_owned());
-        }
-        parts.join(", ")
-    }
-}
-
 /// A term in which two renderers differ.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TermDifference {
@@ -122,7 +93,7 @@ pub struct TermDifference {
     pub other: String,
 }
 
-impl Terms {
+impl RendererTerms {
     /// The sections of keys. A struct of numbers, words and lists has no value that TOML lacks.
     fn table(&self) -> Table {
         Table::try_from(self).unwrap_or_default()
@@ -187,7 +158,7 @@ fn short(number: f64) -> String {
     }
 }
 
-/// TOML, without the terms that have the value of [`Terms::BASE`].
+/// TOML, without the terms that have the value of [`RendererTerms::BASE`].
 impl fmt::Display for Description {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         static BASE: LazyLock<Table> =

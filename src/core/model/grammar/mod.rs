@@ -1,9 +1,8 @@
 //! A grammar of renderers and losses: the terms in which published codes differ, as data.
 //!
-//! Keys and words are those of its TOML, one section for each struct. What a text leaves out has the value of [`Terms::BASE`].
+//! Keys and words are those of its TOML, one section for each struct. What a text leaves out has the value of [`RendererTerms::BASE`].
 
 mod description;
-pub mod named;
 mod radiance;
 mod scenes;
 pub mod words;
@@ -21,7 +20,7 @@ use words::{
 /// The material: its maps, and what happens to them before the formulas.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct MaterialTerms {
+pub struct MapTerms {
     pub material: Maps,
     /// Specular reflectance of a dielectric.
     pub f0: f64,
@@ -173,8 +172,8 @@ pub struct LossTerms {
 /// A renderer: everything but its name, its loss and its scenes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Terms {
-    pub material: MaterialTerms,
+pub struct RendererTerms {
+    pub material: MapTerms,
     pub specular: SpecularTerms,
     pub diffuse: DiffuseTerms,
     pub light: LightTerms,
@@ -182,10 +181,10 @@ pub struct Terms {
     pub grid: GridTerms,
 }
 
-impl Terms {
+impl RendererTerms {
     /// What a text that leaves everything out means: no floors, no limits, a light of intensity 1.
     pub const BASE: Self = Self {
-        material: MaterialTerms {
+        material: MapTerms {
             material: Maps::Diffuse,
             f0: 0.04,
             clip_maps: false,
@@ -260,14 +259,14 @@ macro_rules! base {
     ($($type:ident = $section:ident,)+) => {
         $(impl Default for $type {
             fn default() -> Self {
-                Terms::BASE.$section
+                RendererTerms::BASE.$section
             }
         })+
     };
 }
 
 base! {
-    MaterialTerms = material,
+    MapTerms = material,
     SpecularTerms = specular,
     DiffuseTerms = diffuse,
     LightTerms = light,

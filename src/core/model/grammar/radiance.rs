@@ -8,7 +8,7 @@ use super::words::{
     Alpha, Denominator, Distribution, F90, Falloff, Fresnel, K, Maps, NormalY, Normals, Rows, Shadowing,
     Sites, Transfer, Weight,
 };
-use super::{GridTerms, MaterialTerms, SpecularTerms, Terms};
+use super::{GridTerms, MapTerms, RendererTerms, SpecularTerms};
 
 /// A texel with its material in both workflows, and vectors from it to light and camera, not unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ fn divided(vector: DVec3, epsilon: f64) -> DVec3 {
     vector / (vector.length() + epsilon)
 }
 
-impl MaterialTerms {
+impl MapTerms {
     fn surface(&self, point: &Point) -> Surface {
         let clipped = |x: f64| if self.clip_maps { x.clamp(0.0, 1.0) } else { x };
         let mut metallic = point.metallic;
@@ -162,7 +162,7 @@ fn beckmann_factor(x: f64, a: f64) -> f64 {
     if e >= 1.6 { 1.0 } else { rational }
 }
 
-impl Terms {
+impl RendererTerms {
     /// The radiance at a point, RGB, as the code gives it out. `is_near`: whether its scene is a near-field one.
     ///
     /// Where the formulas of a code divide by 0, it is not finite.
