@@ -6,7 +6,7 @@
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
 //! | [`diagnose`] | whether exposure, alignment or reading explain a loss; what the ground truth resolves |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
-//! | [`rank`] | many predictions of one ground truth, best first |
+//! | [`rank`], [`robust`] | many predictions of one ground truth, best first; whether their order survives other questions |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`report`] | results with their settings as values, and their tables |
 //! | [`photograph`] | renderings against photographs of the real material |
@@ -23,6 +23,7 @@ pub mod metrics;
 pub mod photograph;
 pub mod rank;
 pub mod report;
+pub mod robust;
 pub mod schema;
 pub mod study;
 pub mod why;

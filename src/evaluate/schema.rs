@@ -1,7 +1,7 @@
 //! JSON Schemas of the reports: the keys of their JSON with their types and meanings.
 
 use crate::report::{
-    ConformReport, DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, schema_of,
+    ConformReport, DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, RobustReport, schema_of,
 };
 use schemars::Schema;
 use serde_json::json;
@@ -13,8 +13,9 @@ use crate::photograph::PhotoReport;
 /// The name of a report, and its schema.
 type ReportSchema = (&'static str, fn() -> Schema);
 
-/// The schema of each other report by its name: that of its command, `dataset` for `rank --dataset`.
-const OTHERS: [ReportSchema; 8] = [
+/// The schema of each other report by its name: that of its command, `dataset` for `rank --dataset`,
+/// `robust` for `rank --robust`.
+const OTHERS: [ReportSchema; 9] = [
     ("loss", schema_of::<LossReport>),
     ("rank", schema_of::<RankReport>),
     ("diagnose", schema_of::<DiagnoseReport>),
@@ -23,6 +24,7 @@ const OTHERS: [ReportSchema; 8] = [
     ("dataset", schema_of::<DatasetReport>),
     ("info", schema_of::<InfoReport>),
     ("conform", schema_of::<ConformReport>),
+    ("robust", schema_of::<RobustReport>),
 ];
 
 /// The names of all reports.
