@@ -1,6 +1,7 @@
 //! The program as its users run it: exit codes, stdout, stderr and files.
 
 mod backend;
+mod conform;
 mod diagnose;
 mod ends;
 mod help;

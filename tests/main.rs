@@ -7,6 +7,8 @@ mod support;
 
 mod bad_input;
 mod cli;
+mod conform;
+mod conventions;
 mod coverage;
 mod detection;
 mod docs;

@@ -6,6 +6,7 @@ use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_files::convention;
 
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
@@ -30,7 +31,7 @@ impl Asked {
     /// # Errors
     /// Where there is none.
     pub fn convention(&self) -> PyResult<Convention> {
-        self.convention.parse().map_err(exception)
+        convention::of_loss(&self.convention).map_err(exception)
     }
 
     /// The options of the question.

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::dataset::{
     self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Method, Pick, Source,
 };
+
+use svbrdf_files::convention;
 
 use crate::errors::exception;
 use crate::material::read_options;
@@ -43,7 +44,7 @@ pub fn rank_dataset(
     asked: DatasetAsked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let convention: Convention = asked.convention.parse().map_err(exception)?;
+    let convention = convention::of_loss(&asked.convention).map_err(exception)?;
     let pick: Pick = asked.pick.parse().map_err(exception)?;
     let reading = DatasetReading {
         ground_truths: read_options(&asked.read[0])?,

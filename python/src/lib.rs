@@ -6,6 +6,7 @@
 mod analysis;
 mod arrays;
 mod asked;
+mod conform;
 mod dataset;
 mod errors;
 mod files;
@@ -48,5 +49,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dataset::rank_dataset, module)?)?;
     module.add_function(wrap_pyfunction!(page::page, module)?)?;
     module.add_function(wrap_pyfunction!(session::session, module)?)?;
+    module.add_function(wrap_pyfunction!(conform::probes, module)?)?;
+    module.add_function(wrap_pyfunction!(conform::conform, module)?)?;
     Ok(())
 }

@@ -13,6 +13,7 @@ use svbrdf_core::math::real::Real;
 use svbrdf_core::render as renderer;
 use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_evaluate::report;
+use svbrdf_files::convention;
 use svbrdf_files::read::ReadOptions;
 
 use crate::arrays::{self, Bytes};
@@ -185,7 +186,7 @@ pub fn render<'py>(
     convention: &str,
 ) -> PyResult<Bound<'py, PyByteArray>> {
     let scene = scene.scene()?;
-    let convention = convention.parse().map_err(exception)?;
+    let convention = convention::of_loss(convention).map_err(exception)?;
     match &material.values {
         Values::F32(material) => {
             let image = work::run(py, None, |p| renderer::render_f32(material, &scene, &convention, p))?;

@@ -90,7 +90,7 @@ pub fn sample_scenes(
     sampler: &str,
     convention: &str,
 ) -> PyResult<Vec<SceneTuple>> {
-    let convention = convention.parse().map_err(exception)?;
+    let convention = svbrdf_files::convention::of_loss(convention).map_err(exception)?;
     let sampler = sampler.parse().map_err(exception)?;
     let sampling = Sampling { near, distant, seed, sampler, texels: Texels::All };
     let scenes = sampling.scenes(&convention).map_err(exception)?;

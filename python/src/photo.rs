@@ -8,6 +8,7 @@ use pyo3::types::PyByteArray;
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_evaluate::photograph::{PhotoReport, PhotoSetting};
+use svbrdf_files::convention;
 use svbrdf_files::photograph::{Capture, Corners, SessionPhotograph};
 use svbrdf_files::read::PhotographOptions;
 use svbrdf_files::scene_file::PhotographLight;
@@ -82,7 +83,7 @@ impl PhotoAsked {
 
     fn setting(&self) -> PyResult<PhotoSetting> {
         let exposure = self.exposure.as_deref().map(str::parse).transpose().map_err(exception)?;
-        let convention = self.convention.parse().map_err(exception)?;
+        let convention = convention::of_loss(&self.convention).map_err(exception)?;
         let (capture, exposure) = (self.capture()?, exposure.unwrap_or_default());
         PhotoSetting::new(capture, exposure, &self.hold_out, convention).map_err(exception)
     }

@@ -13,7 +13,7 @@ use super::output::CommandError;
 use super::{Cli, Subcommands};
 
 /// The subcommands with arguments that select a mode; options are added to these. `@` stands for the folder of the fixture.
-const MODES: [&str; 51] = [
+const MODES: [&str; 54] = [
     "loss @gt.png @a.png",
     "loss @gt.png @a.png --near 4 --sampler sobol",
     "loss @gt.png @a.png --target-error 30%",
@@ -39,6 +39,7 @@ const MODES: [&str; 51] = [
     "report @s.svbrdf-session.json -o @x.html",
     "report @listed.svbrdf-session.json -o @x.html",
     "rank @gt.png @a.png @b.png",
+    "rank @gt.png @a.png @b.png --robust",
     "rank --dataset @set/gt @set/ours",
     "rank --dataset @set/gt @set/ours --format html -o @x.html",
     "rank --pairs @pairs.csv",
@@ -55,6 +56,8 @@ const MODES: [&str; 51] = [
     "metrics @gt.png @a.png",
     "metrics @gt.png @a.png --lights flash-9",
     "metrics @gt.png @a.png --protocol matfusion",
+    "conform @answer.npz",
+    "conform --points @probe.npz",
     "info @gt.png",
     "convert @gt.png @x.png",
     "convert @gt.png @x.exr",
@@ -85,7 +88,7 @@ const OF_PHOTOGRAPHS: [(&str, &[&str]); 3] = [
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there.
 #[rustfmt::skip]
-const VALUES: [(&str, &str); 56] = [
+const VALUES: [(&str, &str); 59] = [
     ("backend", "auto"), ("capture", "@cap"), ("clip", "0.2"), ("columns", "roughness"),
     ("convention", "guided-2020"), ("corners", "0,0 7,0 7,7 0,7"), ("crop", "1,1,3,3"), ("depth", "16"),
     ("distance-tail", "0.001%"), ("distant", "5"), ("exposure", "1"), ("fail-above", "0.0001"),
@@ -100,6 +103,7 @@ const VALUES: [(&str, &str); 56] = [
     ("scenes", "@two.json"), ("seed", "5"), ("shard", "1/2"), ("show", "diffuse"), ("side", "5"),
     ("target-error", "25%"), ("texels", "3"), ("time-budget", "1ms"), ("top", "3"), ("transfer", "linear"),
     ("view", "0.2,0.1,2"), ("view resize-to", "gt"),
+    ("points", "@p.npz"), ("workflow", "metallic"), ("write-convention", "@m.toml"),
 ];
 
 /// Without these arguments an option has nothing to work on.

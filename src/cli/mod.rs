@@ -2,6 +2,8 @@
 
 mod analysis;
 mod args;
+mod conform;
+mod conventions;
 mod convert;
 mod diagnose;
 #[cfg(test)]
@@ -55,6 +57,7 @@ Examples:
   svbrdf photo photo.jpg a.png --flash --fov 45
                                           compares renderings with a photograph
   svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
+  svbrdf conform --points probe.npz       asks your renderer whose it is
   svbrdf info gt.png                      prints what the files hold and what was assumed
   svbrdf convert gt.png gt.exr            writes the material as one layered EXR
 
@@ -107,6 +110,8 @@ enum Subcommands {
     Metrics(metrics::MetricsArgs),
     Photo(photo::PhotoArgs),
     Study(study::StudyArgs),
+    Conform(conform::ConformArgs),
+    Conventions(conventions::ConventionsArgs),
     Schema(schema::SchemaArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
@@ -159,6 +164,7 @@ impl Cli {
         }
         match command {
             Subcommands::Schema(args) => schema::run(&args),
+            Subcommands::Conventions(args) => conventions::run(&args),
             Subcommands::Completions(args) => generate::completions(&args, Self::command()),
             Subcommands::Man(args) => generate::man(&args, Self::command()),
             command => command.job(given)?.run(),
@@ -186,9 +192,10 @@ impl Subcommands {
             Self::Metrics(args) => args.job(given),
             Self::Photo(args) => args.job(given),
             Self::Study(args) => args.job(given),
+            Self::Conform(args) => args.job(),
             Self::Info(args) => args.job(),
             Self::Convert(args) => args.job(),
-            Self::Schema(_) | Self::Completions(_) | Self::Man(_) => {
+            Self::Schema(_) | Self::Conventions(_) | Self::Completions(_) | Self::Man(_) => {
                 Err(Error::Internal("a command about the program has no job".to_owned()).into())
             }
         }

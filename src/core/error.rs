@@ -11,6 +11,17 @@ pub enum Error {
     #[error("unknown {what} `{found}`; use one of: {known}")]
     UnknownName { what: &'static str, found: String, known: String },
 
+    /// The text of a convention that is none.
+    #[error("not a convention: {problem}; begin with the text of a named one")]
+    BadConvention { problem: String },
+
+    /// A convention that shaders do not have.
+    #[error(
+        "the convention {convention} is rendered on the processor only: the shaders of the window, of pages and of graphics \
+        adapters have printed, single-image-2018, multi-image-2019 and guided-2020; choose one of these, or render on the processor"
+    )]
+    OnProcessorOnly { convention: &'static str },
+
     /// Two things that must have the same size do not.
     #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; {remedy}",
         first_size[0], first_size[1], second_size[0], second_size[1])]

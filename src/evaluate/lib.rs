@@ -6,14 +6,16 @@
 //! | [`why`] | what a loss comes from: maps, scenes, directions of light, texels; the worst scene |
 //! | [`diagnose`] | whether exposure, alignment or reading explain a loss; what the ground truth resolves |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
-//! | [`rank`] | many predictions of one ground truth, best first |
+//! | [`rank`], [`robust`] | many predictions of one ground truth, best first; whether their order survives other questions |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`report`] | results with their settings as values, and their tables |
 //! | [`photograph`] | renderings against photographs of the real material |
 //! | [`dataset`] | methods over the materials of a data set, with a folder of results |
+//! | [`conform`] | whose renderer gave out radiances at known points |
 //! | [`schema`] | the JSON Schema of each report |
 
 pub mod analyses;
+pub mod conform;
 pub mod dataset;
 pub mod diagnose;
 mod error;
@@ -21,6 +23,7 @@ pub mod metrics;
 pub mod photograph;
 pub mod rank;
 pub mod report;
+pub mod robust;
 pub mod schema;
 pub mod study;
 pub mod why;

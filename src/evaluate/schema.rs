@@ -1,6 +1,8 @@
 //! JSON Schemas of the reports: the keys of their JSON with their types and meanings.
 
-use crate::report::{DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, schema_of};
+use crate::report::{
+    ConformReport, DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, RobustReport, schema_of,
+};
 use schemars::Schema;
 use serde_json::json;
 
@@ -11,8 +13,9 @@ use crate::photograph::PhotoReport;
 /// The name of a report, and its schema.
 type ReportSchema = (&'static str, fn() -> Schema);
 
-/// The schema of each other report by its name: that of its command, `dataset` for `rank --dataset`.
-const OTHERS: [ReportSchema; 7] = [
+/// The schema of each other report by its name: that of its command, `dataset` for `rank --dataset`,
+/// `robust` for `rank --robust`.
+const OTHERS: [ReportSchema; 9] = [
     ("loss", schema_of::<LossReport>),
     ("rank", schema_of::<RankReport>),
     ("diagnose", schema_of::<DiagnoseReport>),
@@ -20,6 +23,8 @@ const OTHERS: [ReportSchema; 7] = [
     ("photo", schema_of::<PhotoReport>),
     ("dataset", schema_of::<DatasetReport>),
     ("info", schema_of::<InfoReport>),
+    ("conform", schema_of::<ConformReport>),
+    ("robust", schema_of::<RobustReport>),
 ];
 
 /// The names of all reports.

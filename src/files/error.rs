@@ -86,6 +86,14 @@ pub enum Error {
         finite, light and view above the plane", path.display())]
     BadScene { path: PathBuf, problem: String },
 
+    /// A file whose text is no convention.
+    #[error("{}: {problem}", path.display())]
+    BadConvention { path: PathBuf, problem: CoreError },
+
+    /// A file of arrays that is none, or that lacks what is needed.
+    #[error("{} cannot be used: {problem}", path.display())]
+    BadArrays { path: PathBuf, problem: String },
+
     /// A capture cannot be used: a folder of photographs with their lights and views.
     #[error("{} is not a usable capture: {problem}; expected a folder with capture.json, or with the JSON or \
         text files of a MaterialGAN capture", path.display())]

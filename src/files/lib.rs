@@ -17,7 +17,9 @@
 //! # Ok::<(), svbrdf_files::Error>(())
 //! ```
 
+pub mod arrays;
 pub mod changes;
+pub mod convention;
 pub mod disk;
 mod error;
 pub mod export;

@@ -76,11 +76,20 @@ impl Header {
 
     /// The first bytes of a file of 32-bit floats, low byte first, with the last index fastest.
     pub fn of_floats(shape: &[usize]) -> Vec<u8> {
+        Self::bytes("<f4", shape)
+    }
+
+    /// That of 64-bit floats.
+    pub fn of_doubles(shape: &[usize]) -> Vec<u8> {
+        Self::bytes("<f8", shape)
+    }
+
+    fn bytes(kind: &str, shape: &[usize]) -> Vec<u8> {
         let mut sides = shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
         if shape.len() == 1 {
             sides.push(',');
         }
-        let mut text = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({sides}), }}");
+        let mut text = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({sides}), }}");
         let before = MAGIC.len() + 4;
         let padding = ALIGNMENT - (before + text.len() + 1) % ALIGNMENT;
         text.extend(std::iter::repeat_n(' ', padding));

@@ -87,6 +87,7 @@ pub(super) fn json(
     scenes: &[LinkedScene],
 ) -> Result<String, Error> {
     let Report { convention, .. } = report;
+    convention.check_is_algorithm_3()?;
     let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
     let shaders: Value = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
     let data = Data {

@@ -18,6 +18,7 @@ are those of the command line, bit for bit. `svbrdf.torch` has the same loss for
 from . import _analyses, _reports
 from ._analyses import *  # noqa: F403
 from ._assumptions import Assumption, AssumptionWarning
+from ._conform import conform, probes
 from ._core import Error, __version__
 from ._dataset import rank_dataset
 from ._loss import loss, rank
@@ -46,6 +47,7 @@ __all__ = [
     "Scene",
     "__version__",
     "built_in",
+    "conform",
     "diagnose",
     "figure",
     "loss",
@@ -53,6 +55,7 @@ __all__ = [
     "metrics",
     "named_scenes",
     "photo",
+    "probes",
     "rank",
     "rank_dataset",
     "read",

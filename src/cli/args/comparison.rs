@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use svbrdf_core::model::convention::Convention;
-use svbrdf_files::Error;
 use svbrdf_files::source::MaterialSource;
 use svbrdf_files::steps::{RunId, runs_in};
+use svbrdf_files::{Error, convention};
 
 use super::floor::FloorArgs;
 use super::reading::{FormerSideArgs, PairReadingArgs, Side, StatementArgs};
@@ -14,8 +14,8 @@ use crate::cli::output::CommandError;
 
 #[derive(Debug, clap::Args)]
 pub struct ComparisonArgs {
-    /// Convention: printed, single-image-2018, multi-image-2019 or guided-2020 [default: printed, or as in the session]
-    #[arg(long, value_name = "NAME")]
+    /// Convention: a name, which `svbrdf conventions` lists, or a .toml file [default: printed, or as in the session]
+    #[arg(long, value_name = "NAME", value_parser = convention::of_loss)]
     pub convention: Option<Convention>,
 
     #[command(flatten)]

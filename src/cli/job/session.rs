@@ -8,9 +8,9 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_files::Error;
 use svbrdf_files::session::Session;
 use svbrdf_files::session::window::SessionDisplay;
+use svbrdf_files::{Error, convention};
 
 use crate::cli::args::MaterialArgs;
 use crate::cli::output::{CommandError, exit};
@@ -62,7 +62,10 @@ impl SessionSettings {
         }
         Ok(Self {
             scene: session.scene,
-            convention: session.convention.parse().map_err(bad)?,
+            convention: convention::of_loss(&session.convention).map_err(|problem| Error::BadSession {
+                path: path.to_owned(),
+                problem: problem.to_string(),
+            })?,
             exposure_ev: session.exposure,
             display: session.window.display.clone().unwrap_or_default(),
             loss: session.window.loss.clone(),

@@ -15,6 +15,10 @@ pub enum CommandError {
     #[error("{name} has a loss of {loss}, above the limit of {limit}")]
     AboveLimit { name: String, loss: f64, limit: f64 },
 
+    /// A renderer is not that of a convention.
+    #[error("the renderer does not conform to {convention}; the report tells in what")]
+    DoesNotConform { convention: String },
+
     /// No prediction of a data set has a loss.
     #[error(
         "no prediction has a loss: {failed} of {failed} failed, the first of them, {name}: {problem}; correct the predictions"

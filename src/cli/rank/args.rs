@@ -30,6 +30,10 @@ pub struct RankArgs {
     #[arg(long, requires = "ground_truth")]
     pub pairs: bool,
 
+    /// Asks whether the order survives other conventions, epsilons, exposures, resolutions, scenes and measures
+    #[arg(long, conflicts_with_all = ["dataset", "pairs"])]
+    pub robust: bool,
+
     #[command(flatten)]
     pub of_data_set: DataSetArgs,
 

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::rank::most_scenes;
-use svbrdf_evaluate::report::{Compared, MaterialReading, RankReport, Repetition, Report as _};
+use svbrdf_evaluate::report::{Compared, MaterialReading, RankReport, Repetition, Report as _, RobustReport};
+use svbrdf_evaluate::robust::RobustInput;
 
 use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat, check_limit};
 use crate::cli::args::floor::FloorArgs;
-use crate::cli::args::{Given, wildcards};
+use crate::cli::args::{Given, refuse, wildcards};
 use crate::cli::job::floor::floor_of;
 use crate::cli::job::{ComparisonJob, Job, NewJob, Opened};
 use crate::cli::output::{CommandError, command_line, exit, target, watched};
@@ -38,7 +39,12 @@ pub fn job(mut args: RankArgs, given: &Given) -> NewJob {
     args.comparison.materials.expand_steps()?;
     let comparison = ComparisonJob::with_predictions(&args.comparison, given)?;
     let (target_error, seed) = args.accuracy.target_and_seed();
-    let RankArgs { floor: FloorArgs { repeats }, fail_above, format, .. } = args;
+    let RankArgs { floor: FloorArgs { repeats }, fail_above, format, robust, .. } = args;
+    if robust {
+        given.refuse::<FloorArgs>("the order under other questions has no floor")?;
+        refuse(fail_above.is_some(), "fail-above", "the order under other questions has no limit")?;
+        return Ok(Box::new(RobustJob { comparison, target_error, seed, format }));
+    }
     Ok(Box::new(OneJob { comparison, target_error, seed, repeats, fail_above, format }))
 }
 
@@ -63,6 +69,27 @@ impl Job for OneJob {
         exit::put(&format.write(&report, RankReport::latex)?)?;
         target::warn_of(report.missed(), job.materials.strict)?;
         check_limit(fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
+    }
+}
+
+/// Whether the order of the predictions survives other questions.
+#[derive(Debug)]
+struct RobustJob {
+    comparison: ComparisonJob,
+    target_error: f64,
+    seed: u64,
+    format: RankFormat,
+}
+
+impl Job for RobustJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { comparison: job, target_error, seed, format } = *self;
+        let opened = job.materials.open::<f32>()?;
+        let predictions = opened.predictions.iter().collect();
+        let (ground_truth, convention) = (&opened.ground_truth, job.convention);
+        let input = RobustInput { ground_truth, predictions, convention, target_error, seed };
+        let report = watched("rendering", |progress| RobustReport::new(&input, progress))?;
+        Ok(exit::put(&format.write(&report, RobustReport::latex)?)?)
     }
 }
 

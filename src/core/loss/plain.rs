@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::material::Material;
 use crate::math::real::Real;
 use crate::model::brdf::Model;
+use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::render_texel;
@@ -39,7 +40,9 @@ impl<T: Real> Backend<T> for Plain {
         let ground_truth = comparison.ground_truth();
         let predictions = comparison.predictions();
         let model = Model::from(comparison.convention());
-        let epsilon = T::of(comparison.convention().epsilon);
+        let (epsilon, norm) = (T::of(comparison.convention().epsilon), comparison.norm());
+        let logs = norm == Norm::LogL1;
+        let is_squared = matches!(norm, Norm::Mse | Norm::Rmse);
         let listed = texels;
         let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
         let blocks = texels.div_ceil(TEXELS_PER_BLOCK);
@@ -52,10 +55,12 @@ impl<T: Real> Backend<T> for Plain {
                 let range = block * TEXELS_PER_BLOCK..texels.min((block + 1) * TEXELS_PER_BLOCK);
                 let rays = scene.rays();
                 let range = range.map(|at| listed.map_or(at, |texels| texels[at]));
-                let sums = block_sums(ground_truth, predictions, range, |material, column, row| {
-                    render_texel(material, &model, &rays, column, row)
-                        .map(|radiance| (radiance + epsilon).ln())
-                });
+                let radiance = |material: &Material<T>, column, row| {
+                    let radiance = render_texel(material, &model, &rays, column, row);
+                    if logs { radiance.map(|radiance| (radiance + epsilon).ln()) } else { radiance }
+                };
+                let difference = |a: T, b: T| if is_squared { (a - b) * (a - b) } else { (a - b).abs() };
+                let sums = block_sums(ground_truth, predictions, range, radiance, difference);
                 progress.step()?;
                 Ok(sums)
             })
@@ -63,19 +68,23 @@ impl<T: Real> Backend<T> for Plain {
 
         let count = 3.0 * texels as f64;
         let per_scene = |p: usize| {
-            let mean = |sums: &[Vec<f64>]| sums.iter().map(|block| block[p]).sum::<f64>() / count;
+            let mean = |sums: &[Vec<f64>]| {
+                let mean = sums.iter().map(|block| block[p]).sum::<f64>() / count;
+                if norm == Norm::Rmse { mean.sqrt() } else { mean }
+            };
             sums.chunks(blocks).map(mean).collect()
         };
         Ok((0..predictions.len()).map(per_scene).collect())
     }
 }
 
-/// For each prediction the sum of `|log R_gt - log R_pred|` over `texels` and RGB.
+/// For each prediction the sum of the differences of what `log_radiance` gives over `texels` and RGB.
 fn block_sums<T: Real>(
     ground_truth: &Material<T>,
     predictions: &[&Material<T>],
     texels: impl Iterator<Item = usize>,
     log_radiance: impl Fn(&Material<T>, usize, usize) -> [T; 3],
+    difference: impl Fn(T, T) -> T,
 ) -> Vec<f64> {
     let width = ground_truth.width();
     let mut sums = vec![0.0; predictions.len()];
@@ -85,7 +94,7 @@ fn block_sums<T: Real>(
         for (sum, prediction) in sums.iter_mut().zip(predictions) {
             let got = log_radiance(prediction, column, row);
             for (a, b) in expected.into_iter().zip(got) {
-                *sum += (a - b).abs().f64();
+                *sum += difference(a, b).f64();
             }
         }
     }

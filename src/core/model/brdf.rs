@@ -4,7 +4,7 @@
 //! All of it is Cook-Torrance with a GGX lobe as Deschaintre et al. (2018-2020) print it; `G` carries the usual
 //! `1 / (NoL NoV)` of the microfacet denominator already cancelled.
 
-use super::convention::Convention;
+use super::convention::{Convention, Member};
 use crate::math::real::{Real, Vec3, Vector};
 
 /// One texel of a material: what is reflected, without where from and where to.
@@ -29,6 +29,8 @@ pub struct Model<T> {
     pub clamp_n_dot_h: bool,
     pub d_floor: T,
     pub g_floor: T,
+    /// What is rendered in the place of Algorithm 3.
+    pub member: Option<&'static Member>,
 }
 
 impl<T: Real> From<&Convention> for Model<T> {
@@ -40,6 +42,7 @@ impl<T: Real> From<&Convention> for Model<T> {
             clamp_n_dot_h: c.clamp_n_dot_h,
             d_floor: T::of(c.d_floor),
             g_floor: T::of(c.g_floor),
+            member: c.member,
         }
     }
 }

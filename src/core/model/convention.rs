@@ -4,6 +4,8 @@
 
 use std::str::FromStr;
 
+use super::grammar::RendererTerms;
+use super::grammar::words::Norm;
 use crate::error::Error;
 
 /// The numbers and switches in which the published variants of the rendering loss differ.
@@ -16,6 +18,8 @@ pub struct Convention {
     pub name: &'static str,
     /// Standard deviation of the logarithm of a near-field light's distance.
     pub light_distance_sigma: f64,
+    /// Lower end of the uniform u1 of Algorithm 2.
+    pub u1_min: f64,
     /// Upper end of the uniform u1 of Algorithm 2, whose square root is the sine of the polar angle.
     pub u1_max: f64,
     /// Height z of the random shift P_S of a near-field scene.
@@ -34,12 +38,27 @@ pub struct Convention {
     pub g_floor: f64,
     /// Epsilon inside the logarithms of the loss.
     pub epsilon: f64,
+    /// The renderer and the norm, where they are not Algorithm 3 with these limits: the limits and the intensity are not used then.
+    pub member: Option<&'static Member>,
 }
+
+/// A member of the grammar that is rendered by its own terms, on the processor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Member {
+    pub terms: RendererTerms,
+    pub norm: Norm,
+    /// Whether its near-field scenes are sampled, too; otherwise all are distant.
+    pub has_near: bool,
+}
+
+/// Lower end of the uniform u1 of Algorithm 2.
+pub const U1_MIN: f64 = 0.001;
 
 /// The algorithms as printed (the default).
 pub const PRINTED: Convention = Convention {
     name: "printed",
     light_distance_sigma: 0.866_025_403_784_438_6, // the print says sigma^2 = 0.75
+    u1_min: U1_MIN,
     u1_max: 0.95,
     shift_z: 0.0,
     intensity: 1.0,
@@ -49,6 +68,7 @@ pub const PRINTED: Convention = Convention {
     d_floor: 0.0,
     g_floor: 0.0,
     epsilon: 0.01,
+    member: None,
 };
 
 /// The released code of "Single-Image SVBRDF Capture with a Rendering-Aware Deep Network" (2018).
@@ -57,6 +77,7 @@ pub const PRINTED: Convention = Convention {
 pub const SINGLE_IMAGE_2018: Convention = Convention {
     name: "single-image-2018",
     light_distance_sigma: 0.75,
+    u1_min: U1_MIN,
     u1_max: 0.95,
     shift_z: 0.0001,
     intensity: std::f64::consts::PI,
@@ -66,6 +87,7 @@ pub const SINGLE_IMAGE_2018: Convention = Convention {
     d_floor: 0.001,
     g_floor: 0.001,
     epsilon: 0.01,
+    member: None,
 };
 
 /// The released code of "Flexible SVBRDF Capture with a Multi-Image Deep Network" (2019).
@@ -91,6 +113,20 @@ impl Default for Convention {
     }
 }
 
+impl Convention {
+    /// An error where only Algorithm 3 can be computed, as by shaders.
+    ///
+    /// # Errors
+    /// [`Error::OnProcessorOnly`].
+    pub fn check_is_algorithm_3(&self) -> Result<(), Error> {
+        match self.member {
+            None => Ok(()),
+            Some(_) => Err(Error::OnProcessorOnly { convention: self.name }),
+        }
+    }
+}
+
+/// One of [`ALL`].
 impl FromStr for Convention {
     type Err = Error;
 

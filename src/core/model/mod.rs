@@ -15,7 +15,9 @@
 
 pub mod brdf;
 pub mod convention;
+pub mod grammar;
 mod hemisphere_points;
+pub mod named_conventions;
 pub mod named_scenes;
 pub mod sampler;
 pub mod scene;

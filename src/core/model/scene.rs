@@ -22,8 +22,6 @@ use crate::math::real::{Real, Vec3, Vector as _};
 const DISTANCE_MU: f64 = 0.5;
 /// Standard deviation of the logarithm of a near-field view's distance (Algorithm 1).
 const VIEW_DISTANCE_SIGMA: f64 = 0.75;
-/// Lower end of the uniform u1 (Algorithm 2).
-const U1_MIN: f64 = 0.001;
 /// Least height above the plane: closer to a texel, f32 squares of distances vanish.
 const LOWEST: f64 = 1e-18;
 /// Largest coordinate of a position; beyond it, f32 squares overflow.
@@ -76,6 +74,16 @@ pub struct Rays<T: Real> {
 }
 
 impl<T: Real> Rays<T> {
+    /// The kind of the scene.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Light and view: positions, or unit directions.
+    pub fn ends(&self) -> [Vec3<T>; 2] {
+        [self.light, self.view]
+    }
+
     /// The directions (w_L, w_V) from the texel at `c` to the light and to the viewer, not yet of unit length.
     #[inline]
     pub fn from_texel(&self, c: Vec3<T>) -> (Vec3<T>, Vec3<T>) {
@@ -103,6 +111,9 @@ impl Scene {
     /// light distance.
     pub fn near_from_point(point: [f64; 6], convention: &Convention) -> Self {
         let [sx, sy, u1, u2, view, light] = point;
+        if convention.member.is_some_and(|member| !member.has_near) {
+            return Self::distant_from_point([u1, u2, view, light], convention);
+        }
         let shift = DVec3::new(2.0 * sx - 1.0, 2.0 * sy - 1.0, convention.shift_z);
         let w = cosine(u1, u2, convention);
         let mirrored = DVec3::new(-w.x, -w.y, w.z);
@@ -164,7 +175,7 @@ impl Scene {
 
 /// Algorithm 2: a cosine-distributed direction from two numbers of [0, 1). Its z is at least `sqrt(1 - u1_max)`.
 pub fn cosine(u1: f64, u2: f64, convention: &Convention) -> DVec3 {
-    let u1 = U1_MIN + (convention.u1_max - U1_MIN) * u1;
+    let u1 = convention.u1_min + (convention.u1_max - convention.u1_min) * u1;
     let rho = u1.sqrt();
     let phi = std::f64::consts::TAU * u2;
     DVec3::new(rho * phi.cos(), rho * phi.sin(), (1.0 - u1).sqrt())

@@ -22,6 +22,7 @@
 
 mod analysis;
 mod blame;
+mod conform;
 mod diagnose;
 mod heading;
 mod info;
@@ -34,12 +35,14 @@ mod missed;
 mod names;
 mod rank;
 mod repetition;
+mod robust;
 mod scenes;
 mod table;
 mod worst;
 
 pub use analysis::{Analysis, AnalysisInput, NoOptions, SceneOptions, schema_of};
 pub use blame::{BlameReport, parts};
+pub use conform::ConformReport;
 pub use diagnose::DiagnoseReport;
 pub use heading::{Compared, position, scenes_line};
 pub use info::InfoReport;
@@ -51,6 +54,7 @@ pub use missed::missed;
 pub use names::distinct_names;
 pub use rank::{MaterialReading, RankReport};
 pub use repetition::Repetition;
+pub use robust::RobustReport;
 pub use scenes::ScenesReport;
 pub use table::{Cell, Field, Reader, Table};
 pub use worst::WorstReport;

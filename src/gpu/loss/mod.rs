@@ -57,6 +57,7 @@ impl Backend<f32> for GpuLosses {
         texels: Option<&[usize]>,
         progress: &Progress,
     ) -> Result<Vec<Vec<f64>>, Error> {
+        comparison.convention().check_is_algorithm_3()?;
         if texels.is_some() {
             let problem = "it compares all texels, and a part of them was asked for".to_owned();
             return Err(Error::Gpu { problem, remedy: "compute this loss on the processor" });

@@ -2,9 +2,11 @@
 
 use std::path::PathBuf;
 
+use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_files::convention;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
@@ -97,9 +99,11 @@ impl Model {
 
     /// Takes over light, view, display, loss settings and photograph of a session; the request that reads its materials.
     pub fn open_session(&mut self, session: &Session) -> ReadRequest {
+        let drawn = convention::of_loss(&session.convention)
+            .and_then(|convention| Ok(convention.check_is_algorithm_3().map(|()| convention.name)?));
         self.view = ViewState {
             scene: session.scene,
-            convention: session.convention.clone(),
+            convention: drawn.as_ref().map_or(PRINTED.name, |name| name).to_owned(),
             exposure_ev: session.exposure,
             display: session.window.display.clone().unwrap_or_default(),
         };
@@ -111,6 +115,7 @@ impl Model {
         // Of its materials, once they are there.
         self.inspection = Inspection::default();
         self.inspected_later = session.window.inspection.as_ref().map(Inspection::from);
+        self.report(drawn.err().map(|error| Message::Failed(error.into())));
         let out_of_range = bring_into_range(self).map(Message::OutOfRange);
         self.report(out_of_range);
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));

@@ -18,6 +18,7 @@ mod texel_means;
 use rayon::prelude::*;
 
 use super::comparison::{Backend, Comparison, Compute, by_prediction};
+use super::plain::Plain;
 use crate::error::Error;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
@@ -44,13 +45,15 @@ impl Fused {
     /// usable. A block of texels is one step of `progress`.
     ///
     /// # Errors
-    /// [`Error::Cancelled`].
+    /// [`Error::Cancelled`]; [`Error::OnProcessorOnly`] for a member of the grammar, which the kernel does not have.
     pub fn texel_means(
         &self,
         comparison: &Comparison<'_, f32>,
         scenes: &[Scene],
         progress: &Progress,
     ) -> Result<Vec<Vec<[f32; 3]>>, Error> {
+        // The kernel has Algorithm 3 only.
+        comparison.convention().check_is_algorithm_3()?;
         let level = self.level.unwrap_or_else(Level::best);
         let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
         let inputs = LossInputs::new(ground_truth, predictions, None, comparison.convention());
@@ -80,6 +83,9 @@ impl Backend<f32> for Fused {
         if predictions.is_empty() {
             return Ok(Vec::new());
         }
+        if comparison.convention().member.is_some() {
+            return Plain.scene_losses(comparison, scenes, texels, progress);
+        }
         let level = self.level.unwrap_or_else(Level::best);
         let inputs = LossInputs::new(comparison.ground_truth(), predictions, texels, comparison.convention());
         let groups: usize = scenes.len().div_ceil(SCENES_PER_GROUP);
@@ -100,6 +106,9 @@ impl Backend<f32> for Fused {
         progress: &Progress,
     ) -> Result<Vec<Vec<f64>>, Error> {
         let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
+        if comparison.convention().member.is_some() {
+            return Plain.losses_on_own_texels(comparison, scenes, texels, progress);
+        }
         let level = self.level.unwrap_or_else(Level::best);
         progress.begin(scenes.len() as u64);
         let of_scene = |tile: &mut LossTile, (index, scene)| {

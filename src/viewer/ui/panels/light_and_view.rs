@@ -5,6 +5,8 @@ use eframe::egui::{self, PopupCloseBehavior, Role, Sense, Stroke, Vec2, WidgetIn
 use glam::DVec3;
 
 use svbrdf_core::model::convention;
+use svbrdf_core::model::grammar::Description;
+use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::scene::{Kind, Scene};
 
 use crate::model::command::{Command, SceneCommand};
@@ -164,9 +166,18 @@ impl ScenePanel<'_> {
             let combo = egui::ComboBox::from_id_salt("convention").selected_text(now.name).width(140.0);
             let combo = combo.show_ui(ui, |ui| {
                 for one in convention::ALL {
-                    if ui.selectable_label(one.name == now.name, one.name).clicked() {
+                    let label = ui.selectable_label(one.name == now.name, one.name);
+                    if label.on_hover_text(named::summary(&Description::from(&one))).clicked() {
                         commands.push(SceneCommand::SetConvention(one.name).into());
                     }
+                }
+                for other in &named::all()[convention::ALL.len()..] {
+                    let label = ui.add_enabled(false, egui::Button::selectable(false, &other.name));
+                    label.on_disabled_hover_text(format!(
+                        "{}. Not drawn by the window: `svbrdf loss --convention {}`",
+                        named::summary(other),
+                        other.name
+                    ));
                 }
             });
             combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Convention"));

@@ -1,0 +1,304 @@
+//! The search of the grammar: first its structure, at points that no floor reaches, then everything at all points.
+
+use rayon::prelude::*;
+
+use svbrdf_core::model::grammar::words::{
+    Alpha, Denominator, Distribution, Falloff, Fresnel, K, Maps, NormalY, Shadowing, Weight,
+};
+use svbrdf_core::model::grammar::{Point, RendererTerms};
+
+use super::alternatives::{self, SHADOWINGS, SPOTS};
+use super::fit::{Fit, Problem, median, vectors};
+use super::observed::Bound;
+
+/// Largest absolute logarithm that counts in full.
+const FARTHEST: f64 = 1.0;
+/// Improvement of the score that a further number has to make.
+pub const WORTH: f64 = 14.0;
+/// Most changes of one term after the other.
+const MOST_STEPS: usize = 16;
+
+/// A renderer, with the workflow whose maps it reads, and its mean absolute log ratio.
+#[derive(Clone, Copy, Debug)]
+pub struct Candidate {
+    pub terms: RendererTerms,
+    pub metallic: bool,
+    pub off: f64,
+}
+
+/// The points that no usual floor reaches: their logarithms, and their weights by precision.
+struct Plain {
+    metallic: bool,
+    points: Vec<Point>,
+    logs: Vec<[f64; 3]>,
+    weights: Vec<[f64; 3]>,
+}
+
+impl Plain {
+    fn new(problem: &Problem, metallic: bool) -> Self {
+        let mut plain = Self { metallic, points: Vec::new(), logs: Vec::new(), weights: Vec::new() };
+        let ambient = problem.fit(&RendererTerms::BASE, metallic).ambient;
+        for (point, readings) in problem.points(metallic).iter().zip(&problem.observed.readings) {
+            // Either direction of y.
+            let is_plain = [NormalY::Up, NormalY::Down].into_iter().all(|y| {
+                let mut terms = RendererTerms::BASE;
+                terms.material.normal_y = y;
+                let (n, l, v) = vectors(&terms, point);
+                n.dot(l) > 0.1 && n.dot(v) > 0.1 && l.z > 0.1
+            });
+            let in_range = |c: [f64; 3]| c.iter().all(|x| (0.0..=1.0).contains(x));
+            let length = glam::DVec3::from(point.normal).length();
+            if !is_plain
+                || !(0.2..=1.0).contains(&point.roughness)
+                || (length - 1.0).abs() > 1e-3
+                || !(in_range(point.diffuse) && in_range(point.specular) && in_range(point.base_color))
+            {
+                continue;
+            }
+            let value = |c: usize| {
+                let diffuse = if metallic { point.base_color } else { point.diffuse };
+                let value = readings[c].value - ambient * diffuse[c];
+                let is_used = readings[c].bound == Bound::Value && value > 2.0 * readings[c].half;
+                if is_used {
+                    (value.ln(), 1.0 / (1.0 + 100.0 * readings[c].half / value))
+                } else {
+                    (0.0, 0.0)
+                }
+            };
+            let values = [0, 1, 2].map(value);
+            plain.points.push(*point);
+            plain.logs.push(values.map(|(log, _)| log));
+            plain.weights.push(values.map(|(_, weight)| weight));
+        }
+        plain
+    }
+
+    fn radiances(&self, terms: &RendererTerms) -> Vec<[f64; 3]> {
+        self.points.iter().map(|point| terms.radiance(point, true)).collect()
+    }
+
+    /// The mean absolute log ratio to radiances, with the best factor for each channel.
+    fn off(&self, of: impl Fn(usize, usize) -> f64) -> f64 {
+        let (mut sum, mut weights) = (0.0, 1e-9);
+        for c in 0..3 {
+            let used = (0..self.points.len()).filter(|i| self.weights[*i][c] > 0.0);
+            let ratios: Vec<(f64, f64)> =
+                used.map(|i| (self.logs[i][c] - of(i, c).max(1e-12).ln(), self.weights[i][c])).collect();
+            let Some(middle) = median(ratios.iter().map(|(log, _)| *log).collect()) else { continue };
+            for (log, weight) in ratios {
+                sum += weight * (log - middle).abs().min(FARTHEST);
+                weights += weight;
+            }
+        }
+        sum / weights
+    }
+}
+
+/// What is decided first: whose maps, the frame and the light.
+fn frames(metallic: bool) -> Vec<RendererTerms> {
+    let maps = if metallic { [Maps::Metallic, Maps::Dielectric] } else { [Maps::Diffuse, Maps::Dielectric] };
+    let mut frames = Vec::new();
+    for material in maps {
+        for normal_y in NormalY::ALL {
+            for collocated in [false, true] {
+                for falloff in Falloff::ALL {
+                    let lights = SPOTS.iter().map(|spot| (None, *spot)).chain([(Some(0.0), 0.0)]);
+                    for (lz, spot) in lights {
+                        let mut terms = RendererTerms::BASE;
+                        (terms.material.material, terms.material.normal_y) = (material, normal_y);
+                        terms.diffuse.diffuse = alternatives::weights(material)[0];
+                        (terms.light.collocated, terms.light.falloff) = (collocated, falloff);
+                        (terms.light.lz, terms.light.spot) = (lz, spot);
+                        frames.push(terms);
+                    }
+                }
+            }
+        }
+    }
+    frames
+}
+
+/// The frame with some lobes of each kind.
+fn coarse(frame: &RendererTerms) -> Vec<RendererTerms> {
+    let mut all = Vec::new();
+    for alpha in Alpha::ALL {
+        for g in [Shadowing::Schlick, Shadowing::Smith, Shadowing::None] {
+            let mut terms = *frame;
+            (terms.material.alpha, terms.specular.g) = (alpha, g);
+            all.push(terms);
+        }
+    }
+    all
+}
+
+/// How the cosines enter the specular term.
+const COSINES: [(Denominator, bool); 3] =
+    [(Denominator::Cancelled, true), (Denominator::Cancelled, false), (Denominator::Light, false)];
+
+/// The lobes of a frame without their Fresnel term.
+fn lobes(frame: &RendererTerms) -> Vec<RendererTerms> {
+    let mut all = Vec::new();
+    for d in Distribution::ALL {
+        for alpha in Alpha::ALL {
+            for (g, k) in SHADOWINGS {
+                let same = g == Shadowing::Lambda
+                    || (k == K::HalfSquare && alpha == Alpha::Square)
+                    || (g == Shadowing::SmithBeckmann && d != Distribution::Beckmann);
+                let cosines =
+                    COSINES.into_iter().chain((g == Shadowing::None).then_some((Denominator::Both, true)));
+                for (denominator, spec_cosine) in cosines.filter(|_| !same) {
+                    let mut terms = *frame;
+                    terms.material.alpha = alpha;
+                    (terms.specular.d, terms.specular.g, terms.specular.k) = (d, g, k);
+                    (terms.specular.denominator, terms.specular.spec_cosine) = (denominator, spec_cosine);
+                    all.push(terms);
+                }
+            }
+        }
+    }
+    all
+}
+
+/// All members of a frame by their parts: specular terms, and diffuse terms by weight and Fresnel term.
+fn members(plain: &Plain, frame: &RendererTerms) -> Vec<Candidate> {
+    let weights = alternatives::weights(frame.material.material);
+    let with = |terms: &RendererTerms, f: Fresnel| {
+        let mut terms = *terms;
+        terms.specular.f = f;
+        terms
+    };
+    let diffuse: Vec<(Fresnel, Weight, Vec<[f64; 3]>)> = Fresnel::ALL
+        .iter()
+        .flat_map(|f| weights.iter().map(|weight| (*f, *weight)))
+        .map(|(f, weight)| {
+            let mut terms = with(frame, f);
+            terms.diffuse.diffuse = weight;
+            // No point is in front: the diffuse term by itself.
+            terms.specular.front_min = Some(f64::INFINITY);
+            (f, weight, plain.radiances(&terms))
+        })
+        .collect();
+    let of_lobe = |lobe: RendererTerms| {
+        let mut found = Vec::new();
+        for f in Fresnel::ALL {
+            let mut specular = with(&lobe, f);
+            specular.diffuse.diffuse = Weight::Zero;
+            let specular = plain.radiances(&specular);
+            for (_, weight, diffuse) in diffuse.iter().filter(|(of, _, _)| *of == f) {
+                let mut terms = with(&lobe, f);
+                terms.diffuse.diffuse = *weight;
+                let off = plain.off(|i, c| specular[i][c] + diffuse[i][c]);
+                found.push(Candidate { terms, metallic: plain.metallic, off });
+            }
+        }
+        found
+    };
+    lobes(frame).into_par_iter().flat_map_iter(of_lobe).collect()
+}
+
+/// The most likely structures, the best first; none where the frames alone are worse than three times `best_frame`, which becomes
+/// the least.
+pub fn structures(problem: &Problem, workflows: &[bool], best_frame: &mut f64) -> Vec<Candidate> {
+    /// Frames of each kind of maps that are searched in full, and structures that are refined.
+    const FRAMES: usize = 3;
+    const STRUCTURES: usize = 4;
+    let plain: Vec<Plain> = workflows.iter().map(|metallic| Plain::new(problem, *metallic)).collect();
+    let mut scored: Vec<(f64, RendererTerms, usize)> = Vec::new();
+    for (which, plain) in plain.iter().enumerate() {
+        let of = |frame: RendererTerms| {
+            let off = coarse(&frame).into_iter().map(|terms| {
+                let radiances = plain.radiances(&terms);
+                plain.off(|i, c| radiances[i][c])
+            });
+            (off.fold(f64::INFINITY, f64::min), frame, which)
+        };
+        scored.par_extend(frames(plain.metallic).into_par_iter().map(of));
+    }
+    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // Of each kind of maps, since the coarse lobes may favour the wrong one.
+    let mut kept: Vec<(Maps, usize)> = Vec::new();
+    scored.retain(|(_, frame, which)| {
+        let kind = (frame.material.material, *which);
+        kept.push(kind);
+        kept.iter().filter(|other| **other == kind).count() <= FRAMES
+    });
+    let first = scored.first().map_or(f64::INFINITY, |(off, _, _)| *off);
+    if first > 3.0 * *best_frame + 0.01 {
+        return Vec::new();
+    }
+    *best_frame = best_frame.min(first);
+    let mut found: Vec<Candidate> =
+        scored.iter().flat_map(|(_, frame, which)| members(&plain[*which], frame)).collect();
+    found.sort_by(|a, b| a.off.total_cmp(&b.off));
+    found.truncate(STRUCTURES);
+    found
+}
+
+/// Changes one term after the other, the steepest first, as long as that helps.
+pub fn refined(problem: &Problem, start: &Candidate) -> Fit {
+    let mut best = problem.fit(&start.terms, start.metallic);
+    for _ in 0..MOST_STEPS {
+        if best.is_perfect() {
+            break;
+        }
+        let words = alternatives::of_words(&best.terms).into_iter().map(|(_, terms)| (None, terms));
+        let numbers = alternatives::of_numbers(&best.terms).into_iter();
+        let numbers = numbers.map(|(_, set, value, terms)| (Some((set, value)), terms));
+        // Maps that are out of range tell no number.
+        let tried: Vec<_> = words.chain(numbers.filter(|_| !best.is_explained())).collect();
+        let of = |(number, terms): (Option<(alternatives::Set, f64)>, RendererTerms)| {
+            (number, problem.fit(&terms, best.metallic))
+        };
+        // Of a word and a number that do as well, the word.
+        let cost = |(number, fit): &(Option<_>, Fit)| fit.score + f64::from(u8::from(number.is_some()));
+        let tried = tried.into_par_iter().map(of);
+        let Some((number, mut next)) = tried.min_by(|a, b| cost(a).total_cmp(&cost(b))) else { break };
+        if let Some((set, value)) = number {
+            next = refined_number(problem, next, set, value);
+        }
+        // Noise is explained by any number, a little.
+        let worth = if problem.noise > 0.0 { WORTH } else { 1.0 };
+        if next.score > best.score - worth {
+            break;
+        }
+        best = next;
+    }
+    simplified(problem, best)
+}
+
+/// The renderer without the numbers that it does not need.
+fn simplified(problem: &Problem, mut fit: Fit) -> Fit {
+    loop {
+        let fewer = alternatives::without_numbers(&fit.terms).into_iter();
+        let fits = fewer.map(|(_, terms)| problem.fit(&terms, fit.metallic));
+        match fits.min_by(|a, b| a.score.total_cmp(&b.score)) {
+            Some(simpler) if simpler.is_as_good_as(&fit, WORTH / 2.0) => fit = simpler,
+            _ => return fit,
+        }
+    }
+}
+
+/// The best value of a number about `value`: golden sections of its logarithm, then the fewest digits that do as well.
+fn refined_number(problem: &Problem, fit: Fit, set: alternatives::Set, value: f64) -> Fit {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    if fit.is_perfect() {
+        return fit;
+    }
+    let of = |value: f64| {
+        let mut terms = fit.terms;
+        set(&mut terms, value);
+        problem.fit(&terms, fit.metallic)
+    };
+    let (mut low, mut high) = ((value / 6.0).ln(), (value * 6.0).min(0.95_f64.max(value)).ln());
+    for _ in 0..40 {
+        let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+        if of(a.exp()).score <= of(b.exp()).score { high = b } else { low = a }
+    }
+    let middle = ((low + high) / 2.0).exp();
+    let best = of(middle);
+    if best.score >= fit.score {
+        return fit;
+    }
+    let rounded = (0..8).map(|digits| of(format!("{middle:.digits$e}").parse().unwrap_or(middle)));
+    rounded.into_iter().find(|rounded| rounded.score < best.score + WORTH / 4.0).unwrap_or(best)
+}

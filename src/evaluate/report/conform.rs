@@ -1,0 +1,278 @@
+//! Whether a renderer conforms to a convention, and in which terms it differs.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use svbrdf_core::model::grammar::{Description, RendererTerms};
+use svbrdf_core::model::named_conventions as named;
+use svbrdf_core::text::percent;
+
+use super::Report;
+use super::table::{Cell, Field, Reader, Table};
+use crate::conform::{self, Answer, VerdictKind};
+
+/// The terms of a renderer by their sections: those of the TOML of a convention that are not at their defaults.
+pub type TermsByKey = BTreeMap<String, BTreeMap<String, TermValue>>;
+
+/// The value of a term.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum TermValue {
+    Truth(bool),
+    Number(f64),
+    Word(String),
+    Numbers(Vec<f64>),
+}
+
+/// Whether a renderer conforms to a convention, and in which terms it differs.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ConformReport {
+    /// `conforms`, `differs`, or `unknown`: it is no member of the grammar of conventions, or cannot be told.
+    verdict: Kind,
+    /// The convention that it is compared with.
+    convention: String,
+    /// The named conventions that render as it does.
+    same_as: Vec<String>,
+    /// The renderer; `None` where the verdict is unknown.
+    renderer: Option<TermsByKey>,
+    /// The member of the grammar that is nearest, which is not the renderer; `None` where the renderer is known.
+    nearest: Option<TermsByKey>,
+    /// From the convention; of the nearest member where the verdict is unknown.
+    differences: Vec<TermDifference>,
+    /// RendererTerms of which these points do not tell the value.
+    indistinguishable: Vec<Indistinguishable>,
+    /// Root mean square of what remains, relative to the radiances.
+    residual: f64,
+    /// Relative noise that is seen.
+    noise: f64,
+    /// How precisely the radiances are stored.
+    storage: &'static str,
+    /// The points with the largest residuals for their condition numbers.
+    largest: Vec<Remaining>,
+    /// The number of points.
+    points: usize,
+    /// The whole convention that was found.
+    #[serde(skip)]
+    found: Description,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Conforms,
+    Differs,
+    Unknown,
+}
+
+/// A term in which a renderer differs from a convention.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct TermDifference {
+    /// Its key in the TOML of a convention.
+    term: String,
+    found: String,
+    expected: String,
+    /// Largest relative change of a radiance where this term alone is that of the convention; `None` where it is not one of radiance.
+    gap: Option<f64>,
+}
+
+/// A term of which the points do not tell the value.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Indistinguishable {
+    term: String,
+    /// Values that fit equally well.
+    values: Vec<String>,
+}
+
+/// What remains at a point.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+struct Remaining {
+    /// Its row.
+    point: usize,
+    /// 0 to 2: red, green, blue.
+    channel: usize,
+    /// Relative to the prediction; `None` where that is 0.
+    relative: Option<f64>,
+}
+
+impl ConformReport {
+    /// The report on an answer, compared with the convention `asked`.
+    pub fn new(answer: &Answer, asked: &Description) -> Self {
+        let identified = conform::identify(answer);
+        let verdict = conform::verdict(&identified, asked);
+        let is_known = verdict.kind != VerdictKind::Unknown;
+        let is_same =
+            |other: &&Description| conform::verdict(&identified, other).kind == VerdictKind::Conforms;
+        let same: Vec<String> = match is_known {
+            true => named::all().iter().filter(is_same).map(|other| other.name.clone()).collect(),
+            false => Vec::new(),
+        };
+        let found = Description {
+            name: "found".to_owned(),
+            source: None,
+            version: None,
+            terms: verdict.terms,
+            ..asked.clone()
+        };
+        let terms = by_key(&verdict.terms);
+        Self {
+            verdict: match verdict.kind {
+                VerdictKind::Conforms => Kind::Conforms,
+                VerdictKind::Differs => Kind::Differs,
+                VerdictKind::Unknown => Kind::Unknown,
+            },
+            convention: asked.name.clone(),
+            same_as: same,
+            renderer: is_known.then(|| terms.clone()),
+            nearest: (!is_known).then_some(terms),
+            differences: verdict.differences.into_iter().map(TermDifference::from).collect(),
+            indistinguishable: verdict
+                .indistinguishable
+                .into_iter()
+                .map(|(term, values)| Indistinguishable { term, values })
+                .collect(),
+            residual: verdict.residual,
+            noise: identified.problem.noise,
+            storage: identified.storage.label(),
+            largest: verdict
+                .largest
+                .into_iter()
+                .map(|(point, channel, x)| Remaining { point, channel, relative: x.is_finite().then_some(x) })
+                .collect(),
+            points: answer.points.len(),
+            found,
+        }
+    }
+
+    /// Whether the renderer is that of the convention.
+    pub fn conforms(&self) -> bool {
+        self.verdict == Kind::Conforms
+    }
+
+    /// The convention that was found, with the loss and the scenes of the one it was compared with; `None` where it is unknown.
+    pub fn found(&self) -> Option<&Description> {
+        (self.verdict != Kind::Unknown).then_some(&self.found)
+    }
+
+    fn sentence(&self) -> String {
+        let convention = &self.convention;
+        let differences: Vec<String> = self.differences.iter().map(TermDifference::sentence).collect();
+        match self.verdict {
+            Kind::Conforms => format!("The renderer conforms to `{convention}`."),
+            Kind::Differs => format!("As `{convention}`, but {}.", listed(&differences)),
+            Kind::Unknown => format!(
+                "The renderer is none of this grammar: {} of every radiance remains at the nearest member, which is no name for it. \
+                That is as `{convention}`, but {}.",
+                percent(self.residual),
+                listed(&differences)
+            ),
+        }
+    }
+}
+
+impl From<conform::Difference> for TermDifference {
+    fn from(conform::Difference { term, gap }: conform::Difference) -> Self {
+        Self { term: term.key, found: term.own, expected: term.other, gap: gap.is_finite().then_some(gap) }
+    }
+}
+
+impl TermDifference {
+    fn sentence(&self) -> String {
+        let Self { term, found, expected, .. } = self;
+        match (term.as_str(), found.as_str(), expected.as_str()) {
+            ("falloff", "none", _) => "the light does not fall off".to_owned(),
+            ("falloff", _, _) => "the light falls off with the square of the distance".to_owned(),
+            ("alpha", "r", _) => "roughness is not squared".to_owned(),
+            ("alpha", _, _) => "roughness is squared".to_owned(),
+            ("lz", "none", _) => "nothing is divided by l.z".to_owned(),
+            ("lz", _, "none") => "radiances are divided by l.z".to_owned(),
+            ("normal_y", "down", _) => "y of the normals points down".to_owned(),
+            ("normal_y", _, _) => "y of the normals points up".to_owned(),
+            ("collocated", "true", _) => "the camera is at the light".to_owned(),
+            ("factor", _, _) => {
+                format!("radiances are {found} times those of factor 1 (expected {expected})")
+            }
+            _ => format!("{term} is {found}, not {expected}"),
+        }
+    }
+}
+
+/// Words in a sentence.
+fn listed(words: &[String]) -> String {
+    match words {
+        [] => "without a difference that is certain".to_owned(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// The terms that are not at their defaults, and those that are always printed.
+fn by_key(terms: &RendererTerms) -> TermsByKey {
+    let text = Description { terms: *terms, ..Description::default() }.to_string();
+    let mut sections: TermsByKey = toml::from_str::<BTreeMap<String, toml::Value>>(&text)
+        .unwrap_or_default()
+        .into_iter()
+        .filter_map(|(section, keys)| Some((section, keys.try_into().ok()?)))
+        .collect();
+    sections.remove("loss");
+    sections
+}
+
+const FIELDS: [Field<TermDifference>; 4] = [
+    ("term", "term", |row| row.term.clone().into()),
+    ("found", "found", |row| row.found.clone().into()),
+    ("expected", "expected", |row| row.expected.clone().into()),
+    ("gap", "gap", |row| Cell::or(row.gap, "")),
+];
+
+impl Report for ConformReport {
+    fn heading(&self) -> String {
+        let mut text = self.sentence() + "\n";
+        let noise = if self.noise > 0.0 { format!(", noise {}", percent(self.noise)) } else { String::new() };
+        text += &format!(
+            "Remaining difference {:.1e} relative ({}{noise}), {} points.\n",
+            self.residual, self.storage, self.points
+        );
+        let others: Vec<String> = self
+            .same_as
+            .iter()
+            .filter(|name| **name != self.convention)
+            .map(|name| format!("`{name}`"))
+            .collect();
+        if !others.is_empty() {
+            text += &format!("It renders as {} does.\n", others.join(", "));
+        }
+        if !self.indistinguishable.is_empty() {
+            let same = self
+                .indistinguishable
+                .iter()
+                .map(|same| format!("{} ({})", same.term, same.values.join(", ")));
+            text += &format!(
+                "Not told by these points: {}; pi, intensity and exposure but by their product.\n",
+                same.collect::<Vec<_>>().join("; ")
+            );
+        }
+        if self.verdict == Kind::Unknown {
+            let largest = self.largest.iter().map(|at| {
+                let relative = at.relative.map_or_else(|| "no prediction".to_owned(), percent);
+                format!("{} ({relative})", at.point)
+            });
+            text += &format!("Largest at the points {}.\n", largest.collect::<Vec<_>>().join(", "));
+        }
+        text
+    }
+
+    fn table(&self, reader: Reader) -> Table {
+        let mut table = Table::fields(&FIELDS, &self.differences, reader);
+        if reader == Reader::Person {
+            let gap = |gap: f64| {
+                if gap < 10.0 { percent(gap).into() } else { Cell::from("above 1000%".to_owned()) }
+            };
+            for (row, difference) in table.rows.iter_mut().zip(&self.differences) {
+                row[3] = difference.gap.map_or(Cell::Missing(""), gap);
+            }
+        }
+        table
+    }
+}

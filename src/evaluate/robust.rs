@@ -1,0 +1,225 @@
+//! Whether the order of predictions survives other questions: conventions, epsilon, exposure, resolution, scenes and measures.
+
+use svbrdf_core::loss::{Comparison, Outcome, Request, Sampling, Texels};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::{Convention, Member};
+use svbrdf_core::model::grammar::Description;
+use svbrdf_core::model::named_conventions as named;
+use svbrdf_core::model::named_scenes::NamedScenes;
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::progress::Progress;
+
+use crate::error::Error;
+use crate::metrics::{RenderedScenes, of_maps, of_renderings};
+
+/// Scenes of the questions about one kind of them, and texels of each.
+const SCENES: usize = 2048;
+const TEXELS: usize = 32;
+
+/// The answer to a question: how far each prediction is from the ground truth.
+#[derive(Clone, Debug)]
+pub struct Answered {
+    pub question: String,
+    /// Smaller is better.
+    pub scores: Vec<f64>,
+    /// For each pair of predictions, the 95% interval of the score of the first - that of the second; `None` where it is unknown.
+    pub differences: Vec<Vec<Option<[f64; 2]>>>,
+}
+
+impl Answered {
+    /// 1 where `a` is significantly farther from the ground truth than `b`, -1 where it is closer, 0 where that is not known.
+    pub fn sign(&self, a: usize, b: usize) -> i8 {
+        match self.differences[a][b] {
+            Some([low, _]) if low > 0.0 => 1,
+            Some([_, high]) if high < 0.0 => -1,
+            _ => 0,
+        }
+    }
+
+    /// The predictions, the best first.
+    pub fn order(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.scores.len()).collect();
+        order.sort_by(|&a, &b| self.scores[a].total_cmp(&self.scores[b]));
+        order
+    }
+
+    /// Kendall's tau to another order, where differences that are not significant in both are no changes.
+    pub fn tau(&self, other: &Self) -> f64 {
+        let count = self.scores.len();
+        let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
+        let (mut changed, mut all) = (0.0, 0.0);
+        for (a, b) in pairs {
+            all += 1.0;
+            changed += f64::from(u8::from(self.sign(a, b) * other.sign(a, b) < 0));
+        }
+        if all > 0.0 { 1.0 - 2.0 * changed / all } else { 1.0 }
+    }
+
+    fn of_outcome(question: &str, outcome: &Outcome) -> Self {
+        let count = outcome.losses.len();
+        // Listed scenes are the question itself, and no sample.
+        let interval = |a, b| {
+            let difference = outcome.difference(a, b);
+            if outcome.sampling.is_some() { difference.interval95 } else { Some([difference.mean; 2]) }
+        };
+        Self {
+            question: question.to_owned(),
+            scores: outcome.losses.iter().map(|loss| loss.estimate.mean).collect(),
+            differences: (0..count).map(|a| (0..count).map(|b| interval(a, b)).collect()).collect(),
+        }
+    }
+
+    /// Of scores without an error.
+    fn exact(question: &str, scores: Vec<f64>) -> Self {
+        let row = |a: &f64| scores.iter().map(|b| Some([a - b; 2])).collect();
+        Self { question: question.to_owned(), differences: scores.iter().map(row).collect(), scores }
+    }
+}
+
+/// The predictions of a ground truth, and the question that is asked by default.
+#[derive(Clone, Debug)]
+pub struct RobustInput<'a> {
+    pub ground_truth: &'a Material<f32>,
+    pub predictions: Vec<&'a Material<f32>>,
+    pub convention: Convention,
+    pub target_error: f64,
+    pub seed: u64,
+}
+
+impl RobustInput<'_> {
+    /// The answers to all questions, the default one first.
+    ///
+    /// # Errors
+    /// Where the materials cannot be compared; [`Error`] of a cancelled computation.
+    pub fn answers(&self, progress: &Progress) -> Result<Vec<Answered>, Error> {
+        let usual = Request::Accuracy { target: self.target_error, seed: self.seed };
+        let mut all = vec![self.loss(self.convention.name, self.convention, &usual, progress)?];
+        for described in named::all().iter().filter(|described| described.name != self.convention.name) {
+            all.push(self.loss(&described.name, Convention::try_from(described)?, &usual, progress)?);
+        }
+        for epsilon in [0.01, 0.1].into_iter().filter(|epsilon| *epsilon != self.convention.epsilon) {
+            let convention = Convention { epsilon, ..self.convention };
+            all.push(self.loss(&format!("epsilon {epsilon}"), convention, &usual, progress)?);
+        }
+        for (name, factor) in [("exposure -1 EV", 0.5), ("exposure +1 EV", 2.0)] {
+            all.push(self.loss(name, exposed(&self.convention, factor)?, &usual, progress)?);
+        }
+        all.push(self.halved()?.loss("half resolution", self.convention, &usual, progress)?);
+        for (name, near, distant) in [("near-field scenes", SCENES, 0), ("distant scenes", 0, SCENES)] {
+            let texels = Texels::Sampled(TEXELS);
+            let sampling = Sampling { near, distant, seed: self.seed, sampler: Sampler::Sobol, texels };
+            all.push(self.loss(name, self.convention, &Request::Scenes(sampling), progress)?);
+        }
+        for lights in NamedScenes::ALL {
+            let request = Request::Listed(lights.scenes()?);
+            all.push(self.loss(&format!("lights {}", lights.name()), self.convention, &request, progress)?);
+        }
+        all.extend(self.maps()?);
+        all.push(self.flip(progress)?);
+        Ok(all)
+    }
+
+    fn loss(
+        &self,
+        name: &str,
+        convention: Convention,
+        request: &Request,
+        progress: &Progress,
+    ) -> Result<Answered, Error> {
+        let comparison = Comparison::new(self.ground_truth, &self.predictions, convention)?;
+        Ok(Answered::of_outcome(name, &comparison.run(request, &progress.part())?))
+    }
+
+    /// The measures of maps, each a mean over the four of them.
+    fn maps(&self) -> Result<[Answered; 2], Error> {
+        let mut scores = [Vec::new(), Vec::new()];
+        for prediction in &self.predictions {
+            let metrics = of_maps(self.ground_truth, prediction)?;
+            let mean = |names: [&str; 4]| {
+                let values =
+                    metrics.iter().filter(|metric| names.contains(&metric.name)).map(|metric| metric.value);
+                values.sum::<f64>() / 4.0
+            };
+            scores[0].push(mean([
+                "rmse_normal_stored",
+                "rmse_diffuse_srgb",
+                "rmse_specular_srgb",
+                "rmse_roughness",
+            ]));
+            // Larger is better.
+            scores[1].push(-mean([
+                "ssim11_gaussian_normal_stored",
+                "ssim11_gaussian_diffuse_srgb",
+                "ssim11_gaussian_specular_srgb",
+                "ssim11_gaussian_roughness",
+            ]));
+        }
+        let [rmse, ssim] = scores;
+        Ok([Answered::exact("RMSE of maps", rmse), Answered::exact("SSIM of maps", ssim)])
+    }
+
+    /// FLIP of renderings under nine flashes.
+    fn flip(&self, progress: &Progress) -> Result<Answered, Error> {
+        let scenes = NamedScenes::Flash9.scenes()?;
+        let convention = &self.convention;
+        let rendered =
+            RenderedScenes { scenes: &scenes, sampler: Sampler::Random, convention, exposure_ev: 0.0 };
+        let mut scores = Vec::new();
+        for prediction in &self.predictions {
+            let metrics = of_renderings(self.ground_truth, prediction, &rendered, &progress.part())?;
+            let flip = metrics.iter().find(|metric| metric.name == "flip_rendering_clipped");
+            scores.push(flip.map_or(f64::NAN, |metric| metric.value));
+        }
+        Ok(Answered::exact("FLIP of renderings", scores))
+    }
+
+    fn halved(&self) -> Result<Halved, Error> {
+        let half = |material: &Material<f32>| {
+            let [width, height] = material.size();
+            material.clone().resized([(width / 2).max(1), (height / 2).max(1)])
+        };
+        Ok(Halved {
+            ground_truth: half(self.ground_truth)?,
+            predictions: self
+                .predictions
+                .iter()
+                .map(|prediction| half(prediction))
+                .collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// Materials of half the resolution.
+struct Halved {
+    ground_truth: Material<f32>,
+    predictions: Vec<Material<f32>>,
+}
+
+impl Halved {
+    fn loss(
+        &self,
+        name: &str,
+        convention: Convention,
+        request: &Request,
+        progress: &Progress,
+    ) -> Result<Answered, Error> {
+        let predictions: Vec<_> = self.predictions.iter().collect();
+        let comparison = Comparison::new(&self.ground_truth, &predictions, convention)?;
+        Ok(Answered::of_outcome(name, &comparison.run(request, &progress.part())?))
+    }
+}
+
+/// The convention with a brighter light.
+fn exposed(convention: &Convention, factor: f64) -> Result<Convention, Error> {
+    let Some(Member { terms, norm, .. }) = convention.member else {
+        return Ok(Convention { intensity: convention.intensity * factor, ..*convention });
+    };
+    let mut described =
+        named::all().iter().find(|known| known.name == convention.name).cloned().unwrap_or_default();
+    (described.terms, described.loss.norm) = (*terms, *norm);
+    described.loss.epsilon = Some(convention.epsilon);
+    described.terms.light.factor *= factor;
+    let Description { name, .. } = &described;
+    described.name = format!("{name}, exposed");
+    Ok(Convention::try_from(&described)?)
+}

@@ -1,0 +1,81 @@
+//! The authors' own renderers at probe points.
+
+use std::path::Path;
+
+use svbrdf_core::model::grammar::{Description, Point};
+use svbrdf_evaluate::conform::{Answer, VerdictKind, identify, verdict};
+use svbrdf_files::arrays::{self, Array, Arrays};
+use svbrdf_needs::needs;
+
+const PEERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/peers/renderers");
+
+/// The file, its array, and the convention; `None` for a renderer outside of the grammar.
+const ALL: [(&str, &str, Option<&str>); 17] = [
+    ("chord", "radiance", Some("chord-2025")),
+    ("deschaintre_guided_2020", "radiance", Some("guided-2020")),
+    ("deschaintre_multi_2019", "radiance", Some("multi-image-2019")),
+    ("deschaintre_single_2018", "radiance", Some("single-image-2018")),
+    ("diff_renderer", "radiance", Some("materialgan-2020")),
+    ("gltf_viewer", "radiance", Some("gltf-viewer")),
+    ("learnopengl", "radiance", Some("learnopengl")),
+    ("luo", "radiance", Some("luo-2024")),
+    ("material_palette", "radiance", Some("material-palette-2024")),
+    ("matfuse", "radiance", Some("matfuse-2024")),
+    ("mworchel", "radiance", Some("svbrdf-estimation-2022")),
+    ("mitsuba_ds", "roughconductor_ggx_none", Some("mitsuba-roughconductor-ggx")),
+    ("mitsuba_ds", "roughconductor_beckmann_none", Some("mitsuba-roughconductor-beckmann")),
+    ("mitsuba_ds", "principled", None),
+    ("mitsuba_ds", "roughplastic_ggx", None),
+    ("mitsuba_metal", "principled", None),
+    ("mitsuba_metal", "roughplastic_ggx", None),
+];
+
+fn file(name: &str) -> Arrays {
+    arrays::read(Path::new(&format!("{PEERS}/{name}.npz"))).unwrap()
+}
+
+fn triples(array: &Array) -> Vec<[f64; 3]> {
+    array.values.chunks(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect()
+}
+
+fn points() -> Vec<Point> {
+    let of = file("probes");
+    let three = |name: &str| triples(&of[name]);
+    let (normal, light, view, diffuse, specular, base) =
+        (three("n"), three("L"), three("V"), three("d"), three("s"), three("base"));
+    let point = |i: usize| Point {
+        normal: normal[i],
+        light: light[i],
+        view: view[i],
+        diffuse: diffuse[i],
+        specular: specular[i],
+        base_color: base[i],
+        roughness: of["r"].values[i],
+        metallic: of["m"].values[i],
+    };
+    (0..normal.len()).map(point).collect()
+}
+
+/// RendererTerms that the makers of the numbers set for the probes: intensities and frames.
+const OF_THE_PROBES: [&str; 6] = ["intensity", "factor", "normal_y", "ambient", "clip", "clip_terms"];
+
+#[needs(shared)]
+#[test]
+fn every_peer_is_found_and_no_other_renderer_has_a_name() {
+    let points = points();
+    for (name, array, convention) in ALL {
+        let radiance = triples(&file(&format!("probes/{name}"))[array]);
+        let found = identify(&Answer { points: points.clone(), radiance, metallic: None, picture: None });
+        let Some(convention) = convention else {
+            let verdict = verdict(&found, &Description::default());
+            assert_eq!(verdict.kind, VerdictKind::Unknown, "{name} {array}: {:?}", verdict.differences);
+            continue;
+        };
+        let text = std::fs::read_to_string(format!("{PEERS}/conventions/{convention}.toml")).unwrap();
+        let verdict = verdict(&found, &text.parse().unwrap());
+        let terms = verdict.differences.iter().map(|difference| &difference.term);
+        let wrong: Vec<_> = terms.filter(|term| !OF_THE_PROBES.contains(&term.key.as_str())).collect();
+        assert_ne!(verdict.kind, VerdictKind::Unknown, "{name}: {:?}", verdict.residual);
+        assert!(wrong.is_empty(), "{name}: {wrong:?}");
+    }
+}

@@ -1,0 +1,4 @@
+//! Conventions against the numbers of their authors' code.
+
+mod losses;
+mod peers;
