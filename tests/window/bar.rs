@@ -37,7 +37,7 @@ pub(super) const CONTROLS: &[&str] = &[
     "Redo",
     "Menu",
     "Panel",
-    "?",
+    "Help",
 ];
 
 /// The labels of the bar that are visible now.

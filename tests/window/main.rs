@@ -300,6 +300,11 @@ fn hover(window: &mut Window<'_>, at: Pos2) {
     window.run_steps(2);
 }
 
+/// The magnification in the status line, in pixels per texel.
+fn magnification(window: &Window<'_>) -> f64 {
+    window.get_by_label("Magnification").accesskit_node().data().numeric_value().unwrap()
+}
+
 /// The text of the status line's column that begins with `start`.
 fn column(window: &Window<'_>, start: &str) -> String {
     let mut nodes = window.query_all_by_label_contains(start).filter_map(|node| node.value());

@@ -139,7 +139,7 @@ fn readout_pin_and_rectangle_are_of_the_texels_that_the_screen_shows() {
                 .collect();
             assert_eq!(along(region, 0), columns, "{what}: columns from {a:?} to {b:?}");
         }
-        let side = column(&window, "×").trim_start_matches('×').trim().parse::<f32>().unwrap();
+        let side = magnification(&window) as f32;
         let after = picture(&mut window);
         // All columns have no edge at the corners.
         let is_all = (0..2).any(|axis| along(region, axis).len() == SIZE[axis] as usize);

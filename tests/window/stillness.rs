@@ -182,7 +182,7 @@ fn the_layout_is_the_same_in_every_frame_of_every_kind_of_pair() {
     window.set_size(vec2(1000.0, 640.0));
     window.run_steps(4);
     let controls = |window: &Window<'_>| {
-        let names = ["Tab Why", " loss", "Seed", "Copy losses", "Near-field", "Convention", "?"];
+        let names = ["Tab Why", " loss", "Seed", "Copy losses", "Near-field", "Convention", "Help"];
         // The button is "Compute loss" or "Cancel loss".
         let rect = |name: &str| match name {
             " loss" => {

@@ -53,11 +53,8 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
         DisplayCommand::Zoom { factor, at } => frame(model, |framed| framed.zoomed(factor, at)),
         DisplayCommand::Pan(by) => frame(model, |framed| framed.panned(by)),
         DisplayCommand::Fit => fit(state),
-        DisplayCommand::OneToOne => {
-            // Repeated, a texel takes half the side.
-            let scale = if state.display.tiled { 2.0 } else { 1.0 };
-            frame(model, |framed| framed.at_scale(scale));
-        }
+        DisplayCommand::OneToOne => show_at(model, 1.0),
+        DisplayCommand::SetMagnification(pixels) => show_at(model, pixels),
         DisplayCommand::Reset => {
             *state = state.reset();
             model.exposed = Exposed::Pending;
@@ -79,6 +76,13 @@ fn choose(state: &mut ViewState, prediction: usize) {
 fn set_exposure(state: &mut ViewState, ev: f32) {
     state.exposure_ev = ev.clamp(-STOPS, STOPS);
     state.display.auto_exposure = AutoExposure::Off;
+}
+
+/// Shows a texel in this many pixels along an axis.
+fn show_at(model: &mut Model, pixels: f32) {
+    // Repeated, a texel takes half the side.
+    let scale = if model.view.display.tiled { 2.0 } else { 1.0 };
+    frame(model, |framed| framed.at_scale(scale * pixels));
 }
 
 /// Changes the part of the ground truth that the panes show.

@@ -172,6 +172,8 @@ pub enum DisplayCommand {
     Pan([f32; 2]),
     Fit,
     OneToOne,
+    /// Shows a texel in this many pixels.
+    SetMagnification(f32),
     Reset,
     Undo,
     Redo,

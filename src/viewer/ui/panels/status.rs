@@ -6,10 +6,11 @@ use svbrdf_gpu::AdapterReport;
 
 use crate::jobs::panes::computed_maps::ComputedMaps;
 use crate::jobs::photograph::Photographs;
-use crate::model::command::{Command, InspectionCommand};
+use crate::model::command::{Command, DisplayCommand, InspectionCommand};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::ViewState;
 use crate::model::view::texel_plane::{Seen, TexelPlane};
+use crate::ui::widgets::number;
 use crate::ui::widgets::readout::{self, Readout};
 use crate::ui::widgets::theme;
 
@@ -17,6 +18,8 @@ use crate::ui::widgets::theme;
 const WIDE: f32 = 1000.0;
 /// Width of the line, in points, below which its buttons have short names.
 const NARROW: f32 = 850.0;
+/// Width of the field of the magnification, in points.
+const FIELD: f32 = 56.0;
 /// Characters of the texel's (column, row).
 const PLACE: usize = 9;
 
@@ -52,7 +55,9 @@ impl StatusBar<'_> {
                 self.adapter(ui);
             }
             self.buttons(ui, &mut commands);
-            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| self.columns(ui));
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                self.columns(ui, &mut commands)
+            });
         });
         commands
     }
@@ -84,7 +89,7 @@ impl StatusBar<'_> {
     }
 
     /// The texel, then one column for each material whose numbers fit, the ground truth first.
-    fn columns(&self, ui: &mut egui::Ui) {
+    fn columns(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 11.0 };
         let font = egui::FontId::monospace(size);
         let place = match self.seen {
@@ -93,8 +98,7 @@ impl StatusBar<'_> {
         };
         let mono = |text: String| RichText::new(text).font(font.clone());
         ui.label(mono(format!("texel {place:<PLACE$}")));
-        ui.label(mono(magnification(self.magnification)).weak())
-            .on_hover_text("Magnification: screen pixels per texel");
+        self.magnification(ui, commands);
         if let Some(photographs) = self.photographs {
             self.photograph(ui, photographs, mono);
         }
@@ -111,6 +115,23 @@ impl StatusBar<'_> {
                 if index == 0 { mono(text).color(theme::ground_truth(ui.visuals())) } else { mono(text) };
             let text = if self.hovered == Some(index) { text.strong() } else { text };
             ui.label(text).on_hover_text(self.materials[index].name());
+        }
+    }
+
+    /// The magnification, in a field of constant width.
+    fn magnification(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let mut pixels = self.magnification;
+        let speed = 0.01 * self.magnification;
+        number(ui, "Magnification", &mut pixels, 1.0, |drag| {
+            drag.speed(speed)
+                .range(1e-3..=1e4)
+                .custom_formatter(|value, _| magnification(value as f32))
+                .custom_parser(|text| text.trim_start_matches('×').trim().parse().ok())
+                .min_size(egui::vec2(FIELD, 0.0))
+        })
+        .on_hover_text("Magnification: screen pixels per texel; double-click for 1 (0)");
+        if pixels != self.magnification {
+            commands.push(DisplayCommand::SetMagnification(pixels).into());
         }
     }
 
@@ -159,12 +180,12 @@ impl StatusBar<'_> {
     }
 }
 
-/// Screen pixels per texel, in 6 characters.
+/// Screen pixels per texel, in at most 6 characters.
 fn magnification(pixels: f32) -> String {
     match pixels {
-        p if p >= 9.95 => format!("×{p:<5.0}"),
-        p if p >= 0.995 => format!("×{p:<5.1}"),
-        p => format!("×{p:<5.2}"),
+        p if p >= 9.95 => format!("×{p:.0}"),
+        p if p >= 0.995 => format!("×{p:.1}"),
+        p => format!("×{p:.2}"),
     }
 }
 
@@ -185,7 +206,7 @@ mod tests {
     }
 
     #[test]
-    fn the_magnification_keeps_its_width() {
-        assert_eq!([0.254, 1.0, 12.3, 400.0].map(magnification), ["×0.25 ", "×1.0  ", "×12   ", "×400  "]);
+    fn the_magnification_has_two_digits_or_more() {
+        assert_eq!([0.254, 1.0, 12.3, 400.0].map(magnification), ["×0.25", "×1.0", "×12", "×400"]);
     }
 }

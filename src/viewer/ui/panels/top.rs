@@ -89,11 +89,11 @@ impl<'a> TopBar<'a> {
     }
 
     fn files(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
-        let open = Face::Icon.button(ui, icons::ICON_FOLDER_OPEN.codepoint, "Open", true, false);
+        let open = Face::Icon.button(ui, icons::ICON_FOLDER_OPEN.codepoint, "Open", true, None);
         if open.on_hover_text("Open materials (Ctrl+O)").clicked() {
             commands.push(WindowCommand::ShowOpen(true).into());
         }
-        let save = Face::Icon.button(ui, icons::ICON_SAVE.codepoint, "Save", true, false);
+        let save = Face::Icon.button(ui, icons::ICON_SAVE.codepoint, "Save", true, None);
         if save.on_hover_text("Save view, renderings, strip or session (Ctrl+S)").clicked() {
             commands.push(WindowCommand::ShowSave(true).into());
         }
@@ -117,7 +117,7 @@ impl<'a> TopBar<'a> {
             ] {
                 let on = self.state.display.layout == layout;
                 let name = format!("Layout {}", layout.name());
-                let button = Face::Icon.button(ui, icon.codepoint, &name, true, on);
+                let button = Face::Icon.button(ui, icon.codepoint, &name, true, Some(on));
                 if button.on_hover_text(hover).clicked() && !on {
                     commands.push(DisplayCommand::SetLayout(layout).into());
                 }
@@ -130,7 +130,7 @@ impl<'a> TopBar<'a> {
             for quantity in Quantity::ALL {
                 let (name, text) = (quantity.name(), letter(quantity));
                 let on = self.state.display.quantity == quantity;
-                let button = Face::Text.button(ui, &text, &format!("Show {name}"), true, on);
+                let button = Face::Text.button(ui, &text, &format!("Show {name}"), true, Some(on));
                 let hover = match quantity {
                     Quantity::Rendering => "Rendering under the light and view (M, Shift+M)".to_owned(),
                     _ => format!("Map of {name} (M, Shift+M)"),
@@ -146,7 +146,7 @@ impl<'a> TopBar<'a> {
         segments(ui, |ui| {
             for (difference, name) in [false, true].into_iter().zip(DIFFERENCES) {
                 let on = self.state.display.difference == difference;
-                let button = Face::Text.button(ui, name, name, true, on);
+                let button = Face::Text.button(ui, name, name, true, Some(on));
                 let hover = "Show the value, or the difference of predictions from the ground truth (D)";
                 if button.on_hover_text(hover).clicked() && !on {
                     commands.push(DisplayCommand::ShowDifference(difference).into());
@@ -165,13 +165,13 @@ impl<'a> TopBar<'a> {
     fn item(&self, ui: &mut egui::Ui, item: BarItem, face: Face, commands: &mut Vec<Command>) {
         let display = &self.state.display;
         let on = match item {
-            BarItem::Histogram => self.histograms,
-            BarItem::Perspective => display.projection == Projection::Perspective,
-            BarItem::Tile => display.tiled,
-            BarItem::FalseColour => display.false_colour,
-            BarItem::Swap => self.swapped,
-            BarItem::Clip => display.show_clipping,
-            _ => false,
+            BarItem::Histogram => Some(self.histograms),
+            BarItem::Perspective => Some(display.projection == Projection::Perspective),
+            BarItem::Tile => Some(display.tiled),
+            BarItem::FalseColour => Some(display.false_colour),
+            BarItem::Swap => Some(self.swapped),
+            BarItem::Clip => Some(display.show_clipping),
+            _ => None,
         };
         // Nothing comes and goes in the bar: what has no effect now is disabled.
         let applies = match item {
@@ -179,7 +179,7 @@ impl<'a> TopBar<'a> {
             BarItem::FalseColour => display.quantity == Quantity::Roughness,
             _ => true,
         };
-        let button = face.button(ui, item.icon(), item.name(), applies, on && applies);
+        let button = face.button(ui, item.icon(), item.name(), applies, on.map(|on| on && applies));
         if button.on_hover_text(item.hover()).on_disabled_hover_text(item.hover()).clicked() {
             commands.push(item.command());
         }
@@ -187,7 +187,7 @@ impl<'a> TopBar<'a> {
 
     fn exposure(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         segments(ui, |ui| {
-            let darker = Face::Text.button(ui, "\u{2212}", "Darker", true, false);
+            let darker = Face::Text.button(ui, "\u{2212}", "Darker", true, None);
             if darker.on_hover_text("Exposure lower by 0.5 stops (Shift+E)").clicked() {
                 commands.push(DisplayCommand::StepExposure(-0.5).into());
             }
@@ -203,7 +203,7 @@ impl<'a> TopBar<'a> {
             if ev != self.state.exposure_ev {
                 commands.push(DisplayCommand::SetExposure(ev).into());
             }
-            let brighter = Face::Text.button(ui, "+", "Brighter", true, false);
+            let brighter = Face::Text.button(ui, "+", "Brighter", true, None);
             if brighter.on_hover_text("Exposure higher by 0.5 stops (E)").clicked() {
                 commands.push(DisplayCommand::StepExposure(0.5).into());
             }
@@ -223,7 +223,7 @@ impl<'a> TopBar<'a> {
                     "The brightest 1% of the ground truth just clip, under every light and view (Shift+N)",
                 ),
             ] {
-                let button = Face::Text.button(ui, text, name, true, now == auto);
+                let button = Face::Text.button(ui, text, name, true, Some(now == auto));
                 if button.on_hover_text(hover).clicked() {
                     commands.push(DisplayCommand::AutoExposure(auto).into());
                 }
@@ -233,11 +233,12 @@ impl<'a> TopBar<'a> {
 
     /// From the right.
     fn window(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
-        let help = Face::Icon.button(ui, icons::ICON_HELP.codepoint, "?", true, false);
+        let help = Face::Icon.button(ui, icons::ICON_HELP.codepoint, "Help", true, None);
         if help.on_hover_text("Keys and mouse (?)").clicked() {
             commands.push(WindowCommand::ShowHelp(true).into());
         }
-        let panel = Face::Icon.button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, self.side_panel);
+        let panel =
+            Face::Icon.button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(self.side_panel));
         if panel.on_hover_text("Side panel (B)").clicked() {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
@@ -344,11 +345,21 @@ enum Face {
 }
 
 impl Face {
-    /// A button that is named `name` for assistive software.
-    fn button(self, ui: &mut egui::Ui, text: &str, name: &str, enabled: bool, on: bool) -> egui::Response {
+    /// A button that is named `name` for assistive software, and is on or off where it can be: `None` is a button that does something.
+    fn button(
+        self,
+        ui: &mut egui::Ui,
+        text: &str,
+        name: &str,
+        enabled: bool,
+        on: Option<bool>,
+    ) -> egui::Response {
         let label = if matches!(self, Self::Name) { name } else { text };
-        let response = ui.add_enabled(enabled, self.shaped(label, on));
-        response.widget_info(|| WidgetInfo::selected(Role::Button, enabled, on, name));
+        let response = ui.add_enabled(enabled, self.shaped(label, on.unwrap_or(false)));
+        response.widget_info(|| match on {
+            Some(on) => WidgetInfo::selected(Role::Button, enabled, on, name),
+            None => WidgetInfo::labeled(Role::Button, enabled, name),
+        });
         response
     }
 
