@@ -58,7 +58,9 @@ pub(crate) fn planes<T: Real>(
     let is_usual = encoding == NormalEncoding::Unsigned || raster.is_float();
     // Where few texels have unit length, either reading may be wrong.
     let is_unit = !match why {
-        Reason::UnitLength { share, .. } => share < NORMAL_AT_LEAST * (1.0 - share_without_direction(raster)),
+        Reason::UnitLength { share, .. } => {
+            share < NORMAL_AT_LEAST && share < NORMAL_AT_LEAST * (1.0 - share_without_direction(raster))
+        }
         ref why => matches!(why, Reason::NormalsAsColours { .. }),
     };
     let certainty = if is_usual && is_unit { Certainty::Likely } else { Certainty::Unsure };

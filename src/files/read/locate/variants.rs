@@ -33,7 +33,7 @@ pub(super) fn add_layers(groups: &mut BTreeMap<Vec<String>, Vec<LabelledFile>>) 
     }
 }
 
-/// The files of one size where some maps are there in several: of that of the file `named`, else of the largest `complete` one.
+/// The files of one size, where some maps are there in several: the size of the file `named`, else the largest that is `complete`.
 pub(super) fn of_one_size(
     files: Vec<LabelledFile>,
     named: Option<&str>,
