@@ -302,7 +302,8 @@ fn hover(window: &mut Window<'_>, at: Pos2) {
 
 /// The magnification in the status line, in pixels per texel.
 fn magnification(window: &Window<'_>) -> f64 {
-    window.get_by_label("Magnification").accesskit_node().data().numeric_value().unwrap()
+    let field = window.get_by_role_and_label(Role::SpinButton, "Magnification");
+    egui_kittest::kittest::NodeT::accesskit_node(&field).numeric_value().unwrap()
 }
 
 /// The text of the status line's column that begins with `start`.

@@ -1,6 +1,6 @@
 //! Light and view: what the mouse grabs, what stays in sight, what small windows show.
 
-use svbrdf_viewer::model::command::MaterialsCommand;
+use svbrdf_viewer::model::command::{DisplayCommand, MaterialsCommand};
 use svbrdf_viewer::model::view::state::Layout;
 
 use super::*;
