@@ -143,7 +143,7 @@ mod tests {
         let channels = Samples::interleaved(short, 3);
         let raster = Raster { width: 4, height: 2, channels, ..Raster::constant("test", &[0.0]) };
         assert_eq!(of_normals(&raster)[0], Some(1.0));
-        let floats = [0.5f32, 0.5, 0.7071].map(|value| Samples::floats(vec![value; 8]));
+        let floats = [0.5, 0.5, std::f32::consts::FRAC_1_SQRT_2].map(|value| Samples::floats(vec![value; 8]));
         let raster =
             Raster { width: 4, height: 2, channels: floats.into(), ..Raster::constant("test", &[0.0]) };
         assert_eq!(of_normals(&raster)[0], Some(0.0), "numbers of floats may be stored as they are");
