@@ -120,11 +120,18 @@ fn a_loss_takes_a_convention_of_the_grammar_and_shaders_refuse_it() {
 #[test]
 fn the_order_of_predictions_survives_other_questions_or_not() {
     let folder = folder();
-    let text = succeed(folder.path(), "rank gt.png near=a.png far=b.png --robust --target-error 10% --format json");
+    let text =
+        succeed(folder.path(), "rank gt.png near=a.png far=b.png --robust --target-error 10% --format json");
     let json: Value = serde_json::from_str(&text).unwrap();
     // A roughness that is farther off under every question.
-    assert!(json["sentence"].as_str().unwrap().starts_with("near beats far by default, and no pair"), "{text}");
+    assert!(
+        json["sentence"].as_str().unwrap().starts_with("near beats far by default, and no pair"),
+        "{text}"
+    );
     let questions = json["questions"].as_array().unwrap();
     assert!(questions.len() > 18, "{text}");
-    assert!(questions.iter().all(|q| q["tau"] == 1.0 && q["order"] == serde_json::json!(["near", "far"])), "{text}");
+    assert!(
+        questions.iter().all(|q| q["tau"] == 1.0 && q["order"] == serde_json::json!(["near", "far"])),
+        "{text}"
+    );
 }
