@@ -48,11 +48,11 @@ impl Plain {
             });
             let in_range = |c: [f64; 3]| c.iter().all(|x| (0.0..=1.0).contains(x));
             let length = glam::DVec3::from(point.normal).length();
-            if !is_plain
-                || !(0.2..=1.0).contains(&point.roughness)
-                || (length - 1.0).abs() > 1e-3
-                || !(in_range(point.diffuse) && in_range(point.specular) && in_range(point.base_color))
-            {
+            let is_rough = (0.2..=1.0).contains(&point.roughness);
+            let is_unit = (length - 1.0).abs() <= 1e-3;
+            let is_in_range =
+                in_range(point.diffuse) && in_range(point.specular) && in_range(point.base_color);
+            if !(is_plain && is_rough && is_unit && is_in_range) {
                 continue;
             }
             let value = |c: usize| {
