@@ -42,8 +42,10 @@ def render(maps: dict[str, Any], view: Any, light: Any) -> Any:
 
 
 def test_a_difference_is_named() -> None:
-    report = svbrdf.conform(lambda maps, view, light: render(maps, view, light) * (light**2).sum(-1, keepdims=True),
-                            convention="svbrdf-estimation-2022")
+    report = svbrdf.conform(
+        lambda maps, view, light: render(maps, view, light) * (light**2).sum(-1, keepdims=True),
+        convention="svbrdf-estimation-2022",
+    )
     assert report.verdict == "differs"
     assert [(d.term, d.found) for d in report.differences] == [("falloff", "none")]
     assert report.renderer is not None
@@ -51,7 +53,11 @@ def test_a_difference_is_named() -> None:
 
 
 def test_a_renderer_outside_of_the_grammar_has_no_name() -> None:
-    report = svbrdf.conform(lambda maps, view, light: (lambda r: r / (1 + r))(render(maps, view, light)))
+    def tone_mapped(maps: dict[str, Any], view: Any, light: Any) -> Any:
+        radiance = render(maps, view, light)
+        return radiance / (1 + radiance)
+
+    report = svbrdf.conform(tone_mapped)
     assert (report.verdict, report.renderer) == ("unknown", None)
     assert report.nearest is not None
 

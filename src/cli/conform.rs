@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use svbrdf_core::model::grammar::Description;
 use svbrdf_evaluate::conform::{Answer, probes};
 use svbrdf_evaluate::report::ConformReport;
-use svbrdf_files::disk::atomic;
+use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::{Error, arrays, convention};
 
 use super::job::{Job, NewJob};
@@ -55,12 +55,12 @@ enum Workflow {
 impl ConformArgs {
     pub fn job(self) -> NewJob {
         if let Some(path) = self.points {
-            atomic::check_place(&path)?;
+            destination(&path, "npz", "name of a file of points", "NAME.npz")?;
             return Ok(Box::new(PointsJob(path)));
         }
         let answer = self.answer.ok_or_else(|| CommandError::usage("expected the points with `radiance`"))?;
         if let Some(path) = &self.write_convention {
-            atomic::check_place(path)?;
+            destination(path, "toml", "name of a convention file", "NAME.toml")?;
         }
         Ok(Box::new(ConformJob {
             answer,
@@ -70,6 +70,16 @@ impl ConformArgs {
             format: self.format,
         }))
     }
+}
+
+/// Checks the place and the extension of an output file.
+fn destination(
+    path: &Path,
+    extension: &str,
+    what: &'static str,
+    known: &'static str,
+) -> Result<Destination<()>, Error> {
+    Destination::among(path, |found| (found == extension).then_some(()), what, known)
 }
 
 /// Writes the points.

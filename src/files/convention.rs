@@ -21,8 +21,10 @@ pub fn read(text: &str) -> Result<Description, Error> {
         let read = NamedFile::by_user(path).text()?;
         inputs::protect(path);
         let convention: Result<Description, CoreError> = read.parse();
-        let mut convention = convention
-            .map_err(|problem| Error::BadConvention { path: path.to_owned(), problem: problem.into() })?;
+        let mut convention = convention.map_err(|problem| Error::BadConvention {
+            path: path.to_owned(),
+            problem: problem.to_string(),
+        })?;
         if convention.name.is_empty() {
             convention.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         }

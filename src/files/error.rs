@@ -88,7 +88,7 @@ pub enum Error {
 
     /// A file whose text is no convention.
     #[error("{}: {problem}", path.display())]
-    BadConvention { path: PathBuf, problem: Box<CoreError> },
+    BadConvention { path: PathBuf, problem: String },
 
     /// A file of arrays that is none, or that lacks what is needed.
     #[error("{} cannot be used: {problem}", path.display())]

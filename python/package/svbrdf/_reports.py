@@ -12,8 +12,11 @@ from ._report import Record, Report
 from ._scenes import Scene
 
 __all__ = [
+    "AskedQuestion",
     "Attribution",
     "BlameReport",
+    "Change",
+    "ConformReport",
     "DatasetReport",
     "DiagnoseReport",
     "Diagnosis",
@@ -22,6 +25,7 @@ __all__ = [
     "Estimate",
     "FewScenes",
     "Finding",
+    "Indistinguishable",
     "Loss",
     "LossReport",
     "MapShare",
@@ -44,12 +48,15 @@ __all__ = [
     "RankedPrediction",
     "ReadPhotograph",
     "ReadingSummary",
+    "Remaining",
     "Remark",
     "Repetition",
+    "RobustReport",
     "Rung",
     "ScenesLoss",
     "ScenesReport",
     "Seam",
+    "TermDifference",
     "Worst",
     "WorstReport",
 ]
@@ -104,6 +111,65 @@ class BlameReport(Report):
     """The requested accuracy of each loss: half of its 95% interval, as a share of it."""
     attributions: tuple[Attribution, ...]
     """One per prediction."""
+
+
+class TermDifference(Record):
+    """A term in which a renderer differs from a convention."""
+
+    term: str
+    """Its key in the TOML of a convention."""
+    found: str
+    expected: str
+    gap: float | None
+    """Largest relative change of a radiance where this term alone is that of the convention; None where it is not one of radiance."""
+
+
+class Indistinguishable(Record):
+    """A term of which the points do not tell the value."""
+
+    term: str
+    values: tuple[str, ...]
+    """Values that fit equally well."""
+
+
+class Remaining(Record):
+    """What remains at a point."""
+
+    point: int
+    """Its row."""
+    channel: int
+    """0 to 2: red, green, blue."""
+    relative: float | None
+    """Relative to the prediction; None where that is 0."""
+
+
+class ConformReport(Report):
+    """Whether a renderer conforms to a convention, and in which terms it differs."""
+
+    verdict: Literal["conforms", "differs", "unknown"]
+    """`conforms`, `differs`, or `unknown`: it is no member of the grammar of conventions, or cannot be told."""
+    convention: str
+    """The convention that it is compared with."""
+    same_as: tuple[str, ...]
+    """The named conventions that render as it does."""
+    renderer: Mapping[str, Mapping[str, bool | float | str | tuple[float, ...]]] | None
+    """The renderer; None where the verdict is unknown."""
+    nearest: Mapping[str, Mapping[str, bool | float | str | tuple[float, ...]]] | None
+    """The member of the grammar that is nearest, which is not the renderer; None where the renderer is known."""
+    differences: tuple[TermDifference, ...]
+    """From the convention; of the nearest member where the verdict is unknown."""
+    indistinguishable: tuple[Indistinguishable, ...]
+    """RendererTerms of which these points do not tell the value."""
+    residual: float
+    """Root mean square of what remains, relative to the radiances."""
+    noise: float
+    """Relative noise that is seen."""
+    storage: str
+    """How precisely the radiances are stored."""
+    largest: tuple[Remaining, ...]
+    """The points with the largest residuals for their condition numbers."""
+    points: int
+    """The number of points."""
 
 
 class DoubtCount(Record):
@@ -659,6 +725,43 @@ class RankReport(Report):
     """For each material, the ground truth first, what was noticed and assumed in reading it; None for materials of no files."""
     repetition: Repetition | None
     """How to repeat it; None for materials that no command names."""
+
+
+class Change(Record):
+    """A pair of predictions that changes sides."""
+
+    question: str
+    first: str
+    second: str
+    default_interval95: tuple[float, float]
+    """95% interval of the score of the first - that of the second, by default."""
+    interval95: tuple[float, float]
+    """The same under the question."""
+
+
+class AskedQuestion(Record):
+    """A question, and the order that it gives."""
+
+    question: str
+    tau: float
+    """Kendall's tau to the order by default: 1 where no pair changes sides."""
+    order: tuple[str, ...]
+    """The predictions, the best first."""
+
+
+class RobustReport(Report):
+    """Whether the order of predictions survives other conventions, exposures, resolutions, scenes and measures."""
+
+    ground_truth: str
+    convention: str
+    """The name of the convention."""
+    epsilon: float
+    sentence: str
+    """The answer in a sentence."""
+    questions: tuple[AskedQuestion, ...]
+    """The default one first."""
+    changes: tuple[Change, ...]
+    """Pairs of predictions that change sides, where both differences are significant."""
 
 
 class ScenesLoss(Record):

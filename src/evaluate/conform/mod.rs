@@ -54,7 +54,7 @@ pub fn identify(answer: &Answer) -> Identified {
     }
     candidates.sort_by(|a, b| a.1.off.total_cmp(&b.1.off));
     let mut best: Option<Identified> = None;
-    for (problem, candidate) in candidates.into_iter().take(3) {
+    for (problem, candidate) in candidates.into_iter().take(4) {
         let found = from_coarse_to_fine(problem, &candidate, storage);
         if found.explained {
             let grid = answer.picture.as_ref().and_then(|picture| picture.grid(&found.problem, &found.fit));

@@ -5,7 +5,7 @@ use svbrdf_core::model::grammar::words::Transfer;
 /// The levels of an 8-bit picture.
 const LEVELS: f64 = 255.0;
 /// Equal largest or least values from which on they are clipped.
-const EQUAL: usize = 6;
+const EQUAL: usize = 12;
 /// The largest half float.
 const LARGEST_HALF: f64 = 65504.0;
 

@@ -108,10 +108,9 @@ impl Picture {
             let base_color = if fit.metallic { texel.base_color } else { texel.diffuse };
             let point = Point { light: light.to_array(), view: view.to_array(), base_color, ..*texel };
             let radiance = fit.terms.radiance(&point, true);
-            for c in 0..3 {
-                let reading = observed.readings[i][c];
-                if reading.bound == Bound::Value && reading.value > 0.0 && radiance[c] > 0.0 {
-                    logs.push((reading.value / (radiance[c] * fit.factor[c])).ln());
+            for ((reading, radiance), factor) in observed.readings[i].iter().zip(radiance).zip(fit.factor) {
+                if reading.bound == Bound::Value && reading.value > 0.0 && radiance > 0.0 {
+                    logs.push((reading.value / (radiance * factor)).ln());
                 }
             }
         }

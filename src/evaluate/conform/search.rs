@@ -48,11 +48,11 @@ impl Plain {
             });
             let in_range = |c: [f64; 3]| c.iter().all(|x| (0.0..=1.0).contains(x));
             let length = glam::DVec3::from(point.normal).length();
-            if !is_plain
-                || !(0.2..=1.0).contains(&point.roughness)
-                || (length - 1.0).abs() > 1e-3
-                || !(in_range(point.diffuse) && in_range(point.specular) && in_range(point.base_color))
-            {
+            let is_rough = (0.2..=1.0).contains(&point.roughness);
+            let is_unit = (length - 1.0).abs() <= 1e-3;
+            let is_in_range =
+                in_range(point.diffuse) && in_range(point.specular) && in_range(point.base_color);
+            if !(is_plain && is_rough && is_unit && is_in_range) {
                 continue;
             }
             let value = |c: usize| {
@@ -199,9 +199,9 @@ fn members(plain: &Plain, frame: &RendererTerms) -> Vec<Candidate> {
 /// The most likely structures, the best first; none where the frames alone are worse than three times `best_frame`, which becomes
 /// the least.
 pub fn structures(problem: &Problem, workflows: &[bool], best_frame: &mut f64) -> Vec<Candidate> {
-    /// Frames of each kind of maps that are searched in full, and structures that are refined.
+    /// Frames of each kind of maps that are searched in full, and structures of each that are refined.
     const FRAMES: usize = 3;
-    const STRUCTURES: usize = 4;
+    const STRUCTURES: usize = 2;
     let plain: Vec<Plain> = workflows.iter().map(|metallic| Plain::new(problem, *metallic)).collect();
     let mut scored: Vec<(f64, RendererTerms, usize)> = Vec::new();
     for (which, plain) in plain.iter().enumerate() {
@@ -230,8 +230,15 @@ pub fn structures(problem: &Problem, workflows: &[bool], best_frame: &mut f64) -
     let mut found: Vec<Candidate> =
         scored.iter().flat_map(|(_, frame, which)| members(&plain[*which], frame)).collect();
     found.sort_by(|a, b| a.off.total_cmp(&b.off));
-    found.truncate(STRUCTURES);
-    found
+    // Rounded values may not tell the maps apart before the floors are known.
+    let kind = |candidate: &Candidate| (candidate.terms.material.material, candidate.metallic);
+    let mut kept: Vec<Candidate> = Vec::new();
+    for candidate in found {
+        if kept.iter().filter(|other| kind(other) == kind(&candidate)).count() < STRUCTURES {
+            kept.push(candidate);
+        }
+    }
+    kept
 }
 
 /// Changes one term after the other, the steepest first, as long as that helps.

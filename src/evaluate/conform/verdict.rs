@@ -72,7 +72,7 @@ pub fn verdict(found: &Identified, asked: &Description) -> Verdict {
         terms,
         differences,
         indistinguishable: same,
-        residual: residual(&fit),
+        residual: residual(problem, &fit),
         largest: largest(&fit),
     }
 }
@@ -201,9 +201,16 @@ fn indistinguishable(problem: &Problem, fit: &Fit) -> Vec<(String, Vec<String>)>
     found
 }
 
-fn residual(fit: &Fit) -> f64 {
-    let used = fit.relative.as_flattened().iter().filter(|x| !x.is_nan());
-    let (sum, count) = used.fold((0.0, 0), |(sum, count), x| (sum + x.powi(2).min(1.0), count + 1));
+/// The root mean square of the relative residuals beyond the steps of storage, each at most 1, of points whose maps are in range.
+fn residual(problem: &Problem, fit: &Fit) -> f64 {
+    let (mut sum, mut count) = (0.0, 0);
+    for (i, relative) in fit.relative.iter().enumerate().filter(|(i, _)| fit.in_range[*i]) {
+        for c in (0..3).filter(|c| !relative[*c].is_nan()) {
+            let step = problem.observed.readings[i][c].half / fit.expected[i][c];
+            sum += (relative[c].abs() - step).clamp(0.0, 1.0).powi(2);
+            count += 1;
+        }
+    }
     (sum / f64::from(count.max(1))).sqrt()
 }
 
