@@ -22,7 +22,8 @@ def test_the_numpy_code_of_the_page_conforms(program: str, tmp_path: Path) -> No
         exec(NUMPY, {})
     finally:
         os.chdir(folder)
-    asked = [program, "conform", tmp_path / "answer.npz", "--convention", "svbrdf-estimation-2022"]
+    answer = str(tmp_path / "answer.npz")
+    asked = [program, "conform", answer, "--convention", "svbrdf-estimation-2022"]
     printed = subprocess.run(asked, check=True, capture_output=True, text=True).stdout
     assert printed.startswith("The renderer conforms to `svbrdf-estimation-2022`.")
 

@@ -128,7 +128,7 @@ class Indistinguishable(Record):
     """A term of which the points do not tell the value."""
 
     term: str
-    values: tuple[str, ...]
+    fitting: tuple[str, ...]
     """Values that fit equally well."""
 
 

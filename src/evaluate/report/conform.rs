@@ -82,7 +82,7 @@ struct TermDifference {
 struct Indistinguishable {
     term: String,
     /// Values that fit equally well.
-    values: Vec<String>,
+    fitting: Vec<String>,
 }
 
 /// What remains at a point.
@@ -130,7 +130,7 @@ impl ConformReport {
             indistinguishable: verdict
                 .indistinguishable
                 .into_iter()
-                .map(|(term, values)| Indistinguishable { term, values })
+                .map(|(term, values)| Indistinguishable { term, fitting: values })
                 .collect(),
             residual: verdict.residual,
             noise: identified.problem.noise,
@@ -247,7 +247,7 @@ impl Report for ConformReport {
             let same = self
                 .indistinguishable
                 .iter()
-                .map(|same| format!("{} ({})", same.term, same.values.join(", ")));
+                .map(|same| format!("{} ({})", same.term, same.fitting.join(", ")));
             text += &format!(
                 "Not told by these points: {}; pi, intensity and exposure but by their product.\n",
                 same.collect::<Vec<_>>().join("; ")
