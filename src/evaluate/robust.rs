@@ -104,7 +104,7 @@ impl RobustInput<'_> {
         for (name, factor) in [("exposure -1 EV", 0.5), ("exposure +1 EV", 2.0)] {
             all.push(self.loss(name, exposed(&self.convention, factor)?, &usual, progress)?);
         }
-        all.push(self.halved()?.loss("half resolution", self.convention, &usual, progress)?);
+        all.push(self.halved(&usual, progress)?);
         for (name, near, distant) in [("near-field scenes", SCENES, 0), ("distant scenes", 0, SCENES)] {
             let texels = Texels::Sampled(TEXELS);
             let sampling = Sampling { near, distant, seed: self.seed, sampler: Sampler::Sobol, texels };
@@ -173,39 +173,18 @@ impl RobustInput<'_> {
         Ok(Answered::exact("FLIP of renderings", scores))
     }
 
-    fn halved(&self) -> Result<Halved, Error> {
+    /// The loss of all materials at half the resolution.
+    fn halved(&self, request: &Request, progress: &Progress) -> Result<Answered, Error> {
         let half = |material: &Material<f32>| {
             let [width, height] = material.size();
             material.clone().resized([(width / 2).max(1), (height / 2).max(1)])
         };
-        Ok(Halved {
-            ground_truth: half(self.ground_truth)?,
-            predictions: self
-                .predictions
-                .iter()
-                .map(|prediction| half(prediction))
-                .collect::<Result<_, _>>()?,
-        })
-    }
-}
-
-/// Materials of half the resolution.
-struct Halved {
-    ground_truth: Material<f32>,
-    predictions: Vec<Material<f32>>,
-}
-
-impl Halved {
-    fn loss(
-        &self,
-        name: &str,
-        convention: Convention,
-        request: &Request,
-        progress: &Progress,
-    ) -> Result<Answered, Error> {
-        let predictions: Vec<_> = self.predictions.iter().collect();
-        let comparison = Comparison::new(&self.ground_truth, &predictions, convention)?;
-        Ok(Answered::of_outcome(name, &comparison.run(request, &progress.part())?))
+        let ground_truth = half(self.ground_truth)?;
+        let predictions: Vec<_> =
+            self.predictions.iter().map(|prediction| half(prediction)).collect::<Result<_, _>>()?;
+        let halved =
+            RobustInput { ground_truth: &ground_truth, predictions: predictions.iter().collect(), ..*self };
+        halved.loss("half resolution", self.convention, request, progress)
     }
 }
 

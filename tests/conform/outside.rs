@@ -238,7 +238,7 @@ fn no_renderer_outside_of_the_grammar_has_a_name() {
     assert_eq!(named(Stored::Single), [""; 0]);
 }
 
-#[ignore = "takes minutes"]
+#[ignore = "takes minutes; docs/conventions.md has its command and its result"]
 #[test]
 fn nor_has_one_from_rounded_or_noisy_radiances() {
     for stored in [Stored::Double, Stored::Half, Stored::Srgb, Stored::Noise(0.001), Stored::Noise(0.01)] {
