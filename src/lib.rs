@@ -51,4 +51,4 @@ pub use svbrdf_files::samples::load as built_in;
 pub use svbrdf_files::write::{FileKind, WriteOptions, write};
 
 #[cfg(feature = "viewer")]
-pub use svbrdf_viewer::{ViewerOptions, run as open_viewer};
+pub use svbrdf_viewer::{OpenDataset, ViewerOptions, run as open_viewer};

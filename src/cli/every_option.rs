@@ -13,7 +13,7 @@ use super::output::CommandError;
 use super::{Cli, Subcommands};
 
 /// The subcommands with arguments that select a mode; options are added to these. `@` stands for the folder of the fixture.
-const MODES: [&str; 54] = [
+const MODES: [&str; 56] = [
     "loss @gt.png @a.png",
     "loss @gt.png @a.png --near 4 --sampler sobol",
     "loss @gt.png @a.png --target-error 30%",
@@ -66,6 +66,8 @@ const MODES: [&str; 54] = [
     "view",
     "view @gt.png",
     "view @s.svbrdf-session.json",
+    "view --dataset @set/gt @set/ours",
+    "view --pairs @pairs.csv",
     "view @gt.png @a.png --photo @photo.png --flash --fov 45",
     "view @gt.png @a.png --photo @cap",
 ];

@@ -7,6 +7,8 @@ use svbrdf_core::loss::FileScenes;
 #[cfg(feature = "viewer")]
 use svbrdf_core::model::scene::Scene;
 #[cfg(feature = "viewer")]
+use svbrdf_evaluate::dataset::DatasetReading;
+#[cfg(feature = "viewer")]
 use svbrdf_files::Error;
 use svbrdf_files::photograph::Capture;
 #[cfg(feature = "viewer")]
@@ -15,10 +17,13 @@ use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 
 use super::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
+use super::args::scenes::AccuracyArgs;
 use super::args::{Given, MaterialArgs, refuse};
 use super::job::{Job, NewJob};
 use super::output::CommandError;
 use super::output::exit::tell;
+#[cfg(feature = "viewer")]
+use super::rank::cases;
 
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("predictions", |arg| arg.help("Predictions of it, of the same size. A scene file (JSON) among them has the \
@@ -37,15 +42,57 @@ pub struct ViewArgs {
     photo_reading: PhotoReadingArgs,
 
     #[command(flatten)]
+    dataset: DatasetArgs,
+
+    #[command(flatten)]
     materials: MaterialArgs,
+}
+
+/// A data set in the window.
+#[derive(Debug, clap::Args)]
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
+pub struct DatasetArgs {
+    /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method: materials are matched by name, as
+    /// `svbrdf rank --dataset` does
+    #[arg(long, requires = "ground_truth", conflicts_with_all = ["pairs", "photo"])]
+    dataset: bool,
+
+    /// GT is a CSV table of pairs
+    #[arg(long, requires = "ground_truth", conflicts_with = "photo")]
+    pairs: bool,
+
+    #[command(flatten)]
+    losses: DatasetLossArgs,
+}
+
+/// The losses of a data set in the window.
+#[derive(Debug, clap::Args)]
+#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
+pub struct DatasetLossArgs {
+    /// Uses the losses of a data set that are in this folder, and adds the others to it as they come
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
+
+    #[command(flatten)]
+    accuracy: AccuracyArgs,
 }
 
 impl ViewArgs {
     #[cfg_attr(not(feature = "viewer"), allow(unused_mut, reason = "there is no window to open"))]
     pub fn job(mut self, given: &Given) -> NewJob {
         let materials = &self.materials;
+        let is_dataset = self.dataset.dataset || self.dataset.pairs;
+        if !is_dataset {
+            given.refuse::<DatasetLossArgs>(
+                "only the losses of a data set (--dataset, --pairs) are kept and asked for here",
+            )?;
+        }
         refuse(materials.reading.both.verbose, "verbose", "the window lists what is noticed and assumed")?;
         match materials.paths().find(|path| !scene_file::is_named(path)) {
+            Some(_) if is_dataset => {
+                let reason = "materials of a data set are not resized";
+                refuse(materials.reading.resize_to.is_some(), "resize-to", reason)?;
+            }
             None => materials.refuse_of_built_in(given)?,
             Some(path) if Session::is_named(path) => materials.refuse_of_session(given)?,
             Some(_) => (),
@@ -99,6 +146,11 @@ impl ViewArgs {
                 ));
             }
         };
+        if self.dataset.dataset || self.dataset.pairs {
+            let strict = self.materials.reading.both.strict;
+            let dataset = Some(Box::new(dataset_of(self)?));
+            return Ok(svbrdf::ViewerOptions { dataset, strict, ..svbrdf::ViewerOptions::default() });
+        }
         let photograph = photograph_of(self)?;
         let materials = &mut self.materials;
         let scenes = take_scenes(materials)?;
@@ -113,8 +165,21 @@ impl ViewArgs {
             fit,
             ground_truth: sources.next(),
             predictions: sources.collect(),
+            dataset: None,
         })
     }
+}
+
+/// The data set, matched by name.
+#[cfg(feature = "viewer")]
+fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
+    let DatasetArgs { pairs, losses, .. } = &args.dataset;
+    let source = cases::source(&args.materials, *pairs)?;
+    let accuracy = losses.accuracy.target_and_seed();
+    let mut dataset =
+        svbrdf::OpenDataset::new(source, DatasetReading::default(), accuracy, losses.results.clone())?;
+    dataset.reading = cases::reading(&args.materials.reading, dataset.methods())?;
+    Ok(dataset)
 }
 
 /// The photograph, and its light and view where they are specified.

@@ -11,5 +11,6 @@ pub mod ui;
 pub mod window;
 
 pub use error::Error;
+pub use model::dataset::OpenDataset;
 pub use model::settings::options::ViewerOptions;
 pub use window::{run, run_watched};

@@ -3,13 +3,15 @@
 
     cargo build --release
     tests/benches/frames.py target/release/svbrdf [GT PRED...] [--only-latency]
+    tests/benches/frames.py target/release/svbrdf --dataset GT METHOD...
 
 Needs Xvfb and xdotool, and a machine that does nothing else. The window has 1360 x 860 points. The pointer hovers over a pane, then
 drags the light; then both again with magnified materials, and with differences. The screen is read from the memory of Xvfb every
 millisecond; a frame is a change of it. Prints the median and the 95th percentile of the times between frames, and the processor time
 per frame. Then single motions: from the event of the mouse to the first changed pixel of another pane, which is what a hand feels
 (`--only-latency`: nothing else). With materials also the time from the start to the first picture and to the last one, beside that of `svbrdf info`, which
-reads them and does no more. A large material, here of 2048 x 2048 texels, of a small one:
+reads them and does no more. With --dataset: flips, memory, and drags in the contact sheet of a data set, such as that of
+`cargo run --release --example make_dataset -- FOLDER`. A large material, here of 2048 x 2048 texels, of a small one:
 
     convert src/files/samples/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
 """
@@ -32,6 +34,8 @@ RATE = 120
 ONE_FRAME = 0.004
 # Single motions, and the seconds between them: everything is sharp again by then.
 MOTIONS, BETWEEN_MOTIONS = 40, 0.4
+# Keys to the next material of a data set whose times are measured.
+FLIPS = 30
 # What is compared: rows of the other panes. The server itself draws the pointer, which is not a frame.
 ROWS = range(8, HEIGHT, 9)
 COLUMNS = (530, 1030)
@@ -134,6 +138,30 @@ def latency(screen, environment, name, centre, radius):
     )
 
 
+def flips(screen, process, environment):
+    """Times from the key to the first changed pixel of a pane, and the memory after many flips."""
+    press = lambda key: subprocess.run(["xdotool", "key", key], env=environment, check=True)
+    times = []
+    for _ in range(FLIPS):
+        before = screen.rows()
+        press("Next")
+        start = time.perf_counter()
+        while screen.rows() == before and time.perf_counter() - start < 2.0:
+            time.sleep(0.0005)
+        times.append(1e3 * (time.perf_counter() - start))
+        time.sleep(0.8)
+    times.sort()
+    print(f"{'flips':<28} {len(times):4} keys, p50 {times[len(times) // 2]:6.1f} ms, p95 {times[int(0.95 * len(times))]:6.1f} ms to the changed pixel")
+    for count in (0, 100, 200, 300, 400, 500):
+        for flip in range(100 if count else 0):
+            press("Next" if flip % 40 < 20 else "Prior")
+            time.sleep(0.1)
+        time.sleep(1)
+        status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
+        resident = int(status.split("VmRSS:")[1].split()[0]) / 1024
+        print(f"  after {count} flips {resident:.0f} MiB")
+
+
 def until_still(screen, start):
     """Waits until nothing has changed for a while: the materials are there, and the loss is computed. The times of the first picture and
     of the last change."""
@@ -154,8 +182,8 @@ def reading(program, material):
 
 
 def main():
-    only_latency = "--only-latency" in sys.argv
-    arguments = [argument for argument in sys.argv[1:] if argument != "--only-latency"]
+    only_latency, is_dataset = "--only-latency" in sys.argv, "--dataset" in sys.argv
+    arguments = [argument for argument in sys.argv[1:] if argument not in ("--only-latency", "--dataset")]
     program, materials = pathlib.Path(arguments[0]).resolve(), [str(pathlib.Path(p).resolve()) for p in arguments[1:]]
     with tempfile.TemporaryDirectory() as folder:
         screen = Screen(folder)
@@ -168,12 +196,15 @@ def main():
         }
         environment.pop("WAYLAND_DISPLAY", None)
         # Twice: the first time the files come from the disk.
-        alone = [[reading(program, material) for material in materials] for _ in range(2)][1]
+        alone = [] if is_dataset else [[reading(program, material) for material in materials] for _ in range(2)][1]
         start = time.perf_counter()
-        process = subprocess.Popen([program, *materials], env=environment, cwd=folder, stderr=subprocess.DEVNULL)
+        command = [program, *(["view", "--dataset"] if is_dataset else []), *materials]
+        process = subprocess.Popen(command, env=environment, cwd=folder, stderr=subprocess.DEVNULL)
         try:
             first, last = until_still(screen, start)
-            if materials:
+            if is_dataset:
+                print(f"first picture {first:.2f} s, all losses {last:.2f} s")
+            elif materials:
                 print(
                     f"first picture {first:.2f} s (reading it alone {alone[0]:.2f} s), all {last:.2f} s ({sum(alone):.2f} s)"
                 )
@@ -198,6 +229,12 @@ def main():
                 stdout=subprocess.DEVNULL,
             )
             print(f"load {os.getloadavg()[0]:.1f} before the measurement")
+            if is_dataset:
+                flips(screen, process, environment)
+                subprocess.run(["xdotool", "key", "s"], env=environment, check=True)
+                time.sleep(5)
+                measure(screen, process, environment, "drag the light in the sheet", True, (600, 400), 30)
+                return
             pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
             latency(screen, environment, "motions of the light", pane, 90)
             if only_latency:

@@ -10,6 +10,7 @@ mod bar;
 mod corners;
 mod crash;
 mod damaged;
+mod dataset;
 mod device_loss;
 mod differences;
 mod fields;

@@ -44,7 +44,7 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     let reason = "materials of a data set are not resized and have one capture each";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", reason)?;
     given.refuse::<FloorArgs>(reason)?;
-    let source = source(&args)?;
+    let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
     let output = output(&args, given, &cases)?;
     let convention = args.comparison.convention.unwrap_or_default();

@@ -1,7 +1,7 @@
 //! `svbrdf rank`: many predictions of one ground truth, or many materials.
 
 mod args;
-mod cases;
+pub mod cases;
 mod many;
 mod one;
 

@@ -53,52 +53,107 @@ pub fn run(
     results: Option<&Path>,
     progress: &Progress,
 ) -> Result<DatasetResults, Error> {
-    let convention = settings.convention.parse()?;
-    let results = results.map(ResultsFolder::open).transpose()?;
-    let run = Run { settings, convention, reading, results, progress };
-    let seeds = settings.seeds();
+    let evaluation = Evaluation::new(settings, reading, results, progress)?;
     progress.begin(cases.len() as u64);
     let of_case = |case: &Case| {
-        let result = run.material(case, seeds.get(case.index).copied().unwrap_or(settings.seed))?;
+        let result = evaluation.material(case)?;
         progress.step()?;
         Ok(result)
     };
     let found = cases.par_iter().map(of_case).collect::<Result<_, Error>>()?;
-    Ok(DatasetResults { results: found, notes: run.results.map(ResultsFolder::notes).unwrap_or_default() })
+    Ok(DatasetResults { results: found, notes: evaluation.notes() })
 }
 
-/// What the results of all materials depend on.
-struct Run<'a> {
+/// The evaluation of a data set, material by material: what all results depend on.
+#[derive(Debug)]
+pub struct Evaluation<'a> {
     settings: &'a DatasetSettings,
     convention: Convention,
+    /// Of the scenes of each material.
+    seeds: Vec<u64>,
     reading: &'a DatasetReading,
     /// Those that are known.
     results: Option<ResultsFolder>,
     progress: &'a Progress,
 }
 
-impl Run<'_> {
-    fn material(&self, case: &Case, seed: u64) -> Result<MaterialResult, Error> {
+/// What the results folder has of the predictions of a material, and the keys of all.
+type Found = Vec<(Option<Key>, Option<PairResult>)>;
+
+impl<'a> Evaluation<'a> {
+    /// With the losses of the folder `results`, where one is given, as [`run`].
+    ///
+    /// # Errors
+    /// As [`run`], but for cancellation.
+    pub fn new(
+        settings: &'a DatasetSettings,
+        reading: &'a DatasetReading,
+        results: Option<&Path>,
+        progress: &'a Progress,
+    ) -> Result<Self, Error> {
+        let convention = settings.convention.parse()?;
+        let results = results.map(ResultsFolder::open).transpose()?;
+        Ok(Self { settings, convention, seeds: settings.seeds(), reading, results, progress })
+    }
+
+    /// The result of a material, where the results folder has all of it.
+    pub fn known(&self, case: &Case) -> Option<MaterialResult> {
+        self.results.as_ref().and_then(|_| self.whole(case, &self.found(case)))
+    }
+
+    /// The result of a material: from the results folder, or computed and added to it.
+    ///
+    /// # Errors
+    /// As [`run`].
+    pub fn material(&self, case: &Case) -> Result<MaterialResult, Error> {
+        let found = self.found(case);
+        match self.whole(case, &found) {
+            Some(result) => Ok(result),
+            None => self.computed(case, found),
+        }
+    }
+
+    /// What a user should know about the results folder: lines.
+    pub fn notes(self) -> Vec<String> {
+        self.results.map(ResultsFolder::notes).unwrap_or_default()
+    }
+
+    fn seed(&self, case: &Case) -> u64 {
+        self.seeds.get(case.index).copied().unwrap_or(self.settings.seed)
+    }
+
+    fn found(&self, case: &Case) -> Found {
         let truth = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
-        let key = |candidate| self.key(case, candidate, truth.as_ref()?, seed);
-        let keys: Vec<Option<Key>> = case.candidates.iter().map(key).collect();
+        let key = |candidate| self.key(case, candidate, truth.as_ref()?, self.seed(case));
         let load = |key: &Option<Key>| self.results.as_ref()?.load(&case.material, key.as_ref()?);
-        let known: Vec<Option<PairResult>> = keys.iter().map(load).collect();
-        let (index, material) = (case.index, case.material.clone());
-        let of = |(candidate, known): (&CandidateFile, &Option<PairResult>)| match known {
+        let of = |candidate| {
+            let key = key(candidate);
+            let known = load(&key);
+            (key, known)
+        };
+        case.candidates.iter().map(of).collect()
+    }
+
+    /// The result of a material of which everything is known.
+    fn whole(&self, case: &Case, found: &Found) -> Option<MaterialResult> {
+        let of = |(candidate, (_, known)): (&CandidateFile, &(_, Option<PairResult>))| match known {
             Some(known) => Some(known.prediction.clone()),
             None => candidate.missing.clone().map(|problem| without_loss(candidate, problem)),
         };
         // Where a result is known, so is the ground truth.
-        if let Some(PairResult { reading, floor, .. }) = known.iter().flatten().next().cloned()
-            && let Some(predictions) = case.candidates.iter().zip(&known).map(of).collect()
-        {
-            return Ok(MaterialResult { index, material, seed, reading, floor, predictions });
-        }
+        let PairResult { reading, floor, .. } = found.iter().find_map(|(_, known)| known.clone())?;
+        let predictions = case.candidates.iter().zip(found).map(of).collect::<Option<_>>()?;
+        let (index, material) = (case.index, case.material.clone());
+        Some(MaterialResult { index, material, seed: self.seed(case), reading, floor, predictions })
+    }
+
+    /// The result of a material, of which what was found is not computed again.
+    fn computed(&self, case: &Case, found: Found) -> Result<MaterialResult, Error> {
+        let (index, material, seed) = (case.index, case.material.clone(), self.seed(case));
         let truth = open(&case.ground_truth, &self.reading.ground_truths, self.reading.strict);
         let floor = self.floor(&truth, seed)?;
         let mut predictions = Vec::new();
-        for ((candidate, key), known) in case.candidates.iter().zip(keys).zip(known) {
+        for (candidate, (key, known)) in case.candidates.iter().zip(found) {
             let prediction = match known {
                 Some(known) => known.prediction,
                 None => self.new_prediction(case, candidate, &truth, floor, (key, seed))?,

@@ -9,6 +9,7 @@ use svbrdf_core::text::line;
 use svbrdf_files::Error;
 
 use super::record::{CandidateFile, Case, Method, Source};
+use crate::report::distinct_names;
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::disk::{inputs, memory};
 
@@ -47,6 +48,17 @@ impl FromStr for Shard {
 }
 
 impl Source {
+    /// Folders of materials; every method has the name that it is given or that of its folder, where need be with that of the one above.
+    pub fn folders(ground_truths: PathBuf, methods: Vec<(Option<String>, PathBuf)>) -> Self {
+        let named: Vec<String> =
+            methods.iter().map(|(name, path)| name.clone().unwrap_or_else(|| method_name(path))).collect();
+        let named: Vec<(&str, &Path)> =
+            named.iter().zip(&methods).map(|(name, (_, path))| (name.as_str(), path.as_path())).collect();
+        let names = distinct_names(&named);
+        let methods = names.into_iter().zip(methods).map(|(name, (_, path))| Method { name, path }).collect();
+        Self::Folders { ground_truths, methods }
+    }
+
     /// Its materials.
     ///
     /// # Errors
@@ -57,6 +69,21 @@ impl Source {
             Self::Table(path) => cases_of_table(path),
         }
     }
+}
+
+/// The name of a method: that of its folder, or what its pattern adds to the name of a material.
+fn method_name(path: &Path) -> String {
+    let last = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let added = stem
+        .filter(|stem| stem.contains(PLACEHOLDER))
+        .map(|stem| stem.replace(PLACEHOLDER, "").trim_matches(|c: char| !c.is_alphanumeric()).to_owned());
+    match added {
+        Some(added) if !added.is_empty() => Some(added),
+        Some(_) => path.parent().and_then(last),
+        None => last(path),
+    }
+    .unwrap_or_else(|| path.display().to_string())
 }
 
 /// Matches the materials in the folder `ground_truths` with those of the same name in the folder of each method, or at its pattern.

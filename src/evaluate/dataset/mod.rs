@@ -21,7 +21,7 @@ mod summary;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
 pub use doubts::{DoubtCount, ReadingSummary};
-pub use evaluate::{DatasetResults, run};
+pub use evaluate::{DatasetResults, Evaluation, run};
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use mark_summary::marks_table;
 pub use metric_summary::best_by_metric;

@@ -1,5 +1,6 @@
 //! The session file: a comparison that another person can open, with everything that it takes.
 
+pub mod dataset;
 pub mod window;
 
 use std::iter;
@@ -17,6 +18,7 @@ use crate::disk::paths::{absolute, is_outside, relative};
 use crate::error::Error;
 use crate::photograph::SessionPhotograph;
 use crate::read::ReadOptions;
+use dataset::SessionDataset;
 use window::SessionWindow;
 
 /// What the names of session files end with.
@@ -41,6 +43,9 @@ pub struct Session {
     /// The photograph that renderings are compared with.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub photograph: Option<SessionPhotograph>,
+    /// The data set whose material the comparison is of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dataset: Option<SessionDataset>,
     /// Display and loss settings of the window.
     #[serde(default, skip_serializing_if = "SessionWindow::is_empty")]
     pub window: SessionWindow,
@@ -79,7 +84,7 @@ impl Session {
     /// A session without anything of a window.
     pub fn new(materials: Vec<SessionMaterial>, scene: Scene, convention: String, exposure: f32) -> Self {
         let (photograph, window) = (None, SessionWindow::default());
-        Self { version: VERSION, materials, scene, convention, exposure, photograph, window }
+        Self { version: VERSION, materials, scene, convention, exposure, photograph, dataset: None, window }
     }
 
     /// Reads a session file; the paths of its materials become those from here.
@@ -112,6 +117,9 @@ impl Session {
             photograph.capture =
                 photograph.capture.as_ref().map(|capture| named(capture, path)).transpose()?;
         }
+        for name in session.dataset.iter_mut().flat_map(SessionDataset::paths_mut) {
+            *name = named(name, path)?;
+        }
         for material in &mut session.materials {
             match (&mut material.path, material.built_in) {
                 (Some(name), None) => *name = named(name, path)?,
@@ -130,7 +138,8 @@ impl Session {
         let photograph = photograph
             .flat_map(|photograph| std::iter::once(&photograph.path).chain(&photograph.capture))
             .map(PathBuf::as_path);
-        materials.chain(photograph).filter(|file| is_outside(file, folder)).collect()
+        let dataset = self.dataset.iter().flat_map(SessionDataset::paths).map(PathBuf::as_path);
+        materials.chain(photograph).chain(dataset).filter(|file| is_outside(file, folder)).collect()
     }
 
     /// The text of the session file `path`: the paths of materials are relative to its folder.
@@ -151,6 +160,9 @@ impl Session {
             for path in iter::once(&mut photograph.path).chain(&mut photograph.capture) {
                 *path = relative(&absolute(path), &folder);
             }
+        }
+        for path in session.dataset.iter_mut().flat_map(SessionDataset::paths_mut) {
+            *path = relative(&absolute(path), &folder);
         }
         let failed = |e: serde_json::Error| Error::Internal(format!("a session cannot be written: {e}"));
         let mut value = serde_json::to_value(&session).map_err(failed)?;

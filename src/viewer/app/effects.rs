@@ -13,7 +13,7 @@ use svbrdf_files::scene_file::{self, PhotographLight};
 use svbrdf_files::session::Session;
 
 use super::parts::Parts;
-use super::{saving, training};
+use super::{dataset, saving, training};
 use crate::jobs::browse;
 use crate::jobs::why::ComparedPair;
 use crate::jobs::work::job::Job;
@@ -38,6 +38,9 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::CancelReading(number) => parts.jobs.openings.cancel(number),
         Effect::AllowOutside => allow_outside(),
         Effect::ReadScenes(paths) => parts.jobs.read_scenes(paths),
+        Effect::OpenDataset(paths) => dataset::open(parts, paths),
+        Effect::ReadCaseAgain(case) => dataset::read_again(parts, case),
+        Effect::RestoreDataset(session) => dataset::restore(parts, *session),
         Effect::ReadSession(paths) => read_session(parts, &paths),
         Effect::OpenPhotograph { photograph, light } => open_photograph(parts, photograph, light.as_ref()),
         Effect::SaveAssumptions(index) => save_assumptions(parts, index),
@@ -91,7 +94,8 @@ fn carry_out_on_dialogs(parts: &mut Parts, effect: DialogEffect) {
     match effect {
         DialogEffect::ShowOpen(on) => dialogs.open = on.then(|| OpenDialog::from(parts.model.read)),
         DialogEffect::ShowSave(kind) => {
-            dialogs.save = kind.map(|kind| SaveDialog::new(kind, parts.model.geometry.picture));
+            let (size, has_dataset) = (parts.model.geometry.picture, parts.model.dataset.open.is_some());
+            dialogs.save = kind.map(|kind| SaveDialog::new(kind, size, has_dataset));
         }
         DialogEffect::ShowPhotograph(on) => dialogs.photograph = on.then(PhotographDialog::default),
         DialogEffect::FillPhotograph(path) => {
@@ -119,6 +123,9 @@ fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
             parts.ui.dialogs.open = None;
             let request = parts.model.open_session(&session);
             parts.jobs.read(&parts.model, request);
+            if let Some(of_session) = session.dataset.clone() {
+                dataset::restore(parts, of_session);
+            }
         }
         (Err(error), Some(dialog)) if !matches!(error, FilesError::Outside { .. }) => {
             dialog.fail(error.to_string())

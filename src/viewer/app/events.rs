@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use super::parts::Parts;
-use super::training;
+use super::{dataset, training};
 use crate::jobs::reading::watch::FileChange;
 use crate::model::material::problem::MaterialProblem;
 use crate::model::message::Message;
@@ -14,6 +14,8 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
         ctx.request_repaint_after_secs(seconds as f32);
     }
     take_materials(parts);
+    dataset::take(parts);
+    dataset::show(parts);
     let error = parts.jobs.study.poll();
     parts.model.report(error.map(Message::Failed));
     let fault = parts.gpu.as_ref().and_then(|gpu| gpu.gpu.take_fault());

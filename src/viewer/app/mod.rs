@@ -2,6 +2,7 @@
 
 pub mod context;
 pub mod crash;
+pub mod dataset;
 pub mod device_loss;
 pub mod display;
 pub mod effects;
@@ -78,7 +79,7 @@ impl App {
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
         let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu, stop: Stop::default() };
         let start = parts.model.start(options);
-        effects::carry_out(&mut parts, &cc.egui_ctx, start);
+        start.into_iter().for_each(|effect| effects::carry_out(&mut parts, &cc.egui_ctx, effect));
         let crash = CrashGuard::default();
         Self { parts, stored, crash, context, opened_at: 0.0, title: String::new(), unscaled, memory: None }
     }
@@ -130,6 +131,7 @@ impl App {
         events::take_results(&mut self.parts, &ctx);
         let commands = self.parts.ui.input(&ctx, Displayed::of(&self.parts.model, &self.parts.jobs));
         self.apply_all(&ctx, commands);
+        dataset::show(&mut self.parts);
         if self.parts.model.animate(f64::from(ctx.input(|i| i.stable_dt))) {
             ctx.request_repaint();
         }
@@ -157,7 +159,8 @@ impl App {
 
     /// Gives the window the name of what is open.
     fn name_window(&mut self, ctx: &egui::Context) {
-        let open = self.parts.model.materials.title();
+        let of_dataset = self.parts.ui.dataset.title(self.parts.displayed());
+        let open = of_dataset.or_else(|| self.parts.model.materials.title());
         let title = open.map_or_else(|| NAME.to_owned(), |open| format!("{open} - {NAME}"));
         if title != self.title {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
@@ -178,6 +181,7 @@ impl App {
         let parts = DisplayedParts {
             extra_pane: self.parts.ui.has_extra_pane(),
             longest_texture: ctx.input(|i| i.max_texture_side),
+            dataset: self.parts.ui.dataset.displayed.clone(),
         };
         let findings = self.parts.jobs.follow(&self.parts.model, parts);
         self.parts.model.report(findings.errors.into_iter().map(Message::Failed));

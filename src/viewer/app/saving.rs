@@ -47,6 +47,9 @@ pub(super) fn save_file(
         (SaveKind::Report, _) => report::start(displayed, path),
         (SaveKind::Session, _) => saving::session(displayed, path),
         (SaveKind::Scenes, _) => saving::scenes(displayed, path),
+        (SaveKind::Materials, _) => {
+            saving::materials_csv(displayed, parts.ui.dataset.listed().to_vec(), path)
+        }
     };
     parts.stop.cancels(&job.progress());
     parts.jobs.saving = Some(job);

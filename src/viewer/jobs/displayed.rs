@@ -44,7 +44,8 @@ impl<'a> Displayed<'a> {
         let runs =
             self.jobs.training.views(&self.model.materials.all, self.model.training.requested.as_ref());
         let is_compared = self.model.photograph.source().is_some() || !runs.is_empty();
-        (!is_compared && self.jobs.openings.is_empty()).then_some(material)
+        let is_of_dataset = self.model.dataset.open.is_some();
+        (!is_compared && !is_of_dataset && self.jobs.openings.is_empty()).then_some(material)
     }
 
     fn view(self) -> &'a ViewState {

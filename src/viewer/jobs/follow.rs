@@ -4,6 +4,7 @@ use svbrdf_core::loss::Request;
 use svbrdf_evaluate::why::Worst;
 
 use super::Jobs;
+use super::dataset::DisplayedCases;
 use super::displayed::Displayed;
 use super::panes::RangeKey;
 use super::why::WhyQuery;
@@ -14,12 +15,14 @@ use crate::model::settings::Tab;
 use crate::model::settings::loss_query::LossQuery;
 
 /// What the window displays, as far as jobs depend on it.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct DisplayedParts {
     /// Whether an empty place beside the panes has the difference or the value of the chosen prediction.
     pub extra_pane: bool,
     /// Longest side of a texture.
     pub longest_texture: usize,
+    /// What is in sight of a data set.
+    pub dataset: DisplayedCases,
 }
 
 /// What the jobs have found since the last frame.
@@ -42,10 +45,13 @@ impl Jobs {
             self.uploads.send_missing(&self.waker, gpu, &model.materials.all);
         }
         self.follow_why(model, &mut findings);
-        self.follow_panes(model, parts, &mut findings);
-        let Self { uploads, openings, panes, .. } = self;
+        self.follow_panes(model, &parts, &mut findings);
+        let range = Displayed::of(model, self).range();
+        let Self { waker, gpu, dataset, .. } = self;
+        findings.errors.extend(dataset.follow(waker, gpu.as_ref(), model, &parts.dataset, range));
+        let Self { uploads, openings, panes, dataset, .. } = self;
         let is_here = |id| model.materials.all.iter().chain(&panes.displayed).any(|one| one.id() == id);
-        uploads.keep_only(|id| is_here(id) || openings.hold(id));
+        uploads.keep_only(|id| is_here(id) || openings.hold(id) || dataset.cases.hold(id));
         findings
     }
 
@@ -76,7 +82,7 @@ impl Jobs {
 
     /// The jobs of the tab *Why*, where it is open. The search for the worst scene goes on in other tabs, too.
     fn follow_why(&mut self, model: &Model, findings: &mut JobFindings) {
-        let is_open = model.settings.tab == Tab::Why && model.side_panel();
+        let is_open = model.tab() == Tab::Why && model.side_panel();
         let loss = &model.settings.loss;
         let query = WhyQuery {
             sections: model.settings.sections.clone(),
@@ -94,7 +100,7 @@ impl Jobs {
         findings.worst = why.poll_search(&work);
     }
 
-    fn follow_panes(&mut self, model: &Model, parts: DisplayedParts, findings: &mut JobFindings) {
+    fn follow_panes(&mut self, model: &Model, parts: &DisplayedParts, findings: &mut JobFindings) {
         let (settings, view) = (&model.settings, &model.view);
         let has_photograph = Displayed::of(model, self).photograph().is_some();
         let differences = view.display.difference || parts.extra_pane;

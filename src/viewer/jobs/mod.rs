@@ -4,6 +4,7 @@
 //! latest question wins. Workers wake the window; nothing here knows the window library.
 
 pub mod browse;
+pub mod dataset;
 pub mod displayed;
 pub mod follow;
 pub mod loss;
@@ -27,6 +28,7 @@ use crate::model::Model;
 use crate::model::material::request::{ReadRequest, Target};
 
 use browse::Browsed;
+use dataset::DatasetJobs;
 use loss::LossJob;
 use loss::scene::SceneLossJob;
 use loss::study::StudyJob;
@@ -62,6 +64,7 @@ pub struct Jobs {
     pub why: WhyJobs,
     pub panes: PaneJobs,
     pub photograph: PhotographJobs,
+    pub dataset: DatasetJobs,
     pub browsing: Option<Job<Browsed>>,
     pub saving: Option<Job<PathBuf>>,
     /// The scene file that is being read.

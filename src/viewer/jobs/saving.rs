@@ -9,7 +9,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::Error as EvaluateError;
-use svbrdf_evaluate::report::{Compared, Json as _, ScenesReport};
+use svbrdf_evaluate::report::{Cell, Compared, Json as _, ScenesReport, Table};
 use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::export::strip::{Column, Crop, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
@@ -65,6 +65,28 @@ pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
             content.pictures(&all, scene, convention, *exposure_ev, progress)?;
         provenance.content = content;
         destination.write(&images, &provenance, progress)?;
+        Ok(path)
+    })
+}
+
+/// Starts to write the materials of a data set in these places to `path`: marks, notes and losses.
+pub fn materials_csv(displayed: Displayed<'_>, cases: Vec<usize>, path: PathBuf) -> Job<PathBuf> {
+    let (dataset, losses) = (&displayed.model.dataset, &displayed.jobs.dataset.losses);
+    let methods = dataset.open.as_ref().map(|open| open.methods().to_vec()).unwrap_or_default();
+    let mut columns = vec!["material".to_owned(), "marked".to_owned(), "note".to_owned()];
+    columns.extend(methods);
+    let row = |case: &usize| -> Vec<Cell> {
+        let name = dataset.open.as_ref().map_or("", |open| open.name(*case));
+        let mark = dataset.mark(name).cloned().unwrap_or_default();
+        let known = losses.row(*case).map(|row| row.by_method.clone()).unwrap_or_default();
+        let losses = (3..columns.len())
+            .map(|column| known.get(column - 3).copied().flatten().map(|known| known.loss).into());
+        [name.into(), mark.is_marked.into(), mark.note.into()].into_iter().chain(losses).collect()
+    };
+    let rows = cases.iter().map(row).collect();
+    let table = Table { columns, rows };
+    Job::start(&displayed.jobs.waker, move |progress| {
+        atomic::write_text(&path, &table.csv()?, progress)?;
         Ok(path)
     })
 }

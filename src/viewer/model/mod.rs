@@ -5,6 +5,7 @@
 
 pub mod apply;
 pub mod command;
+pub mod dataset;
 pub mod exposed;
 pub mod history;
 pub mod inspection;
@@ -21,6 +22,7 @@ use svbrdf_core::loss::FileScenes;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
+use dataset::DatasetState;
 use exposed::Exposed;
 use history::History;
 use inspection::Inspection;
@@ -47,6 +49,7 @@ pub struct Model {
     /// The sessions of the last comparisons of materials from files, the latest first, for the next start.
     pub recent: Vec<Session>,
     pub materials: MaterialList,
+    pub dataset: DatasetState,
     pub photograph: PhotographState,
     pub training: TrainingState,
     /// Whether the last opening was of one material, which has no prediction yet.
@@ -80,6 +83,14 @@ impl Model {
     /// Whether the side panel is open. Narrow windows have a choice of their own, which starts closed.
     pub fn side_panel(&self) -> bool {
         if self.geometry.is_narrow { self.narrow_side_panel } else { self.settings.side_panel }
+    }
+
+    /// The tab of the side panel that is open.
+    pub fn tab(&self) -> settings::Tab {
+        match self.settings.tab {
+            settings::Tab::Methods if self.dataset.open.is_none() => settings::Tab::Loss,
+            tab => tab,
+        }
     }
 
     /// The question of the loss: by the settings, in the convention that is rendered.

@@ -1,21 +1,26 @@
 //! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_evaluate::dataset::{Method, Source};
 use svbrdf_files::convention;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 use svbrdf_files::session::window::{SessionInspection, SessionWindow};
 use svbrdf_files::session::{Session, SessionMaterial};
 use svbrdf_files::steps::RunId;
 
 use super::Model;
 use super::command::effect::Effect;
+use super::dataset::{DatasetState, OpenDataset};
 use super::exposed::Exposed;
 use super::inspection::Inspection;
 use super::material::read::Rules;
@@ -31,28 +36,33 @@ use svbrdf_files::source::{MaterialSource, Place};
 const RECENT: usize = 12;
 
 impl Model {
-    /// Takes in what the window starts with; the request that reads its materials.
-    pub fn start(&mut self, options: ViewerOptions) -> Effect {
+    /// Takes in what the window starts with; what reads its materials.
+    pub fn start(&mut self, options: ViewerOptions) -> Vec<Effect> {
         self.materials.rules = Rules { strict: options.strict, fit: options.fit };
         let request = match (&options.session, options.ground_truth) {
-            (Some(session), _) => self.open_session(session),
-            (None, None) => ReadRequest::built_in(),
+            (Some(session), _) => Some(self.open_session(session)),
+            (None, None) if options.dataset.is_some() => None,
+            (None, None) => Some(ReadRequest::built_in()),
             (None, Some(ground_truth)) => {
                 if options.predictions.is_empty() && options.photograph.is_none() {
                     self.light_alone();
                 }
                 let predictions = sources(options.predictions);
                 let all = std::iter::once(ground_truth).chain(predictions).collect();
-                ReadRequest::new(all, Target::Everything)
+                Some(ReadRequest::new(all, Target::Everything))
             }
         };
+        if let Some(dataset) = options.dataset {
+            self.open_dataset(DatasetState::of(Arc::from(dataset), 0, BTreeMap::new()));
+        }
         // After a session, which may have others.
         if let Some((photograph, scene)) = options.photograph {
             let stamp = Stamp::of(&photograph.path);
             self.show_photograph(photograph, stamp, scene);
         }
         options.scenes.into_iter().for_each(|file| self.use_scenes(file));
-        Effect::Read(request)
+        let of_session = options.session.and_then(|session| session.dataset).map(Box::new);
+        request.map(Effect::Read).into_iter().chain(of_session.map(Effect::RestoreDataset)).collect()
     }
 
     /// Lights a material that is looked at alone from the side and from afar, unless light or view were moved.
@@ -93,8 +103,34 @@ impl Model {
         let (display, loss) = (Some(view.display.clone()), Some(self.settings.loss.clone()));
         let inspection =
             Some(SessionInspection::from(&self.inspection)).filter(|one| *one != Default::default());
+        session.dataset = self.dataset.open.as_ref().map(|open| self.session_dataset(open));
         session.window = SessionWindow { display, loss, inspection };
         session
+    }
+
+    /// The data set of the current session.
+    fn session_dataset(&self, open: &OpenDataset) -> SessionDataset {
+        let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
+        let (ground_truths, methods) = match &open.settings.source {
+            Source::Table(table) => (absolute(table), Vec::new()),
+            Source::Folders { ground_truths, methods } => {
+                let method =
+                    |one: &Method| SessionMethod { name: one.name.clone(), path: absolute(&one.path) };
+                (absolute(ground_truths), methods.iter().map(method).collect())
+            }
+        };
+        SessionDataset {
+            ground_truths,
+            methods,
+            results: open.results.as_ref().map(absolute),
+            target_error: open.settings.target_error,
+            seed: open.settings.seed,
+            read: open.reading.ground_truths,
+            read_predictions: open.reading.predictions,
+            read_methods: open.reading.methods.clone(),
+            shown: open.name(self.dataset.wanted).to_owned(),
+            marks: self.dataset.marks.clone(),
+        }
     }
 
     /// Takes over light, view, display, loss settings and photograph of a session; the request that reads its materials.
@@ -107,6 +143,7 @@ impl Model {
             exposure_ev: session.exposure,
             display: session.window.display.clone().unwrap_or_default(),
         };
+        self.close_dataset();
         self.opened_alone = false;
         self.exposed = Exposed::Restored;
         if let Some(loss) = &session.window.loss {
@@ -149,7 +186,8 @@ impl Model {
 
     /// Remembers the comparison for the next start, unless there are only built-in materials, or some are still being read.
     pub fn remember_session(&mut self, are_materials_settled: bool) {
-        if are_materials_settled && !self.materials.only_built_in() {
+        let is_settled = are_materials_settled && !self.dataset.is_waiting();
+        if is_settled && !self.materials.only_built_in() {
             let session = self.session();
             let files = compared_files(&session);
             self.recent.retain(|one| compared_files(one) != files);
@@ -161,6 +199,10 @@ impl Model {
 
 /// The files of a comparison; of a training run, whichever step is shown.
 fn compared_files(session: &Session) -> Vec<PathBuf> {
+    // Of a data set, whichever material is shown.
+    if let Some(dataset) = &session.dataset {
+        return dataset.paths().cloned().collect();
+    }
     let file = |material: &SessionMaterial| {
         let path = material.path.clone()?;
         let run = RunId::of_step(&path).filter(|_| material.steps);

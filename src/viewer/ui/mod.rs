@@ -3,6 +3,7 @@
 //! [`WindowUi::input`] reads keys and gestures before anything is drawn; [`WindowUi::draw`] draws, and returns what was clicked.
 
 pub mod content;
+pub mod dataset;
 pub mod dialogs;
 pub mod input;
 pub mod legend;
@@ -20,6 +21,7 @@ pub mod widgets;
 use eframe::egui;
 
 use content::CentralArea;
+use dataset::DatasetUi;
 use dialogs::Dialogs;
 use input::KeyInput;
 use materials::alone::MapThumbnails;
@@ -48,6 +50,7 @@ pub struct WindowUi {
     viewport: Viewport,
     textures: PanelTextures,
     thumbnails: MapThumbnails,
+    pub dataset: DatasetUi,
     /// Size of the panes and the legend, in pixels.
     picture_size: [u32; 2],
     /// Whether the drawer is there.
@@ -82,6 +85,10 @@ impl WindowUi {
     pub fn input(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Vec<Command> {
         let mut commands = self.input.commands(ctx, displayed, &self.dialogs);
         if !self.dialogs.is_open() && !displayed.model.help {
+            commands.extend(self.dataset.keys(ctx, displayed));
+        }
+        let has_panes = !displayed.model.dataset.sheet.is_open;
+        if has_panes && !self.dialogs.is_open() && !displayed.model.help {
             let scenery = content::scenery(ctx, displayed, &displayed.model.view);
             commands.extend(self.viewport.gestures(ctx, &scenery));
         }
@@ -106,30 +113,45 @@ impl WindowUi {
             &mut is_open,
             // Contents that are too wide are cut off: the panel does not grow.
             |ui| {
-                commands
-                    .extend(fixed(ui, |ui| side::ui(ui, displayed, &mut self.thumbnails, &mut self.textures)))
+                commands.extend(fixed(ui, |ui| {
+                    let tools = side::SideTools {
+                        thumbnails: &mut self.thumbnails,
+                        textures: &mut self.textures,
+                        dataset: &mut self.dataset,
+                    };
+                    side::ui(ui, displayed, tools)
+                }))
             },
         );
         if is_open != was_open {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
+        commands.extend(self.dataset.drawer(ui, displayed, &mut self.textures));
         // Panes stay where they are in a drag.
         if !ui.input(|i| i.pointer.any_down()) {
             self.has_drawer = !model.inspection.is_empty();
         }
-        if self.has_drawer && model.materials.ground_truth().is_some() {
+        if self.has_drawer && !model.dataset.sheet.is_open && model.materials.ground_truth().is_some() {
             commands.extend(Drawer::new(displayed).ui(ui));
         }
         let area = ui.available_rect_before_wrap();
         self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
-        let mut content = CentralArea {
-            displayed,
-            viewport: &mut self.viewport,
-            textures: &mut self.textures,
-            view: &model.view,
+        let panes = match self.dataset.sheet(ui, displayed, &mut self.textures) {
+            Some(of_sheet) => {
+                commands.extend(of_sheet);
+                area
+            }
+            None => {
+                let mut content = CentralArea {
+                    displayed,
+                    viewport: &mut self.viewport,
+                    textures: &mut self.textures,
+                    view: &model.view,
+                };
+                commands.extend(content.ui(ui, gpu));
+                self.viewport.area
+            }
         };
-        commands.extend(content.ui(ui, gpu));
-        let panes = self.viewport.area;
         commands.extend(panels::messages::ui(ui.ctx(), panes, &model.messages));
         if model.help {
             commands.extend(input::help::ui(ui.ctx()));

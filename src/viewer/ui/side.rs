@@ -5,6 +5,7 @@ use eframe::egui::{self, RichText};
 use svbrdf_evaluate::diagnose::Finding;
 use svbrdf_files::read::Certainty;
 
+use super::dataset::DatasetUi;
 use super::loss::panel::LossPanel;
 use super::loss::training::TrainingPanel;
 use super::materials::alone::{AloneCard, MapThumbnails};
@@ -20,11 +21,18 @@ use crate::model::command::{Command, WindowCommand};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::Tab;
 
+/// What the panel keeps between frames.
+#[derive(Debug)]
+pub struct SideTools<'a> {
+    pub thumbnails: &'a mut MapThumbnails,
+    pub textures: &'a mut PanelTextures,
+    pub dataset: &'a mut DatasetUi,
+}
+
 pub fn ui(
     ui: &mut egui::Ui,
     displayed: Displayed<'_>,
-    thumbnails: &mut MapThumbnails,
-    textures: &mut PanelTextures,
+    SideTools { thumbnails, textures, dataset }: SideTools<'_>,
 ) -> Vec<Command> {
     let (model, jobs) = (displayed.model, displayed.jobs);
     let mut commands = match displayed.alone() {
@@ -51,11 +59,12 @@ pub fn ui(
             .show(ui, |ui| commands.extend(card.ui(ui, textures)));
     }
     // Of a material alone, only its files.
-    let tab = if displayed.alone().is_some() { Tab::Files } else { model.settings.tab };
+    let tab = if displayed.alone().is_some() { Tab::Files } else { model.tab() };
     let scroll = egui::ScrollArea::vertical().id_salt(tab as usize);
     scroll.auto_shrink([false, false]).show(ui, |ui| {
         commands.extend(match tab {
             Tab::Loss => loss_tab(ui, displayed),
+            Tab::Methods => dataset.summary(ui, displayed),
             Tab::Why => why_tab(ui, displayed, textures),
             Tab::Files => {
                 let (materials, openings) = (&model.materials, &jobs.openings);
@@ -82,14 +91,17 @@ fn tabs(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     let unsure = unsure_guesses(displayed);
     ui.horizontal(|ui| {
-        for (tab, name, question) in Tab::ALL {
+        let has_methods = model.dataset.open.is_some();
+        for (tab, name, question) in
+            Tab::ALL.into_iter().filter(|(tab, ..)| has_methods || *tab != Tab::Methods)
+        {
             let text = match tab {
                 Tab::Files if unsure > 0 => {
                     RichText::new(format!("{name} ({unsure}?)")).color(ui.visuals().warn_fg_color)
                 }
                 _ => RichText::new(name),
             };
-            let label = ui.selectable_label(model.settings.tab == tab, text.size(14.5));
+            let label = ui.selectable_label(model.tab() == tab, text.size(14.5));
             label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Tab, true, format!("Tab {name}")));
             let hover = match tab {
                 Tab::Files if unsure > 0 => format!("{question} {unsure} guesses are unsure"),

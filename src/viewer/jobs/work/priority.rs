@@ -6,6 +6,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 #[cfg(target_os = "linux")]
 const NICE: i32 = 10;
 
+/// The lowest priority.
+#[cfg(target_os = "linux")]
+const NICEST: i32 = 19;
+
 /// Whether slow work yields: in the window of a person. Tests drive many windows at once, and wait for its results.
 static YIELDS: AtomicBool = AtomicBool::new(false);
 
@@ -13,6 +17,20 @@ static YIELDS: AtomicBool = AtomicBool::new(false);
 pub fn yield_to_window() {
     YIELDS.store(true, Ordering::Relaxed);
     let _ = rayon::ThreadPoolBuilder::new().start_handler(|_| lower()).build_global();
+}
+
+/// Threads for what nobody waits for: they get what other slow work leaves.
+///
+/// # Errors
+/// Where the system has no more threads.
+pub fn background_pool() -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
+    let lower = || {
+        #[cfg(target_os = "linux")]
+        if YIELDS.load(Ordering::Relaxed) {
+            let _ = rustix::process::setpriority_process(None, NICEST);
+        }
+    };
+    rayon::ThreadPoolBuilder::new().start_handler(move |_| lower()).build()
 }
 
 /// Lowers the priority of the thread that calls it, where slow work yields.

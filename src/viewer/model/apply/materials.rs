@@ -15,6 +15,16 @@ use crate::model::material::source::sources;
 use crate::model::message::Message;
 
 pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect> {
+    let closes = match &command {
+        MaterialsCommand::Open { paths, replace, .. } => {
+            *replace && !paths.iter().all(|path| scene_file::is_named(path))
+        }
+        MaterialsCommand::OpenBuiltIn | MaterialsCommand::Reopen(_) => true,
+        _ => false,
+    };
+    if closes {
+        model.close_dataset();
+    }
     let materials = &mut model.materials;
     match command {
         MaterialsCommand::Open { paths, replace, read } => open(model, paths, replace, read),
@@ -38,6 +48,10 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
         }
         MaterialsCommand::CancelReading(number) => vec![Effect::CancelReading(number)],
         MaterialsCommand::Reopen(index) => reopen(model, index),
+        MaterialsCommand::Reload if model.dataset.open.is_some() => {
+            model.dataset.is_stale = true;
+            vec![Effect::ReadCaseAgain(model.dataset.wanted)]
+        }
         MaterialsCommand::Reload => {
             let readings = materials.reload(None).into_iter().map(Effect::Read);
             readings.chain([Effect::RescanTraining]).collect()
@@ -99,6 +113,7 @@ fn reopen(model: &mut Model, index: usize) -> Vec<Effect> {
     };
     let mut effects = vec![Effect::Dialog(DialogEffect::ShowOpen(false))];
     effects.push(Effect::Read(model.open_session(&session)));
+    effects.extend(session.dataset.map(|dataset| Effect::RestoreDataset(Box::new(dataset))));
     effects
 }
 

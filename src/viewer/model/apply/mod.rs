@@ -1,5 +1,6 @@
 //! Commands, carried out on the model.
 
+mod dataset;
 mod display;
 pub mod exposure;
 mod inspection;
@@ -27,6 +28,7 @@ impl Model {
             Command::Why(command) => apply_to_why(self, command),
             Command::Training(command) => training::apply(self, command),
             Command::Photograph(command) => photograph::apply(self, command),
+            Command::Dataset(command) => dataset::apply(self, command),
         }
     }
 }

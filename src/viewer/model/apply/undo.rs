@@ -9,14 +9,16 @@ use crate::model::history::Moment;
 
 /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
 pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_settled: bool) {
-    if are_materials_settled {
+    let is_of_dataset = model.dataset.open.is_some();
+    // Of a data set, going to another material is no step to undo.
+    if are_materials_settled && !is_of_dataset {
         let materials = model.materials.sources();
         if materials != model.history.materials {
             model.history.materials = materials;
             model.remember_session(true);
         }
     }
-    if !model.history.materials.is_empty() && is_photograph_settled {
+    if (is_of_dataset || !model.history.materials.is_empty()) && is_photograph_settled {
         let (time, now) = (model.time, moment(model));
         model.history.undo.feed(time, &now);
     }

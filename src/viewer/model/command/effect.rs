@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::scene_file::PhotographLight;
+use svbrdf_files::session::dataset::SessionDataset;
 
 use super::BrowseFor;
 use crate::model::material::request::ReadRequest;
@@ -22,6 +23,12 @@ pub enum Effect {
     AllowOutside,
     /// Reads scene files.
     ReadScenes(Vec<PathBuf>),
+    /// Matches the materials of folders, or reads a table of pairs.
+    OpenDataset(Vec<PathBuf>),
+    /// Reads a material of the data set and its losses again.
+    ReadCaseAgain(usize),
+    /// Opens the data set of a session.
+    RestoreDataset(Box<SessionDataset>),
     /// Reads a session file, which stands alone, and opens it.
     ReadSession(Vec<PathBuf>),
     /// Reads light and view of a photograph where a file has them, and compares renderings with the photograph.

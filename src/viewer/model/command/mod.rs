@@ -4,9 +4,11 @@
 
 use std::path::PathBuf;
 
+pub mod dataset;
 pub mod effect;
 pub mod photograph;
 
+pub use dataset::DatasetCommand;
 pub use photograph::PhotographCommand;
 
 use svbrdf_core::loss::{LossSettings, Sampling};
@@ -38,6 +40,7 @@ pub enum Command {
     Why(WhyCommand),
     Training(TrainingCommand),
     Photograph(PhotographCommand),
+    Dataset(DatasetCommand),
 }
 
 /// Files and materials.

@@ -94,6 +94,12 @@ impl MaterialList {
         self.ground_truth().filter(stays).map(|one| one.material().size())
     }
 
+    /// Puts these into the place of all others, the ground truth first; predictions have its size.
+    pub fn replace_all(&mut self, materials: &[Arc<ReadMaterial>]) {
+        self.all = materials.iter().cloned().map(LoadedMaterial::new).collect();
+        rename(&mut self.all);
+    }
+
     /// Places a material; false where those after it are not wanted.
     pub fn place(
         &mut self,

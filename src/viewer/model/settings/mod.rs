@@ -21,12 +21,15 @@ pub enum Tab {
     Why,
     /// Is each material read rightly?
     Files,
+    /// Which method is better? Of a data set.
+    Methods,
 }
 
 impl Tab {
     /// Every tab with its name and its question.
-    pub const ALL: [(Self, &'static str, &'static str); 3] = [
+    pub const ALL: [(Self, &'static str, &'static str); 4] = [
         (Self::Loss, "Loss", "Which prediction is better?"),
+        (Self::Methods, "Methods", "Which method is better over the data set?"),
         (Self::Why, "Why", "Where and by what is a prediction wrong?"),
         (Self::Files, "Files", "Is each material read rightly?"),
     ];

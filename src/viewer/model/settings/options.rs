@@ -1,5 +1,6 @@
 //! Options of the window: what it starts with.
 
+use crate::model::dataset::OpenDataset;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_files::photograph::SessionPhotograph;
@@ -14,6 +15,8 @@ pub struct ViewerOptions {
     /// `None` for the built-in pair.
     pub ground_truth: Option<MaterialSource>,
     pub predictions: Vec<MaterialSource>,
+    /// A data set, in place of materials.
+    pub dataset: Option<Box<OpenDataset>>,
     /// Whether guesses about materials are errors.
     pub strict: bool,
     /// Whether predictions of another size are resized to the ground truth.

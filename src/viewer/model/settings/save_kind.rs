@@ -29,9 +29,12 @@ pub enum SaveKind {
     Session,
     /// The scenes of the loss of the chosen prediction, as `svbrdf scenes` writes.
     Scenes,
+    /// The list of materials of a data set, with marks, notes and losses.
+    Materials,
 }
 
 impl SaveKind {
+    /// The kinds of a single comparison; a data set has [`SaveKind::Materials`], too.
     pub const ALL: [Self; 6] =
         [Self::View, Self::Renderings, Self::Strip, Self::Report, Self::Session, Self::Scenes];
 
@@ -44,6 +47,7 @@ impl SaveKind {
             Self::Report => "Report",
             Self::Session => "Session",
             Self::Scenes => "Scenes",
+            Self::Materials => "List",
         }
     }
 
@@ -74,6 +78,9 @@ impl SaveKind {
                 "The scenes that the tab Why lists for the chosen prediction, worst first, with their losses. Open takes \
                  them as the scenes of the loss, and so does --scenes of `svbrdf`."
             }
+            Self::Materials => {
+                "The materials that are listed, in their order, as CSV: mark, note and the loss of each method."
+            }
         }
     }
 
@@ -86,6 +93,7 @@ impl SaveKind {
             Self::Report => "svbrdf-report.html",
             Self::Session => "comparison.svbrdf-session.json",
             Self::Scenes => "scenes.json",
+            Self::Materials => "materials.csv",
         }
     }
 }

@@ -8,7 +8,7 @@ use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
 use super::path_field::{PathField, dialog};
-use crate::model::command::{BrowseFor, Command, MaterialsCommand, WindowCommand};
+use crate::model::command::{BrowseFor, Command, DatasetCommand, MaterialsCommand, WindowCommand};
 use crate::model::material::source::file_name;
 use crate::ui::widgets::read_options::read_options;
 
@@ -17,7 +17,7 @@ use crate::ui::widgets::read_options::read_options;
 pub struct OpenDialog {
     /// One path a line.
     pub text: String,
-    pub as_predictions: bool,
+    pub opens: Opens,
     pub read: ReadOptions,
     /// Whether its materials have been asked for.
     pub submitted: bool,
@@ -26,12 +26,25 @@ pub struct OpenDialog {
     field: PathField,
 }
 
+/// What the paths are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Opens {
+    #[default]
+    Comparison,
+    Predictions,
+    Dataset,
+}
+
 /// Height below the list of recent materials, and least height of the list.
 const BELOW_RECENT: f32 = 230.0;
 const LEAST_RECENT: f32 = 60.0;
 
 /// The materials of a comparison, the ground truth first.
 fn compared(session: &Session) -> String {
+    if let Some(dataset) = &session.dataset {
+        let methods: Vec<&str> = dataset.methods.iter().map(|method| method.name.as_str()).collect();
+        return format!("data set {} | {}", file_name(&dataset.ground_truths), methods.join(", "));
+    }
     let names = session.materials.iter().map(|one| match (&one.path, one.built_in) {
         (Some(path), _) => file_name(path),
         (None, _) => "built-in material".to_owned(),
@@ -46,6 +59,9 @@ fn compared(session: &Session) -> String {
 
 /// The paths of a comparison, one a line.
 fn paths(session: &Session) -> String {
+    if let Some(dataset) = &session.dataset {
+        return dataset.paths().map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n");
+    }
     let paths = session.materials.iter().filter_map(|one| one.path.as_deref());
     paths.map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n")
 }
@@ -121,14 +137,21 @@ impl OpenDialog {
     }
 
     fn choices(&mut self, ui: &mut egui::Ui, entered: bool, commands: &mut Vec<Command>) {
-        ui.radio_value(
-            &mut self.as_predictions,
-            false,
-            "The first is the ground truth, the others are predictions",
-        )
-        .on_hover_text("They replace the materials in the window");
-        ui.radio_value(&mut self.as_predictions, true, "All are predictions")
-            .on_hover_text("They are added to the materials in the window");
+        for (opens, text, hover) in [
+            (
+                Opens::Comparison,
+                "The first is the ground truth, the others are predictions",
+                "They replace the materials in the window",
+            ),
+            (Opens::Predictions, "All are predictions", "They are added to the materials in the window"),
+            (
+                Opens::Dataset,
+                "A data set: a folder of ground truths, then one of each method",
+                "Materials are matched by name, as `svbrdf rank --dataset` does; or one CSV table of pairs",
+            ),
+        ] {
+            ui.radio_value(&mut self.opens, opens, text).on_hover_text(hover);
+        }
         let reading = ui.collapsing("How to read them...", |ui| {
             read_options(ui, "the materials to open", &mut self.read, &[]);
         });
@@ -143,9 +166,13 @@ impl OpenDialog {
         if button.on_hover_text("Return in the field, or Ctrl+Return").clicked() || (entered && ready) {
             self.submitted = true;
             self.field.clear();
-            commands.push(
-                MaterialsCommand::Open { paths, replace: !self.as_predictions, read: self.read }.into(),
-            );
+            commands.push(match self.opens {
+                Opens::Dataset => DatasetCommand::Open(paths).into(),
+                opens => {
+                    let replace = opens == Opens::Comparison;
+                    MaterialsCommand::Open { paths, replace, read: self.read }.into()
+                }
+            });
         }
     }
 }

@@ -19,6 +19,8 @@ const SIDE: std::ops::RangeInclusive<u32> = 64..=8192;
 pub struct SaveDialog {
     pub path: String,
     pub what: SaveKind,
+    /// Whether there is a list of materials to save.
+    has_dataset: bool,
     /// Size of a picture of the view, in pixels.
     size: [u32; 2],
     /// Whether a picture of the view has the handles of light and view.
@@ -32,11 +34,12 @@ pub struct SaveDialog {
 
 impl SaveDialog {
     /// `what` is chosen at first; `size` is the size of the view in the window, in pixels.
-    pub fn new(what: SaveKind, size: [u32; 2]) -> Self {
+    pub fn new(what: SaveKind, size: [u32; 2], has_dataset: bool) -> Self {
         let path = what.proposal().to_owned();
         Self {
             path,
             what,
+            has_dataset,
             size,
             handles: true,
             replaces: None,
@@ -119,10 +122,15 @@ impl SaveDialog {
     /// What is saved; a name that was proposed follows.
     fn choice(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
-            for what in SaveKind::ALL {
+            let of_dataset = self.has_dataset.then_some(SaveKind::Materials);
+            for what in SaveKind::ALL.into_iter().chain(of_dataset) {
                 let button = ui.selectable_label(self.what == what, what.name());
                 if button.on_hover_text(what.explanation()).clicked() {
-                    if SaveKind::ALL.iter().any(|kind| kind.proposal() == self.path) {
+                    if SaveKind::ALL
+                        .iter()
+                        .chain(&[SaveKind::Materials])
+                        .any(|kind| kind.proposal() == self.path)
+                    {
                         self.path = what.proposal().to_owned();
                     }
                     self.what = what;

@@ -78,6 +78,15 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
         ],
     ),
     (
+        "Data set",
+        &[
+            ("Page down / Page up", "next / previous material of the list"),
+            ("A / S", "list of materials / contact sheet, on / off"),
+            ("K", "mark the material, or remove its mark"),
+            ("wheel over the sheet", "size of its cells; over the names it scrolls"),
+        ],
+    ),
+    (
         "Files",
         &[
             ("Ctrl + O / Ctrl + Shift + O", "open materials or a session / reopen the last materials"),

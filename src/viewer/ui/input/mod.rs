@@ -10,8 +10,8 @@ use eframe::egui;
 use super::dialogs::Dialogs;
 use crate::jobs::displayed::Displayed;
 use crate::model::command::{
-    Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, PhotographCommand,
-    SceneCommand, WhyCommand, WindowCommand,
+    Command, DatasetCommand, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand,
+    PhotographCommand, SceneCommand, WhyCommand, WindowCommand,
 };
 
 /// The state of the keys between frames.
@@ -68,10 +68,12 @@ fn escape(displayed: Displayed<'_>, dialogs: &Dialogs) -> Command {
         () if dialogs.save.is_some() => WindowCommand::ShowSave(false).into(),
         () if model.photograph.edits_corners() => PhotographCommand::EditCorners(false).into(),
         () if model.study => LossCommand::ShowStudy(false).into(),
+        () if model.dataset.sheet.is_open => DatasetCommand::ShowSheet(false).into(),
         () if model.inspection.is_armed => InspectionCommand::Arm(false).into(),
         () if model.inspection.region.is_some() => InspectionCommand::SetRegion(None).into(),
         () if jobs.why.search.busy().is_some() => WhyCommand::CancelSearch.into(),
         () if model.view.display.is_replaced() => DisplayCommand::Isolate(None).into(),
+        () if model.dataset.sheet.is_behind => DatasetCommand::ShowSheet(true).into(),
         () => LossCommand::Cancel.into(),
     }
 }

@@ -1,0 +1,84 @@
+//! Data set: matched on a worker, and shown material by material.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use svbrdf_evaluate::dataset::{DatasetReading, Method, Source};
+use svbrdf_files::session::dataset::SessionDataset;
+
+use super::parts::Parts;
+use crate::jobs::work::job::Job;
+use crate::model::dataset::{DatasetState, OpenDataset};
+use crate::model::message::Message;
+
+/// Half of the 95% interval of each loss, as a share of it, where nothing else is asked for: that of `svbrdf rank`.
+const TARGET_ERROR: f64 = 0.01;
+
+/// Matches the materials of these folders, or of one table.
+pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
+    parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
+        let mut paths = paths.into_iter();
+        let first = paths.next().unwrap_or_default();
+        let methods: Vec<_> = paths.map(|path| (None, path)).collect();
+        let source = if methods.is_empty() { Source::Table(first) } else { Source::folders(first, methods) };
+        let open = OpenDataset::new(source, DatasetReading::default(), (TARGET_ERROR, 0), None)?;
+        Ok(DatasetState::of(Arc::new(open), 0, Default::default()))
+    }));
+}
+
+/// Matches the materials of a session.
+pub(super) fn restore(parts: &mut Parts, session: SessionDataset) {
+    let strict = parts.model.materials.rules.strict;
+    parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
+        let SessionDataset { ground_truths, methods, results, target_error, seed, shown, marks, .. } =
+            session;
+        let method =
+            |one: svbrdf_files::session::dataset::SessionMethod| Method { name: one.name, path: one.path };
+        let methods: Vec<Method> = methods.into_iter().map(method).collect();
+        let source = match methods.is_empty() {
+            true => Source::Table(ground_truths),
+            false => Source::Folders { ground_truths, methods },
+        };
+        let reading = DatasetReading {
+            ground_truths: session.read,
+            predictions: session.read_predictions,
+            methods: session.read_methods,
+            strict,
+        };
+        let open = OpenDataset::new(source, reading, (target_error, seed), results)?;
+        let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
+        Ok(DatasetState::of(Arc::new(open), wanted, marks))
+    }));
+}
+
+/// Reads a material and its losses again.
+pub(super) fn read_again(parts: &mut Parts, case: usize) {
+    let jobs = &mut parts.jobs.dataset;
+    jobs.cases.forget(case);
+    jobs.losses.forget(case);
+    jobs.cells.forget(case);
+}
+
+/// Takes over a data set that has been matched.
+pub(super) fn take(parts: &mut Parts) {
+    let Some(result) = parts.jobs.dataset.opening.as_ref().and_then(Job::poll) else { return };
+    parts.jobs.dataset.opening = None;
+    match (result, &mut parts.ui.dialogs.open) {
+        (Ok(state), _) => {
+            parts.ui.dialogs.open = None;
+            parts.model.open_dataset(state);
+        }
+        (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
+        (Err(error), None) => parts.model.report([Message::Failed(error)]),
+    }
+}
+
+/// Puts the material that was asked for into the window, once it has been read: all of it in one frame, so that nothing of one material
+/// is seen beside something of another.
+pub(super) fn show(parts: &mut Parts) {
+    let dataset = &parts.model.dataset;
+    let Some(open) = dataset.open.clone().filter(|_| dataset.is_waiting()) else { return };
+    let Some(read) = parts.jobs.dataset.cases.get(dataset.wanted).cloned() else { return };
+    read.uploads.iter().for_each(|(id, uploaded)| parts.jobs.uploads.add(*id, Some(uploaded.clone())));
+    parts.model.show_case(&open, read.case, &read.materials, read.problems.clone());
+}

@@ -1,0 +1,160 @@
+//! Materials of a data set with their predictions: the one in the window, and those that are read ahead.
+
+use std::sync::Arc;
+use std::thread;
+
+use svbrdf_core::loss::check_same_size;
+use svbrdf_core::progress::Progress;
+use svbrdf_gpu::Gpu;
+
+use crate::error::Error;
+use crate::jobs::reading::read::{MaterialReader, read_with_retries};
+use crate::jobs::reading::upload::Uploaded;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::waker::Waker;
+use crate::model::dataset::OpenDataset;
+use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
+
+/// Bytes of a texel in the memory of the machine and of the adapter.
+const TEXEL_BYTES: usize = 88;
+/// Bytes of a material with its predictions up to which others are read ahead.
+const AHEAD: usize = 256 << 20;
+
+/// A material with its predictions, read.
+#[derive(Debug)]
+pub struct ReadCase {
+    pub case: usize,
+    /// The ground truth first; empty where it cannot be read.
+    pub materials: Vec<Arc<ReadMaterial>>,
+    /// Of each material, where there is an adapter.
+    pub uploads: Vec<(MaterialId, Arc<Uploaded>)>,
+    /// What is not there: the name of a method or of the ground truth, and why.
+    pub problems: Vec<(String, String)>,
+}
+
+impl ReadCase {
+    fn bytes(&self) -> usize {
+        let texels = |one: &Arc<ReadMaterial>| one.material().size().into_iter().product::<usize>();
+        self.materials.iter().map(texels).sum::<usize>() * TEXEL_BYTES
+    }
+}
+
+/// The materials that are read.
+#[derive(Debug, Default)]
+pub struct CaseJobs {
+    ready: Vec<Arc<ReadCase>>,
+    running: Option<(usize, Job<ReadCase>)>,
+}
+
+impl CaseJobs {
+    /// A material, once it has been read.
+    pub fn get(&self, case: usize) -> Option<&Arc<ReadCase>> {
+        self.ready.iter().find(|ready| ready.case == case)
+    }
+
+    /// Whether the maps of a material stay on the adapter.
+    pub fn hold(&self, id: MaterialId) -> bool {
+        self.ready.iter().flat_map(|ready| &ready.materials).any(|one| one.id == id)
+    }
+
+    /// Reads a material again when it is wanted.
+    pub fn forget(&mut self, case: usize) {
+        self.ready.retain(|ready| ready.case != case);
+        self.running.take_if(|(running, _)| *running == case);
+    }
+
+    /// Takes over what has been read, and reads what is missing of `wanted`, whose first one is waited for.
+    pub(super) fn follow(
+        &mut self,
+        waker: &Waker,
+        gpu: Option<&Gpu>,
+        open: &Arc<OpenDataset>,
+        rules: Rules,
+        wanted: &[usize],
+    ) -> Option<Error> {
+        let mut error = None;
+        if let Some((case, job)) = &self.running
+            && let Some(read) = job.poll()
+        {
+            match read {
+                Ok(read) => self.ready.push(Arc::new(read)),
+                Err(problem) => {
+                    // It is not tried again in every frame.
+                    let problems = vec![(open.name(*case).to_owned(), problem.to_string())];
+                    let (case, materials, uploads) = (*case, Vec::new(), Vec::new());
+                    self.ready.push(Arc::new(ReadCase { case, materials, uploads, problems }));
+                    error = Some(problem).filter(|problem| !problem.is_cancelled());
+                }
+            }
+            self.running = None;
+        }
+        self.ready.retain(|ready| wanted.contains(&ready.case));
+        let is_ready = |case: &usize| self.ready.iter().any(|ready| ready.case == *case);
+        let is_first_ready = wanted.first().is_none_or(is_ready);
+        let is_small = self.ready.iter().all(|ready| ready.bytes() <= AHEAD);
+        let count = if is_first_ready && is_small { wanted.len() } else { 1 };
+        let next = wanted.iter().take(count).find(|case| !is_ready(case)).copied();
+        if self.running.as_ref().is_some_and(|(running, _)| {
+            !wanted.contains(running) || (!is_first_ready && wanted.first() != Some(running))
+        }) {
+            self.running = None;
+        }
+        if let Some(case) = next.filter(|_| self.running.is_none()) {
+            let (open, gpu) = (open.clone(), gpu.cloned());
+            let job = Job::start(waker, move |progress| Ok(read(&open, case, rules, gpu.as_ref(), progress)));
+            self.running = Some((case, job));
+        }
+        error
+    }
+}
+
+/// A material that was read and sent to the adapter, or why not.
+type Column = Result<(Arc<ReadMaterial>, Option<Arc<Uploaded>>), String>;
+
+/// Reads a material with its predictions, several at a time.
+fn read(open: &OpenDataset, case: usize, rules: Rules, gpu: Option<&Gpu>, progress: &Progress) -> ReadCase {
+    let column = |column: usize, size: Option<[usize; 2]>| -> Column {
+        let source = open.source(case, column)?;
+        let mut reader = MaterialReader { rules, size, retries: false };
+        let read =
+            read_with_retries(&source, &mut reader, &progress.part()).map_err(|error| error.to_string())?;
+        let uploaded = gpu.map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
+        Ok((Arc::new(read), uploaded))
+    };
+    let mut found = ReadCase { case, materials: Vec::new(), uploads: Vec::new(), problems: Vec::new() };
+    let (truth, uploaded) = match column(0, None) {
+        Ok(read) => read,
+        Err(problem) => {
+            found.problems.push(("ground truth".to_owned(), problem));
+            return found;
+        }
+    };
+    let size = Some(truth.material().size());
+    found.uploads.extend(uploaded.map(|uploaded| (truth.id, uploaded)));
+    found.materials.push(truth.clone());
+    let columns: Vec<usize> = (1..=open.methods().len()).collect();
+    let threads = thread::available_parallelism().map_or(1, usize::from).min(4);
+    for group in columns.chunks(threads) {
+        let read: Vec<Column> = thread::scope(|scope| {
+            let started: Vec<_> = group.iter().map(|index| scope.spawn(|| column(*index, size))).collect();
+            started
+                .into_iter()
+                .map(|one| one.join().unwrap_or_else(|_| Err("its reading has failed".to_owned())))
+                .collect()
+        });
+        for (index, one) in group.iter().zip(read) {
+            let of_size = one.and_then(|(read, uploaded)| {
+                check_same_size(truth.material(), read.material()).map_err(|problem| problem.to_string())?;
+                Ok((read, uploaded))
+            });
+            match of_size {
+                Ok((read, uploaded)) => {
+                    found.uploads.extend(uploaded.map(|uploaded| (read.id, uploaded)));
+                    found.materials.push(read);
+                }
+                Err(problem) => found.problems.push((open.methods()[index - 1].clone(), problem)),
+            }
+        }
+    }
+    found
+}

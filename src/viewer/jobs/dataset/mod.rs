@@ -1,0 +1,80 @@
+//! Work for a data set: the losses of all materials, the materials in the window and those ahead, small pictures, the summary.
+
+pub mod cases;
+pub mod cells;
+pub mod losses;
+pub mod sheet;
+pub mod summary;
+
+use std::sync::Arc;
+
+use svbrdf_gpu::Gpu;
+
+use super::work::job::Job;
+use super::work::waker::Waker;
+use crate::error::Error;
+use crate::model::Model;
+use crate::model::dataset::{DatasetState, OpenDataset};
+use crate::model::settings::Tab;
+use cases::CaseJobs;
+use cells::{Cell, CellJobs};
+use losses::DatasetLosses;
+use sheet::SheetJob;
+use summary::SummaryJob;
+
+/// The work for the data set of the window.
+#[derive(Debug, Default)]
+pub struct DatasetJobs {
+    /// The data set that is being matched.
+    pub opening: Option<Job<DatasetState>>,
+    /// The data set that everything else is of.
+    of: Option<Arc<OpenDataset>>,
+    pub losses: DatasetLosses,
+    pub cases: CaseJobs,
+    pub cells: CellJobs,
+    pub sheet: SheetJob,
+    pub summary: SummaryJob,
+}
+
+/// What the window displays of a data set.
+#[derive(Clone, Debug, Default)]
+pub struct DisplayedCases {
+    /// The materials that are in sight.
+    pub cases: Vec<usize>,
+    /// The small pictures that are in sight, and the longest side in pixels that they are drawn with.
+    pub cells: Vec<Cell>,
+    pub pixels: usize,
+}
+
+impl DatasetJobs {
+    /// Takes over results, and computes what is displayed, then the rest.
+    pub fn follow(
+        &mut self,
+        waker: &Waker,
+        gpu: Option<&Gpu>,
+        model: &Model,
+        displayed: &DisplayedCases,
+        range: f64,
+    ) -> Vec<Error> {
+        let Some(open) = &model.dataset.open else {
+            if self.of.is_some() {
+                *self = Self { opening: self.opening.take(), ..Self::default() };
+            }
+            return Vec::new();
+        };
+        if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, open)) {
+            *self = Self { of: Some(open.clone()), ..Self::default() };
+        }
+        let wanted: Vec<usize> =
+            std::iter::once(model.dataset.wanted).chain(model.dataset.ahead.iter().copied()).collect();
+        let first: Vec<usize> = wanted[..1].iter().chain(&displayed.cases).copied().collect();
+        let errors = [
+            self.losses.follow(waker, open, &model.view.convention, &first),
+            self.cases.follow(waker, gpu, open, model.materials.rules, &wanted),
+            self.cells.follow(waker, open, &displayed.cells, &displayed.cases, displayed.pixels),
+            self.sheet.follow(waker, &self.cells, displayed, &model.view, range),
+            self.summary.follow(waker, open, &self.losses, model.tab() == Tab::Methods && model.side_panel()),
+        ];
+        errors.into_iter().flatten().collect()
+    }
+}

@@ -1,0 +1,191 @@
+//! Contact sheet: the small materials in sight, rendered under the light and view of the window.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use svbrdf_core::image::Image;
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
+use svbrdf_core::picture::difference::DifferenceParams;
+use svbrdf_core::progress::Progress;
+
+use super::DisplayedCases;
+use super::cells::{Cell, CellJobs};
+use crate::error::Error;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::jobs::work::picture::Picture;
+use crate::jobs::work::waker::Waker;
+use crate::model::view::state::ViewState;
+
+/// What the pictures of the cells depend on.
+#[derive(Clone, Debug, PartialEq)]
+struct SheetKey {
+    cells: Vec<Cell>,
+    /// That of the small materials.
+    generation: u64,
+    scene: Scene,
+    convention: Convention,
+    exposure_ev: f32,
+    content: PictureContent,
+}
+
+/// The pictures of all cells, in one.
+#[derive(Debug)]
+pub struct SheetPicture {
+    pub picture: Arc<Picture>,
+    parts: HashMap<Cell, [[usize; 2]; 2]>,
+}
+
+impl SheetPicture {
+    /// The part that is the picture of a cell: least and greatest x and y, as shares of its sides; and its size in pixels.
+    pub fn part(&self, cell: Cell) -> Option<([[f32; 2]; 2], [usize; 2])> {
+        let [least, size] = self.parts.get(&cell)?;
+        let share = |at: [usize; 2]| [0, 1].map(|axis| at[axis] as f32 / self.picture.size[axis] as f32);
+        Some(([share(*least), share([least[0] + size[0], least[1] + size[1]])], *size))
+    }
+}
+
+/// The latest pictures.
+#[derive(Debug, Default)]
+pub struct SheetJob(Latest<SheetKey, SheetPicture>);
+
+impl SheetJob {
+    pub fn get(&self) -> Option<&SheetPicture> {
+        self.0.get().map(|(_, picture)| picture)
+    }
+
+    /// Takes over the pictures, and renders those of the present view; differences have this range.
+    pub(super) fn follow(
+        &mut self,
+        waker: &Waker,
+        cells: &CellJobs,
+        displayed: &DisplayedCases,
+        view: &ViewState,
+        range: f64,
+    ) -> Option<Error> {
+        if displayed.cells.is_empty() {
+            return self.0.follow(None, |_| unreachable_job(waker));
+        }
+        let quantity = view.display.quantity;
+        let (kind, _) = view.display.differences.pointwise(quantity);
+        let difference = view.display.difference.then_some(ColouredDifference { kind, range: Some(range) });
+        let key = SheetKey {
+            cells: displayed.cells.clone(),
+            generation: cells.generation,
+            scene: view.scene,
+            convention: view.convention(),
+            exposure_ev: view.exposure_ev,
+            content: PictureContent { quantity, difference },
+        };
+        self.0.follow(Some(key), |key| {
+            let key = key.clone();
+            let of = |cell: &Cell| Some((*cell, cells.get(*cell)?.as_ref().ok()?.clone()));
+            let mut materials: HashMap<Cell, Arc<Material<f32>>> = key.cells.iter().filter_map(of).collect();
+            // Differences are from the ground truth, whether it is in sight or not.
+            let truths = key.cells.iter().map(|cell| Cell { column: 0, ..*cell });
+            materials.extend(truths.filter_map(|cell| of(&cell)));
+            Job::start(waker, move |progress| render(&key, &materials, progress))
+        })
+    }
+}
+
+/// A job that ends at once: nothing is in sight.
+fn unreachable_job(waker: &Waker) -> Job<SheetPicture> {
+    Job::start(waker, |_| Err(Error::internal("nothing is in sight")))
+}
+
+fn render(
+    key: &SheetKey,
+    materials: &HashMap<Cell, Arc<Material<f32>>>,
+    progress: &Progress,
+) -> Result<SheetPicture, Error> {
+    let image = |cell: &Cell| match materials.get(cell) {
+        Some(material) => {
+            let quantity = key.content.quantity;
+            quantity.image(material, &key.scene, &key.convention, &progress.part()).map(Some)
+        }
+        None => Ok(None),
+    };
+    let values: Vec<Option<Image<f32>>> = key.cells.par_iter().map(image).collect::<Result<_, _>>()?;
+    let truths: HashMap<usize, &Image<f32>> = key
+        .cells
+        .iter()
+        .zip(&values)
+        .filter(|(cell, _)| cell.column == 0)
+        .filter_map(|(cell, image)| Some((cell.case, image.as_ref()?)))
+        .collect();
+    let picture = |(cell, image): (&Cell, &Option<Image<f32>>)| colours(key, *cell, image.as_ref()?, &truths);
+    let pictures: Vec<Option<Picture>> = key.cells.par_iter().zip(&values).map(picture).collect();
+    Ok(together(&key.cells, pictures))
+}
+
+/// The colours of a cell: the value of the ground truth, and the value or the difference of a prediction, where both have one size.
+fn colours(
+    key: &SheetKey,
+    cell: Cell,
+    image: &Image<f32>,
+    truths: &HashMap<usize, &Image<f32>>,
+) -> Option<Picture> {
+    let value = PictureContent { difference: None, ..key.content };
+    let (content, difference) = match key.content.difference.filter(|_| cell.column > 0) {
+        None => (value, None),
+        Some(difference) => {
+            let truth = truths.get(&cell.case)?;
+            let is_of_size = (truth.width, truth.height) == (image.width, image.height);
+            let params = DifferenceParams { epsilon: key.convention.epsilon, exposure_ev: key.exposure_ev };
+            (key.content, Some(is_of_size.then(|| difference.kind.picture(truth, image, params))?))
+        }
+    };
+    let shown = difference.as_ref().unwrap_or(image);
+    let pixels = shown.pixels.iter().map(|rgb| Picture::opaque(content.colour(*rgb, key.exposure_ev)));
+    Some(Picture { size: [shown.width, shown.height], pixels: pixels.collect() })
+}
+
+/// All pictures in one, in cells of the size of the largest.
+fn together(cells: &[Cell], pictures: Vec<Option<Picture>>) -> SheetPicture {
+    let all = || pictures.iter().flatten();
+    let side = |axis: usize| all().map(|one| one.size[axis]).max().unwrap_or(1);
+    let (sides, columns) = ([side(0), side(1)], (all().count() as f64).sqrt().ceil().max(1.0) as usize);
+    let size = [columns * sides[0], all().count().div_ceil(columns).max(1) * sides[1]];
+    let mut picture = Picture { size, pixels: vec![Picture::TRANSPARENT; size[0] * size[1]] };
+    let mut parts = HashMap::new();
+    let found = cells.iter().zip(&pictures).filter_map(|(cell, one)| Some((cell, one.as_ref()?)));
+    for (index, (cell, one)) in found.enumerate() {
+        let least = [index % columns * sides[0], index / columns * sides[1]];
+        for (row, line) in one.pixels.chunks(one.size[0].max(1)).enumerate() {
+            let start = (least[1] + row) * size[0] + least[0];
+            picture.pixels[start..start + line.len()].copy_from_slice(line);
+        }
+        parts.insert(*cell, [least, one.size]);
+    }
+    SheetPicture { picture: Arc::new(picture), parts }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_part_of_the_picture_is_that_of_its_cell() {
+        let cells: Vec<Cell> = (0..5).map(|case| Cell { case, column: 1 }).collect();
+        let one = |shade: u8, size: [usize; 2]| {
+            Some(Picture { size, pixels: vec![[shade, 0, 0, 255]; size[0] * size[1]] })
+        };
+        let pictures = vec![one(1, [3, 2]), None, one(2, [2, 3]), one(3, [3, 3]), one(4, [1, 1])];
+        let sheet = together(&cells, pictures);
+        assert_eq!(sheet.picture.size, [6, 6]);
+        assert!(sheet.part(cells[1]).is_none());
+        for (cell, shade) in [(0, 1), (2, 2), (3, 3), (4, 4)] {
+            let ([least, most], size) = sheet.part(cells[cell]).unwrap();
+            let [first, last] = [least, most].map(|at| [0, 1].map(|axis| (at[axis] * 6.0).round() as usize));
+            assert_eq!([last[0] - first[0], last[1] - first[1]], size);
+            let shades = (first[1]..last[1]).flat_map(|y| (first[0]..last[0]).map(move |x| [x, y]));
+            assert!(shades.into_iter().all(|[x, y]| sheet.picture.pixels[y * 6 + x][0] == shade), "{cell}");
+        }
+    }
+}

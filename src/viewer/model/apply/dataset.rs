@@ -1,0 +1,135 @@
+//! Commands about the data set.
+
+use std::sync::Arc;
+
+use svbrdf_core::material::Grid;
+use svbrdf_files::session::window::Framing;
+
+use crate::model::Model;
+use crate::model::command::DatasetCommand;
+use crate::model::command::effect::Effect;
+use crate::model::dataset::{CELL, DatasetState, OpenDataset};
+use crate::model::exposed::Exposed;
+use crate::model::history::History;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::ReadMaterial;
+
+pub(super) fn apply(model: &mut Model, command: DatasetCommand) -> Vec<Effect> {
+    let dataset = &mut model.dataset;
+    match command {
+        DatasetCommand::Open(paths) => return vec![Effect::OpenDataset(paths)],
+        DatasetCommand::Show { case, ahead } => show(dataset, case, ahead),
+        DatasetCommand::ShowFromSheet { case, ahead } => {
+            show(dataset, case, ahead);
+            (dataset.sheet.is_open, dataset.sheet.is_behind) = (false, true);
+        }
+        DatasetCommand::SetList(list) => dataset.list = list,
+        DatasetCommand::ShowSheet(is_open) => {
+            (dataset.sheet.is_open, dataset.sheet.is_behind) = (is_open && dataset.open.is_some(), false);
+        }
+        DatasetCommand::SetCell(cell) => dataset.sheet.cell = cell.clamp(*CELL.start(), *CELL.end()),
+        DatasetCommand::ToggleMark => change_mark(dataset, |mark| mark.is_marked ^= true),
+        DatasetCommand::SetNote(note) => change_mark(dataset, |mark| mark.note = note),
+    }
+    Vec::new()
+}
+
+fn show(dataset: &mut DatasetState, case: usize, ahead: Vec<usize>) {
+    let count = dataset.open.as_ref().map_or(0, |open| open.cases.len());
+    if case < count {
+        (dataset.wanted, dataset.ahead) = (case, ahead);
+    }
+}
+
+/// Changes the mark of the material in the window; one without anything is removed.
+fn change_mark(
+    dataset: &mut DatasetState,
+    change: impl FnOnce(&mut svbrdf_files::session::dataset::SessionMark),
+) {
+    let Some(name) = dataset.name().map(str::to_owned) else { return };
+    change(dataset.marks.entry(name).or_default());
+    dataset.marks.retain(|_, mark| mark.is_marked || !mark.note.is_empty());
+}
+
+impl Model {
+    /// Takes a data set as what is open. What could be undone belongs to the last materials.
+    pub fn open_dataset(&mut self, dataset: DatasetState) {
+        self.dataset = dataset;
+        self.opened_alone = false;
+        self.history = History::default();
+    }
+
+    /// Goes on with a single comparison.
+    pub fn close_dataset(&mut self) {
+        if self.dataset.open.is_some() {
+            self.open_dataset(DatasetState::default());
+        }
+    }
+
+    /// Puts a material into the window, the ground truth first, with what is not there of it. What the hand has set stays: the view is
+    /// at the same place, by shares of the size, and the chosen method is the same wherever it has a prediction.
+    pub fn show_case(
+        &mut self,
+        open: &OpenDataset,
+        case: usize,
+        materials: &[Arc<ReadMaterial>],
+        problems: Vec<(String, String)>,
+    ) {
+        let before = self.materials.ground_truth().map(LoadedMaterial::grid);
+        let predictions = self.materials.predictions();
+        let is_of = |one: &LoadedMaterial| self.dataset.method.as_deref() == Some(one.material().name());
+        // Where the chosen method had no prediction, another one stood in for it.
+        if self.dataset.shown.is_some()
+            && predictions.iter().any(is_of)
+            && let Some(chosen) = predictions.get(self.view.display.prediction)
+        {
+            self.dataset.method = Some(chosen.material().name().to_owned());
+        }
+        self.materials.replace_all(materials);
+        let names = || self.materials.predictions().iter().map(|one| one.material().name());
+        let chosen =
+            self.dataset.method.as_deref().and_then(|method| names().position(|name| name == method));
+        let count = self.materials.predictions().len();
+        let display = &mut self.view.display;
+        display.prediction = chosen.unwrap_or(display.prediction).min(count.saturating_sub(1));
+        display.corrected = None;
+        if let (Some(before), Some(now)) = (before, self.materials.ground_truth().map(LoadedMaterial::grid)) {
+            display.framing = display.framing.map(|framing| in_other_size(framing, before, now));
+        }
+        self.swapped = false;
+        let is_first = self.dataset.shown.is_none();
+        let now = self.materials.ground_truth().map(|one| one.read.source.place.clone());
+        if let (Exposed::For { ground_truth, .. }, Some(now), false) = (&mut self.exposed, now, is_first) {
+            // The exposure stays as light and view do.
+            *ground_truth = now;
+        }
+        (self.dataset.shown, self.dataset.is_stale, self.dataset.problems) = (Some(case), false, problems);
+        if is_first && self.dataset.method.is_none() {
+            self.dataset.method = open.methods().first().cloned();
+        }
+    }
+}
+
+/// The same part of a material of another size.
+fn in_other_size(framing: Framing, before: Grid, now: Grid) -> Framing {
+    let scale =
+        [now.width as f32 / before.width.max(1) as f32, now.height as f32 / before.height.max(1) as f32];
+    Framing {
+        pixels_per_texel: framing.pixels_per_texel / scale[0].max(scale[1]),
+        centre: std::array::from_fn(|axis| framing.centre[axis] * scale[axis]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_same_place_of_a_material_of_another_size_is_in_the_centre() {
+        let framing = Framing { pixels_per_texel: 8.0, centre: [32.0, 16.0] };
+        let grid = |width, height| Grid { width, height };
+        let moved = in_other_size(framing, grid(128, 64), grid(256, 128));
+        assert_eq!(moved, Framing { pixels_per_texel: 4.0, centre: [64.0, 32.0] });
+        assert_eq!(in_other_size(moved, grid(256, 128), grid(128, 64)), framing);
+    }
+}

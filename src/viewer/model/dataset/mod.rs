@@ -1,0 +1,138 @@
+//! Data set: methods over many materials, one of which is in the window.
+
+pub mod list;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use svbrdf_evaluate::dataset::{CandidateFile, Case, DatasetReading, DatasetSettings, Source};
+use svbrdf_files::session::dataset::SessionMark;
+use svbrdf_files::source::MaterialSource;
+
+use crate::error::Error;
+use list::ListView;
+
+/// A data set as it was opened: names are matched, pixels are read when they are needed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpenDataset {
+    /// But for the convention, which is that of the window.
+    pub settings: DatasetSettings,
+    pub reading: DatasetReading,
+    pub cases: Vec<Case>,
+    /// The folder of losses that are known, to which new ones are added.
+    pub results: Option<PathBuf>,
+}
+
+impl OpenDataset {
+    /// Matches the materials of `source`; the losses have this error as a share, and this seed.
+    ///
+    /// # Errors
+    /// Those of [`Source::cases`].
+    pub fn new(
+        source: Source,
+        reading: DatasetReading,
+        (target_error, seed): (f64, u64),
+        results: Option<PathBuf>,
+    ) -> Result<Self, Error> {
+        let cases = source.cases()?;
+        let settings = DatasetSettings::new(source, "printed", target_error, seed, &cases);
+        Ok(Self { settings, reading, cases, results })
+    }
+
+    pub fn methods(&self) -> &[String] {
+        &self.settings.methods
+    }
+
+    /// The name of a material.
+    pub fn name(&self, case: usize) -> &str {
+        self.cases.get(case).map_or("", |case| &case.material)
+    }
+
+    /// The ground truth of a material, in column 0, or its prediction by a method, from column 1 on.
+    ///
+    /// # Errors
+    /// Why there is none.
+    pub fn source(&self, case: usize, column: usize) -> Result<MaterialSource, String> {
+        let case = self.cases.get(case).ok_or("there is no such material")?;
+        let Some(method) = column.checked_sub(1) else {
+            let read = self.reading.ground_truths;
+            let name = Some(case.material.clone());
+            return Ok(MaterialSource { name, ..MaterialSource::path(case.ground_truth.clone(), read) });
+        };
+        let method = self.methods().get(method).ok_or("there is no such method")?;
+        let CandidateFile { path, missing, .. } =
+            case.candidates.iter().find(|one| one.method == *method).ok_or("not in the table")?;
+        match missing {
+            Some(problem) => Err(problem.clone()),
+            None => {
+                let read = *self.reading.of_method(method);
+                Ok(MaterialSource { name: Some(method.clone()), ..MaterialSource::path(path.clone(), read) })
+            }
+        }
+    }
+}
+
+/// The data set of the window, and what is shown of it.
+#[derive(Debug, Default)]
+pub struct DatasetState {
+    /// `None` where a single comparison is open.
+    pub open: Option<Arc<OpenDataset>>,
+    /// The material that was asked for.
+    pub wanted: usize,
+    /// Those that are read ahead.
+    pub ahead: Vec<usize>,
+    /// The material that is in the window; `None` before the first.
+    pub shown: Option<usize>,
+    /// Whether that is read again.
+    pub is_stale: bool,
+    /// What of it is not in the window, and why: the name of a method or of the ground truth, and the problem.
+    pub problems: Vec<(String, String)>,
+    /// The method that was chosen last, which may have no prediction of the material in the window.
+    pub method: Option<String>,
+    pub list: ListView,
+    /// Marks and notes, by the name of a material.
+    pub marks: BTreeMap<String, SessionMark>,
+    pub sheet: SheetState,
+}
+
+/// The contact sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetState {
+    pub is_open: bool,
+    /// Whether the material in the window was opened from the sheet, to which Escape returns.
+    pub is_behind: bool,
+    /// Side of a cell, in points.
+    pub cell: f32,
+}
+
+/// Least and greatest side of a cell, in points.
+pub const CELL: std::ops::RangeInclusive<f32> = 32.0..=384.0;
+
+impl Default for SheetState {
+    fn default() -> Self {
+        Self { is_open: false, is_behind: false, cell: 96.0 }
+    }
+}
+
+impl DatasetState {
+    /// A data set that has just been opened, with the marks of a session.
+    pub fn of(open: Arc<OpenDataset>, wanted: usize, marks: BTreeMap<String, SessionMark>) -> Self {
+        let wanted = wanted.min(open.cases.len().saturating_sub(1));
+        Self { open: Some(open), wanted, marks, ..Self::default() }
+    }
+
+    /// The name of the material that was asked for.
+    pub fn name(&self) -> Option<&str> {
+        self.open.as_ref().map(|open| open.name(self.wanted))
+    }
+
+    /// Whether the material that was asked for is still being read.
+    pub fn is_waiting(&self) -> bool {
+        self.open.is_some() && (self.is_stale || self.shown != Some(self.wanted))
+    }
+
+    pub fn mark(&self, name: &str) -> Option<&SessionMark> {
+        self.marks.get(name)
+    }
+}

@@ -1,0 +1,261 @@
+//! A data set in the window.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use svbrdf_core::model::scene::Endpoint;
+use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::dataset::{DatasetReading, Evaluation, KnownLoss, Source};
+use svbrdf_files::session::Session;
+use svbrdf_viewer::OpenDataset;
+use svbrdf_viewer::model::command::{DatasetCommand, DisplayCommand, SceneCommand};
+use svbrdf_viewer::model::dataset::list::{Filter, ListView, Order};
+
+use super::materials::write_packed;
+use super::*;
+
+/// Materials a to f, all of which `ours` has; `theirs` lacks b, has a damaged c, and d in another size. The material e is larger.
+fn folders(folder: &Path) -> [PathBuf; 3] {
+    let [gt, ours, theirs] = ["gt", "ours", "theirs"].map(|name| folder.join(name));
+    [&gt, &ours, &theirs].into_iter().for_each(|folder| std::fs::create_dir(folder).unwrap());
+    for (index, name) in ["a", "b", "c", "d", "e", "f"].into_iter().enumerate() {
+        let side = if name == "e" { 24 } else { 16 };
+        let write = |folder: &Path, side: u32, error: u32| {
+            write_packed(&folder.join(format!("{name}.png")), side, |tile, x, y| {
+                let shade = |value: u32| (value + error * (1 + index as u32)).min(255) as u8;
+                [[128, 128, 255], [shade(60 + 4 * x); 3], [shade(90 + 3 * y); 3], [20; 3]][tile as usize]
+            });
+        };
+        write(&gt, side, 0);
+        write(&ours, side, 5);
+        match name {
+            "b" => {}
+            "c" => std::fs::write(theirs.join("c.png"), "no picture").unwrap(),
+            "d" => write(&theirs, 8, 9),
+            _ => write(&theirs, side, 9),
+        }
+    }
+    [gt, ours, theirs]
+}
+
+fn dataset([gt, ours, theirs]: [PathBuf; 3], results: Option<PathBuf>) -> OpenDataset {
+    let source = Source::folders(gt, vec![(None, ours), (None, theirs)]);
+    OpenDataset::new(source, DatasetReading::default(), (0.02, 0), results).unwrap()
+}
+
+fn on_dataset<'a>(dataset: &OpenDataset) -> Window<'a> {
+    window(ViewerOptions { dataset: Some(Box::new(dataset.clone())), ..ViewerOptions::default() })
+}
+
+fn wait_for_losses(window: &mut Window<'_>) {
+    wait(window, "all losses", |app| app.parts.jobs.dataset.losses.count() == 6);
+}
+
+fn shown(window: &Window<'_>) -> String {
+    window.state().names()[0].clone()
+}
+
+fn loss(window: &Window<'_>, case: usize, method: usize) -> Option<KnownLoss> {
+    window.state().parts.jobs.dataset.losses.row(case)?.by_method[method]
+}
+
+#[needs(adapter)]
+#[test]
+fn the_losses_in_the_list_are_those_of_rank_to_the_last_bit_and_what_fails_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = dataset(folders(folder.path()), Some(folder.path().join("results")));
+    let mut window = on_dataset(&dataset);
+    wait_for_losses(&mut window);
+    let progress = Progress::default();
+    let ranked = Evaluation::new(&dataset.settings, &dataset.reading, None, &progress).unwrap();
+    for case in &dataset.cases {
+        let result = ranked.material(case).unwrap();
+        for (method, prediction) in result.predictions.iter().enumerate() {
+            assert_eq!(loss(&window, case.index, method), prediction.known, "{} {method}", case.material);
+        }
+    }
+    let known: Vec<usize> = (0..6).filter(|case| loss(&window, *case, 1).is_some()).collect();
+    assert_eq!(known, [0, 4, 5], "theirs lacks b, c and d");
+    // Another window finds all of them in the results folder.
+    let mut other = on_dataset(&dataset);
+    let found =
+        Evaluation::new(&dataset.settings, &dataset.reading, dataset.results.as_deref(), &progress).unwrap();
+    assert!(found.known(&dataset.cases[0]).is_some());
+    wait_for_losses(&mut other);
+    assert_eq!(loss(&other, 0, 0), loss(&window, 0, 0));
+    // A planted fault: other scenes, another loss.
+    let mut planted = dataset.clone();
+    planted.settings.seed = 1;
+    let mut planted = on_dataset(&planted);
+    wait_for_losses(&mut planted);
+    assert_ne!(loss(&planted, 0, 0), loss(&window, 0, 0));
+}
+
+#[needs(adapter)]
+#[test]
+fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = on_dataset(&dataset(folders(folder.path()), None));
+    wait_for_losses(&mut window);
+    assert_eq!(window.state().names(), ["a", "ours", "theirs"]);
+    apply(&mut window, SceneCommand::MoveOverPlane(Endpoint::Light, [0.4, -0.2]));
+    apply(&mut window, DisplayCommand::ChoosePrediction(1));
+    apply(&mut window, DisplayCommand::StepExposure(0.5));
+    apply(&mut window, DisplayCommand::SetMagnification(37.0));
+    let before = window.state().parts.model.view.clone();
+    let mut seen = Vec::new();
+    for name in ["b", "c", "d", "e", "f"] {
+        window.key_press(egui::Key::PageDown);
+        for _ in 0..600 {
+            window.step();
+            let (names, materials) = (window.state().names(), &window.state().parts.model.materials);
+            // In every frame, all materials are of one case: their files have one name.
+            let files = materials.all.iter().map(|one| one.read.path().file_name().unwrap().to_owned());
+            let mut files: Vec<_> = files.collect();
+            files.dedup();
+            assert_eq!(files.len(), 1, "{files:?}");
+            if names[0] == name {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        assert_eq!(shown(&window), name);
+        let view = &window.state().parts.model.view;
+        assert_eq!((view.scene, view.exposure_ev), (before.scene, before.exposure_ev), "{name}");
+        seen.push((window.state().names().len(), view.display.prediction, view.display.framing.unwrap()));
+    }
+    // Chosen is `theirs` wherever it is.
+    assert_eq!(seen.iter().map(|(count, ..)| *count).collect::<Vec<_>>(), [2, 2, 2, 3, 3]);
+    assert_eq!(seen[3..].iter().map(|(_, chosen, _)| *chosen).collect::<Vec<_>>(), [1, 1]);
+    // The material of 24 texels shows the same part as those of 16.
+    let (small, large) = (seen[2].2, seen[3].2);
+    assert_eq!(small, before.display.framing.unwrap());
+    assert!((large.pixels_per_texel * 24.0 - small.pixels_per_texel * 16.0).abs() < 1e-3);
+    assert!((large.centre[0] / 24.0 - small.centre[0] / 16.0).abs() < 1e-6);
+    window.key_press(egui::Key::PageUp);
+    wait(&mut window, "the one before", |app| app.names()[0] == "e");
+    assert!(window.state().parts.model.dataset.problems.is_empty());
+    for _ in 0..3 {
+        window.key_press(egui::Key::PageUp);
+        window.run_steps(2);
+    }
+    wait(&mut window, "b", |app| app.names()[0] == "b");
+    assert!(has(&window, "theirs: no prediction named b"));
+}
+
+#[needs(adapter)]
+#[test]
+fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = on_dataset(&dataset(folders(folder.path()), Some(folder.path().join("results"))));
+    wait_for_losses(&mut window);
+    let list = ListView { order: Order::Loss(0), ..ListView::default() };
+    apply(&mut window, DatasetCommand::SetList(list));
+    let title = |window: &Window<'_>| window.state().parts.ui.dataset.title(window.state().parts.displayed());
+    let largest = (0..6)
+        .max_by(|a, b| loss(&window, *a, 0).unwrap().loss.total_cmp(&loss(&window, *b, 0).unwrap().loss));
+    let case = largest.unwrap();
+    apply(&mut window, DatasetCommand::Show { case, ahead: Vec::new() });
+    wait(&mut window, "the worst", |app| app.parts.model.dataset.shown == Some(case));
+    let name = ["a", "b", "c", "d", "e", "f"][case];
+    assert_eq!(title(&window).unwrap(), format!("{name} (1 of 6)"));
+    window.key_press(egui::Key::K);
+    window.run_steps(2);
+    apply(&mut window, DatasetCommand::SetNote("blotches".to_owned()));
+    let marked = ListView { filter: Filter::Marked, ..ListView::default() };
+    apply(&mut window, DatasetCommand::SetList(marked));
+    assert_eq!(title(&window).unwrap(), format!("{name} (1 of 1)"));
+    let failed = ListView { filter: Filter::Failed, ..ListView::default() };
+    apply(&mut window, DatasetCommand::SetList(failed));
+    assert!(has(&window, "3 of 6 materials"));
+
+    let path = folder.path().join("all.svbrdf-session.json");
+    let size = window.state().picture_size();
+    apply(
+        &mut window,
+        WindowCommand::Save(SaveRequest { kind: SaveKind::Session, path: path.clone(), size, handles: true }),
+    );
+    wait(&mut window, "the session", |app| app.messages().iter().any(|text| text.starts_with("Saved")));
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains("\"gt\"") && !text.contains(folder.path().to_str().unwrap()), "{text}");
+    let session = Some(Session::read(&path).unwrap());
+    let mut other = super::window(ViewerOptions { session, ..ViewerOptions::default() });
+    wait_for_losses(&mut other);
+    wait(&mut other, "the marked one", |app| app.parts.model.dataset.shown == Some(case));
+    let mark = other.state().parts.model.dataset.mark(name).cloned().unwrap();
+    assert!(mark.is_marked && mark.note == "blotches");
+    assert_eq!(loss(&other, case, 0), loss(&window, case, 0));
+}
+
+#[needs(adapter)]
+#[test]
+fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_returns_from() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = on_dataset(&dataset(folders(folder.path()), None));
+    wait_for_losses(&mut window);
+    window.key_press(egui::Key::S);
+    window.run_steps(3);
+    let cell = |window: &Window<'_>, name: &str| window.get_by_label(&format!("Cell {name}")).rect();
+    wait_in(&mut window, "the cells", |window| {
+        let sheet = window.state().parts.jobs.dataset.sheet.get();
+        let of = |case, column| svbrdf_viewer::jobs::dataset::cells::Cell { case, column };
+        sheet.is_some_and(|sheet| sheet.part(of(0, 1)).is_some() && sheet.part(of(2, 2)).is_none())
+    });
+    let before = window.state().parts.jobs.dataset.sheet.get().unwrap().picture.clone();
+    let rect = cell(&window, "b, ours");
+    let at = rect.left_top() + rect.size() * vec2(0.75, 0.25);
+    window.drag_at(rect.center());
+    window.run_steps(2);
+    window.hover_at(at);
+    window.run_steps(2);
+    window.drop_at(at);
+    window.run_steps(2);
+    let light = window.state().parts.model.view.scene.light;
+    assert!((light[0] - 0.5).abs() < 0.05 && (light[1] - 0.5).abs() < 0.05, "{light:?}");
+    wait_in(&mut window, "other pictures", |window| {
+        let sheet = window.state().parts.jobs.dataset.sheet.get();
+        sheet.is_some_and(|sheet| !Arc::ptr_eq(&sheet.picture, &before) && sheet.picture != before)
+    });
+    assert_eq!(shown(&window), "a", "a drag opens nothing");
+    click(&mut window, "Cell e, theirs");
+    wait(&mut window, "the material", |app| app.names()[0] == "e");
+    assert!(!window.state().parts.model.dataset.sheet.is_open);
+    window.key_press(egui::Key::Escape);
+    window.run_steps(3);
+    assert!(window.state().parts.model.dataset.sheet.is_open);
+}
+
+#[needs(adapter)]
+#[test]
+fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let all = folders(folder.path());
+    let mut window = on_dataset(&dataset(all.clone(), None));
+    wait_for_losses(&mut window);
+    let before = loss(&window, 0, 0).unwrap();
+    std::fs::copy(all[2].join("a.png"), all[1].join("a.png")).unwrap();
+    std::fs::remove_file(all[2].join("a.png")).unwrap();
+    window.key_press_modifiers(Modifiers::COMMAND, egui::Key::R);
+    wait(&mut window, "the losses again", |app| {
+        let now = app.parts.jobs.dataset.losses.row(0).and_then(|row| row.by_method[0]);
+        now.is_some_and(|now| now != before) && app.names().len() == 2
+    });
+    assert_eq!(loss(&window, 0, 1), None);
+    assert!(has(&window, "theirs: "));
+}
+
+#[needs(adapter)]
+#[test]
+fn a_data_set_is_opened_in_the_window_and_closed_by_another_comparison() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = built_in();
+    apply(&mut window, DatasetCommand::Open(folders(folder.path()).to_vec()));
+    wait(&mut window, "the first material", |app| app.names()[0] == "a");
+    wait_for_losses(&mut window);
+    click(&mut window, "Tab Methods");
+    wait(&mut window, "the summary", |app| app.parts.jobs.dataset.summary.get().is_some());
+    see(&mut window, "theirs has 3 of 6 materials");
+    apply(&mut window, svbrdf_viewer::model::command::MaterialsCommand::OpenBuiltIn);
+    wait(&mut window, "the built-in materials", |app| app.names()[0] == "worn tiles");
+    assert!(!has(&window, "Tab Methods"));
+}
