@@ -35,6 +35,22 @@ def test_the_program_gets_a_session_that_is_removed_afterwards(tmp_path: Path, m
     assert svbrdf.loss(ground_truth, svbrdf.read(copy / first, normal_y="up")).results[0].loss == 0
 
 
+def test_a_data_set_is_shown_by_its_folders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen, program = tmp_path / "seen", tmp_path / "program"
+    program.write_text(f'#!/bin/sh\nprintf "%s\\n" "$@" > {seen}\n')
+    program.chmod(0o755)
+    monkeypatch.setenv("SVBRDF_PROGRAM", str(program))
+    folders = [str(tmp_path / name) for name in ("gt", "ours", "theirs")]
+    results = tmp_path / "results"
+    window = svbrdf.show(folders[0], folders[1:], dataset=True, results=results, wait=True)
+    assert window.returncode == 0
+    assert seen.read_text().splitlines() == ["view", "--dataset", "--results", str(results), "--", *folders]
+    with pytest.raises(ValueError, match="at least one method"):
+        svbrdf.show(folders[0], dataset=True)
+    with pytest.raises(ValueError, match="dataset=True beside results"):
+        svbrdf.show(folders[0], folders[1:], results=results)
+
+
 @pytest.mark.filterwarnings("ignore::svbrdf.AssumptionWarning")
 def test_the_session_gives_the_loss_bit_for_bit(program: str, tmp_path: Path) -> None:
     """The window opens such a file with the reader and the comparison of the core, which the command line uses here."""

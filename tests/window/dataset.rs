@@ -249,7 +249,7 @@ fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_i
 fn a_data_set_is_opened_in_the_window_and_closed_by_another_comparison() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();
-    apply(&mut window, DatasetCommand::Open(folders(folder.path()).to_vec()));
+    drop_files(&mut window, folders(folder.path()));
     wait(&mut window, "the first material", |app| app.names()[0] == "a");
     wait_for_losses(&mut window);
     click(&mut window, "Tab Methods");

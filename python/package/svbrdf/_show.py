@@ -26,6 +26,8 @@ def show(
     *,
     scene: Scene = HEADLIGHT,
     convention: str = "printed",
+    dataset: bool = False,
+    results: str | os.PathLike[str] | None = None,
     wait: bool = False,
 ) -> "subprocess.Popen[bytes]":
     """Opens the desktop window on materials, if the program svbrdf is installed.
@@ -39,6 +41,9 @@ def show(
         predictions: One or several materials or paths.
         scene: The light and the view that the window starts with.
         convention: A name of `svbrdf.CONVENTIONS`.
+        dataset: Whether `ground_truth` is a folder of ground truths, and each of `predictions` the folder of a method, as for
+            `svbrdf.rank_dataset`. Then `scene` and `convention` are chosen in the window.
+        results: The folder of losses of a data set that are known, to which the others are added.
         wait: Whether to return only when the window is closed.
 
     Returns:
@@ -46,6 +51,7 @@ def show(
 
     Raises:
         FileNotFoundError: The program is not installed. The text says how to get it.
+        ValueError: `results` without `dataset`, or a data set that is no folders.
         OSError: The temporary files cannot be written.
         svbrdf.Error: There is no such convention, or a sidecar file is broken.
     """
@@ -54,6 +60,10 @@ def show(
         raise FileNotFoundError(MISSING)
     if isinstance(predictions, Material | str | os.PathLike):
         predictions = [predictions]
+    if dataset:
+        return _show_dataset(program, [ground_truth, *predictions], results, wait)
+    if results is not None:
+        raise ValueError("expected dataset=True beside results, which are the losses of a data set")
     folder = Path(tempfile.mkdtemp(prefix="svbrdf-"))
     try:
         session = write_session(folder, [ground_truth, *predictions], scene, convention)
@@ -66,6 +76,22 @@ def show(
         _remove_after(window, folder)
     else:
         threading.Thread(target=_remove_after, args=(window, folder), daemon=True).start()
+    return window
+
+
+def _show_dataset(
+    program: str,
+    folders: Sequence[Material | Source],
+    results: str | os.PathLike[str] | None,
+    wait: bool,
+) -> "subprocess.Popen[bytes]":
+    paths = [os.path.abspath(one) for one in folders if not isinstance(one, Material)]
+    if len(paths) < max(len(folders), 2):
+        raise ValueError("expected a folder of ground truths and the folder of at least one method")
+    options = [] if results is None else ["--results", os.path.abspath(results)]
+    window = subprocess.Popen([program, "view", "--dataset", *options, "--", *paths])
+    if wait:
+        window.wait()
     return window
 
 

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use svbrdf_files::read::ReadOptions;
+use svbrdf_evaluate::dataset::{Case, Source};
+use svbrdf_files::read::{MaterialPath, ReadOptions};
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
@@ -30,7 +31,7 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
         MaterialsCommand::Open { paths, replace, read } => open(model, paths, replace, read),
         MaterialsCommand::AddDropped { paths, read } => {
             let opens_alone = |path: &PathBuf| scene_file::is_named(path) || Session::is_named(path);
-            if !paths.iter().any(opens_alone) {
+            if !paths.iter().any(opens_alone) && !is_dataset(&paths) {
                 model.report([Message::Dropped { paths: paths.clone(), read }]);
             }
             open(model, paths, false, read)
@@ -92,6 +93,9 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     if paths.iter().any(|path| Session::is_named(path)) {
         return vec![Effect::ReadSession(paths)];
     }
+    if is_dataset(&paths) {
+        return vec![Effect::OpenDataset(paths)];
+    }
     model.read = read;
     model.opened_alone &= !replace;
     if replace && paths.len() == 1 && model.photograph.source().is_none() {
@@ -103,6 +107,18 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     let predictions = sources(predictions.iter().map(material).collect());
     let sources = first.iter().map(material).chain(predictions).collect();
     vec![Effect::ReadForDialog(ReadRequest::new(sources, target))]
+}
+
+/// Whether these are folders of materials of the same names, and the first is no material itself.
+fn is_dataset(paths: &[PathBuf]) -> bool {
+    let [first, methods @ ..] = paths else { return false };
+    let are_folders = !methods.is_empty() && paths.iter().all(|path| path.is_dir());
+    if !are_folders || MaterialPath::new(first, &ReadOptions::AUTO).dependencies().is_ok() {
+        return false;
+    }
+    let source = Source::folders(first.clone(), methods.iter().map(|path| (None, path.clone())).collect());
+    let is_there = |case: &Case| case.candidates.iter().any(|one| one.missing.is_none());
+    source.cases().is_ok_and(|cases| cases.iter().any(is_there))
 }
 
 /// Opens a recent comparison as it was shown.

@@ -23,7 +23,9 @@ use crate::ui::widgets::texture::PanelTextures;
 use crate::ui::widgets::{names, theme};
 
 /// Width of the names of materials, height of the names of methods, and gap between cells, in points.
-const NAMES: f32 = 96.0;
+const NAMES: f32 = 104.0;
+/// Room before the names, in points.
+const INDENT: f32 = 8.0;
 const HEAD: f32 = 20.0;
 const GAP: f32 = 4.0;
 /// The change of the size of a cell by a step of the wheel, per point of its motion.
@@ -49,6 +51,7 @@ impl ContactSheet<'_> {
         commands.extend(self.wheel(ui, cell).filter(|_| is_over));
         let columns = self.open.methods().len() + 1;
         let width = NAMES + columns as f32 * (cell + GAP);
+        ui.add_space(2.0);
         let scroll = egui::ScrollArea::horizontal().id_salt("columns").auto_shrink([false, false]);
         scroll.show(ui, |ui| {
             ui.set_min_width(width.max(area.width()));
@@ -116,7 +119,7 @@ impl ContactSheet<'_> {
         let columns = self.open.methods().len() + 1;
         let (rect, _) =
             ui.allocate_exact_size(vec2(NAMES + columns as f32 * (cell + GAP), cell), Sense::hover());
-        let names = Rect::from_min_size(rect.min, vec2(NAMES - 6.0, cell));
+        let names = Rect::from_min_size(rect.min + vec2(INDENT, 0.0), vec2(NAMES - INDENT - 6.0, cell));
         let name = drawable(self.open.name(case));
         let mark = self.displayed.model.dataset.mark(self.open.name(case)).filter(|mark| mark.is_marked);
         let text = format!("{name}{}", mark.map_or("", |_| MARK));

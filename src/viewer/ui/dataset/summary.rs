@@ -1,8 +1,10 @@
 //! Summary of a data set: what `svbrdf rank --dataset` prints, and the losses of all materials at a glance.
 
-use eframe::egui::{self, Color32, RichText};
+use std::ops::RangeInclusive;
+
+use eframe::egui::{self, Color32, Rangef, RichText};
 use egui_material_icons::icons;
-use egui_plot::{Line, PlotPoint, Points};
+use egui_plot::{AxisHints, GridMark, Line, PlotPoint, Points};
 
 use svbrdf_evaluate::dataset::DatasetReport;
 use svbrdf_evaluate::report::{Cell, Reader, Report as _, Table};
@@ -19,6 +21,8 @@ use crate::ui::widgets::theme;
 /// Heights of the plots, in points.
 const STRIP: f32 = 22.0;
 const SCATTER: f32 = 250.0;
+/// Distances of the numbers of an axis, in points: from none to all of its colour.
+const SPACING: Rangef = Rangef { min: 24.0, max: 32.0 };
 /// Distance in points within which a material is the one under the pointer.
 const NEAR: f32 = 8.0;
 
@@ -145,10 +149,13 @@ impl SummaryUi {
             .small(),
         );
         let largest = losses.largest.max(f64::MIN_POSITIVE);
+        let axis = |hints: AxisHints<'static>, method: usize| {
+            hints.label(drawable(&open.methods()[method])).label_spacing(SPACING)
+        };
         let plot = still_plot(ui, "scatter", SCATTER)
             .data_aspect(1.0)
-            .x_axis_label(drawable(&open.methods()[a]))
-            .y_axis_label(drawable(&open.methods()[b]))
+            .custom_x_axes(vec![axis(AxisHints::new_x(), a)])
+            .custom_y_axes(vec![axis(AxisHints::new_y(), b)])
             .include_x(0.0)
             .include_y(0.0)
             .include_x(largest)
@@ -184,18 +191,20 @@ fn strips(ui: &mut egui::Ui, displayed: Displayed<'_>, open: &OpenDataset) -> Op
         .collect();
     let names: Vec<String> = open.methods().iter().map(|method| drawable(method)).collect();
     ui.label(RichText::new("Losses of all materials by method").small());
+    let name_of = move |mark: GridMark, _: &RangeInclusive<f64>| {
+        let method = -mark.value.round();
+        let is_whole = (mark.value - mark.value.round()).abs() < 1e-6 && method >= 0.0;
+        is_whole.then(|| names.get(method as usize).cloned()).flatten().unwrap_or_default()
+    };
+    let upwards = AxisHints::new_y().formatter(name_of).label_spacing(Rangef::new(2.0, 4.0));
     let plot = still_plot(ui, "strips", STRIP * count as f32 + 34.0)
-        .x_axis_label("loss")
+        .custom_x_axes(vec![AxisHints::new_x().label("loss").label_spacing(SPACING)])
+        .custom_y_axes(vec![upwards])
         .include_x(0.0)
         .include_x(largest)
         .include_y(0.5)
         .include_y(0.5 - count as f64)
-        .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [1.0, 1.0, 1.0]))
-        .y_axis_formatter(move |mark, _| {
-            let method = -mark.value.round();
-            let is_whole = (mark.value - mark.value.round()).abs() < 1e-6 && method >= 0.0;
-            is_whole.then(|| names.get(method as usize).cloned()).flatten().unwrap_or_default()
-        });
+        .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [1.0, 1.0, 1.0]));
     let (weak, accent) = (ui.visuals().weak_text_color(), theme::accent(ui.visuals()));
     let shown = displayed.model.dataset.wanted;
     let response = plot.show(ui, |plot| {
