@@ -8,6 +8,7 @@ use svbrdf_files::session::dataset::SessionDataset;
 
 use super::parts::Parts;
 use crate::jobs::work::job::Job;
+use crate::model::apply::dataset::show_case;
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::message::Message;
 
@@ -80,5 +81,5 @@ pub(super) fn show(parts: &mut Parts) {
     let Some(open) = dataset.open.clone().filter(|_| dataset.is_waiting()) else { return };
     let Some(read) = parts.jobs.dataset.cases.get(dataset.wanted).cloned() else { return };
     read.uploads.iter().for_each(|(id, uploaded)| parts.jobs.uploads.add(*id, Some(uploaded.clone())));
-    parts.model.show_case(&open, read.case, &read.materials, read.problems.clone());
+    show_case(&mut parts.model, &open, read.case, &read.materials, read.problems.clone());
 }

@@ -22,6 +22,7 @@ use super::Model;
 use super::command::effect::Effect;
 use super::dataset::{DatasetState, OpenDataset};
 use super::exposed::Exposed;
+use super::history::History;
 use super::inspection::Inspection;
 use super::material::read::Rules;
 use super::material::request::{ReadRequest, Target};
@@ -63,6 +64,20 @@ impl Model {
         options.scenes.into_iter().for_each(|file| self.use_scenes(file));
         let of_session = options.session.and_then(|session| session.dataset).map(Box::new);
         request.map(Effect::Read).into_iter().chain(of_session.map(Effect::RestoreDataset)).collect()
+    }
+
+    /// Takes a data set as what is open. What could be undone belongs to the last materials.
+    pub fn open_dataset(&mut self, dataset: DatasetState) {
+        self.dataset = dataset;
+        self.opened_alone = false;
+        self.history = History::default();
+    }
+
+    /// Goes on with a single comparison.
+    pub fn close_dataset(&mut self) {
+        if self.dataset.open.is_some() {
+            self.open_dataset(DatasetState::default());
+        }
     }
 
     /// Lights a material that is looked at alone from the side and from afar, unless light or view were moved.

@@ -162,7 +162,8 @@ impl WindowUi {
 
     fn status(&self, ui: &mut egui::Ui, displayed: Displayed<'_>, gpu: Option<&GpuView>) -> Vec<Command> {
         let view = &displayed.model.view;
-        let hovered = self.viewport.hovered;
+        let has_panes = !displayed.model.dataset.sheet.is_open;
+        let hovered = self.viewport.hovered.filter(|_| has_panes);
         let grid = displayed.model.materials.ground_truth().map(|ground_truth| ground_truth.grid());
         let bar = StatusBar {
             state: view,

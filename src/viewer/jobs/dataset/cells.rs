@@ -45,7 +45,16 @@ pub struct CellJobs {
     /// Counts the changes.
     pub generation: u64,
     wanted: Arc<Mutex<Vec<Cell>>>,
-    job: Option<Job<(), (Cell, Reduced, Option<Picture>)>>,
+    job: Option<Job<(), ReadCell>>,
+}
+
+/// A material that was read: what is kept of it.
+#[derive(Debug)]
+struct ReadCell {
+    cell: Cell,
+    reduced: Reduced,
+    /// Of a ground truth.
+    thumbnail: Option<Picture>,
 }
 
 impl CellJobs {
@@ -108,7 +117,7 @@ impl CellJobs {
     fn take(&mut self) -> Option<Error> {
         let job = self.job.as_ref()?;
         let ended = job.poll();
-        for (cell, reduced, thumbnail) in job.updates() {
+        for ReadCell { cell, reduced, thumbnail } in job.updates() {
             self.reduced.insert(cell, reduced);
             self.thumbnails.extend(thumbnail.map(|picture| (cell.case, Arc::new(picture))));
             self.generation += 1;
@@ -124,7 +133,7 @@ fn run(
     open: &OpenDataset,
     wanted: &Mutex<Vec<Cell>>,
     side: usize,
-    worker: &Worker<(Cell, Reduced, Option<Picture>)>,
+    worker: &Worker<ReadCell>,
 ) -> Result<(), Error> {
     let mut done: Vec<Cell> = Vec::new();
     loop {
@@ -137,7 +146,7 @@ fn run(
         let of_truth = reduced.as_ref().ok().filter(|_| cell.column == 0);
         let thumbnail = of_truth.map(|material| thumbnail(material, &worker.progress)).transpose()?;
         done.push(cell);
-        worker.report((cell, reduced, thumbnail))?;
+        worker.report(ReadCell { cell, reduced, thumbnail })?;
     }
 }
 

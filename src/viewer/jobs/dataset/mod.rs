@@ -72,7 +72,7 @@ impl DatasetJobs {
             self.losses.follow(waker, open, &model.view.convention, &first),
             self.cases.follow(waker, gpu, open, model.materials.rules, &wanted),
             self.cells.follow(waker, open, &displayed.cells, &displayed.cases, displayed.pixels),
-            self.sheet.follow(waker, &self.cells, displayed, &model.view, range),
+            self.sheet.follow(waker, &self.cells, &displayed.cells, &model.view, range),
             self.summary.follow(waker, open, &self.losses, model.tab() == Tab::Methods && model.side_panel()),
         ];
         errors.into_iter().flatten().collect()

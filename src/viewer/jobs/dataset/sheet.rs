@@ -13,7 +13,6 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::difference::DifferenceParams;
 use svbrdf_core::progress::Progress;
 
-use super::DisplayedCases;
 use super::cells::{Cell, CellJobs};
 use crate::error::Error;
 use crate::jobs::work::job::Job;
@@ -64,18 +63,18 @@ impl SheetJob {
         &mut self,
         waker: &Waker,
         cells: &CellJobs,
-        displayed: &DisplayedCases,
+        in_sight: &[Cell],
         view: &ViewState,
         range: f64,
     ) -> Option<Error> {
-        if displayed.cells.is_empty() {
+        if in_sight.is_empty() {
             return self.0.follow(None, |_| unreachable_job(waker));
         }
         let quantity = view.display.quantity;
         let (kind, _) = view.display.differences.pointwise(quantity);
         let difference = view.display.difference.then_some(ColouredDifference { kind, range: Some(range) });
         let key = SheetKey {
-            cells: displayed.cells.clone(),
+            cells: in_sight.to_vec(),
             generation: cells.generation,
             scene: view.scene,
             convention: view.convention(),

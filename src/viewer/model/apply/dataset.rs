@@ -10,7 +10,6 @@ use crate::model::command::DatasetCommand;
 use crate::model::command::effect::Effect;
 use crate::model::dataset::{CELL, DatasetState, OpenDataset};
 use crate::model::exposed::Exposed;
-use crate::model::history::History;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
 
@@ -51,62 +50,45 @@ fn change_mark(
     dataset.marks.retain(|_, mark| mark.is_marked || !mark.note.is_empty());
 }
 
-impl Model {
-    /// Takes a data set as what is open. What could be undone belongs to the last materials.
-    pub fn open_dataset(&mut self, dataset: DatasetState) {
-        self.dataset = dataset;
-        self.opened_alone = false;
-        self.history = History::default();
+/// Puts a material into the window, the ground truth first, with what is not there of it. What the hand has set stays: the view is
+/// at the same place, by shares of the size, and the chosen method is the same wherever it has a prediction.
+pub fn show_case(
+    model: &mut Model,
+    open: &OpenDataset,
+    case: usize,
+    materials: &[Arc<ReadMaterial>],
+    problems: Vec<(String, String)>,
+) {
+    let before = model.materials.ground_truth().map(LoadedMaterial::grid);
+    let predictions = model.materials.predictions();
+    let is_of = |one: &LoadedMaterial| model.dataset.method.as_deref() == Some(one.material().name());
+    // Where the chosen method had no prediction, another one stood in for it.
+    if model.dataset.shown.is_some()
+        && predictions.iter().any(is_of)
+        && let Some(chosen) = predictions.get(model.view.display.prediction)
+    {
+        model.dataset.method = Some(chosen.material().name().to_owned());
     }
-
-    /// Goes on with a single comparison.
-    pub fn close_dataset(&mut self) {
-        if self.dataset.open.is_some() {
-            self.open_dataset(DatasetState::default());
-        }
+    model.materials.replace_all(materials);
+    let names = || model.materials.predictions().iter().map(|one| one.material().name());
+    let chosen = model.dataset.method.as_deref().and_then(|method| names().position(|name| name == method));
+    let count = model.materials.predictions().len();
+    let display = &mut model.view.display;
+    display.prediction = chosen.unwrap_or(display.prediction).min(count.saturating_sub(1));
+    display.corrected = None;
+    if let (Some(before), Some(now)) = (before, model.materials.ground_truth().map(LoadedMaterial::grid)) {
+        display.framing = display.framing.map(|framing| in_other_size(framing, before, now));
     }
-
-    /// Puts a material into the window, the ground truth first, with what is not there of it. What the hand has set stays: the view is
-    /// at the same place, by shares of the size, and the chosen method is the same wherever it has a prediction.
-    pub fn show_case(
-        &mut self,
-        open: &OpenDataset,
-        case: usize,
-        materials: &[Arc<ReadMaterial>],
-        problems: Vec<(String, String)>,
-    ) {
-        let before = self.materials.ground_truth().map(LoadedMaterial::grid);
-        let predictions = self.materials.predictions();
-        let is_of = |one: &LoadedMaterial| self.dataset.method.as_deref() == Some(one.material().name());
-        // Where the chosen method had no prediction, another one stood in for it.
-        if self.dataset.shown.is_some()
-            && predictions.iter().any(is_of)
-            && let Some(chosen) = predictions.get(self.view.display.prediction)
-        {
-            self.dataset.method = Some(chosen.material().name().to_owned());
-        }
-        self.materials.replace_all(materials);
-        let names = || self.materials.predictions().iter().map(|one| one.material().name());
-        let chosen =
-            self.dataset.method.as_deref().and_then(|method| names().position(|name| name == method));
-        let count = self.materials.predictions().len();
-        let display = &mut self.view.display;
-        display.prediction = chosen.unwrap_or(display.prediction).min(count.saturating_sub(1));
-        display.corrected = None;
-        if let (Some(before), Some(now)) = (before, self.materials.ground_truth().map(LoadedMaterial::grid)) {
-            display.framing = display.framing.map(|framing| in_other_size(framing, before, now));
-        }
-        self.swapped = false;
-        let is_first = self.dataset.shown.is_none();
-        let now = self.materials.ground_truth().map(|one| one.read.source.place.clone());
-        if let (Exposed::For { ground_truth, .. }, Some(now), false) = (&mut self.exposed, now, is_first) {
-            // The exposure stays as light and view do.
-            *ground_truth = now;
-        }
-        (self.dataset.shown, self.dataset.is_stale, self.dataset.problems) = (Some(case), false, problems);
-        if is_first && self.dataset.method.is_none() {
-            self.dataset.method = open.methods().first().cloned();
-        }
+    model.swapped = false;
+    let is_first = model.dataset.shown.is_none();
+    let now = model.materials.ground_truth().map(|one| one.read.source.place.clone());
+    if let (Exposed::For { ground_truth, .. }, Some(now), false) = (&mut model.exposed, now, is_first) {
+        // The exposure stays as light and view do.
+        *ground_truth = now;
+    }
+    (model.dataset.shown, model.dataset.is_stale, model.dataset.problems) = (Some(case), false, problems);
+    if is_first && model.dataset.method.is_none() {
+        model.dataset.method = open.methods().first().cloned();
     }
 }
 

@@ -16,14 +16,7 @@ use crate::model::material::source::sources;
 use crate::model::message::Message;
 
 pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect> {
-    let closes = match &command {
-        MaterialsCommand::Open { paths, replace, .. } => {
-            *replace && !paths.iter().all(|path| scene_file::is_named(path))
-        }
-        MaterialsCommand::OpenBuiltIn | MaterialsCommand::Reopen(_) => true,
-        _ => false,
-    };
-    if closes {
+    if replaces_all(&command) {
         model.close_dataset();
     }
     let materials = &mut model.materials;
@@ -107,6 +100,17 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     let predictions = sources(predictions.iter().map(material).collect());
     let sources = first.iter().map(material).chain(predictions).collect();
     vec![Effect::ReadForDialog(ReadRequest::new(sources, target))]
+}
+
+/// Whether a command puts other materials into the place of those in the window.
+fn replaces_all(command: &MaterialsCommand) -> bool {
+    match command {
+        MaterialsCommand::Open { paths, replace, .. } => {
+            *replace && !paths.iter().all(|path| scene_file::is_named(path))
+        }
+        MaterialsCommand::OpenBuiltIn | MaterialsCommand::Reopen(_) => true,
+        _ => false,
+    }
 }
 
 /// Whether these are folders of materials of the same names, and the first is no material itself.

@@ -1,6 +1,6 @@
 //! Commands, carried out on the model.
 
-mod dataset;
+pub mod dataset;
 mod display;
 pub mod exposure;
 mod inspection;

@@ -29,9 +29,3 @@ pub enum DatasetCommand {
     /// Sets the note of the material in the window.
     SetNote(String),
 }
-
-impl From<DatasetCommand> for super::Command {
-    fn from(command: DatasetCommand) -> Self {
-        Self::Dataset(command)
-    }
-}

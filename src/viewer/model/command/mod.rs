@@ -280,6 +280,12 @@ pub enum TrainingCommand {
     Keep(usize),
 }
 
+impl From<DatasetCommand> for Command {
+    fn from(command: DatasetCommand) -> Self {
+        Self::Dataset(command)
+    }
+}
+
 impl From<PhotographCommand> for Command {
     fn from(command: PhotographCommand) -> Self {
         Self::Photograph(command)

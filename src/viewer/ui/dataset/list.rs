@@ -8,7 +8,7 @@ use egui_material_icons::icons;
 
 use svbrdf_core::text::line;
 
-use super::Rows;
+use super::rows::{Rows, chosen_method};
 use crate::jobs::displayed::Displayed;
 use crate::model::command::{Command, DatasetCommand};
 use crate::model::dataset::OpenDataset;
@@ -255,7 +255,7 @@ impl MaterialsDrawer<'_> {
     fn paint_bars(&self, ui: &egui::Ui, area: Rect, losses: Option<&CaseLosses>) {
         let Some(losses) = losses else { return };
         let largest = self.displayed.jobs.dataset.losses.largest.max(f64::MIN_POSITIVE);
-        let chosen = self.displayed.model.dataset.method.as_deref();
+        let chosen = chosen_method(self.displayed);
         for (index, known) in losses.by_method.iter().take(MOST_BARS).enumerate() {
             let top = area.top() + index as f32 * BAR;
             let is_chosen = self.open.methods().get(index).map(String::as_str) == chosen;

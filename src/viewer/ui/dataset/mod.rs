@@ -1,6 +1,7 @@
 //! Data set: the list of its materials, the contact sheet and the summary of its methods.
 
 pub mod list;
+pub mod rows;
 pub mod sheet;
 pub mod summary;
 
@@ -9,10 +10,11 @@ use eframe::egui;
 use crate::jobs::dataset::DisplayedCases;
 use crate::jobs::displayed::Displayed;
 use crate::model::command::{Command, DatasetCommand};
-use crate::model::dataset::list::{ListView, Listed};
+use crate::model::dataset::list::ListView;
 use crate::ui::widgets::bare;
 use crate::ui::widgets::texture::PanelTextures;
 use list::MaterialsDrawer;
+use rows::Rows;
 use sheet::ContactSheet;
 
 /// The list and the sheet between frames.
@@ -26,64 +28,6 @@ pub struct DatasetUi {
     /// The material that the list has scrolled to.
     scrolled_to: Option<usize>,
     summary: summary::SummaryUi,
-}
-
-/// The materials that are listed, in their order.
-#[derive(Debug, Default)]
-pub struct Rows {
-    key: Option<RowsKey>,
-    /// Their places in the data set.
-    pub cases: Vec<usize>,
-}
-
-/// What the rows depend on.
-#[derive(Clone, Debug, PartialEq)]
-struct RowsKey {
-    dataset: usize,
-    generation: u64,
-    list: ListView,
-    marked: Vec<String>,
-}
-
-impl Rows {
-    /// Sorts and filters again where something has changed.
-    fn follow(&mut self, displayed: Displayed<'_>) {
-        let (dataset, losses) = (&displayed.model.dataset, &displayed.jobs.dataset.losses);
-        let Some(open) = &dataset.open else {
-            *self = Self::default();
-            return;
-        };
-        let marked = dataset.marks.iter().filter(|(_, mark)| mark.is_marked).map(|(name, _)| name.clone());
-        let key = RowsKey {
-            dataset: std::sync::Arc::as_ptr(open).addr(),
-            generation: losses.generation,
-            list: dataset.list.clone(),
-            marked: marked.collect(),
-        };
-        if self.key.as_ref() == Some(&key) {
-            return;
-        }
-        let all = open.cases.iter().enumerate().map(|(case, one)| Listed {
-            name: &one.material,
-            losses: losses.row(case),
-            is_marked: dataset.mark(&one.material).is_some_and(|mark| mark.is_marked),
-        });
-        let all: Vec<Listed<'_>> = all.collect();
-        self.cases = dataset.list.rows(&all);
-        self.key = Some(key);
-    }
-
-    /// The row of a material.
-    pub fn row(&self, case: usize) -> Option<usize> {
-        self.cases.iter().position(|one| *one == case)
-    }
-
-    /// The material in this row, and those around it, which are likely to be next.
-    pub fn at(&self, row: usize) -> Option<(usize, Vec<usize>)> {
-        let case = *self.cases.get(row)?;
-        let around = [row.checked_add(1), row.checked_sub(1)].into_iter().flatten();
-        Some((case, around.filter_map(|row| self.cases.get(row)).copied().collect()))
-    }
 }
 
 impl DatasetUi {
@@ -143,7 +87,9 @@ impl DatasetUi {
         let dataset = &displayed.model.dataset;
         let Some(open) = dataset.open.as_deref().filter(|_| dataset.list.is_open) else { return Vec::new() };
         let mut commands = Vec::new();
-        let panel = bare(egui::Panel::left("materials"), ui).default_size(250.0).size_range(150.0..=560.0);
+        // In a narrow window the panes keep most of the room.
+        let width = (0.24 * ui.ctx().content_rect().width()).clamp(160.0, 250.0);
+        let panel = bare(egui::Panel::left("materials"), ui).default_size(width).size_range(150.0..=560.0);
         panel.show(ui, |ui| {
             let mut drawer = MaterialsDrawer {
                 displayed,

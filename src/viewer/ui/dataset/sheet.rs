@@ -9,8 +9,8 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::text::line;
 
-use super::Rows;
 use super::list::MARK;
+use super::rows::{Rows, chosen_method};
 use crate::jobs::dataset::DisplayedCases;
 use crate::jobs::dataset::cells::Cell;
 use crate::jobs::displayed::Displayed;
@@ -90,7 +90,7 @@ impl ContactSheet<'_> {
         let methods: Vec<&str> = self.open.methods().iter().map(String::as_str).collect();
         let all = Names::new(&methods);
         let font = FontId::proportional(12.0);
-        let chosen = self.displayed.model.dataset.method.as_deref();
+        let chosen = chosen_method(self.displayed);
         for column in 0..=methods.len() {
             let left = rect.left() + NAMES + column as f32 * (cell + GAP);
             let text = match column.checked_sub(1) {

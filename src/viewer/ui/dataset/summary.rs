@@ -9,7 +9,7 @@ use egui_plot::{AxisHints, GridMark, Line, PlotPoint, Points};
 use svbrdf_evaluate::dataset::DatasetReport;
 use svbrdf_evaluate::report::{Cell, Reader, Report as _, Table};
 
-use super::Rows;
+use super::rows::Rows;
 use crate::jobs::displayed::Displayed;
 use crate::model::command::{Command, DatasetCommand};
 use crate::model::dataset::OpenDataset;

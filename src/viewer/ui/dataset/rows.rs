@@ -1,0 +1,72 @@
+//! Rows of the list and of the sheet: the materials in their order.
+
+use std::sync::Arc;
+
+use crate::jobs::displayed::Displayed;
+use crate::model::dataset::list::{ListView, Listed};
+
+/// The materials that are listed, in their order.
+#[derive(Debug, Default)]
+pub struct Rows {
+    key: Option<RowsKey>,
+    /// Their places in the data set.
+    pub cases: Vec<usize>,
+}
+
+/// What the rows depend on.
+#[derive(Clone, Debug, PartialEq)]
+struct RowsKey {
+    dataset: usize,
+    generation: u64,
+    list: ListView,
+    marked: Vec<String>,
+}
+
+impl Rows {
+    /// Sorts and filters again where something has changed.
+    pub fn follow(&mut self, displayed: Displayed<'_>) {
+        let (dataset, losses) = (&displayed.model.dataset, &displayed.jobs.dataset.losses);
+        let Some(open) = &dataset.open else {
+            *self = Self::default();
+            return;
+        };
+        let marked = dataset.marks.iter().filter(|(_, mark)| mark.is_marked).map(|(name, _)| name.clone());
+        let key = RowsKey {
+            dataset: Arc::as_ptr(open).addr(),
+            generation: losses.generation,
+            list: dataset.list.clone(),
+            marked: marked.collect(),
+        };
+        if self.key.as_ref() == Some(&key) {
+            return;
+        }
+        let all = open.cases.iter().enumerate().map(|(case, one)| Listed {
+            name: &one.material,
+            losses: losses.row(case),
+            is_marked: dataset.mark(&one.material).is_some_and(|mark| mark.is_marked),
+        });
+        let all: Vec<Listed<'_>> = all.collect();
+        self.cases = dataset.list.rows(&all);
+        self.key = Some(key);
+    }
+
+    /// The row of a material.
+    pub fn row(&self, case: usize) -> Option<usize> {
+        self.cases.iter().position(|one| *one == case)
+    }
+
+    /// The material in this row, and those around it, which are likely to be next.
+    pub fn at(&self, row: usize) -> Option<(usize, Vec<usize>)> {
+        let case = *self.cases.get(row)?;
+        let around = [row.checked_add(1), row.checked_sub(1)].into_iter().flatten();
+        Some((case, around.filter_map(|row| self.cases.get(row)).copied().collect()))
+    }
+}
+
+/// The chosen method: that of the chosen prediction, or the one that was chosen before the material in the window.
+pub fn chosen_method(displayed: Displayed<'_>) -> Option<&str> {
+    let model = displayed.model;
+    let chosen = model.materials.predictions().get(model.view.display.prediction);
+    let is_here = model.dataset.shown.is_some();
+    chosen.filter(|_| is_here).map(|one| one.material().name()).or(model.dataset.method.as_deref())
+}
