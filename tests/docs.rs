@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
+use tempfile::TempDir;
+
 use crate::support::surroundings::command;
 
 /// The README and the pages, each with its text.
@@ -29,15 +31,23 @@ fn commands(block: &str) -> Vec<(&str, &str)> {
     parts.map(|part| part.split_once('\n').unwrap_or((part, ""))).collect()
 }
 
-/// Runs a line of a page as a shell does, without a display, in a folder that has empty files for its patterns alone.
-fn run(line: &str) -> Output {
+/// A folder for the lines of a page: an empty file for its patterns, and beside it the script that makes the materials of the tutorial.
+fn folder() -> TempDir {
+    const SCRIPT: &str = "python/examples/make_materials.py";
     let folder = tempfile::tempdir().unwrap();
-    fs::create_dir(folder.path().join("out")).unwrap();
-    fs::write(folder.path().join("out/a.png"), "").unwrap();
+    fs::create_dir_all(folder.path().join("tutorial/out")).unwrap();
+    fs::write(folder.path().join("tutorial/out/a.png"), "").unwrap();
+    fs::create_dir_all(folder.path().join("python/examples")).unwrap();
+    fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(SCRIPT), folder.path().join(SCRIPT)).unwrap();
+    folder
+}
+
+/// Runs a line of a page as a shell does, without a display, in a folder.
+fn run(line: &str, folder: &TempDir) -> Output {
     let program = Path::new(env!("CARGO_BIN_EXE_svbrdf")).parent().unwrap();
     let path = format!("{}:{}", program.display(), std::env::var("PATH").unwrap_or_default());
     let mut command = command("sh");
-    command.args(["-c", line]).current_dir(folder.path()).env("PATH", path);
+    command.args(["-c", line]).current_dir(folder.path().join("tutorial")).env("PATH", path);
     command.env("SLURM_ARRAY_TASK_ID", "1").output().unwrap()
 }
 
@@ -51,8 +61,9 @@ fn differences(shown: &str, printed: &str) -> Option<String> {
 fn commands_of_the_pages_print_what_the_pages_show() {
     let mut count = 0;
     for (page, text) in pages() {
+        let folder = folder();
         for (command, shown) in blocks(&text, "console").into_iter().flat_map(commands) {
-            let output = run(command);
+            let output = run(command, &folder);
             let printed = String::from_utf8_lossy(&output.stdout);
             assert!(output.status.success(), "{}: {command}: {output:?}", page.display());
             if let Some(differences) = differences(shown, &printed) {
@@ -61,7 +72,7 @@ fn commands_of_the_pages_print_what_the_pages_show() {
             count += 1;
         }
     }
-    assert!(count >= 3, "only {count} commands were found");
+    assert!(count >= 12, "only {count} commands were found");
 }
 
 #[cfg(feature = "viewer")]
@@ -74,13 +85,13 @@ fn every_command_line_of_the_pages_is_one() {
             blocks(&text, "sh").into_iter().flat_map(str::lines).filter(|line| line.starts_with("svbrdf "))
         {
             // Without the files that it names it may fail, but not as a command line.
-            let output = run(line);
+            let output = run(line, &folder());
             assert_ne!(output.status.code(), Some(USAGE), "{}: {line}: {output:?}", page.display());
             count += 1;
         }
     }
     assert!(count >= 30, "only {count} commands were found");
-    assert_eq!(run("svbrdf loss --no-such-option").status.code(), Some(USAGE), "a planted fault");
+    assert_eq!(run("svbrdf loss --no-such-option", &folder()).status.code(), Some(USAGE), "a planted fault");
 }
 
 #[test]
