@@ -190,7 +190,10 @@ mod tests {
         let one = attribution([above, below, at, at]).note().unwrap();
         assert!(one.contains(&format!("the wrong {} partly cancels the errors", name(1))), "{one}");
         let two = attribution([above, at, below, below]).note().unwrap();
-        assert!(two.contains(&format!("the wrong {} and {} partly cancel the errors", name(2), name(3))), "{two}");
+        assert!(
+            two.contains(&format!("the wrong {} and {} partly cancel the errors", name(2), name(3))),
+            "{two}"
+        );
     }
 
     /// The game of a glove market: only a left glove (maps 0, 1) with a right one (2, 3) is worth something.
