@@ -135,6 +135,17 @@ fn the_pages_are_short_to_load_and_the_readme_is_short_to_read() {
     assert!(lines <= 160, "{lines} lines");
 }
 
+#[test]
+fn the_site_has_every_page_of_docs() {
+    let site = Path::new(env!("CARGO_MANIFEST_DIR")).join("packaging/site/zensical.toml");
+    let site = fs::read_to_string(site).unwrap();
+    let names = pages().into_iter().filter(|(page, _)| page.parent().unwrap().ends_with("docs"));
+    let names: Vec<_> =
+        names.map(|(page, _)| page.file_name().unwrap().to_str().unwrap().to_owned()).collect();
+    let missing: Vec<_> = names.iter().filter(|name| !site.contains(&format!("\"docs/{name}\""))).collect();
+    assert!(names.len() >= 20 && missing.is_empty(), "{} pages; the site lacks {missing:?}", names.len());
+}
+
 /// Whether a page has a heading with this anchor.
 fn has_heading(text: &str, anchor: &str) -> bool {
     let of_line = |line: &str| line.trim_start_matches('#').trim().to_lowercase().replace(' ', "-");
