@@ -135,6 +135,28 @@ fn the_pages_are_short_to_load_and_the_readme_is_short_to_read() {
     assert!(lines <= 160, "{lines} lines");
 }
 
+/// The losses and intervals in a table of docs/loss.md.
+fn losses(text: &str) -> Vec<&str> {
+    let rows = text.lines().map(|line| line.split('|').map(str::trim).collect::<Vec<_>>());
+    let rows = rows.filter(|cells| cells.len() == 6 && cells[4].contains(" to "));
+    rows.flat_map(|cells| [cells[3], cells[4]]).collect()
+}
+
+#[test]
+fn the_page_of_the_loss_has_the_losses_that_commands_print() {
+    let (page, others): (Vec<_>, Vec<_>) =
+        pages().into_iter().partition(|(page, _)| page.ends_with("loss.md"));
+    let output = run("svbrdf loss --near 64 --distant 32", &folder());
+    let few = String::from_utf8_lossy(&output.stdout).into_owned();
+    let printed: Vec<_> =
+        others.iter().flat_map(|(_, text)| blocks(text, "console")).chain([few.as_str()]).collect();
+    let losses = losses(&page[0].1);
+    let is_printed = |number: &str| printed.iter().any(|text| text.contains(number));
+    let missing: Vec<_> = losses.iter().filter(|number| !is_printed(number)).collect();
+    assert!(losses.len() == 10 && missing.is_empty(), "{losses:?}: no command prints {missing:?}");
+    assert!(!is_printed("0.321779"), "a planted fault");
+}
+
 #[test]
 fn the_site_has_every_page_of_docs() {
     let site = Path::new(env!("CARGO_MANIFEST_DIR")).join("packaging/site/zensical.toml");
