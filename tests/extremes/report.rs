@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::regions::Region;
 use super::rungs::{self, Rung};
-use super::survey::{Case, Errors, Survey};
+use super::survey::{Case, Survey};
 
 /// The document. `random` is the number of random points among the points of the survey.
 pub fn markdown(survey: &Survey, random: u64, adapter: Option<&str>) -> String {
