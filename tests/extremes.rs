@@ -1,7 +1,7 @@
 //! Numerical stability at the extremes: every rung of precision over a table of extreme cases and over random ones.
 //!
 //! `SVBRDF_EXTREMES=10000000 cargo test write_extremes -- --ignored --nocapture` measures 10^7 random points and writes
-//! docs/extremes.md and docs/extremes.svg.
+//! docs/extremes.md, docs/extremes.csv and docs/extremes.svg.
 
 mod cases;
 mod exact;
@@ -65,7 +65,7 @@ fn every_rung_holds_at_random_points() {
 }
 
 #[test]
-#[ignore = "writes docs/extremes.md and docs/extremes.svg"]
+#[ignore = "writes docs/extremes.md, extremes.csv and extremes.svg"]
 fn write_extremes() {
     let points = std::env::var("SVBRDF_EXTREMES").ok().and_then(|n| n.parse().ok()).unwrap_or(POINTS);
     let random = survey_random(points, 61);
@@ -73,6 +73,7 @@ fn write_extremes() {
     let survey = random.merge(survey_table());
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
     std::fs::write(docs.join("extremes.md"), report::markdown(&survey, count, adapter().as_deref())).unwrap();
+    std::fs::write(docs.join("extremes.csv"), report::csv(&survey)).unwrap();
     std::fs::write(docs.join("extremes.svg"), picture::svg()).unwrap();
     survey.verdict().unwrap_or_else(|e| panic!("{e}"));
 }

@@ -141,6 +141,7 @@ fn all_crates_and_packages_have_one_version() {
         newest(&read("packaging/io.github.OWNER.svbrdf.metainfo.xml"), "<release version=\""),
         version
     );
+    assert_eq!(newest(&read("docs/CITATION.cff"), "\nversion: "), version);
 }
 
 /// The programs that a build script starts.

@@ -3,6 +3,7 @@
 import json
 import os
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -427,3 +428,14 @@ def test_the_loss_is_the_same_on_a_cuda_device() -> None:
     loss = sv.RenderingLoss(scenes=svbrdf.sample_scenes())
     on_device = loss(sv.Maps(*(m.cuda() for m in a)), sv.Maps(*(m.cuda() for m in b))).item()
     assert on_device == pytest.approx(loss(a, b).item(), rel=1e-12)
+
+
+def test_the_training_loop_of_the_page_trains(capsys: pytest.CaptureFixture[str]) -> None:
+    page = Path(__file__).parents[2] / "docs/training.md"
+    loop = page.read_text(encoding="utf-8").split("```python\n")[1].split("```")[0]
+    truth = sv.Maps(*(map[None] for map in random_maps(1, dtype=torch.float32)))
+    network, photographs = torch.nn.Conv2d(3, 10, 1), torch.rand(1, 3, 6, 8)
+    held_out, before = SimpleNamespace(photographs=photographs, truth=truth), network.weight.detach().clone()
+    exec(loop, {"network": network, "batches": 3 * [(photographs, truth)], "held_out": held_out})
+    assert float(capsys.readouterr().out.split()[1]) > 0
+    assert not torch.equal(network.weight, before), "the gradient reaches the network"

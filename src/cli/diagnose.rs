@@ -16,11 +16,10 @@ use super::output::{CommandError, exit, watched};
 
 /// Prints what an exposure, a shift, a symmetry or another reading of the files would lower the loss to
 ///
-/// Each hypothesis is fitted in the scenes of a pilot and evaluated in 192 others. A star marks those that lower the loss
-/// significantly and by at least 10% beside the other marked ones; the last column has the option that corrects the reading. Nothing is
-/// marked where the loss is below the floor. Below: the loss that the
-/// ground truth cannot resolve (floor), and the loss between averages over larger and larger blocks (ladder). docs/diagnose.md describes each
-/// line. Without GT and PRED: the built-in materials.
+/// Each hypothesis is fitted in the scenes of a pilot and evaluated in 3,072 others. A star marks those that lower the loss
+/// significantly, and by at least 10% beside the other marked ones. The last column has the option that corrects the reading. Losses below
+/// the floor, which the ground truth cannot resolve, have no mark. The second table has the loss between averages over larger and larger
+/// blocks. docs/diagnose.md describes each line. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  svbrdf diagnose gt.png a.png")]
 pub struct DiagnoseArgs {

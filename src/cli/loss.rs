@@ -18,10 +18,10 @@ use super::output::{CommandError, exit, target, watched};
 ///
 /// Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the mean over scenes,
 /// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
-/// texels; it is unknown with a single scene of a kind. Without a number of scenes: the loss over all
-/// scenes to +-1%, in Sobol scenes with 32 random texels each, and the loss over the 6 + 3 scenes of the papers; of a session, what
-/// its window asked for. With --near or --distant: the loss over exactly these scenes. A folder of training
-/// steps, such as NAME_step000100.png or epoch_12/, stands for all its steps. Without GT and PRED: the built-in materials.
+/// texels; it is unknown with a single scene of a kind. Without a number of scenes: the loss over all scenes to +-1%, and the loss
+/// over the 6 + 3 scenes of the papers. With --near or --distant: the loss over exactly these scenes. A session has settings of
+/// its own. A folder of training steps, such as NAME_step000100.png or epoch_12/, stands for all its steps. Without GT and PRED: the
+/// built-in materials. docs/loss.md defines the loss.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  svbrdf loss gt.png a.png b.png --target-error 0.5%")]
 #[command(mut_arg("near", |arg| arg.help(
@@ -36,7 +36,7 @@ pub struct LossArgs {
     scenes: SceneArgs,
 
     /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
-    /// [default: 128; with --near or --distant all]
+    /// [default: 32; with --near or --distant all]
     #[arg(help_heading = "Scenes", long, value_name = "all|N", allow_negative_numbers = true)]
     texels: Option<Texels>,
 

@@ -26,8 +26,7 @@ fn blame_is_that_of_the_wrong_map_in_every_format() {
         write_tiles(&at.join(format!("{name}.png")), 4, |x, _| tiles[x as usize / 4]);
     }
     let table = succeed(at, "blame metal.png dull.png --preset deschaintre --read order=ndrs");
-    let note =
-        "Below 0%, the wrong specular hides errors of other maps, whose shares add up to more than 100%.";
+    let note = "A negative share: the wrong specular partly cancels the errors of other maps.";
     assert_has(&table, &["specular   -90.1%", &format!("\n\n{note}\n")]);
     assert!(!text.contains("below"));
 }

@@ -61,7 +61,7 @@ const GENERATED: [Generated; 12] = [
     },
     Generated {
         name: "extremes",
-        files: "docs/extremes.md, docs/extremes.svg",
+        files: "docs/extremes.{md,csv,svg}",
         script: "SVBRDF_EXTREMES=10000000 cargo test --test main write_extremes -- --ignored",
     },
     Generated {

@@ -33,7 +33,7 @@ def blame(
     Renders all 16 mixtures of the maps of the ground truth and of the prediction in the same scenes on the same
     texels. The Shapley value of a map is the mean of what it adds to the loss over all orders in which the maps can
     become wrong; the four values add up to the loss. Beside them stands the loss where only this map is wrong, and
-    where only this map is right. A share below 0%: the error of this map hides errors of others.
+    where only this map is right. A negative share: its error partly cancels the errors of others.
 
     The other args and errors are those of `svbrdf.loss`.
     """
@@ -79,9 +79,9 @@ def worst(
 ) -> WorstReport:
     """Searches for the scene with the largest loss of each prediction.
 
-    Samples 12,288 of the scenes that the loss is over, compares the 256 worst with changed distances on 1,024
-    texels, and refines the 16 worst of these, the best 2 on all texels. Distances have no largest value: the search
-    is within the central 99% of their distributions, which the distance tail changes. The mean is the loss over all
+    Evaluates 12,288 of the scenes that the loss is over, and distant ones with grazing light and view, on 1,024
+    texels. Refines the worst of them, the best 4 on all texels. Distances have no largest value: the search is
+    within the central 99% of their distributions, which the distance tail changes. The mean is the loss over all
     scenes, to +-1% where 49,152 scenes are enough. The JSON is a scene file, too.
 
     `distance_tail`: leaves out this share of the nearest distances, and as much of the farthest. The other args and

@@ -156,7 +156,7 @@ impl Analysis for BlameReport {
     const DETAILS: &'static str = "Renders all 16 mixtures of the maps of the ground truth and of the prediction in the same scenes \
         on the same texels. The Shapley value of a map is the mean of what it adds to the loss over all orders in which the maps can \
         become wrong; the four values add up to the loss. Beside them stands the loss where only this map is wrong, and where only \
-        this map is right. A share below 0%: the error of this map hides errors of others.";
+        this map is right. A negative share: its error partly cancels the errors of others.";
     const DOING: &'static str = "rendering";
     const SCENES: &'static [SceneOptions] =
         &[SceneOptions::TargetError, SceneOptions::Seed, SceneOptions::List];

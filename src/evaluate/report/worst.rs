@@ -126,8 +126,8 @@ impl Analysis for WorstReport {
     const NAME: &'static str = "worst";
     const TITLE: &'static str = "Which scene is the worst";
     const ABOUT: &'static str = "Searches for the scene with the largest loss of each prediction";
-    const DETAILS: &'static str = "Samples 12,288 of the scenes that the loss is over, compares the 256 worst with changed distances \
-        on 1,024 texels, and refines the 16 worst of these, the best 2 on all texels. Distances have no largest value: the search is \
+    const DETAILS: &'static str = "Evaluates 12,288 of the scenes that the loss is over, and distant ones with grazing light and view, \
+        on 1,024 texels. Refines the worst of them, the best 4 on all texels. Distances have no largest value: the search is \
         within the central 99% of their distributions, which the distance tail changes. The mean is the loss over all scenes, to +-1% \
         where 49,152 scenes are enough. The JSON is a scene file, too.";
     const DOING: &'static str = "searching";

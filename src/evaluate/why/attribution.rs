@@ -65,11 +65,9 @@ impl Attribution {
         let is_below = |e: &Estimate| e.interval95.map_or(e.mean, |[_, high]| high) < 0.0;
         let below = self.maps.iter().filter(|share| is_below(&share.shapley));
         let names: Vec<_> = below.map(|share| share.map.name()).collect();
-        let verb = if names.len() == 1 { "hides" } else { "hide" };
+        let verb = if names.len() == 1 { "cancels" } else { "cancel" };
         let names = (!names.is_empty()).then(|| names.join(" and "))?;
-        Some(format!(
-            "Below 0%, the wrong {names} {verb} errors of other maps, whose shares add up to more than 100%."
-        ))
+        Some(format!("A negative share: the wrong {names} partly {verb} the errors of other maps."))
     }
 }
 
@@ -190,9 +188,12 @@ mod tests {
         assert_eq!(attribution([above, at, at, at]).note(), None);
         let name = |i: usize| Map::ALL[i].name();
         let one = attribution([above, below, at, at]).note().unwrap();
-        assert!(one.contains(&format!("the wrong {} hides errors", name(1))), "{one}");
+        assert!(one.contains(&format!("the wrong {} partly cancels the errors", name(1))), "{one}");
         let two = attribution([above, at, below, below]).note().unwrap();
-        assert!(two.contains(&format!("the wrong {} and {} hide errors", name(2), name(3))), "{two}");
+        assert!(
+            two.contains(&format!("the wrong {} and {} partly cancel the errors", name(2), name(3))),
+            "{two}"
+        );
     }
 
     /// The game of a glove market: only a left glove (maps 0, 1) with a right one (2, 3) is worth something.

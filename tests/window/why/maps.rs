@@ -64,7 +64,7 @@ fn a_share_below_0_is_explained_below_the_bars() {
     let attribution = wait_for_attribution(&mut window);
     assert!(attribution.of(Map::Specular).shapley.mean < 0.0);
     let note = window.get_by_label(&attribution.note().unwrap()).rect();
-    window.get_by_label_contains("the wrong specular hides errors of other maps");
+    window.get_by_label_contains("the wrong specular partly cancels the errors of other maps");
     assert_eq!(below(&window), before, "moved by the note");
     assert!(note.bottom() < before.top() && note.height() > 8.0, "{note:?} above {before:?}");
 }

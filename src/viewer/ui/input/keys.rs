@@ -41,10 +41,9 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
         &[
             ("wheel", "zoom at the pointer"),
             ("middle-drag, Space + left-drag", "pan"),
-            (
-                "F / 0 / R",
-                "fit, in perspective also a material seen as a line / one texel per pixel / reset light, view, zoom, exposure and clipping marks",
-            ),
+            ("F", "fit the material"),
+            ("0", "one texel per pixel"),
+            ("R", "reset light, view, zoom, exposure and clipping marks"),
         ],
     ),
     (

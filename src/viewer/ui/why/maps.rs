@@ -95,7 +95,7 @@ impl MapsSection<'_> {
             ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
                 "All 16 mixtures of true and predicted maps, in the same scenes on the same texels. The Shapley value \
                  of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; \
-                 the four add up to the loss. Below 0%: the error of a map hides errors of others. At most 49,152 scenes are \
+                 the four add up to the loss. A negative share: the error of this map partly cancels the errors of others. At most 49,152 scenes are \
                  sampled.",
             );
         });
