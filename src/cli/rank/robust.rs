@@ -20,10 +20,11 @@ struct RobustJob {
 }
 
 pub fn job(args: &RankArgs, given: &Given) -> NewJob {
-    let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no page, no floor and no limit";
+    let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no page, no floor, no limit and no remarks";
     given.refuse::<DataSetArgs>(reason)?;
     given.refuse::<PageArgs>(reason)?;
     given.refuse::<FloorArgs>(reason)?;
+    refuse(args.comparison.materials.reading.both.verbose, "verbose", reason)?;
     refuse(args.fail_above.is_some(), "fail-above", reason)?;
     refuse(args.format == RankFormat::Html, "format html", reason)?;
     let of_files = "materials of a data set are not resized";
