@@ -24,6 +24,7 @@ mod rank_html;
 mod read;
 mod report;
 mod results;
+mod robust;
 mod scenes;
 mod schema;
 mod session;

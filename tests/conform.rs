@@ -2,6 +2,7 @@
 
 mod outside;
 mod peers;
+mod pictures;
 mod random;
 
 use rand::rngs::ChaCha8Rng;
@@ -85,6 +86,6 @@ pub fn judged(
     metallic: Option<bool>,
     asked: &RendererTerms,
 ) -> Verdict {
-    let answer = Answer { points: points.to_vec(), radiance, metallic, picture: None };
+    let answer = Answer { points: points.to_vec(), grids: Vec::new(), radiance, metallic, picture: None };
     verdict(&identify(&answer), &Description { terms: *asked, ..Description::default() })
 }

@@ -13,7 +13,7 @@ use super::output::CommandError;
 use super::{Cli, Subcommands};
 
 /// The subcommands with arguments that select a mode; options are added to these. `@` stands for the folder of the fixture.
-const MODES: [&str; 56] = [
+const MODES: [&str; 57] = [
     "loss @gt.png @a.png",
     "loss @gt.png @a.png --near 4 --sampler sobol",
     "loss @gt.png @a.png --target-error 30%",
@@ -41,6 +41,7 @@ const MODES: [&str; 56] = [
     "rank @gt.png @a.png @b.png",
     "rank @gt.png @a.png @b.png --robust",
     "rank --dataset @set/gt @set/ours",
+    "rank --dataset @set/gt @set/ours --robust",
     "rank --dataset @set/gt @set/ours --format html -o @x.html",
     "rank --pairs @pairs.csv",
     "blame @gt.png @a.png",

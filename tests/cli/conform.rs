@@ -118,20 +118,28 @@ fn a_loss_takes_a_convention_of_the_grammar_and_shaders_refuse_it() {
 }
 
 #[test]
-fn the_order_of_predictions_survives_other_questions_or_not() {
+fn a_renderer_that_writes_pictures_is_known_by_them() {
     let folder = folder();
-    let text =
-        succeed(folder.path(), "rank gt.png near=a.png far=b.png --robust --target-error 10% --format json");
-    let json: Value = serde_json::from_str(&text).unwrap();
-    // A roughness that is farther off under every question.
-    assert!(
-        json["sentence"].as_str().unwrap().starts_with("near beats far by default, and no pair"),
-        "{text}"
-    );
-    let questions = json["questions"].as_array().unwrap();
-    assert!(questions.len() > 18, "{text}");
-    assert!(
-        questions.iter().all(|q| q["tau"] == 1.0 && q["order"] == serde_json::json!(["near", "far"])),
-        "{text}"
-    );
+    let at = folder.path();
+    succeed(at, "conform --points probe");
+    let stderr = fail(at, "conform --points probe", 1);
+    assert!(stderr.contains("name a folder that is not there yet"), "{stderr}");
+    let stderr = fail(at, "conform probe", 1);
+    assert!(stderr.contains("expected 0/radiance.exr or 0/radiance.png, found neither"), "{stderr}");
+    let scenes = std::fs::read_to_string(at.join("probe/scenes.json")).unwrap();
+    let scenes: Value = serde_json::from_str(&scenes).unwrap();
+    for (number, scene) in scenes["scenes"].as_array().unwrap().iter().enumerate() {
+        let of = |end: &str| {
+            let numbers = scene[end].as_array().unwrap().iter().map(|x| x.as_f64().unwrap().to_string());
+            numbers.collect::<Vec<_>>().join(",")
+        };
+        let (view, light) = (of("view"), of("light"));
+        let maps = "--read workflow=specular,normal-y=up,albedo=linear";
+        let output = format!("-o probe/{number}/radiance.exr {maps}");
+        succeed(at, &format!("render probe/{number} --view={view} --light={light} {output}"));
+    }
+    let stdout = succeed(at, "conform probe --workflow diffuse");
+    assert!(stdout.starts_with("The renderer conforms to `printed`."), "{stdout}");
+    let output = run_in(at, "conform probe --workflow diffuse --convention material-palette-2024");
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
 }

@@ -41,11 +41,11 @@ const POINTS: f64 = 1e-9;
 const NEAR_MIRROR: f64 = 1e-3;
 const MEANS: f64 = 1e-12;
 
-fn file(name: &str) -> Arrays {
+pub fn file(name: &str) -> Arrays {
     arrays::read(Path::new(&format!("{PEERS}/{name}.npz"))).unwrap()
 }
 
-fn convention(name: &str) -> Description {
+pub fn convention(name: &str) -> Description {
     let text = std::fs::read_to_string(format!("{PEERS}/conventions/{name}.toml")).unwrap();
     let mut read: Description = text.parse().unwrap();
     // What its text has no key for.
@@ -61,7 +61,7 @@ fn triple(array: &Array, row: usize) -> [f64; 3] {
 }
 
 /// Row `row` of arrays whose names begin with `prefix`; base colours are the diffuse ones.
-fn point(of: &Arrays, prefix: &str, row: usize) -> Point {
+pub fn point(of: &Arrays, prefix: &str, row: usize) -> Point {
     let three = |name: &str| triple(&of[&format!("{prefix}{name}")], row);
     Point {
         normal: three("n"),
@@ -116,7 +116,7 @@ fn worst_of_points(name: &str, peer: &Arrays, terms: &RendererTerms) -> [f64; 2]
     [random, extreme]
 }
 
-const SIDE: usize = 32;
+pub const SIDE: usize = 32;
 
 /// The radiances of a material in a scene.
 fn rendering(terms: &RendererTerms, materials: &Arrays, which: &str, scene: usize) -> Vec<[f64; 3]> {

@@ -115,21 +115,45 @@ fn a_display_window_that_no_other_map_has_does_not_crop() {
     assert_eq!(open(folder.path()).material.size(), [SIDE - 4; 2]);
 }
 
+/// A set whose diffuse map has these chromaticities.
+fn put_diffuse_of(folder: &Path, [red, green, blue, white]: [[f32; 2]; 4]) {
+    let of = |[x, y]: [f32; 2]| Vec2(x, y);
+    let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions((SIDE, SIDE)));
+    attributes.chromaticities =
+        Some(Chromaticities { red: of(red), green: of(green), blue: of(blue), white: of(white) });
+    exr_of(&folder.join("diffuse.exr"), attributes, vec![(None, named(1, &["R", "G", "B"]))]);
+}
+
 #[test]
-fn colours_of_other_primaries_and_colours_with_alpha_are_asked_about() {
+fn colours_of_other_primaries_are_converted_and_white_stays_white() {
+    let folder = tempdir().unwrap();
+    put_exrs(folder.path(), |_, _, v| v);
+    let plain = open(folder.path());
+    put_diffuse_of(folder.path(), [[0.713, 0.293], [0.165, 0.83], [0.128, 0.044], [0.32168, 0.33767]]);
+    let read = open(folder.path());
+    // ACEScg to linear sRGB by Bradford, as public shaders have it.
+    let matrix =
+        [[1.70505, -0.62179, -0.08326], [-0.13026, 1.14080, -0.01055], [-0.02400, -0.12897, 1.15297]];
+    for index in 0..SIDE * SIDE {
+        let (stored, found) = (plain.material.texel(index).diffuse, read.material.texel(index));
+        let row = |row: [f64; 3]| row.iter().zip(stored).map(|(a, b)| a * b).sum::<f64>().clamp(0.0, 1.0);
+        for (found, expected) in found.diffuse.into_iter().zip(matrix.map(row)) {
+            assert!((found - expected).abs() < 3e-4, "{found}, not {expected}");
+        }
+        assert_eq!(found.specular, plain.material.texel(index).specular);
+    }
+    assert!(read.unsure().all(|a| a.what != What::Albedo), "{:#?}", read.assumptions);
+    assert_notes(&read, &["The diffuse map is converted from the primaries that its file declares"]);
+    put_diffuse_of(folder.path(), [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.3127, 0.329]]);
+    assert_eq!(open(folder.path()).material.texel(3).diffuse, plain.material.texel(3).diffuse);
+}
+
+#[test]
+fn primaries_that_enclose_no_white_and_colours_with_alpha_are_asked_about() {
     let folder = tempdir().unwrap();
     put_exrs(folder.path(), |_, _, v| v);
     assert!(!open(folder.path()).unsure().any(|a| a.what == What::Albedo), "floats are linear");
-    let path = folder.path().join("diffuse.exr");
-    let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions((SIDE, SIDE)));
-    attributes.chromaticities = Some(Chromaticities {
-        red: Vec2(0.713, 0.293),
-        green: Vec2(0.165, 0.83),
-        blue: Vec2(0.128, 0.044),
-        white: Vec2(0.32168, 0.33767),
-    });
-    let colours = || named(1, &["R", "G", "B"]);
-    exr_of(&path, attributes, vec![(None, colours())]);
+    put_diffuse_of(folder.path(), [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3], [0.3127, 0.329]]);
     let read = open(folder.path());
     assert!(
         read.unsure().any(|a| a.what == What::Albedo && a.to_string().contains("primaries")),
@@ -137,7 +161,8 @@ fn colours_of_other_primaries_and_colours_with_alpha_are_asked_about() {
         read.assumptions
     );
     let alpha = channel("A", FlatSamples::F32((0..SIDE * SIDE).map(|i| (i % 2) as f32).collect()));
-    exr(&path, vec![(None, colours().into_iter().chain([alpha]).collect())]);
+    let colours = named(1, &["R", "G", "B"]).into_iter().chain([alpha]);
+    exr(&folder.path().join("diffuse.exr"), vec![(None, colours.collect())]);
     let read = open(folder.path());
     assert!(
         read.unsure().any(|a| a.what == What::Values && a.to_string().contains("alpha")),

@@ -158,7 +158,7 @@ fn one_file_of_an_incomplete_set_says_what_is_missing() {
     gray(folder.path(), "shield_AlbedoTransparency.png", 0.5);
     let refused = refusal(&folder.path().join("shield_Normal.png"));
     assert!(refused.contains("the roughness map") && !refused.contains("strip"), "{refused}");
-    assert!(refused.contains("Smoothness as the other files, or roughness, rough"), "{refused}");
+    assert!(refused.contains("Smoothness (as the other files), roughness, rough"), "{refused}");
     let smooth = RgbaImage::from_pixel(BUMPS as u32, BUMPS as u32, Rgba([0, 0, 0, 204]));
     put(folder.path(), "shield_MetallicSmoothness.png", &smooth.into());
     for file in ["shield_Normal.png", "shield_AlbedoTransparency.png"] {
@@ -233,6 +233,13 @@ fn a_material_of_an_engine_says_what_to_open_instead() {
     ] {
         let path = folder.path().join(name);
         std::fs::write(&path, b"PK\x03\x04").unwrap();
+        assert_refused(&path, &[kind]);
+    }
+    for (text, kind) in
+        [("MATLAB 5.0 MAT-file", "found a file of MATLAB;"), ("%YAML 1.1", "found a material of Unity;")]
+    {
+        let path = folder.path().join("lid.mat");
+        std::fs::write(&path, text).unwrap();
         assert_refused(&path, &[kind]);
     }
 }

@@ -124,6 +124,16 @@ fn the_only_tile_of_a_picture_and_normals_whose_green_is_turned_by_nodes_open() 
 }
 
 #[test]
+fn a_picture_of_another_token_is_missing_by_its_name() {
+    let folder = textures();
+    let path = folder.path().join("a.mtlx");
+    save(folder.path(), "turned.png", &picture(SIDE, SIDE, |_, _| [0.5, 0.5, 1.0]), ImageFormat::Png);
+    std::fs::write(&path, tiled("<frame>", "")).unwrap();
+    let refused = refusal(&path);
+    assert!(refused.contains("base.<frame>.png") && !refused.contains("XML"), "{refused}");
+}
+
+#[test]
 fn channels_of_two_pictures_are_no_normals() {
     let folder = textures();
     let path = folder.path().join("a.mtlx");

@@ -756,6 +756,8 @@ class RobustReport(Report):
     convention: str
     """The name of the convention."""
     epsilon: float
+    materials: tuple[str, ...]
+    """The materials that scores are means over, with paired intervals over them; none where one ground truth is asked about."""
     sentence: str
     """The answer in a sentence."""
     questions: tuple[AskedQuestion, ...]

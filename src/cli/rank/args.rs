@@ -31,7 +31,7 @@ pub struct RankArgs {
     pub pairs: bool,
 
     /// Asks whether the order survives other conventions, epsilons, exposures, resolutions, scenes and measures
-    #[arg(long, conflicts_with_all = ["dataset", "pairs"])]
+    #[arg(long)]
     pub robust: bool,
 
     #[command(flatten)]

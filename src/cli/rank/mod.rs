@@ -4,6 +4,7 @@ mod args;
 pub mod cases;
 mod many;
 mod one;
+mod robust;
 
 pub use args::RankArgs;
 
@@ -12,6 +13,10 @@ use super::job::NewJob;
 
 impl RankArgs {
     pub fn job(self, given: &Given) -> NewJob {
-        if self.dataset || self.pairs { many::job(self, given) } else { one::job(self, given) }
+        match (self.dataset || self.pairs, self.robust) {
+            (true, true) => robust::job(&self, given),
+            (true, false) => many::job(self, given),
+            (false, _) => one::job(self, given),
+        }
     }
 }

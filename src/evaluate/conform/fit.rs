@@ -14,6 +14,9 @@ const UNITS: f64 = 4.0;
 /// The share of half a step by which a value may be off: a factor is fitted to rounded values, too.
 const SLACK: f64 = 1.1;
 
+/// How much better than all others a grid has to fit.
+pub const CLEARLY: f64 = 3.0;
+
 /// Points with what was observed at them.
 #[derive(Clone, Debug)]
 pub struct Problem {

@@ -10,17 +10,19 @@ mod noise;
 mod observed;
 mod pictures;
 mod probes;
+mod rendered;
 mod search;
 mod verdict;
 
 use svbrdf_core::model::grammar::words::Transfer;
-use svbrdf_core::model::grammar::{GridTerms, RendererTerms};
+use svbrdf_core::model::grammar::{GridTerms, Point, RendererTerms};
 
 pub use fit::Fit;
-use fit::Problem;
+use fit::{CLEARLY, Problem};
 use observed::Observed;
 pub use observed::Storage;
 pub use probes::{Answer, probes};
+pub use rendered::{ProbeMaterial, probe_materials};
 pub use verdict::{Difference, Verdict, VerdictKind, verdict};
 
 /// Unit roundoffs of the levels of the search, the coarsest first: the last two are those of float32 and float64.
@@ -45,19 +47,29 @@ pub fn identify(answer: &Answer) -> Identified {
         Some(metallic) => vec![metallic],
         None => vec![false, true],
     };
+    let layouts: Vec<(Option<GridTerms>, &[Point])> = match answer.grids.as_slice() {
+        [] => vec![(None, &answer.points)],
+        grids => grids.iter().map(|(grid, points)| (Some(*grid), points.as_slice())).collect(),
+    };
     let (mut candidates, mut best_frame) = (Vec::new(), f64::INFINITY);
-    for transfer in [Transfer::Linear, Transfer::Gamma, Transfer::Srgb] {
-        let observed = Observed::new(&answer.radiance, storage, transfer);
-        let problem = Problem::new(&answer.points, observed, LEVELS[0]);
-        let found = search::structures(&problem, &workflows, &mut best_frame);
-        candidates.extend(found.into_iter().map(|candidate| (problem.clone(), candidate)));
+    for (grid, points) in layouts {
+        for transfer in [Transfer::Linear, Transfer::Gamma, Transfer::Srgb] {
+            let observed = Observed::new(&answer.radiance, storage, transfer);
+            let problem = Problem::new(points, observed, LEVELS[0]);
+            let found = search::structures(&problem, &workflows, &mut best_frame);
+            candidates.extend(found.into_iter().map(|candidate| (problem.clone(), candidate, grid)));
+        }
     }
     candidates.sort_by(|a, b| a.1.off.total_cmp(&b.1.off));
+    let other = |grid| candidates.iter().find(|one| one.2 != grid).map_or(f64::INFINITY, |one| one.1.off);
+    let is_clear = candidates.first().is_some_and(|(_, best, grid)| other(*grid) > CLEARLY * best.off);
     let mut best: Option<Identified> = None;
-    for (problem, candidate) in candidates.into_iter().take(4) {
+    for (problem, candidate, grid) in candidates.into_iter().take(4) {
         let found = from_coarse_to_fine(problem, &candidate, storage);
         if found.explained {
-            let grid = answer.picture.as_ref().and_then(|picture| picture.grid(&found.problem, &found.fit));
+            let picture = answer.picture.as_ref();
+            let of_picture = || picture.and_then(|picture| picture.grid(&found.problem, &found.fit));
+            let grid = grid.filter(|_| is_clear).or_else(of_picture);
             return Identified { grid, ..found };
         }
         if best.as_ref().is_none_or(|best| spread(&found.fit) < spread(&best.fit)) {

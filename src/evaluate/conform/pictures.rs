@@ -7,7 +7,7 @@ use svbrdf_core::model::grammar::{GridTerms, Point};
 use svbrdf_files::arrays::{Array, Arrays};
 
 use super::columns::rows;
-use super::fit::{Fit, Problem};
+use super::fit::{CLEARLY, Fit, Problem};
 use super::observed::{Bound, Observed, Storage};
 
 /// Texels along a side. Centres and corners differ the less the more there are.
@@ -15,8 +15,6 @@ const SIDE: usize = 8;
 /// The light and the camera, in units of half the width of the material.
 const LIGHT: [f64; 3] = [0.35, -0.6, 0.55];
 const VIEW: [f64; 3] = [-0.5, 0.25, 1.4];
-/// How much better than all others a grid has to fit.
-const CLEARLY: f64 = 3.0;
 
 /// A rendered picture, of maps that do not vary: only the positions of the texels matter.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Probe points and pictures, and answers: arrays by name.
 
-use svbrdf_core::model::grammar::Point;
+use svbrdf_core::model::grammar::{GridTerms, Point};
 use svbrdf_files::arrays::{self, Arrays};
 
 use super::columns::{column, rows};
@@ -27,6 +27,8 @@ pub fn probes() -> Result<Arrays, String> {
 #[derive(Clone, Debug)]
 pub struct Answer {
     pub points: Vec<Point>,
+    /// The points under each grid, where they are texels of pictures; the first are `points`.
+    pub grids: Vec<(GridTerms, Vec<Point>)>,
     pub radiance: Vec<[f64; 3]>,
     /// Whether base colour and metallic were read; `None` where that is unknown.
     pub metallic: Option<bool>,
@@ -86,7 +88,7 @@ impl Answer {
         }
         let only = if is_diffuse && is_metallic { None } else { Some(is_metallic) };
         let picture = Picture::new(arrays)?;
-        Ok(Self { points, radiance, metallic: metallic.or(only), picture })
+        Ok(Self { points, grids: Vec::new(), radiance, metallic: metallic.or(only), picture })
     }
 }
 

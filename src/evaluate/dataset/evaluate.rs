@@ -308,8 +308,8 @@ fn without_loss(candidate: &CandidateFile, problem: String) -> PredictionResult 
 type Pair<'a> = (&'a OpenedMaterial, &'a OpenedMaterial);
 
 /// A material that was opened, or why it cannot be used.
-struct Opened {
-    found: Result<OpenedMaterial, String>,
+pub(super) struct Opened {
+    pub(super) found: Result<OpenedMaterial, String>,
     remarks: Vec<Remark>,
     neighbours: Option<Neighbours>,
 }
@@ -321,12 +321,13 @@ impl Opened {
 }
 
 /// A material that was read, and how it is stored.
-struct OpenedMaterial {
-    material: Material<f32>,
+pub(super) struct OpenedMaterial {
+    pub(super) material: Material<f32>,
     storage: Storage,
 }
 
-fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
+/// Reads a material.
+pub(super) fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
     let read = match read::read::<f32>(path, options, &Progress::default()) {
         Ok(read) => read,
         Err(problem) => return Opened::failed(problem.to_string()),

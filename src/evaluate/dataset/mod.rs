@@ -17,6 +17,7 @@ mod remark;
 mod repetition;
 mod report;
 mod results;
+mod robust;
 mod summary;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
@@ -31,4 +32,5 @@ pub use record::{
     PredictionResult, Source,
 };
 pub use remark::Remark;
+pub use robust::{DatasetAnswers, robust};
 pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};

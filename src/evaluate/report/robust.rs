@@ -17,6 +17,8 @@ use crate::robust::{Answered, RobustInput};
 pub struct RobustReport {
     #[serde(flatten)]
     compared: Compared,
+    /// The materials that scores are means over, with paired intervals over them; none where one ground truth is asked about.
+    materials: Vec<String>,
     /// The answer in a sentence.
     sentence: String,
     /// The default one first.
@@ -87,7 +89,13 @@ impl RobustReport {
             order: answer.order().into_iter().map(|index| names[index].to_owned()).collect(),
         };
         let sentence = sentence(names, default, answers.len(), &changes);
-        Self { compared, sentence, questions: answers.iter().map(question).collect(), changes }
+        let questions = answers.iter().map(question).collect();
+        Self { compared, materials: Vec::new(), sentence, questions, changes }
+    }
+
+    /// As it is, of answers that are means over `materials`.
+    pub fn over(self, materials: Vec<String>) -> Self {
+        Self { materials, ..self }
     }
 
     /// A table for a paper.
@@ -128,9 +136,14 @@ impl Report for RobustReport {
             let Change { question, first, second, default_interval95: [a, b], interval95: [c, d] } = change;
             format!("{first} - {second}: {a:.4} to {b:.4} by default, {c:.4} to {d:.4} under {question}\n")
         });
-        self.compared.heading("order by the rendering loss")
-            + &format!("{}\n", self.sentence)
-            + &changes.collect::<String>()
+        let Compared { ground_truth, convention, epsilon, .. } = &self.compared;
+        let heading = match self.materials.len() {
+            0 => self.compared.heading("order by the rendering loss"),
+            count => format!(
+                "order by the rendering loss over {count} materials of {ground_truth}\nconvention {convention}, epsilon {epsilon}\n"
+            ),
+        };
+        heading + &format!("{}\n", self.sentence) + &changes.collect::<String>()
     }
 
     fn table(&self, reader: Reader) -> Table {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use glam::Vec3;
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,7 +16,7 @@ use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::read::options::{Albedo, transfer};
 use crate::read::raster::{Raster, Samples};
-use crate::read::record::Note;
+use crate::read::record::{Note, Subject};
 
 choices! {
     /// How the samples of a photograph encode radiance.
@@ -112,6 +113,12 @@ pub fn read_named_photograph(file: &NamedFile, options: &PhotographOptions) -> R
     let clipped: Vec<bool> =
         (0..raster.width * raster.height).into_par_iter().map(|i| is_clipped(channels, i, clip)).collect();
     let mut image = linear(&raster, channels, &clipped, transfer);
+    if let Some(matrix) = raster.to_rec709 {
+        let converted =
+            |rgb: &mut [f32; 3]| *rgb = (matrix * Vec3::from(*rgb).as_dvec3()).as_vec3().to_array();
+        image.pixels.par_iter_mut().for_each(converted);
+        notes.push(Note::Converted(Subject::Photograph));
+    }
     if let Some(colour) = options.light_colour {
         let gain = colour.map(|channel| channel.recip() as f32);
         image.pixels.iter_mut().for_each(|rgb| (0..3).for_each(|c| rgb[c] *= gain[c]));

@@ -49,7 +49,7 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
         // Gray and alpha; but writers of x and y claim that, too.
         let is_gray = is_luminance(decoder.header()) && place.what != Subject::Map(Role::Normal);
         if !is_gray {
-            return Ok(Raster { width, height, depth, channels, alpha: None });
+            return Ok(Raster { width, height, depth, channels, alpha: None, to_rec709: None });
         }
     }
     Ok(Raster::with_alpha(width, height, depth, channels))

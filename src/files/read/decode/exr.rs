@@ -7,6 +7,7 @@ use exr::image::FlatSamples;
 use exr::meta::MetaData;
 use exr::meta::attribute::{Chromaticities, IntegerBounds, Text};
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
+use glam::DMat3;
 
 use super::dwa;
 use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE};
@@ -15,6 +16,7 @@ use crate::disk::panics::caught;
 use crate::error::Error;
 use crate::read::names::Label;
 use crate::read::options::Role;
+use crate::read::options::colour_space::to_rec709;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject, Unused};
 
@@ -22,6 +24,9 @@ use crate::read::record::{Note, Subject, Unused};
 pub(crate) const NATIVE: &str = "svbrdf:version=1\n";
 /// Blocks of DWA may take so many bytes more than their samples: they are padded to 8 x 8.
 const SMALL: u64 = 1 << 20;
+
+/// Matrices that differ from the identity by less are those of rounded chromaticities.
+const SAME: f64 = 1e-3;
 
 /// The channels of one layer: name in capitals, samples.
 type NamedSamples = Vec<(String, Samples)>;
@@ -76,14 +81,13 @@ fn check(meta: &MetaData, place: DecodedFile<'_>) -> Result<u64, Error> {
 fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let mut decoded = Decoded::default();
     let display = image.attributes.display_window;
-    let is_far = |c: &Chromaticities| {
-        let [red, green, blue] = [c.red, c.green, c.blue].map(|one| [one.0, one.1]);
-        let rec709 = [0.64, 0.33, 0.3, 0.6, 0.15, 0.06];
-        [red, green, blue].concat().into_iter().zip(rec709).any(|(a, b)| (a - b).abs() > 0.01)
-    };
-    if !place.is_data() && image.attributes.chromaticities.as_ref().is_some_and(is_far) {
+    let to_rec709 = image.attributes.chromaticities.map(|Chromaticities { red, green, blue, white }| {
+        to_rec709([red, green, blue, white].map(|one| [one.0, one.1].map(f64::from)))
+    });
+    if to_rec709 == Some(None) && !place.is_data() {
         decoded.notes.push(Note::Primaries);
     }
+    let to_rec709 = to_rec709.flatten().filter(|matrix| !matrix.abs_diff_eq(DMat3::IDENTITY, SAME));
     for part in image.layer_data {
         let size = [part.size.0, part.size.1];
         let data = IntegerBounds::new(part.attributes.layer_position, part.size);
@@ -101,7 +105,8 @@ fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
         for (name, channels) in named {
             let is_normal = place.what == Subject::Map(Role::Normal)
                 || Label::of(&name).is_some_and(|label| label.role == Role::Normal);
-            let Some((raster, mut left)) = raster(size, depth, channels, is_normal) else { continue };
+            let Some((mut raster, mut left)) = raster(size, depth, channels, is_normal) else { continue };
+            raster.to_rec709 = to_rec709.filter(|_| raster.channels.len() == 3);
             left.sort_by_key(|name| "RGBXYZ".find(name.as_str()));
             if !left.is_empty() {
                 let layer = if name.is_empty() { String::new() } else { format!(" of layer {name}") };
@@ -168,7 +173,8 @@ fn raster(
     }
     let alpha = alpha.filter(|alpha| !alpha.is_all(1.0));
     let left = channels.into_iter().map(|(name, _)| name).collect();
-    (!taken.is_empty()).then_some((Raster { width, height, depth, channels: taken, alpha }, left))
+    (!taken.is_empty())
+        .then_some((Raster { width, height, depth, channels: taken, alpha, to_rec709: None }, left))
 }
 
 /// The picture in its display window where the two differ; 0 where the file has no data, normals up.

@@ -38,5 +38,5 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<R
         |bytes: &[u8; 4]| if scale < 0.0 { f32::from_le_bytes(*bytes) } else { f32::from_be_bytes(*bytes) };
     let rows = stored.as_chunks().0.chunks(width * count).rev();
     let values: Vec<f32> = rows.flatten().map(float).collect();
-    Ok(Raster { width, height, depth: "float", channels: Samples::interleaved(values, count), alpha: None })
+    Ok(Raster::with_alpha(width, height, "float", Samples::interleaved(values, count)))
 }

@@ -33,6 +33,12 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decod
     let mut decoder = Decoder::new(reader).map_err(invalid)?.with_limits(limits);
     let (width, height) = decoder.dimensions().map_err(invalid)?;
     let colour = decoder.colortype().map_err(invalid)?;
+    // Of fewer, several samples are in a byte, of which a column of texels has one each.
+    if colour.bit_depth() < 8 {
+        let problem =
+            format!("expected 8 bits a sample or more, found a TIFF with a depth of {}", colour.bit_depth());
+        return Err(place.bad(problem, "save it with 8 bits"));
+    }
     let count = channels_of(colour)
         .ok_or_else(|| place.bad(format!("expected gray or RGB, found {colour:?}"), "convert it to RGB"))?;
     let bytes =
@@ -126,8 +132,7 @@ struct Interleaving {
 }
 
 impl Interleaving {
-    /// `None` for other kinds of samples, and where there are not as many as there have to be, as with fewer than
-    /// 8 bits a sample.
+    /// `None` for other kinds of samples, and where there are not as many as there have to be.
     fn samples(&self, result: DecodingResult) -> Option<(Vec<Samples>, &'static str)> {
         Some(match result {
             DecodingResult::U8(all) => (self.channels(all)?, "8-bit"),
@@ -178,7 +183,26 @@ impl Interleaving {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+    use crate::read::record::Subject;
+
+    #[test]
+    fn bits_are_refused_also_where_a_row_has_as_many_bytes_as_texels() {
+        // Width, height, bits, compression, photometric, offset of the strip, samples, rows and bytes of it.
+        let fields =
+            [(256, 1), (257, 2), (258, 1), (259, 1), (262, 1), (273, 8), (277, 1), (278, 2), (279, 2_u32)];
+        let mut file = b"II*\0\x0a\0\0\0\x80\0\x09\0".to_vec();
+        for (tag, value) in fields {
+            file.extend([u16::to_le_bytes(tag), 4_u16.to_le_bytes()].as_flattened());
+            file.extend([1_u32.to_le_bytes(), value.to_le_bytes()].as_flattened());
+        }
+        file.extend([0; 4]);
+        let place = DecodedFile { path: Path::new("m.tif"), what: Subject::Material };
+        let refused = decode(Reader::of_bytes(&file), place).unwrap_err().to_string();
+        assert!(refused.contains("found a TIFF with a depth of 1;"), "{refused}");
+    }
 
     #[test]
     fn ycbcr_is_the_rgb_of_libjpeg_in_pixels_and_in_planes() {

@@ -1,5 +1,6 @@
 //! Planes of colours, roughness and other gray maps: from stored samples to linear values.
 
+use glam::Vec3;
 use rayon::prelude::*;
 
 use svbrdf_core::material::resize::{self, Filter};
@@ -9,8 +10,8 @@ use super::decide::decide;
 use super::values::{Clamped, unit};
 use crate::read::options::transfer::{self, linear};
 use crate::read::options::{Albedo, ReadOptions, Role, Roughness};
-use crate::read::raster::{OutOfRange, Samples, channel_spread};
-use crate::read::record::{Certainty, Gray, Note, StorageConvention, What};
+use crate::read::raster::{OutOfRange, Raster, Samples, channel_spread};
+use crate::read::record::{Certainty, Gray, Note, StorageConvention, Subject, What};
 use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// Channels of a gray map that differ by less were gray before they were rounded.
@@ -23,13 +24,36 @@ pub(super) fn colour_planes<T: Real>(
     role: Role,
     size: [usize; 2],
     clamped: &mut Clamped,
+    notes: &mut Vec<Note>,
 ) -> [Vec<T>; 3] {
     let StoredMap { raster, .. } = map;
+    let (raster, encoding) = match in_rec709(&raster, encoding) {
+        Some(converted) => {
+            notes.push(Note::Converted(Subject::Map(role)));
+            (converted, Albedo::Linear)
+        }
+        None => (raster, encoding),
+    };
     let (from, last) = (raster.size(), raster.channels.len() - 1);
     let channels = [0, 1, 2].map(|c| &raster.channels[last.min(c)]);
     channels.into_iter().for_each(|plane| clamped.add(plane.out_of_range(), role));
     let planes = Samples::decoded_three(channels, |v| linear(unit(v, 0.0), encoding));
     planes.map(|plane| resize::plane(plane, from, size, Filter::Value))
+}
+
+/// The colours of a picture of other primaries, linear in those of Rec. 709, in which white stays within [0, 1] also after rounding;
+/// `None` of the primaries of Rec. 709.
+fn in_rec709(raster: &Raster, encoding: Albedo) -> Option<Raster> {
+    let (matrix, [r, g, b]) = (raster.to_rec709?, raster.channels.as_array::<3>()?.each_ref());
+    let stored = |v: f64| linear(if v.is_finite() { v } else { 0.0 }, encoding);
+    let mut planes = Samples::decoded_three::<f32>([r, g, b], stored);
+    let [r, g, b] = planes.each_mut();
+    r.par_iter_mut().zip(g).zip(b).for_each(|((r, g), b)| {
+        let rgb = (matrix * Vec3::new(*r, *g, *b).as_dvec3()).to_array();
+        [*r, *g, *b] =
+            rgb.map(|v| if (v - v.clamp(0.0, 1.0)).abs() < 1e-6 { v.clamp(0.0, 1.0) } else { v } as f32);
+    });
+    Some(Raster { channels: planes.map(Samples::floats).into(), to_rec709: None, ..raster.without_samples() })
 }
 
 /// The red channel of a gray map; noted where the others differ by more than rounding explains.

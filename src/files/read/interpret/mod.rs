@@ -64,11 +64,11 @@ pub(super) fn interpret<T: Real>(
         None => normals::flat(&mut found, size),
     };
     let mut clamped = Clamped::default();
-    let colour = colour_planes(found.colour.take(), colour_encoding, Role::Diffuse, size, &mut clamped);
-    let specular = found.specular.take();
-    let specular =
-        specular.map(|map| colour_planes(map, specular_encoding, Role::Specular, size, &mut clamped));
+    let (colour, specular) = (found.colour.take(), found.specular.take());
     let notes = &mut found.notes;
+    let colour = colour_planes(colour, colour_encoding, Role::Diffuse, size, &mut clamped, notes);
+    let specular =
+        specular.map(|map| colour_planes(map, specular_encoding, Role::Specular, size, &mut clamped, notes));
     let roughness = roughness_plane(found.roughness.take(), roughness_encoding, size, &mut clamped, notes);
     let metallic = found.metallic.take();
     let metallic = metallic.map(|map| gray_plane(map, Role::Metallic, size, &mut clamped, notes));

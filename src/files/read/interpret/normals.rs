@@ -121,6 +121,12 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
             return (NormalEncoding::Signed, Reason::UnitLength { signed: true, share: signed });
         }
     }
+    if !raster.is_float() && score < NORMAL_AT_LEAST {
+        let without = measure::curved_normal_score(raster);
+        if without > NORMAL_AT_LEAST {
+            return (NormalEncoding::Unsigned, Reason::NormalsAsColours { share: score, without });
+        }
+    }
     // Blue 1 everywhere is also what a flat map has: only slopes that it cannot have tell.
     let steep = |i: usize| {
         let [x, y, _] = raster.rgb(i).map(|c| 2.0 * c - 1.0);
@@ -128,12 +134,6 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
     };
     if z.1 < 0.02 || (z.0 > 0.98 && raster.sampled().any(steep)) {
         return (NormalEncoding::Xy, Reason::BlueConstant(z.0.round()));
-    }
-    if !raster.is_float() && score < NORMAL_AT_LEAST {
-        let without = measure::curved_normal_score(raster);
-        if without > NORMAL_AT_LEAST {
-            return (NormalEncoding::Unsigned, Reason::NormalsAsColours { share: score, without });
-        }
     }
     (NormalEncoding::Unsigned, Reason::UnitLength { signed: false, share: score })
 }
@@ -327,19 +327,20 @@ mod tests {
                 if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 };
             (255.0 * encoded).round() as u8
         };
-        let directions: Vec<[f64; 3]> = (0..64)
-            .map(|i| {
-                let (x, y) = (f64::from(i % 8) / 8.0 - 0.45, f64::from(i / 8) / 8.0 - 0.45);
+        // Of small slopes blue is almost 1 everywhere.
+        for slope in [1.0, 0.3] {
+            let direction = |i: u8| {
+                let [x, y] = [i % 8, i / 8].map(|i| slope * (f64::from(i) / 8.0 - 0.45));
                 [x, y, (1.0 - x * x - y * y).sqrt()]
-            })
-            .collect();
-        let stored = |of: &dyn Fn(f64) -> u8| -> Vec<[u8; 3]> {
-            directions.iter().map(|n| n.map(|c| of(0.5 * c + 0.5))).collect()
-        };
-        let (encoding, why) = encoding_of(&map(&stored(&curve)));
-        assert!(matches!(why, Reason::NormalsAsColours { .. }), "{why}");
-        assert_eq!(encoding, NormalEncoding::Unsigned);
-        let (_, why) = encoding_of(&map(&stored(&|value| (255.0 * value).round() as u8)));
-        assert!(matches!(why, Reason::UnitLength { share, .. } if share > 0.99), "{why}");
+            };
+            let stored = |of: &dyn Fn(f64) -> u8| -> Vec<[u8; 3]> {
+                (0..64).map(|i| direction(i).map(|c| of(0.5 * c + 0.5))).collect()
+            };
+            let (encoding, why) = encoding_of(&map(&stored(&curve)));
+            assert!(matches!(why, Reason::NormalsAsColours { .. }), "{why}");
+            assert_eq!(encoding, NormalEncoding::Unsigned);
+            let (_, why) = encoding_of(&map(&stored(&|value| (255.0 * value).round() as u8)));
+            assert!(matches!(why, Reason::UnitLength { share, .. } if share > 0.99), "{why}");
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Materials of engines, whose files are not read: which pictures they name, so that a message can tell what to open instead.
 
+use std::io::Read as _;
 use std::path::Path;
 
 use crate::disk::open::NamedFile;
@@ -13,7 +14,7 @@ const KINDS: [(&str, &str); 17] = [
     ("vmt", "a material of Source"),
     ("tres", "a resource of Godot"),
     ("material", "a material of an engine"),
-    ("mat", "a material of Unity, or a file of MATLAB"),
+    ("mat", "a material of Unity"),
     ("xml", "an XML file, such as a material of Urho3D"),
     ("uasset", "an asset of Unreal"),
     ("blend", "a file of Blender"),
@@ -52,7 +53,7 @@ pub(super) fn refusal(path: &Path) -> Option<Error> {
             remedy: "save each map as an array of rows, columns and channels".to_owned(),
         });
     }
-    let kind = of(&KINDS)?;
+    let kind = of(&KINDS).filter(|_| !is_of_matlab(path))?;
     let is_short = path.metadata().is_ok_and(|meta| meta.len() <= LONGEST);
     let bytes = if is_short { NamedFile::by_user(path).bytes().unwrap_or_default() } else { Vec::new() };
     let pictures = pictures(&String::from_utf8_lossy(&bytes));
@@ -73,6 +74,13 @@ pub(super) fn refusal(path: &Path) -> Option<Error> {
         found,
         remedy: remedy.to_owned(),
     })
+}
+
+/// Whether it holds arrays of MATLAB, whose extension is that of a material of Unity: then its first bytes name it.
+fn is_of_matlab(path: &Path) -> bool {
+    let Ok(file) = NamedFile::by_user(path).reader() else { return false };
+    let mut head = Vec::new();
+    file.take(6).read_to_end(&mut head).is_ok() && head == b"MATLAB"
 }
 
 /// The names of pictures in a text, each once.

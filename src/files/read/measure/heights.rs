@@ -144,6 +144,7 @@ mod tests {
             depth: "float",
             channels: (0..channels).map(plane).collect(),
             alpha: None,
+            to_rec709: None,
         }
     }
 

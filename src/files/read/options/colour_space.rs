@@ -1,44 +1,65 @@
-//! Colour spaces by their names in MaterialX: transfer functions, and primaries with a matrix to those of Rec. 709.
+//! Colour spaces: transfer functions and primaries, by their names in MaterialX or by chromaticities, with a matrix to those of Rec. 709.
+
+use glam::{DMat3, DVec3};
 
 use svbrdf_core::math::srgb;
 
 use super::Albedo;
 
-/// Rows of the matrix from linear red, green and blue to those of Rec. 709.
-type Matrix = [[f64; 3]; 3];
-
-/// ACES AP1, by the matrix of MaterialX (`cmlib_defs`).
-const AP1: Matrix = [
-    [1.705_079_555_511_475, -0.624_233_484_268_188_5, -0.080_846_160_650_253_3],
-    [-0.129_700_526_595_115_7, 1.138_468_623_161_316, -0.008_768_022_060_394_287],
-    [-0.024_166_343_733_668_33, -0.124_614_171_683_788_3, 1.148_780_584_335_327],
-];
-/// Display P3 and DCI P3 with the white point D65.
-const P3: Matrix = [
-    [1.224_940_176_280_56, -0.224_940_176_280_56, 0.0],
-    [-0.042_056_954_709_688, 1.042_056_954_709_688, 0.0],
-    [-0.019_637_554_590_334, -0.078_636_045_550_632, 1.098_273_600_140_966],
-];
-/// Adobe RGB (1998).
-const ADOBE: Matrix = [
-    [1.398_355_743_960_778, -0.398_355_743_960_778, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, -0.042_928_989_302_511, 1.042_928_989_302_511],
-];
-/// Rec. 2020.
-const REC2020: Matrix = [
-    [1.660_491_002_108_434, -0.587_641_138_788_549, -0.072_849_863_319_885],
-    [-0.124_550_474_521_591, 1.132_899_897_125_96, -0.008_349_422_604_369],
-    [-0.018_150_763_354_905, -0.100_578_898_008_007, 1.118_729_661_362_913],
-];
+/// ACES AP1, by the matrix of MaterialX (`cmlib_defs`), column by column.
+const AP1: DMat3 = DMat3::from_cols_array(&[
+    1.705_079_555_511_475,
+    -0.129_700_526_595_115_7,
+    -0.024_166_343_733_668_33,
+    -0.624_233_484_268_188_5,
+    1.138_468_623_161_316,
+    -0.124_614_171_683_788_3,
+    -0.080_846_160_650_253_3,
+    -0.008_768_022_060_394_287,
+    1.148_780_584_335_327,
+]);
 /// CIE XYZ with the white point D65.
-const XYZ: Matrix = [
-    [3.240_969_941_904_523, -1.537_383_177_570_094, -0.498_610_760_293_003],
-    [-0.969_243_636_280_88, 1.875_967_501_507_721, 0.041_555_057_407_176],
-    [0.055_630_079_696_993, -0.203_976_958_888_976, 1.056_971_514_242_878],
-];
+const XYZ: DMat3 = DMat3::from_cols_array(&[
+    3.240_969_941_904_523,
+    -0.969_243_636_280_88,
+    0.055_630_079_696_993,
+    -1.537_383_177_570_094,
+    1.875_967_501_507_721,
+    -0.203_976_958_888_976,
+    -0.498_610_760_293_003,
+    0.041_555_057_407_176,
+    1.056_971_514_242_878,
+]);
+/// The responses of cones to XYZ of Bradford.
+const BRADFORD: DMat3 =
+    DMat3::from_cols_array(&[0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296]);
+const D65: [f64; 2] = [0.3127, 0.3290];
+/// Display P3 and DCI P3 with the white point D65.
+const P3: Chromaticities = [[0.68, 0.32], [0.265, 0.69], [0.15, 0.06], D65];
+/// Adobe RGB (1998).
+const ADOBE: Chromaticities = [[0.64, 0.33], [0.21, 0.71], [0.15, 0.06], D65];
+/// Rec. 2020.
+const REC2020: Chromaticities = [[0.708, 0.292], [0.17, 0.797], [0.131, 0.046], D65];
 /// The exponent of Adobe RGB (1998).
 const ADOBE_GAMMA: f64 = 563.0 / 256.0;
+
+/// x and y of red, green, blue and white in CIE 1931.
+pub(crate) type Chromaticities = [[f64; 2]; 4];
+
+/// The matrix from linear red, green and blue of these primaries to those of Rec. 709, by Bradford's adaptation of their white to D65: white
+/// stays white. `None` where the primaries enclose no white, or are not finite.
+pub(crate) fn to_rec709([red, green, blue, white]: Chromaticities) -> Option<DMat3> {
+    let xyz = |[x, y]: [f64; 2]| DVec3::new(x, y, 1.0 - x - y);
+    let primaries = DMat3::from_cols(xyz(red), xyz(green), xyz(blue));
+    let whites = [white, D65].map(|white| xyz(white) / white[1]);
+    let amounts = primaries.inverse() * whites[0];
+    if primaries.determinant().abs() < 1e-6 || !(amounts.is_finite() && amounts.min_element() > 0.0) {
+        return None;
+    }
+    let [own, d65] = whites.map(|white| BRADFORD * white);
+    let adapted = BRADFORD.inverse() * DMat3::from_diagonal(d65 / own) * BRADFORD;
+    Some(XYZ * adapted * primaries * DMat3::from_diagonal(amounts)).filter(|matrix| matrix.is_finite())
+}
 
 /// How stored colours stand for light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +74,7 @@ enum Transfer {
 pub(crate) struct ColourSpace {
     transfer: Transfer,
     /// `None` for those of Rec. 709.
-    to_rec709: Option<&'static Matrix>,
+    to_rec709: Option<DMat3>,
 }
 
 impl ColourSpace {
@@ -72,15 +93,15 @@ impl ColourSpace {
             "gamma18" | "g18_rec709" => (Transfer::Gamma(1.8), None),
             "gamma22" | "g22_rec709" => (Transfer::Gamma(2.2), None),
             "gamma24" | "g24_rec709" => (Transfer::Gamma(2.4), None),
-            "acescg" | "lin_ap1" => (Transfer::Linear, Some(&AP1)),
-            "g22_ap1" => (Transfer::Gamma(2.2), Some(&AP1)),
-            "srgb_ap1" => (Transfer::Srgb, Some(&AP1)),
-            "lin_displayp3" | "lin_p3d65" => (Transfer::Linear, Some(&P3)),
-            "displayp3" | "srgb_displayp3" | "srgb_p3d65" => (Transfer::Srgb, Some(&P3)),
-            "lin_adobergb" => (Transfer::Linear, Some(&ADOBE)),
-            "adobergb" | "g22_adobergb" => (Transfer::Gamma(ADOBE_GAMMA), Some(&ADOBE)),
-            "lin_rec2020" => (Transfer::Linear, Some(&REC2020)),
-            "lin_ciexyzd65" => (Transfer::Linear, Some(&XYZ)),
+            "acescg" | "lin_ap1" => (Transfer::Linear, Some(AP1)),
+            "g22_ap1" => (Transfer::Gamma(2.2), Some(AP1)),
+            "srgb_ap1" => (Transfer::Srgb, Some(AP1)),
+            "lin_displayp3" | "lin_p3d65" => (Transfer::Linear, to_rec709(P3)),
+            "displayp3" | "srgb_displayp3" | "srgb_p3d65" => (Transfer::Srgb, to_rec709(P3)),
+            "lin_adobergb" => (Transfer::Linear, to_rec709(ADOBE)),
+            "adobergb" | "g22_adobergb" => (Transfer::Gamma(ADOBE_GAMMA), to_rec709(ADOBE)),
+            "lin_rec2020" => (Transfer::Linear, to_rec709(REC2020)),
+            "lin_ciexyzd65" => (Transfer::Linear, Some(XYZ)),
             _ => return None,
         };
         Some(Self { transfer, to_rec709 })
@@ -103,8 +124,7 @@ impl ColourSpace {
             Transfer::Srgb => srgb::decode(value),
             Transfer::Gamma(gamma) => value.max(0.0).powf(gamma),
         });
-        let Some(matrix) = self.to_rec709 else { return linear };
-        matrix.map(|row| row.iter().zip(linear).map(|(factor, value)| factor * value).sum())
+        self.to_rec709.map_or(linear, |matrix| (matrix * DVec3::from(linear)).to_array())
     }
 }
 
@@ -155,6 +175,29 @@ mod tests {
         // 0.5 in sRGB stands for 0.21404, in Adobe RGB for 0.21775.
         assert_near(of("srgb_displayp3", [0.5, 0.0, 0.0]), [0.26219, -0.00900, -0.00420], 1e-5);
         assert_near(of("adobergb", [0.5, 0.0, 0.0]), [0.30450, 0.0, 0.0], 1e-4);
+    }
+
+    #[test]
+    fn chromaticities_give_the_matrices_that_are_published() {
+        // ACES AP1 by Bradford: the matrix in public shaders ("ACEScg to sRGB").
+        let ap1 = to_rec709([[0.713, 0.293], [0.165, 0.83], [0.128, 0.044], [0.32168, 0.33767]]).unwrap();
+        let [x, y, z] = ap1.transpose().to_cols_array_2d();
+        assert_near(x, [1.70505, -0.62179, -0.08326], 2e-4);
+        assert_near(y, [-0.13026, 1.14080, -0.01055], 2e-4);
+        assert_near(z, [-0.02400, -0.12897, 1.15297], 2e-4);
+        let rec709 = to_rec709([[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], D65]).unwrap();
+        assert!(rec709.abs_diff_eq(DMat3::IDENTITY, 1e-6), "{rec709}");
+    }
+
+    #[test]
+    fn primaries_without_a_white_have_no_matrix() {
+        let line = [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3], D65];
+        let outside = [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.7, 0.2]];
+        let black = [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.3, 0.0]];
+        let infinite = [[f64::NAN, 0.33], [0.3, 0.6], [0.15, 0.06], D65];
+        for none in [line, outside, black, infinite] {
+            assert_eq!(to_rec709(none), None, "{none:?}");
+        }
     }
 
     #[test]

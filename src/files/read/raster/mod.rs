@@ -10,6 +10,8 @@ pub(super) use channel_spread::channel_spread;
 pub(super) use out_of_range::OutOfRange;
 pub(super) use samples::Samples;
 
+use glam::DMat3;
+
 /// A picture: one plane for each channel, row 0 on top. Alpha is separate.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Raster {
@@ -21,6 +23,8 @@ pub(crate) struct Raster {
     pub channels: Vec<Samples>,
     /// Alpha where it is not opaque everywhere.
     pub alpha: Option<Samples>,
+    /// From linear red, green and blue of the primaries that the file declares to those of Rec. 709, where they are others.
+    pub to_rec709: Option<DMat3>,
 }
 
 impl Raster {
@@ -33,6 +37,7 @@ impl Raster {
             depth: self.depth,
             channels: self.channels.iter().map(cut).collect(),
             alpha: self.alpha.as_ref().map(cut),
+            to_rec709: self.to_rec709,
         }
     }
 
@@ -92,7 +97,8 @@ impl Raster {
         mut channels: Vec<Samples>,
     ) -> Self {
         let alpha = if channels.len().is_multiple_of(2) { channels.pop() } else { None };
-        Self { width, height, depth, channels, alpha: alpha.filter(|alpha| !alpha.is_all(1.0)) }
+        let alpha = alpha.filter(|alpha| !alpha.is_all(1.0));
+        Self { width, height, depth, channels, alpha, to_rec709: None }
     }
 
     /// Every number of the channels times a factor, one for each; as it is where all are 1.
@@ -128,6 +134,6 @@ impl Raster {
     /// A single texel of the given channels.
     pub(crate) fn constant(depth: &'static str, values: &[f32]) -> Self {
         let channels = values.iter().map(|&value| Samples::floats(vec![value])).collect();
-        Self { width: 1, height: 1, depth, channels, alpha: None }
+        Self { width: 1, height: 1, depth, channels, alpha: None, to_rec709: None }
     }
 }

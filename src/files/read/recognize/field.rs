@@ -118,7 +118,7 @@ impl Field {
     pub(super) fn into_map(self, path: &Path, part: &str) -> StoredMap {
         let [width, height] = self.size;
         let channels = self.planes.into_iter().map(Samples::floats).collect();
-        let raster = Raster { width, height, depth: "float", channels, alpha: None };
+        let raster = Raster { width, height, depth: "float", channels, alpha: None, to_rec709: None };
         StoredMap { raster, file: path.to_owned(), part: part.to_owned() }
     }
 }

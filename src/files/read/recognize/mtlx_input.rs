@@ -9,6 +9,7 @@ use crate::read::located::picture::{LocatedPicture, PictureSource};
 use crate::read::located::surface_model::SurfaceInput;
 use crate::read::options::colour_space::ColourSpace;
 use crate::read::options::{Albedo, Role};
+use crate::read::raster::Raster;
 use crate::read::record::{Certainty, Reason, SpaceKnown, StorageConvention, Subject};
 use crate::read::stored::{Inferred, StoredMap};
 
@@ -134,6 +135,8 @@ impl MtlxInputs<'_> {
     fn map(&self, picture: &BoundPicture, role: Role) -> Result<LoadedInput, Error> {
         let whole = self.picture(&picture.file, role)?;
         let raster = picture.channel.map_or(whole.raster.clone(), |c| whole.raster.channel(c));
+        // The document declares colour spaces, not the picture.
+        let raster = Raster { to_rec709: None, ..raster };
         let (source, space) = (StoredMap { raster, ..whole.clone() }, picture.space.as_deref());
         let stored = match picture.is_colour && matches!(role, Role::Base | Role::Specular) {
             true => in_rec709(source, space),

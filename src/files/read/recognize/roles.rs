@@ -180,7 +180,7 @@ impl MapsByRole {
 /// Names of a map that is missing, for messages; `words` are those of the files that are there.
 fn examples(role: Role, words: &[String]) -> String {
     match word_beside(role, words) {
-        Some(own) => format!("{own} as the other files, or {}", role.examples()),
+        Some(own) => format!("{own} (as the other files), {}", role.examples()),
         None => role.examples(),
     }
 }

@@ -157,8 +157,10 @@ pub enum Note {
     Profile(Subject),
     #[display("The {_0} has a {_1} chunk with primaries other than those of Rec. 709, which is ignored.")]
     PrimariesChunk(Subject, &'static str),
-    #[display("The EXR has primaries other than those of Rec. 709; its RGB is used as it is.")]
+    #[display("The EXR has primaries that enclose no white; its RGB is used as it is.")]
     Primaries,
+    #[display("The {_0} is converted from the primaries that its file declares to those of Rec. 709.")]
+    Converted(Subject),
     /// The layer may have no name.
     #[display(
         "{} has a data window beside its display window; the data is used as it is.",

@@ -145,7 +145,7 @@ pub enum Reason {
     Premultiplied {
         map: Role,
     },
-    #[display("the file declares primaries other than those of Rec. 709, which are not converted")]
+    #[display("the file declares primaries that enclose no white, and cannot be converted")]
     OtherPrimaries,
     /// A document beside a picture that holds several maps.
     #[display("{document} lists the picture and binds it so")]

@@ -36,10 +36,10 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedMtlx, 
         problem,
         remedy: "export it again".to_owned(),
     };
+    let text = tiles::escaped(&text);
     if has_many_attributes(&text) {
         return Err(bad(format!("expected at most {MOST_ATTRIBUTES} attributes in an element, found more")));
     }
-    let text = tiles::escaped(&text);
     let document = Document::parse(&text).map_err(|e| bad(format!("expected MaterialX, found: {e}")))?;
     let surfaces: Vec<_> = document.descendants().filter_map(|node| Some((node, model_of(node)?))).collect();
     let index = options.exemplar_of(surfaces.len(), path)?;

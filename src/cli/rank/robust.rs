@@ -1,0 +1,53 @@
+//! Whether the order of methods over many materials survives other questions.
+
+use svbrdf_evaluate::dataset::{self, Case, DatasetReading, DatasetSettings};
+use svbrdf_evaluate::report::RobustReport;
+
+use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat};
+use super::cases::{reading, source};
+use crate::cli::args::floor::FloorArgs;
+use crate::cli::args::{Given, refuse};
+use crate::cli::job::{Job, NewJob};
+use crate::cli::output::{CommandError, exit, watched};
+
+/// The questions about a data set.
+#[derive(Debug)]
+struct RobustJob {
+    settings: DatasetSettings,
+    reading: DatasetReading,
+    cases: Vec<Case>,
+    format: RankFormat,
+}
+
+pub fn job(args: &RankArgs, given: &Given) -> NewJob {
+    let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no page, no floor, no limit and no remarks";
+    given.refuse::<DataSetArgs>(reason)?;
+    given.refuse::<PageArgs>(reason)?;
+    given.refuse::<FloorArgs>(reason)?;
+    refuse(args.comparison.materials.reading.both.verbose, "verbose", reason)?;
+    refuse(args.fail_above.is_some(), "fail-above", reason)?;
+    refuse(args.format == RankFormat::Html, "format html", reason)?;
+    let of_files = "materials of a data set are not resized";
+    refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", of_files)?;
+    let source = source(args)?;
+    let cases = source.cases()?;
+    let convention = args.comparison.convention.unwrap_or_default();
+    let (target_error, seed) = args.accuracy.target_and_seed();
+    let settings = DatasetSettings::new(source, convention.name, target_error, seed, &cases);
+    let reading = reading(&args.comparison.materials.reading, &settings.methods)?;
+    Ok(Box::new(RobustJob { settings, reading, cases, format: args.format }))
+}
+
+impl Job for RobustJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let Self { settings, reading, cases, format } = *self;
+        let answers = watched("comparing materials", |progress| {
+            dataset::robust(&cases, &settings, &reading, progress)
+        })?;
+        for (material, problem) in &answers.failures {
+            exit::tell(&format!("note: {material} is left out: {problem}"));
+        }
+        let report = answers.report(&settings)?;
+        Ok(exit::put(&format.write(&report, RobustReport::latex)?)?)
+    }
+}
