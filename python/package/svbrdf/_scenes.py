@@ -28,8 +28,8 @@ class Scene(NamedTuple):
 class Smith:
     """A renderer in the place of Algorithm 3.
 
-    Exact separable Smith shadowing, Schlick's fifth power, and a light that falls off with the square of the distance, also
-    in distant scenes, whose light and view are points at distance 1. Nothing is divided by l.z.
+    Exact separable Smith shadowing, Schlick's fifth power, and a light that falls off with the square of the distance,
+    also in distant scenes, whose light and view are points at distance 1. Nothing is divided by l.z.
     """
 
     cosine_floor: float

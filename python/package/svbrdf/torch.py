@@ -52,8 +52,9 @@ Vector = tuple[Tensor, Tensor, Tensor]
 
 
 class RenderingLoss(torch.nn.Module):
-    """The rendering loss: the mean over scenes, texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|, or of the
-    square (R_gt - R_pred)^2 where that is the norm of the convention.
+    """The rendering loss: the mean over scenes, texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|.
+
+    Where the norm of the convention is the mean square, that of (R_gt - R_pred)^2.
 
     Without `torch.compile`, it computes the gradient together with the loss, scene after scene, so that it needs the
     memory of one scene. It then has first derivatives only; `scene_losses` has all.
@@ -202,7 +203,8 @@ class _MeanLoss(torch.autograd.Function):
                 loss.backward()
             total += loss.detach()
         if any(wanted):
-            outer = [(tensor, leaf.grad) for tensor, leaf in zip(tensors, inner, strict=True) if leaf.requires_grad]
+            # The Smith renderer does not use all terms.
+            outer = [(tensor, leaf.grad) for tensor, leaf in zip(tensors, inner, strict=True) if leaf.grad is not None]
             torch.autograd.backward([tensor for tensor, _ in outer], [gradient for _, gradient in outer])
             ctx.save_for_backward(*(leaf.grad for leaf in leaves if leaf.requires_grad))
         return total
@@ -296,8 +298,10 @@ class Geometry(NamedTuple):
     fresnel: Tensor
     """The power of the Fresnel term, in [0, 1]."""
     irradiance: Tensor
-    """The factor on the reflectance and NoL: intensity / l.z, or over the square of the distance; 0 where the light is in or
-    below the plane."""
+    """The factor on the reflectance and NoL: intensity / l.z, or over the square of the distance.
+
+    0 where the light is in or below the plane.
+    """
 
 
 def geometry(row: Tensor, like: Terms, convention: Convention) -> Geometry:

@@ -161,7 +161,8 @@ impl ScenePanel<'_> {
     fn convention(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let now = self.state.convention();
         ui.horizontal(|ui| {
-            let combo = egui::ComboBox::from_id_salt("convention").selected_text(now.name).width(140.0);
+            let combo =
+                egui::ComboBox::from_id_salt("convention").selected_text(now.name).width(140.0).height(300.0);
             let combo = combo.show_ui(ui, |ui| {
                 for one in named::all() {
                     let label = ui.selectable_label(one.name == now.name, &one.name);
