@@ -1,17 +1,6 @@
 // Algorithm 3 at one point: the twin of src/core/model/brdf.rs and of the vectors of src/core/math/real.rs. The same names, argument
 // order and order of operations; what is per channel there is a vec3f here.
 
-const FRAC_1_PI = 0.31830988618379067f;
-const LARGEST = 0x1.fffffep+127f;
-const SMALLEST_NORMAL = 0x1p-126f;
-
-struct Texel {
-    normal: vec3f,
-    diffuse: vec3f,
-    specular: vec3f,
-    roughness: f32,
-}
-
 struct Model {
     intensity: f32,
     roughness_floor: f32,
@@ -19,10 +8,6 @@ struct Model {
     clamp_n_dot_h: u32,
     d_floor: f32,
     @size(12) g_floor: f32,
-}
-
-fn length_squared(a: vec3f) -> f32 {
-    return a.x * a.x + a.y * a.y + a.z * a.z;
 }
 
 // `normalize`, not the built-in one: drivers may take its inverseSqrt from a table.

@@ -30,8 +30,23 @@ macro_rules! piece {
 pub const SHADE: Shader = Shader {
     name: "shade",
     pieces: &[
+        piece!("texel.wgsl"),
         piece!("brdf.wgsl"),
         piece!("scene.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("stride.wgsl"),
+        piece!("shade.wgsl"),
+        piece!("shade_entry.wgsl"),
+    ],
+};
+
+/// Pass 1 by the renderers of the grammar of conventions.
+pub const GRAMMAR: Shader = Shader {
+    name: "shade",
+    pieces: &[
+        piece!("texel.wgsl"),
+        piece!("grammar.wgsl"),
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
@@ -67,12 +82,14 @@ pub const DISPLAY: Shader = Shader {
 pub const BLIT: Shader = Shader { name: "blit", pieces: &[piece!("fullscreen.wgsl"), piece!("blit.wgsl")] };
 
 /// The BRDF at single points.
-pub const PROBE: Shader = Shader { name: "probe", pieces: &[piece!("brdf.wgsl"), piece!("probe.wgsl")] };
+pub const PROBE: Shader =
+    Shader { name: "probe", pieces: &[piece!("texel.wgsl"), piece!("brdf.wgsl"), piece!("probe.wgsl")] };
 
 /// Algorithm 1: sums over blocks of texels.
 pub const LOSS: Shader = Shader {
     name: "loss",
     pieces: &[
+        piece!("texel.wgsl"),
         piece!("brdf.wgsl"),
         piece!("scene.wgsl"),
         piece!("grid.wgsl"),
@@ -81,12 +98,51 @@ pub const LOSS: Shader = Shader {
     ],
 };
 
+/// As [`LOSS`], by the renderers of the grammar of conventions.
+pub const GRAMMAR_LOSS: Shader = Shader {
+    name: "loss",
+    pieces: &[
+        piece!("texel.wgsl"),
+        piece!("grammar.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("log_sum.wgsl"),
+        piece!("loss.wgsl"),
+    ],
+};
+
+/// As [`GRAMMAR_LOSS`], of squares.
+pub const GRAMMAR_SQUARES: Shader = Shader {
+    name: "loss",
+    pieces: &[
+        piece!("texel.wgsl"),
+        piece!("grammar.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("square_sum.wgsl"),
+        piece!("loss.wgsl"),
+    ],
+};
+
 /// Pass 1 of the report, for WebGL.
 pub const PAGE_SHADE: Shader = Shader {
     name: "page_shade",
     pieces: &[
+        piece!("texel.wgsl"),
         piece!("brdf.wgsl"),
         piece!("scene.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("stride.wgsl"),
+        piece!("shade.wgsl"),
+        piece!("page_shade.wgsl"),
+    ],
+};
+
+/// Pass 1 of the report by the renderers of the grammar, for WebGL.
+pub const PAGE_GRAMMAR: Shader = Shader {
+    name: "page_shade",
+    pieces: &[
+        piece!("texel.wgsl"),
+        piece!("grammar.wgsl"),
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
@@ -129,8 +185,26 @@ pub const PAGE_DIFFERENCE: Shader = Shader {
 pub const PAGE_GLSL: &str = include_str!("page.json");
 
 /// The shaders that [`PAGE_GLSL`] is made of.
-pub const PAGE: [Shader; 3] = [PAGE_SHADE, PAGE_DISPLAY, PAGE_DIFFERENCE];
+pub const PAGE: [(&str, Shader); 4] = [
+    ("shade", PAGE_SHADE),
+    ("grammar", PAGE_GRAMMAR),
+    ("display", PAGE_DISPLAY),
+    ("difference", PAGE_DIFFERENCE),
+];
 
 /// Every shader of this crate.
-pub const ALL: [Shader; 9] =
-    [SHADE, REDUCE, DISPLAY, BLIT, PROBE, LOSS, PAGE_SHADE, PAGE_DISPLAY, PAGE_DIFFERENCE];
+pub const ALL: [Shader; 13] = [
+    SHADE,
+    REDUCE,
+    DISPLAY,
+    BLIT,
+    PROBE,
+    LOSS,
+    PAGE_SHADE,
+    PAGE_DISPLAY,
+    PAGE_DIFFERENCE,
+    GRAMMAR,
+    PAGE_GRAMMAR,
+    GRAMMAR_LOSS,
+    GRAMMAR_SQUARES,
+];

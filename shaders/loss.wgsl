@@ -1,4 +1,4 @@
-// Algorithm 1: sums of |ln(R_gt + epsilon) - ln(R_pred + epsilon)| over blocks of texels, for each scene and prediction.
+// Algorithm 1: sums of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|, or of squares, over blocks of texels, for each scene and prediction.
 //
 // No workgroup memory: software drivers take ten times as long with it. In `loss` an invocation sums every LANES-th
 // texel of a block, so that neighbours read neighbours; in `gather` another one joins the sums of a block.
@@ -49,7 +49,7 @@ fn load_texel(material: u32, texel: u32) -> Texel {
 
 // R + epsilon.
 fn lifted(material: u32, texel: u32, directions: Directions) -> vec3f {
-    let radiance = render(band.model, load_texel(material, texel), directions.w_l, directions.w_v);
+    let radiance = rendered(band.model, load_texel(material, texel), directions);
     return radiance + band.epsilon;
 }
 

@@ -1,4 +1,4 @@
-// Where light and view are: the twin of src/core/model/scene.rs.
+// Where light and view are: the twin of src/core/model/scene.rs and src/core/model/brdf.rs.
 
 struct Rays {
     view: vec3f,
@@ -17,4 +17,9 @@ fn from_texel(rays: Rays, c: vec3f) -> Directions {
         return Directions(rays.light - c, rays.view - c);
     }
     return Directions(rays.light, rays.view);
+}
+
+// `render`: Algorithm 3 in these directions.
+fn rendered(model: Model, texel: Texel, directions: Directions) -> vec3f {
+    return render(model, texel, directions.w_l, directions.w_v);
 }

@@ -1,4 +1,4 @@
-// Pass 1: one fragment a texel of the map. Algorithm 3, or one of the maps, as linear floats.
+// Pass 1: one fragment a texel of the map. The rendering, or one of the maps, as linear floats.
 
 const QUANTITY_RENDERING = 0u;
 const QUANTITY_NORMAL = 1u;
@@ -37,8 +37,7 @@ fn shade_texel(c: vec3f, stored: vec2u) -> vec3f {
         case QUANTITY_ROUGHNESS { return vec3f(texel.roughness); }
         default {}
     }
-    let directions = from_texel(shading.rays, c);
-    return render(shading.model, texel, directions.w_l, directions.w_v);
+    return rendered(shading.model, texel, from_texel(shading.rays, c));
 }
 
 fn shaded(corner: Corner) -> vec4f {

@@ -2,4 +2,5 @@
 
 mod losses;
 mod peers;
+mod rungs;
 mod sampling;

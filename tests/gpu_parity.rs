@@ -4,6 +4,7 @@
 mod adapter;
 mod display;
 mod drafts;
+mod grammar;
 mod loss;
 mod plane;
 

@@ -8,10 +8,12 @@ use std::path::Path;
 use wgpu::naga;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
+use svbrdf_core::model::grammar::{RendererTerms, shader};
 use svbrdf_gpu::uniforms::{
-    Band, CameraUniforms, DisplayUniforms, LogSum, ModelUniforms, ProbePoint, SceneUniforms, ShadingUniforms,
+    Band, CameraUniforms, DisplayUniforms, GrammarBand, GrammarModel, GrammarScene, GrammarShading, LogSum,
+    ModelUniforms, ProbePoint, SceneUniforms, ShadingUniforms,
 };
-use svbrdf_shaders::ALL;
+use svbrdf_shaders::{ALL, Shader};
 
 /// A struct as Rust lays it out: its name in WGSL, its size, its members with their offsets.
 #[derive(Debug)]
@@ -42,6 +44,25 @@ fn layouts() -> Vec<Layout> {
         layout!(LogSum is LogSum { larger, smaller, exponent }),
         layout!(ProbePoint is Point { normal, roughness, diffuse, specular, w_l, w_v }),
     ]
+}
+
+/// Of the shaders with grammar.wgsl, whose structs have the names of those of the others.
+fn grammar_layouts() -> Vec<Layout> {
+    let model = shader::model(&RendererTerms::BASE);
+    let members = model.iter().enumerate().map(|(i, (name, _))| (*name, 4 * i)).collect();
+    vec![
+        Layout { name: "Model", size: size_of::<GrammarModel>(), members },
+        layout!(GrammarScene is Rays { view, view_is_point, light, light_is_point, intensity, falls_off, columns, rows, half_extent }),
+        layout!(GrammarShading is Shading { rays, model, largest, stride, size }),
+        layout!(GrammarBand is Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
+    ]
+}
+
+/// The shaders with grammar.wgsl, or those without.
+fn modules(of_grammar: bool) -> Vec<naga::Module> {
+    let is_of =
+        |shader: &&Shader| shader.pieces.iter().any(|(file, _)| *file == "grammar.wgsl") == of_grammar;
+    ALL.iter().filter(is_of).map(|shader| parse(&shader.source()).expect("valid")).collect()
 }
 
 fn parse(source: &str) -> Result<naga::Module, String> {
@@ -163,28 +184,33 @@ fn an_invalid_shader_is_refused() {
 
 #[test]
 fn uniforms_are_laid_out_as_the_shaders_read_them() {
-    let modules: Vec<_> = ALL.iter().map(|s| parse(&s.source()).expect("valid")).collect();
-    let wrong: Vec<String> = layouts().iter().flat_map(|layout| complaints(&modules, layout)).collect();
+    let of = |modules: &[naga::Module], layouts: Vec<Layout>| -> Vec<String> {
+        layouts.iter().flat_map(|layout| complaints(modules, layout)).collect()
+    };
+    let wrong = [of(&modules(false), layouts()), of(&modules(true), grammar_layouts())].concat();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
 fn a_wrong_layout_is_seen() {
-    let modules: Vec<_> = ALL.iter().map(|s| parse(&s.source()).expect("valid")).collect();
-    for planted in layouts() {
-        let Layout { name, size, members } = planted;
-        let last = members.len() - 1;
-        let mut moved = members.clone();
-        moved[last].1 += 4;
-        let mut swapped = members.clone();
-        (swapped[0].0, swapped[1].0) = (members[1].0, members[0].0);
-        let dropped = members[..last].to_vec();
-        for members in [moved, swapped, dropped] {
-            assert!(!complaints(&modules, &Layout { name, size, members }).is_empty(), "{name}");
-        }
-        let longer = Layout { name, size: size + 16, members };
-        assert!(!complaints(&modules, &longer).is_empty(), "{name}");
+    for (planted, modules) in [(layouts(), modules(false)), (grammar_layouts(), modules(true))] {
+        planted.into_iter().for_each(|planted| a_wrong_one_is_seen(planted, &modules));
     }
     let unknown = Layout { name: "Unknown", size: 0, members: Vec::new() };
-    assert!(!complaints(&modules, &unknown).is_empty());
+    assert!(!complaints(&modules(false), &unknown).is_empty());
+}
+
+fn a_wrong_one_is_seen(planted: Layout, modules: &[naga::Module]) {
+    let Layout { name, size, members } = planted;
+    let last = members.len() - 1;
+    let mut moved = members.clone();
+    moved[last].1 += 4;
+    let mut swapped = members.clone();
+    (swapped[0].0, swapped[1].0) = (members[1].0, members[0].0);
+    let dropped = members[..last].to_vec();
+    for members in [moved, swapped, dropped] {
+        assert!(!complaints(modules, &Layout { name, size, members }).is_empty(), "{name}");
+    }
+    let longer = Layout { name, size: size + 16, members };
+    assert!(!complaints(modules, &longer).is_empty(), "{name}");
 }

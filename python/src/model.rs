@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use svbrdf_core::loss::{Sampling, Texels};
-use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::render::simd::kernel::Kernel;
 use svbrdf_files::scene_file;
 
 use crate::errors::{Error, exception};
@@ -25,13 +26,24 @@ pub struct ConventionItems {
     light_distance_sigma: f64,
     u1_max: f64,
     shift_z: f64,
+    norm: &'static str,
+    smith: Option<SmithItems>,
 }
 
-impl From<Convention> for ConventionItems {
-    fn from(c: Convention) -> Self {
+/// A renderer that is not Algorithm 3.
+#[derive(Debug, IntoPyObject)]
+pub struct SmithItems {
+    cosine_floor: f64,
+    intensity_distant: f64,
+    specular: Option<f64>,
+    is_weighted: bool,
+}
+
+impl From<Kernel> for ConventionItems {
+    fn from(Kernel { limits: c, norm, smith }: Kernel) -> Self {
         Self {
             name: c.name,
-            intensity: c.intensity,
+            intensity: smith.map_or(c.intensity, |smith| smith.intensities[0]),
             roughness_floor: c.roughness_floor,
             light_z_floor: c.light_z_floor,
             clamp_n_dot_h: c.clamp_n_dot_h,
@@ -41,14 +53,22 @@ impl From<Convention> for ConventionItems {
             light_distance_sigma: c.light_distance_sigma,
             u1_max: c.u1_max,
             shift_z: c.shift_z,
+            norm: norm.name(),
+            smith: smith.map(|smith| SmithItems {
+                cosine_floor: smith.cosine_floor,
+                intensity_distant: smith.intensities[1],
+                specular: smith.specular,
+                is_weighted: smith.is_weighted,
+            }),
         }
     }
 }
 
-/// Every convention, the default first.
+/// The conventions that the kernel has, the default first.
 #[pyfunction]
 pub fn conventions() -> Vec<ConventionItems> {
-    convention::ALL.map(ConventionItems::from).into()
+    let kernels = named::all().iter().filter_map(|one| Kernel::of(&one.try_into().ok()?));
+    kernels.filter(|kernel| kernel.has_norm()).map(ConventionItems::from).collect()
 }
 
 /// Kind, view and light.

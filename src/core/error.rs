@@ -15,12 +15,11 @@ pub enum Error {
     #[error("not a convention: {problem}; begin with the text of a named one")]
     BadConvention { problem: String },
 
-    /// A convention that shaders do not have.
+    /// A convention whose renderer or norm something does not have.
     #[error(
-        "the convention {convention} is rendered on the processor only: the shaders of the window, of pages and of graphics \
-        adapters have printed, single-image-2018, multi-image-2019 and guided-2020; choose one of these, or render on the processor"
+        "{what} has not the renderer or the norm of the convention {convention}; compute it on the processor, where all are"
     )]
-    OnProcessorOnly { convention: &'static str },
+    NotComputed { what: &'static str, convention: &'static str },
 
     /// Two things that must have the same size do not.
     #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; {remedy}",
@@ -93,5 +92,10 @@ impl Error {
     /// [`Error::UnknownName`]: `found` is no name of a `what`; `known` lists the names.
     pub fn unknown_name(what: &'static str, found: impl Into<String>, known: impl Into<String>) -> Self {
         Self::UnknownName { what, found: found.into(), known: known.into() }
+    }
+
+    /// [`Error::NotComputed`].
+    pub fn not_by(what: &'static str, convention: &'static str) -> Self {
+        Self::NotComputed { what, convention }
     }
 }

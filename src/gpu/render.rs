@@ -22,7 +22,6 @@ impl Gpu {
         convention: &Convention,
     ) -> Result<Image<f32>, Error> {
         scene.check_usable()?;
-        convention.check_is_algorithm_3()?;
         let textures = MaterialTextures::upload(self, material)?;
         let shading = Shading::new(self)?;
         let target = shading.target(self, material.size())?;

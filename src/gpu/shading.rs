@@ -1,5 +1,7 @@
 //! Pass 1: Algorithm 3, or one of the maps, one fragment per texel.
 
+use std::sync::OnceLock;
+
 use wgpu::{
     BufferBindingType, Extent3d, LoadOp, Texture, TextureDescriptor, TextureFormat, TextureUsages,
     TextureView,
@@ -15,7 +17,7 @@ use super::fault::scoped;
 use super::params::ShadeParams;
 use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, buffer_type, texture_type, uniform_buffer};
 use super::textures::{descriptor, extent, write};
-use super::uniforms::ShadingUniforms;
+use super::uniforms::{GrammarShading, ShadingUniforms};
 use super::{Gpu, MaterialTextures};
 
 /// The largest 16-bit float.
@@ -25,6 +27,8 @@ const LARGEST_F16: f32 = 65504.0;
 #[derive(Debug)]
 pub struct Shading {
     pipelines: Fullscreen,
+    /// Of the renderers of the grammar of conventions, compiled when one is drawn.
+    grammar: OnceLock<Fullscreen>,
     reduction: Fullscreen,
 }
 
@@ -81,12 +85,11 @@ impl Shading {
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
         scoped(&gpu.device, "compiling the shading pass", || {
             let uniform = buffer_type(BufferBindingType::Uniform);
-            let types = [uniform, texture_type(), texture_type(), texture_type()];
-            let (format, first) = (gpu.report.shading_format, constants(Quantity::Rendering, false));
-            let pipelines = Fullscreen::new(&gpu.device, &shaders::SHADE, &types, format, first);
+            let pipelines = pipelines(gpu, &shaders::SHADE);
             let (types, none) = ([uniform, texture_type()], Constants::new());
-            let reduction = Fullscreen::new(&gpu.device, &shaders::REDUCE, &types, format, none);
-            Self { pipelines, reduction }
+            let reduction =
+                Fullscreen::new(&gpu.device, &shaders::REDUCE, &types, gpu.report.shading_format, none);
+            Self { pipelines, grammar: OnceLock::new(), reduction }
         })
     }
 
@@ -172,24 +175,41 @@ impl Shading {
             TextureFormat::Rgba16Float => LARGEST_F16,
             _ => f32::MAX,
         };
-        let uniforms = ShadingUniforms::new(params, largest, target.stride, target.size);
-        let buffer = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
+        let (stride, size) = (target.stride, target.size);
+        let (pipelines, buffer) = match params.convention.member {
+            Some(member) if params.quantity == Quantity::Rendering => {
+                let uniforms = GrammarShading::new(&member.terms, &params.scene, largest, stride, size);
+                let pipelines = self.grammar.get_or_init(|| pipelines(gpu, &shaders::GRAMMAR));
+                (pipelines, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
+            }
+            _ => {
+                let uniforms = ShadingUniforms::new(params, largest, stride, size);
+                (&self.pipelines, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
+            }
+        };
         let [normal_roughness, diffuse, specular] = &textures.views;
         let maps = [normal_roughness, diffuse, specular].map(wgpu::BindingResource::TextureView);
         let [a, b, c] = maps;
-        let group = bind(&gpu.device, &self.pipelines.layout, &[buffer.as_entire_binding(), a, b, c]);
+        let group = bind(&gpu.device, &pipelines.layout, &[buffer.as_entire_binding(), a, b, c]);
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut pass = begin(&mut encoder, "shading", &target.view, part.map_or(CLEAR, |_| LoadOp::Load));
         if let Some([left, top, width, height]) = part {
             pass.set_scissor_rect(left, top, width, height);
         }
-        pass.set_pipeline(&self.pipelines.with(&gpu.device, constants(params.quantity, params.repeated)));
+        pass.set_pipeline(&pipelines.with(&gpu.device, constants(params.quantity, params.repeated)));
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
     }
+}
+
+/// The pipelines of a shader of pass 1.
+fn pipelines(gpu: &Gpu, shader: &'static shaders::Shader) -> Fullscreen {
+    let maps = [buffer_type(BufferBindingType::Uniform), texture_type(), texture_type(), texture_type()];
+    let first = constants(Quantity::Rendering, false);
+    Fullscreen::new(&gpu.device, shader, &maps, gpu.report.shading_format, first)
 }
 
 /// A target for every `stride`-th of `count` = [columns, rows] texels or cells of a material of `size`.

@@ -7,6 +7,7 @@ use serde_json::Value;
 
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::grammar::shader::{self, Member, ShaderRays};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::{diverging, heat};
 use svbrdf_core::picture::difference::Difference;
@@ -33,12 +34,16 @@ struct Data<'a> {
     materials: &'a [EncodedMaterial],
     convention: &'a str,
     model: BTreeMap<&'a str, f64>,
+    /// The members of `model` that hold whole numbers.
+    words: Vec<&'a str>,
+    /// `Rays` of near-field and of distant scenes, but for light and view, where the shader is that of the grammar.
+    rays: Option<BTreeMap<&'a str, ShaderRays>>,
     epsilon: f64,
     kinds: BTreeMap<&'a str, Vec<Kind>>,
     colours: BTreeMap<&'a str, Vec<String>>,
     start: Start<'a>,
     scenes: &'a [LinkedScene],
-    shaders: Value,
+    shaders: BTreeMap<&'a str, Value>,
 }
 
 #[derive(Serialize)]
@@ -87,13 +92,25 @@ pub(super) fn json(
     scenes: &[LinkedScene],
 ) -> Result<String, Error> {
     let Report { convention, .. } = report;
-    convention.check_is_algorithm_3()?;
     let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
-    let shaders: Value = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
+    let mut shaders: BTreeMap<&str, Value> = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
+    let grammar = shaders.remove("grammar");
+    if let (Some(_), Some(shader)) = (convention.member, grammar) {
+        shaders.insert("shade", shader);
+    }
+    let (model, words) = model(convention);
+    let size = materials.first().map_or([1; 2], EncodedMaterial::size);
+    let rays = convention.member.map(|member| {
+        [("near", true), ("distant", false)]
+            .map(|(kind, is_near)| (kind, shader::rays(&member.terms, is_near, size)))
+            .into()
+    });
     let data = Data {
         materials,
         convention: convention.name,
-        model: model(convention),
+        model,
+        words,
+        rays,
         epsilon: convention.epsilon,
         kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
@@ -104,19 +121,27 @@ pub(super) fn json(
     serde_json::to_string(&data).map_err(failed)
 }
 
-/// The members of `Model` of brdf.wgsl.
-fn model(convention: &Convention) -> BTreeMap<&'static str, f64> {
+/// The members of `Model` of brdf.wgsl or of grammar.wgsl, and which hold whole numbers.
+fn model(convention: &Convention) -> (BTreeMap<&'static str, f64>, Vec<&'static str>) {
+    if let Some(member) = convention.member {
+        let members = shader::model(&member.terms);
+        let value = |(name, member): &(&'static str, Member)| match member {
+            Member::Word(word) => (*name, f64::from(*word)),
+            Member::Number(number) => (*name, f64::from(*number)),
+        };
+        let words = members.iter().filter(|(_, member)| matches!(member, Member::Word(_)));
+        return (members.iter().map(value).collect(), words.map(|(name, _)| *name).collect());
+    }
     let model = Model::<f32>::from(convention);
-    [
+    let members = [
         ("intensity", model.intensity),
         ("roughness_floor", model.roughness_floor),
         ("light_z_floor", model.light_z_floor),
         ("clamp_n_dot_h", f32::from(model.clamp_n_dot_h)),
         ("d_floor", model.d_floor),
         ("g_floor", model.g_floor),
-    ]
-    .map(|(name, value)| (name, f64::from(value)))
-    .into()
+    ];
+    (members.map(|(name, value)| (name, f64::from(value))).into(), vec!["clamp_n_dot_h"])
 }
 
 fn kinds(quantity: Quantity) -> Vec<Kind> {

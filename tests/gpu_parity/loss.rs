@@ -6,6 +6,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Loss, Plain, Request};
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::{self, Convention, GUIDED_2020, PRINTED};
+use svbrdf_core::model::grammar::words::Norm;
+use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::scene::{self, Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::samples;
@@ -15,7 +17,7 @@ use svbrdf_needs::needs;
 use crate::golden_loss;
 use crate::support::gpu::{bumpy, gpu};
 use crate::support::losses::losses;
-use crate::support::tolerance::{GPU_LOSS, GPU_LOSS_SCENE};
+use crate::support::tolerance::{GPU_LOSS, GPU_LOSS_SCENE, GRAMMAR_GPU_LOSS, GRAMMAR_GPU_SQUARE};
 
 /// The loss on the adapter of the tests.
 fn on_gpu() -> &'static GpuLosses {
@@ -89,6 +91,36 @@ fn losses_of_the_built_in_materials_are_those_of_f64_in_every_convention() {
         }
     }
     println!("worst relative errors: loss {:e}, scene {:e}", worst[0], worst[1]);
+}
+
+/// The largest relative errors of a mean and of a scene of a convention of the grammar.
+fn of_grammar(name: &str) -> [f64; 2] {
+    let convention: Convention = name.parse().unwrap();
+    let samples = samples::load::<f32>().expect("built in");
+    let (ground_truth, prediction) = (&samples.ground_truth.material, &samples.predictions[0].material);
+    let scenes = scenes(3, 2, &convention);
+    let want = in_f64(ground_truth, &[prediction], &scenes, &convention).remove(0);
+    let got = of(ground_truth, &[prediction], &scenes, &convention).remove(0);
+    let off = |got: f64, want: f64| (got / want - 1.0).abs();
+    let per_scene = got.per_scene.iter().zip(&want.per_scene).map(|(g, w)| off(*g, *w)).fold(0.0, f64::max);
+    let mut other = convention;
+    other.epsilon *= 1.001;
+    if convention.norm() == Norm::LogL1 {
+        let faulty = of(ground_truth, &[prediction], &scenes, &other).remove(0);
+        assert!(off(faulty.estimate.mean, want.estimate.mean) > GRAMMAR_GPU_LOSS[0], "a planted fault");
+    }
+    [off(got.estimate.mean, want.estimate.mean), per_scene]
+}
+
+#[needs(adapter)]
+#[test]
+fn losses_in_the_conventions_of_the_grammar_are_those_of_f64() {
+    for described in &named::all()[convention::ALL.len()..] {
+        let [mean, scene] = of_grammar(&described.name);
+        println!("{}: relative errors: loss {mean:.1e}, scene {scene:.1e}", described.name);
+        let most = if described.loss.norm == Norm::Mse { GRAMMAR_GPU_SQUARE } else { GRAMMAR_GPU_LOSS };
+        assert!(mean < most[0] && scene < most[1], "{}: {mean:e}, {scene:e}", described.name);
+    }
 }
 
 #[needs(adapter, shared)]

@@ -51,11 +51,6 @@ fn program(shader: &Shader) -> Value {
     json!({ "vertex": made["vertex"], "fragment": made["fragment"], "bindings": bindings, "uniforms": uniforms(&module) })
 }
 
-/// The name in the script of the page.
-fn name(shader: &Shader) -> &str {
-    shader.name.trim_start_matches("page_")
-}
-
 /// The uniform variables of a module: the offset in bytes of every member, and the size under the empty name.
 fn uniforms(module: &Module) -> BTreeMap<String, BTreeMap<String, u32>> {
     let uniform = |variable: &&naga::GlobalVariable| variable.space == AddressSpace::Uniform;
@@ -90,7 +85,7 @@ fn members(
 
 /// The programs of the page, as JSON.
 fn programs() -> Value {
-    json!(PAGE.iter().map(|shader| (name(shader), program(shader))).collect::<BTreeMap<_, _>>())
+    json!(PAGE.iter().map(|(name, shader)| (name, program(shader))).collect::<BTreeMap<_, _>>())
 }
 
 #[test]

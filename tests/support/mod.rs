@@ -11,6 +11,7 @@ pub mod losses;
 pub mod pictures;
 pub mod png;
 pub mod points;
+pub mod spread;
 pub mod surfaces;
 pub mod surroundings;
 pub mod textures;

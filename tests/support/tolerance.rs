@@ -75,6 +75,17 @@ pub const POINT_ULPS: f64 = 8.0;
 #[cfg(feature = "gpu")]
 pub const RENDERING_ULPS: f64 = 16.0;
 
+/// Renderings of the grammar in f32 against f64: ulps of 2^-24 that normals, roughness, light and view may be off by.
+pub const SPREAD_ULPS: f64 = 8.0;
+/// Ulps of the value itself: exp2 and pow of an adapter are off by 3 + 2 |x| of them.
+pub const VALUE_ULPS: f64 = 48.0;
+/// The same of an encoded value: logarithms of adapters are off by more than 1e-6.
+pub const ENCODED_ULPS: f64 = 256.0;
+/// The bound in units of the largest change of ten such inputs.
+///
+/// Worst measured on lavapipe: MEASURED of the bound.
+pub const SPREAD: f64 = 8.0;
+
 /// Levels of 255 that a pixel of the screen may be off: rounding, at most half a level each way.
 ///
 /// Measured: 1.
@@ -88,6 +99,13 @@ pub const GPU_LOSS: f64 = 1e-6;
 /// The same, single scenes, and materials of a few texels. Worst measured on lavapipe 8.0e-8.
 #[cfg(feature = "gpu")]
 pub const GPU_LOSS_SCENE: f64 = 3e-6;
+
+/// GPU losses of the grammar's conventions against f64, relative: mean and single scenes, log L1.
+#[cfg(feature = "gpu")]
+pub const GRAMMAR_GPU_LOSS: [f64; 2] = [1e-6, 3e-6];
+/// The same, of mean squares: the brightest highlights make them, whose radiances are off by as much.
+#[cfg(feature = "gpu")]
+pub const GRAMMAR_GPU_SQUARE: [f64; 2] = [1e-5, 3e-5];
 
 /// Fused f32 loss against the plain f64 one, relative, any convention and instruction set: random materials with
 /// r >= 1/255 and the golden cases. Worst measured 3.4e-8 (metal_a against pyramids_a); required 1e-6.
@@ -104,6 +122,8 @@ pub const FUSED_PEAK: f64 = 3e-7;
 pub const FUSED_EXTREME: f64 = 1e-5;
 /// Errors of losses below it are taken relative to it: the logarithms' arguments are f32, whose rounding stays.
 pub const FUSED_LEAST: f64 = 0.02;
+/// Fused mean squares against f64 ones, relative: the brightest highlights make them, whose radiances are off by as much.
+pub const FUSED_SQUARE: f64 = 1e-5;
 /// Single texels of fused renderings against f64, in the unit of POINT_ULPS: its reciprocal roots are estimates with
 /// one Newton step, off by 4 of them. Worst measured: 8.5.
 pub const FUSED_ULPS: f64 = 16.0;

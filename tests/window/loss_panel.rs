@@ -4,9 +4,10 @@ mod differences;
 mod on_the_way;
 mod tabs;
 
-use svbrdf_core::loss::{Loss, Request, Sampling};
+use svbrdf_core::loss::{Comparison, Loss, Request, Sampling};
+use svbrdf_core::progress::Progress;
 
-use super::materials::losses;
+use super::materials::{losses, materials};
 use super::*;
 
 /// What the core gives for the built-in predictions.
@@ -49,6 +50,25 @@ fn auto_computes_again_when_the_convention_changes() {
     assert_eq!(window.state().parts.model.view.convention, "guided-2020");
     wait(&mut window, "the second loss", |app| app.losses().is_some());
     assert!(window.state().losses().unwrap()[0].estimate.mean > before);
+}
+
+/// The picker has all that have a name; what the grammar alone renders is drawn and computed, too.
+#[needs(adapter)]
+#[test]
+fn a_convention_of_the_grammar_is_drawn_and_has_the_loss_of_the_core() {
+    let mut window = by_scenes();
+    for name in ["gltf-viewer", "svbrdf-estimation-2022"] {
+        choose(&mut window, "Convention", name);
+        wait(&mut window, "the loss", |app| app.losses().is_some());
+        let convention = window.state().parts.model.view.convention();
+        assert!(convention.name == name && convention.member.is_some());
+        let materials = materials();
+        let predictions: Vec<_> = materials[1..].iter().collect();
+        let comparison = Comparison::new(&materials[0], &predictions, convention).unwrap();
+        let expected = comparison.run(&Request::default(), &Progress::default()).unwrap().losses;
+        assert_eq!(window.state().losses().unwrap(), expected, "{name}");
+    }
+    assert!(window.state().parts.jobs.gpu.as_ref().unwrap().take_fault().is_none());
 }
 
 #[needs(adapter)]

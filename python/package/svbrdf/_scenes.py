@@ -25,6 +25,24 @@ class Scene(NamedTuple):
 
 
 @dataclass(frozen=True)
+class Smith:
+    """A renderer in the place of Algorithm 3.
+
+    Exact separable Smith shadowing, Schlick's fifth power, and a light that falls off with the square of the distance,
+    also in distant scenes, whose light and view are points at distance 1. Nothing is divided by l.z.
+    """
+
+    cosine_floor: float
+    """Smallest n.l, n.v, n.h and v.h of the specular term."""
+    intensity_distant: float
+    """Intensity in distant scenes."""
+    specular: float | None
+    """The specular reflectance of every texel; None: that of the map."""
+    is_weighted: bool
+    """Whether diffuse is weighted with 1 - F."""
+
+
+@dataclass(frozen=True)
 class Convention:
     """The numbers in which the published variants of the rendering loss differ. A limit of 0 is no limit."""
 
@@ -49,10 +67,19 @@ class Convention:
     """Upper end of u1 in Algorithm 2."""
     shift_z: float
     """Height of the random shift of near-field scenes."""
+    norm: Literal["log-l1", "mse"] = "log-l1"
+    """How renderings are compared."""
+    smith: Smith | None = None
+    """The renderer, where it is not Algorithm 3."""
 
 
-CONVENTIONS = {items["name"]: Convention(**items) for items in _core.conventions()}
-"""Every convention by its name; "printed" is the default."""
+def _convention(items: dict[str, Any]) -> Convention:
+    smith = items.pop("smith")
+    return Convention(**items, smith=smith and Smith(**smith))
+
+
+CONVENTIONS = {items["name"]: _convention(items) for items in _core.conventions()}
+"""The conventions that `svbrdf.torch` has, by their names; "printed" is the default. `svbrdf.loss` takes more."""
 
 
 def _scene(kind: str, view: Any, light: Any) -> Scene:

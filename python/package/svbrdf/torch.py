@@ -1,7 +1,8 @@
 """The rendering loss in PyTorch, for training.
 
 Plain PyTorch, to be read and changed. It computes what the core computes: Algorithms 1 and 3 of
-Deschaintre et al. (2018-2020) in each of the four conventions, in the scenes of the same seeds. In float64 it agrees
+Deschaintre et al. (2018-2020) in each of `svbrdf.CONVENTIONS`, whose renderer or norm may be another, in the scenes of
+the same seeds. In float64 it agrees
 with the core within 1e-12, in float32 within 1e-5 (relative). No gradient is NaN: not at roughness 0, not at l = -v,
 not on black texels.
 
@@ -52,6 +53,8 @@ Vector = tuple[Tensor, Tensor, Tensor]
 
 class RenderingLoss(torch.nn.Module):
     """The rendering loss: the mean over scenes, texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|.
+
+    Where the norm of the convention is the mean square, that of (R_gt - R_pred)^2.
 
     Without `torch.compile`, it computes the gradient together with the loss, scene after scene, so that it needs the
     memory of one scene. It then has first derivatives only; `scene_losses` has all.
@@ -200,7 +203,8 @@ class _MeanLoss(torch.autograd.Function):
                 loss.backward()
             total += loss.detach()
         if any(wanted):
-            outer = [(tensor, leaf.grad) for tensor, leaf in zip(tensors, inner, strict=True) if leaf.requires_grad]
+            # The Smith renderer does not use all terms.
+            outer = [(tensor, leaf.grad) for tensor, leaf in zip(tensors, inner, strict=True) if leaf.grad is not None]
             torch.autograd.backward([tensor for tensor, _ in outer], [gradient for _, gradient in outer])
             ctx.save_for_backward(*(leaf.grad for leaf in leaves if leaf.requires_grad))
         return total
@@ -232,11 +236,15 @@ def _losses(prediction: Maps, ground_truth: Maps, points: Tensor, convention: Co
 def _loss_of_scene(got: "Terms", expected: "Terms", row: Tensor, convention: Convention, apart: bool = False) -> Tensor:
     of_scene = geometry(row, got, convention)
     both = (radiance(of_material, of_scene, convention, apart) for of_material in (got, expected))
-    losses = [
-        (torch.log(a + convention.epsilon) - torch.log(b + convention.epsilon)).abs().mean(dim=(-3, -2, -1))
-        for a, b in zip(*both, strict=True)
-    ]
+    losses = [difference(a, b, convention).mean(dim=(-3, -2, -1)) for a, b in zip(*both, strict=True)]
     return torch.stack(losses).mean(dim=0)
+
+
+def difference(a: Tensor, b: Tensor, convention: Convention) -> Tensor:
+    """The difference of radiances whose mean is the loss."""
+    if convention.norm == "mse":
+        return (a - b).square()
+    return (torch.log(a + convention.epsilon) - torch.log(b + convention.epsilon)).abs()
 
 
 class Terms(NamedTuple):
@@ -257,7 +265,7 @@ class Terms(NamedTuple):
     a2_left: Tensor
     """1 - a2."""
     lambert: Tensor
-    """d (1 - s) / pi."""
+    """d (1 - s) / pi; d / pi where the Smith renderer does not weight it."""
     specular: Tensor
 
 
@@ -269,7 +277,11 @@ def terms(maps: Maps, dtype: torch.dtype, convention: Convention) -> Terms:
     a = rough * rough
     k, a2 = a * 0.5, a * a
     n = normalized(normal.split(1, dim=-3))
-    return Terms(*n, k, 1 - k, a * (4 * pi) ** -0.5, a2, 1 - a2, diffuse * (1 - specular) * (1 / pi), specular)
+    if convention.smith and convention.smith.specular is not None:
+        # With a gradient, which is 0.
+        specular = convention.smith.specular + 0 * specular
+    weighted = diffuse if convention.smith and not convention.smith.is_weighted else diffuse * (1 - specular)
+    return Terms(*n, k, 1 - k, a * (4 * pi) ** -0.5, a2, 1 - a2, weighted * (1 / pi), specular)
 
 
 class Geometry(NamedTuple):
@@ -286,7 +298,10 @@ class Geometry(NamedTuple):
     fresnel: Tensor
     """The power of the Fresnel term, in [0, 1]."""
     irradiance: Tensor
-    """The factor on the reflectance and NoL: intensity / l.z, 0 where the light is in or below the plane."""
+    """The factor on the reflectance and NoL: intensity / l.z, or over the square of the distance.
+
+    0 where the light is in or below the plane.
+    """
 
 
 def geometry(row: Tensor, like: Terms, convention: Convention) -> Geometry:
@@ -295,16 +310,24 @@ def geometry(row: Tensor, like: Terms, convention: Convention) -> Geometry:
     with torch.no_grad():
         x, y = positions(n.shape[-2], n.shape[-1])
         # A distant scene has single values, unless it is computed together with others.
-        if row.dim() == 1 and row[0] == 0:
+        if row.dim() == 1 and row[0] == 0 and not convention.smith:
             x, y = x[:, :1], y[:1]
         is_near, *points = (value[..., None, None, None].to(n) for value in row.unbind(-1))
-        c_x, c_y = is_near * x.to(n), is_near * y.to(n)
-        l, v = (normalized((w[0] - c_x, w[1] - c_y, w[2])) for w in (points[:3], points[3:]))
+        # Light and view of the distant scenes of the Smith renderer are points, too.
+        are_points = torch.ones_like(is_near) if convention.smith else is_near
+        c_x, c_y = are_points * x.to(n), are_points * y.to(n)
+        w_l, w_v = ((w[0] - c_x, w[1] - c_y, w[2]) for w in (points[:3], points[3:]))
+        l, v = normalized(w_l), normalized(w_v)
         total = (l[0] + v[0], l[1] + v[1], l[2] + v[2])
         inverse, has_h = inverse_length(total)
         h = (total[0] * inverse, total[1] * inverse, total[2] * inverse)
         # Where l = -v and the texel is lit, VoH is NoV clamped at 0, as here.
         v_dot_h = dot(v, h).clamp(0, 1)
+        if convention.smith:
+            fresnel = (1 - v_dot_h.clamp(min=convention.smith.cosine_floor)) ** 5
+            intensity = is_near * convention.intensity + (1 - is_near) * convention.smith.intensity_distant
+            irradiance = (intensity / dot(w_l, w_l)).clamp(max=torch.finfo(n.dtype).max)
+            return Geometry(l, v, h, has_h.to(n), fresnel, torch.where(l[2] > 0, irradiance, 0.0))
         fresnel = torch.exp2((-5.55473 * v_dot_h - 6.98316) * v_dot_h)
         l_z = l[2].clamp(min=max(convention.light_z_floor, torch.finfo(n.dtype).tiny))
         irradiance = (convention.intensity / l_z).clamp(max=torch.finfo(n.dtype).max)
@@ -312,7 +335,10 @@ def geometry(row: Tensor, like: Terms, convention: Convention) -> Geometry:
 
 
 def radiance(material: Terms, scene: Geometry, convention: Convention, apart: bool = False) -> list[Tensor]:
-    """(F G D / 4 + d (1 - s) / pi) NoL / l.z times the intensity: RGB in one tensor, or in three where `apart`."""
+    """(F G D / 4 + d (1 - s) / pi) NoL / l.z times the intensity: RGB in one tensor, or in three where `apart`.
+
+    In the Smith renderer, diffuse is weighted with (1 - s) (1 - w) = 1 - F, where it is.
+    """
     n = (material.x, material.y, material.z)
     n_dot_l = dot(n, scene.l).clamp(min=0)
     n_dot_v = dot(n, scene.v).clamp(min=0)
@@ -325,7 +351,8 @@ def radiance(material: Terms, scene: Geometry, convention: Convention, apart: bo
     white = scene.fresnel * lobe
     coloured = lobe - white
     largest = torch.finfo(e.dtype).max
-    channels = [(material.lambert, material.specular)]
+    share = 1 - scene.fresnel if convention.smith and convention.smith.is_weighted else None
+    channels = [(material.lambert if share is None else material.lambert * share, material.specular)]
     if apart:
         channels = list(zip(*(rgb.split(1, dim=-3) for rgb in channels[0]), strict=True))
     return [
@@ -340,9 +367,9 @@ def distribution_denominator(n: Vector, material: Terms, scene: Geometry, conven
     """
     apart = (n[0] - scene.h[0], n[1] - scene.h[1], n[2] - scene.h[2])
     q = dot(apart, apart)
-    if convention.clamp_n_dot_h:
+    if convention.smith or convention.clamp_n_dot_h:
         # NoH = 1 - q / 2.
-        q = q.clamp(max=2)
+        q = q.clamp(max=2 - 2 * (convention.smith.cosine_floor if convention.smith else 0))
     sine2 = q * torch.addcmul(scene.has_h, q, scene.has_h, value=-0.25)
     denominator = torch.addcmul(material.a2, sine2, material.a2_left)
     return denominator.clamp(min=convention.d_floor) if convention.d_floor > 0 else denominator
@@ -350,6 +377,9 @@ def distribution_denominator(n: Vector, material: Terms, scene: Geometry, conven
 
 def geometry_factor(cosine: Tensor, material: Terms, convention: Convention) -> Tensor:
     """One of the two factors of G, for NoL or NoV in [0, 1]."""
+    if convention.smith:
+        x = cosine.clamp(min=convention.smith.cosine_floor)
+        return 2 / (x + torch.addcmul(material.a2, x * x, material.a2_left).sqrt())
     denominator = torch.addcmul(material.k, cosine, material.k_left)
     return 1 / (denominator.clamp(min=convention.g_floor) if convention.g_floor > 0 else denominator)
 

@@ -29,7 +29,7 @@ pub fn job(args: &RankArgs, given: &Given) -> NewJob {
     refuse(args.format == RankFormat::Html, "format html", reason)?;
     let of_files = "materials of a data set are not resized";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", of_files)?;
-    let source = source(args)?;
+    let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
     let convention = args.comparison.convention.unwrap_or_default();
     let (target_error, seed) = args.accuracy.target_and_seed();

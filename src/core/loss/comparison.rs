@@ -7,8 +7,7 @@ use rayon::prelude::*;
 use crate::error::Error;
 use crate::material::Material;
 use crate::math::real::Real;
-use crate::model::convention::{Convention, Member};
-use crate::model::grammar::words::Norm;
+use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 
@@ -176,15 +175,6 @@ impl<'a, T> Comparison<'a, T> {
     /// The convention that renderings and their comparison follow.
     pub fn convention(&self) -> &Convention {
         &self.convention
-    }
-
-    /// How renderings are compared.
-    pub(super) fn norm(&self) -> Norm {
-        match self.convention.member {
-            // Of renderers without a loss of this kind, ours.
-            Some(Member { norm: Norm::None, .. }) | None => Norm::LogL1,
-            Some(member) => member.norm,
-        }
     }
 
     /// What computes the losses.

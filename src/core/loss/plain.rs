@@ -40,7 +40,8 @@ impl<T: Real> Backend<T> for Plain {
         let ground_truth = comparison.ground_truth();
         let predictions = comparison.predictions();
         let model = Model::from(comparison.convention());
-        let (epsilon, norm) = (T::of(comparison.convention().epsilon), comparison.norm());
+        let convention = comparison.convention();
+        let (epsilon, norm) = (T::of(convention.epsilon), convention.norm());
         let logs = norm == Norm::LogL1;
         let is_squared = matches!(norm, Norm::Mse | Norm::Rmse);
         let listed = texels;

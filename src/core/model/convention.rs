@@ -2,11 +2,8 @@
 //!
 //! A loss is meaningful only together with its convention, so every result carries its name.
 
-use std::str::FromStr;
-
 use super::grammar::RendererTerms;
 use super::grammar::words::Norm;
-use crate::error::Error;
 
 /// The numbers and switches in which the published variants of the rendering loss differ.
 ///
@@ -104,7 +101,7 @@ pub const MULTI_IMAGE_2019: Convention = Convention {
 /// Not reproduced: its training loss also adds 1 - MS-SSIM of the log renderings.
 pub const GUIDED_2020: Convention = Convention { name: "guided-2020", epsilon: 0.01, ..MULTI_IMAGE_2019 };
 
-/// Every named convention, the default first.
+/// Every named convention of Algorithm 3, the default first.
 pub const ALL: [Convention; 4] = [PRINTED, SINGLE_IMAGE_2018, MULTI_IMAGE_2019, GUIDED_2020];
 
 impl Default for Convention {
@@ -114,25 +111,12 @@ impl Default for Convention {
 }
 
 impl Convention {
-    /// An error where only Algorithm 3 can be computed, as by shaders.
-    ///
-    /// # Errors
-    /// [`Error::OnProcessorOnly`].
-    pub fn check_is_algorithm_3(&self) -> Result<(), Error> {
+    /// How renderings are compared.
+    pub fn norm(&self) -> Norm {
         match self.member {
-            None => Ok(()),
-            Some(_) => Err(Error::OnProcessorOnly { convention: self.name }),
+            // Of renderers without a loss of this kind, ours.
+            Some(Member { norm: Norm::None, .. }) | None => Norm::LogL1,
+            Some(member) => member.norm,
         }
-    }
-}
-
-/// One of [`ALL`].
-impl FromStr for Convention {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self, Error> {
-        ALL.into_iter()
-            .find(|c| c.name == name)
-            .ok_or_else(|| Error::unknown_name("convention", name, ALL.map(|c| c.name).join(", ")))
     }
 }

@@ -1,5 +1,6 @@
 //! The conventions that have a name, in the grammar; and conventions of the grammar as losses are computed by them.
 
+use std::str::FromStr;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use super::convention::{self, Convention, Member, PRINTED};
@@ -24,6 +25,19 @@ pub fn all() -> &'static [Description] {
         convention::ALL.iter().map(Description::from).chain(others).collect()
     });
     &ALL
+}
+
+/// One of [`all`], as losses are computed by it.
+impl FromStr for Convention {
+    type Err = Error;
+
+    fn from_str(name: &str) -> Result<Self, Error> {
+        static ALL: LazyLock<Vec<Convention>> =
+            LazyLock::new(|| all().iter().filter_map(|described| described.try_into().ok()).collect());
+        let known = || ALL.iter().map(|known| known.name).collect::<Vec<_>>().join(", ");
+        let found = ALL.iter().find(|known| known.name == name);
+        found.copied().ok_or_else(|| Error::unknown_name("convention", name, known()))
+    }
 }
 
 /// What differs from [`PRINTED`]: one line.

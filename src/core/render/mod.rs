@@ -23,14 +23,14 @@ use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::image::Image;
-use crate::material::Material;
-use crate::material::base_and_metallic;
+use crate::material::{Grid, Material, base_and_metallic};
 use crate::math::real::{Real, Vector as _};
-use crate::model::brdf::{self, Model};
+use crate::model::brdf::{self, Model, Texel};
 use crate::model::convention::Convention;
 use crate::model::grammar::words::Maps;
-use crate::model::grammar::{Point, RendererTerms};
+use crate::model::grammar::{Factors, Point, RendererTerms};
 use crate::model::scene::{Kind, Rays, Scene};
+use crate::model::terms::Terms;
 use crate::progress::Progress;
 
 /// Renders every texel of `material` under `scene`, in parallel by rows.
@@ -58,7 +58,8 @@ pub fn render<T: Real>(
     Ok(Image { width, height, pixels })
 }
 
-/// What [`render`] computes, in f32 and, but for members of the grammar, many times faster, with the widest instruction set of the machine.
+/// What [`render`] computes, in f32 and, where the kernel has the renderer, many times faster, with the widest instruction set of the
+/// machine.
 ///
 /// Within the rounding of a handful of f32 operations, and the same bits for any number of threads. Where R does not
 /// fit f32, it is 2^126.
@@ -71,43 +72,72 @@ pub fn render_f32(
     convention: &Convention,
     progress: &Progress,
 ) -> Result<Image<f32>, Error> {
-    if convention.member.is_some() {
+    if !simd::has(convention) {
         return render(material, scene, convention, progress);
     }
     simd::render_at(simd::Level::best(), material, scene, convention, progress)
+}
+
+/// A texel in f64, exactly.
+pub fn widened<T: Real>(texel: &Texel<T>) -> Texel<f64> {
+    Texel {
+        normal: texel.normal.cast(),
+        diffuse: texel.diffuse.map(T::f64),
+        specular: texel.specular.map(T::f64),
+        roughness: texel.roughness.f64(),
+    }
+}
+
+/// A texel of a grid as the terms of the grammar take it.
+fn member_point<T: Real>(
+    terms: &RendererTerms,
+    texel: &Texel<f64>,
+    grid: Grid,
+    rays: &Rays<T>,
+    [column, row]: [usize; 2],
+) -> Point {
+    let Texel { normal, diffuse, specular, roughness } = *texel;
+    let (base_color, metallic) = match terms.material.material {
+        Maps::Metallic => base_and_metallic(diffuse, specular),
+        Maps::Diffuse | Maps::Dielectric => (diffuse, 0.0),
+    };
+    let [light, view] = rays.ends().map(|end| end.cast::<DVec3>());
+    let at = terms.grid.position(column, row, grid.width, grid.height);
+    let (light, view) = terms.grid.vectors(at, light, view, rays.kind() == Kind::Near);
+    let [normal, light, view] = [normal, light, view].map(|vector| vector.to_array());
+    Point { normal, diffuse, specular, roughness, base_color, metallic, light, view }
 }
 
 /// The radiance of a texel by the terms of the grammar, in f64; 0 where they divide 0 by 0.
 #[cold]
 fn member_radiance<T: Real>(
     terms: &RendererTerms,
-    material: &Material<T>,
+    texel: &Texel<T>,
+    grid: Grid,
     rays: &Rays<T>,
-    column: usize,
-    row: usize,
+    place: [usize; 2],
 ) -> [T; 3] {
-    let texel = material.texel(row * material.width() + column);
-    let [diffuse, specular] = [texel.diffuse, texel.specular].map(|rgb| rgb.map(T::f64));
-    let (base_color, metallic) = match terms.material.material {
-        Maps::Metallic => base_and_metallic(diffuse, specular),
-        Maps::Diffuse | Maps::Dielectric => (diffuse, 0.0),
-    };
-    let is_near = rays.kind() == Kind::Near;
-    let [light, view] = rays.ends().map(|end| end.cast::<DVec3>());
-    let at = terms.grid.position(column, row, material.width(), material.height());
-    let (light, view) = terms.grid.vectors(at, light, view, is_near);
-    let point = Point {
-        normal: texel.normal.cast::<DVec3>().to_array(),
-        diffuse,
-        specular,
-        roughness: texel.roughness.f64(),
-        base_color,
-        metallic,
-        light: light.to_array(),
-        view: view.to_array(),
-    };
-    let radiance = terms.radiance(&point, is_near);
+    let point = member_point(terms, &widened(texel), grid, rays, place);
+    let radiance = terms.radiance(&point, rays.kind() == Kind::Near);
     radiance.map(|x| if x.is_nan() { T::zero() } else { T::of(x).min(T::max_value()) })
+}
+
+/// The terms of the texel in column `column` of row `row` of a grid.
+pub fn texel_terms(
+    texel: &Texel<f64>,
+    grid: Grid,
+    model: &Model<f64>,
+    rays: &Rays<f64>,
+    [column, row]: [usize; 2],
+) -> Terms<f64> {
+    let Some(member) = model.member else {
+        let (w_l, w_v) = rays.from_texel(grid.position(column, row));
+        return Terms::of(model, texel, w_l, w_v);
+    };
+    let point = member_point(&member.terms, texel, grid, rays, [column, row]);
+    let Factors { cosines: [n_dot_l, n_dot_v, n_dot_h, v_dot_h], d, g, f } = member.terms.factors(&point);
+    let radiance = member_radiance(&member.terms, texel, grid, rays, [column, row]);
+    Terms { n_dot_l, n_dot_v, n_dot_h, v_dot_h, d, g, f, radiance }
 }
 
 /// Renders the texel in column `column` of row `row`.
@@ -119,10 +149,10 @@ pub fn render_texel<T: Real>(
     column: usize,
     row: usize,
 ) -> [T; 3] {
+    let texel = material.texel(row * material.width() + column);
     if let Some(member) = model.member {
-        return member_radiance(&member.terms, material, rays, column, row);
+        return member_radiance(&member.terms, &texel, material.grid(), rays, [column, row]);
     }
     let (w_l, w_v) = rays.from_texel(material.grid().position(column, row));
-    let texel = material.texel(row * material.width() + column);
     brdf::render(model, &texel, w_l, w_v)
 }

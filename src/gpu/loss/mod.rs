@@ -7,12 +7,16 @@
 mod pass;
 mod plan;
 
+use std::sync::OnceLock;
+
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Backend, Comparison};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::grammar::words::Norm;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
+use svbrdf_shaders as shaders;
 
 use super::Gpu;
 use super::fault::failed;
@@ -28,6 +32,8 @@ use plan::{MOST_PREDICTIONS, Plan};
 pub struct GpuLosses {
     gpu: Gpu,
     passes: Passes,
+    /// Of the renderers of the grammar of conventions: log differences, and squares.
+    grammar: [OnceLock<Passes>; 2],
 }
 
 impl GpuLosses {
@@ -36,7 +42,24 @@ impl GpuLosses {
     /// # Errors
     /// [`Error::Gpu`] where the adapter has no compute shaders or refuses.
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
-        Ok(Self { gpu: gpu.clone(), passes: Passes::new(gpu)? })
+        Ok(Self { gpu: gpu.clone(), passes: Passes::new(gpu, &shaders::LOSS)?, grammar: Default::default() })
+    }
+
+    /// The passes of a convention, compiled when they are needed.
+    fn passes(&self, convention: &Convention) -> Result<&Passes, Error> {
+        if convention.member.is_none() {
+            return Ok(&self.passes);
+        }
+        let (kept, shader) = match convention.norm() {
+            Norm::LogL1 => (&self.grammar[0], &shaders::GRAMMAR_LOSS),
+            Norm::Mse => (&self.grammar[1], &shaders::GRAMMAR_SQUARES),
+            _ => return Err(Error::not_by("a graphics adapter", convention.name)),
+        };
+        if let Some(passes) = kept.get() {
+            return Ok(passes);
+        }
+        let passes = Passes::new(&self.gpu, shader)?;
+        Ok(kept.get_or_init(|| passes))
     }
 
     /// The name of the adapter.
@@ -57,7 +80,8 @@ impl Backend<f32> for GpuLosses {
         texels: Option<&[usize]>,
         progress: &Progress,
     ) -> Result<Vec<Vec<f64>>, Error> {
-        comparison.convention().check_is_algorithm_3()?;
+        let convention = comparison.convention();
+        let passes = self.passes(convention)?;
         if texels.is_some() {
             let problem = "it compares all texels, and a part of them was asked for".to_owned();
             return Err(Error::Gpu { problem, remedy: "compute this loss on the processor" });
@@ -71,8 +95,7 @@ impl Backend<f32> for GpuLosses {
         let count = 3.0 * (ground_truth.width() * ground_truth.height()) as f64;
         let mut losses = Vec::with_capacity(comparison.predictions().len());
         for (group, plan) in groups {
-            let group_loss =
-                GroupLoss { gpu, passes: &self.passes, plan, convention: comparison.convention(), scenes };
+            let group_loss = GroupLoss { gpu, passes, plan, convention, scenes };
             let materials: Vec<_> = [ground_truth].iter().chain(group).copied().collect();
             let sums = group_loss.run(&materials, progress)?;
             losses.extend(sums.into_iter().map(|sums| sums.into_iter().map(|sum| sum / count).collect()));
@@ -97,6 +120,7 @@ impl GroupLoss<'_> {
     /// For each prediction the sum over texels and channels of each scene.
     fn run(&self, materials: &[&Material<f32>], progress: &Progress) -> Result<Vec<Vec<f64>>, Error> {
         let buffers = Buffers::new(self.gpu, self.passes, &self.plan, materials.len())?;
+        let norm = self.convention.norm();
         let mut sums = vec![vec![0.0; self.scenes.len()]; materials.len() - 1];
         // The device works on one step while the sums of the step before are added.
         let mut under_way = None;
@@ -104,16 +128,21 @@ impl GroupLoss<'_> {
             buffers.upload(self.gpu, materials, texels.clone(), self.convention)?;
             for scenes in self.plan.scenes() {
                 let blocks = plan::blocks(&texels);
-                let submitted =
-                    self.passes.submit(self.gpu, &buffers, &self.scenes[scenes.clone()], blocks)?;
+                let submitted = self.passes.submit(
+                    self.gpu,
+                    &buffers,
+                    self.convention,
+                    &self.scenes[scenes.clone()],
+                    blocks,
+                )?;
                 if let Some((scenes, blocks, earlier)) = under_way.replace((scenes, blocks, submitted)) {
-                    add(&mut sums, scenes, blocks, &earlier.wait(self.gpu)?);
+                    add(&mut sums, scenes, blocks, norm, &earlier.wait(self.gpu)?);
                     progress.step()?;
                 }
             }
         }
         if let Some((scenes, blocks, last)) = under_way {
-            add(&mut sums, scenes, blocks, &last.wait(self.gpu)?);
+            add(&mut sums, scenes, blocks, norm, &last.wait(self.gpu)?);
             progress.step()?;
         }
         Ok(sums)
@@ -121,12 +150,18 @@ impl GroupLoss<'_> {
 }
 
 /// Adds the sums of blocks, which lie by scene, prediction and block, to the sums of the predictions.
-fn add(sums: &mut [Vec<f64>], scenes: std::ops::Range<usize>, blocks: usize, of_blocks: &[LogSum]) {
+fn add(
+    sums: &mut [Vec<f64>],
+    scenes: std::ops::Range<usize>,
+    blocks: usize,
+    norm: Norm,
+    of_blocks: &[LogSum],
+) {
     let predictions = sums.len();
     for (scene, of_scene) in scenes.zip(of_blocks.chunks(predictions * blocks)) {
         for (sums, blocks) in sums.iter_mut().zip(of_scene.chunks(blocks)) {
             for block in blocks {
-                sums[scene] += block.total();
+                sums[scene] += block.total(norm);
             }
         }
     }

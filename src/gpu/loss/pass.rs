@@ -11,15 +11,16 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::grammar::words::Norm;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_shaders as shaders;
+use svbrdf_shaders::Shader;
 
 use super::plan::{LANES, PLANES, Plan, blocks};
 use crate::Gpu;
 use crate::fault::scoped;
 use crate::pipeline::{bind, buffer_type, compute, layout, module};
 use crate::read_back::{read_after, read_buffer};
-use crate::uniforms::{Band, LogSum, ModelUniforms, SceneUniforms};
+use crate::uniforms::{Band, GrammarBand, GrammarScene, LogSum, ModelUniforms, SceneUniforms};
 
 /// The pipelines and what they bind.
 #[derive(Debug)]
@@ -32,13 +33,13 @@ pub(super) struct Passes {
 }
 
 impl Passes {
-    pub(super) fn new(gpu: &Gpu) -> Result<Self, Error> {
+    pub(super) fn new(gpu: &Gpu, shader: &Shader) -> Result<Self, Error> {
         scoped(&gpu.device, "compiling the loss", || {
             let storage = |read_only| buffer_type(BufferBindingType::Storage { read_only });
             let uniform = buffer_type(BufferBindingType::Uniform);
             let types = [uniform, storage(true), storage(true), storage(false), storage(false)];
             let layout = layout(&gpu.device, ShaderStages::COMPUTE, &types);
-            let module = module(&gpu.device, &shaders::LOSS);
+            let module = module(&gpu.device, shader);
             let [loss, gather] =
                 ["loss", "gather"].map(|entry| compute(&gpu.device, &module, entry, &layout));
             Self { loss, gather, layout }
@@ -50,13 +51,14 @@ impl Passes {
         &self,
         gpu: &Gpu,
         buffers: &Buffers,
+        convention: &Convention,
         scenes: &[Scene],
         blocks: usize,
     ) -> Result<Submitted, Error> {
         let sums = scenes.len() * buffers.predictions * blocks;
-        let rays: Vec<SceneUniforms> = scenes.iter().map(SceneUniforms::from).collect();
+        let rays: Vec<u8> = scenes.iter().flat_map(|scene| rays(convention, scene, buffers.size)).collect();
         scoped(&gpu.device, "computing a loss", || {
-            gpu.queue.write_buffer(&buffers.scenes, 0, bytemuck::cast_slice(&rays));
+            gpu.queue.write_buffer(&buffers.scenes, 0, &rays);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             let mut pass = encoder.begin_compute_pass(&Default::default());
             pass.set_bind_group(0, &buffers.group, &[]);
@@ -105,8 +107,9 @@ impl Buffers {
         let sums = plan.scenes_per_step * predictions * plan.blocks() * size_of::<LogSum>();
         scoped(&gpu.device, "taking memory for a loss", || {
             let storage = |bytes: usize, usage| create(gpu, bytes, BufferUsages::STORAGE | usage);
-            let band = create(gpu, size_of::<Band>(), BufferUsages::UNIFORM | BufferUsages::COPY_DST);
-            let scenes = storage(plan.scenes_per_step * size_of::<SceneUniforms>(), BufferUsages::COPY_DST);
+            let uniforms = BufferUsages::UNIFORM | BufferUsages::COPY_DST;
+            let band = create(gpu, size_of::<GrammarBand>(), uniforms);
+            let scenes = storage(plan.scenes_per_step * size_of::<GrammarScene>(), BufferUsages::COPY_DST);
             let planes = materials * PLANES * plan.texels_per_band * size_of::<f32>();
             let planes = storage(planes, BufferUsages::COPY_DST);
             let lane_sums = storage(sums * LANES, BufferUsages::empty());
@@ -133,10 +136,14 @@ impl Buffers {
             stride: texels.len() as u32,
             blocks: blocks(&texels) as u32,
             predictions: self.predictions as u32,
-            epsilon: convention.epsilon as f32,
+            epsilon: if convention.norm() == Norm::LogL1 { convention.epsilon as f32 } else { 0.0 },
+        };
+        let band = match convention.member {
+            None => bytemuck::bytes_of(&band).to_vec(),
+            Some(member) => bytemuck::bytes_of(&GrammarBand::new(band, &member.terms)).to_vec(),
         };
         scoped(&gpu.device, "sending materials", || {
-            gpu.queue.write_buffer(&self.band, 0, bytemuck::bytes_of(&band));
+            gpu.queue.write_buffer(&self.band, 0, &band);
             let planes = materials.iter().flat_map(|material| planes(material.planes()));
             for (i, plane) in planes.enumerate() {
                 let offset = i * texels.len() * size_of::<f32>();
@@ -144,6 +151,17 @@ impl Buffers {
                 gpu.queue.write_buffer(&self.planes, offset as u64, part);
             }
         })
+    }
+}
+
+/// A scene as the shader of the convention reads it.
+fn rays(convention: &Convention, scene: &Scene, size: [u32; 2]) -> Vec<u8> {
+    match convention.member {
+        None => bytemuck::bytes_of(&SceneUniforms::from(scene)).to_vec(),
+        Some(member) => {
+            let size = size.map(|side| side as usize);
+            bytemuck::bytes_of(&GrammarScene::new(&member.terms, scene, size)).to_vec()
+        }
     }
 }
 

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::error::Error as CoreError;
+use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
@@ -29,6 +30,7 @@ use super::material::request::{ReadRequest, Target};
 use super::message::Message;
 use super::ranges::bring_into_range;
 use super::view::state::ViewState;
+use crate::error::Error;
 use crate::model::material::source::sources;
 use crate::model::settings::options::ViewerOptions;
 use svbrdf_files::source::{MaterialSource, Place};
@@ -150,8 +152,7 @@ impl Model {
 
     /// Takes over light, view, display, loss settings and photograph of a session; the request that reads its materials.
     pub fn open_session(&mut self, session: &Session) -> ReadRequest {
-        let drawn = convention::of_loss(&session.convention)
-            .and_then(|convention| Ok(convention.check_is_algorithm_3().map(|()| convention.name)?));
+        let drawn = drawn(&session.convention);
         self.view = ViewState {
             scene: session.scene,
             convention: drawn.as_ref().map_or(PRINTED.name, |name| name).to_owned(),
@@ -167,7 +168,7 @@ impl Model {
         // Of its materials, once they are there.
         self.inspection = Inspection::default();
         self.inspected_later = session.window.inspection.as_ref().map(Inspection::from);
-        self.report(drawn.err().map(|error| Message::Failed(error.into())));
+        self.report(drawn.err().map(Message::Failed));
         let out_of_range = bring_into_range(self).map(Message::OutOfRange);
         self.report(out_of_range);
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
@@ -224,4 +225,15 @@ fn compared_files(session: &Session) -> Vec<PathBuf> {
         Some(run.map_or(path, |(run, _)| run.folder))
     };
     session.materials.iter().filter_map(file).collect()
+}
+
+/// The name of the convention that a session names, where it is drawn.
+fn drawn(convention: &str) -> Result<&'static str, Error> {
+    let named: Result<Convention, CoreError> = convention.parse();
+    match named {
+        Ok(found) => Ok(found.name),
+        // Neither a name nor a file, or a file.
+        Err(_) => Err(convention::read(convention)
+            .map_or_else(Error::from, |_| Error::UnnamedConvention(convention.to_owned()))),
+    }
 }

@@ -1,6 +1,6 @@
-//! The sum of |ln a - ln b| over many numbers, with one logarithm at the end.
+//! The sum of |ln a - ln b| over many numbers, with one logarithm at the end; and that of (a - b)^2.
 //!
-//! It equals ln(product of max(a, b)) - ln(product of min(a, b)). Mantissas are multiplied, exponents added as integers.
+//! The first equals ln(product of max(a, b)) - ln(product of min(a, b)). Mantissas are multiplied, exponents added as integers.
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -16,10 +16,18 @@ const MANTISSA: u32 = 0x007f_ffff;
 /// The bits of 1.
 const ONE: u32 = 0x3f80_0000;
 
-/// What adds up the log differences of two materials, tile by tile.
-pub(super) trait LogDifferences<S: Simd> {
+/// What adds up the differences of two materials, tile by tile.
+pub(super) trait Differences<S: Simd> {
     /// Adds all texels and channels of a tile. Radiances are positive and, unless `SAFE`, below 2^21.
     fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance);
+}
+
+/// Differences that are added up over all texels.
+pub(super) trait Sum<S: Simd>: Differences<S> + Clone {
+    fn new(simd: S) -> Self;
+
+    /// The sum over all lanes.
+    fn total(&self) -> f64;
 }
 
 /// Running products, one per lane. Each factor rounds once, so n factors are off by about sqrt(n) 4e-8.
@@ -33,12 +41,6 @@ pub(super) struct LogProducts<S: Simd> {
 }
 
 impl<S: Simd> LogProducts<S> {
-    #[inline(always)]
-    pub(super) fn new(simd: S) -> Self {
-        let one = V::<S>::splat(simd, 1.0);
-        Self { larger: one, smaller: one, exponent: Bits::<S>::splat(simd, 0) }
-    }
-
     #[inline(always)]
     fn multiply(&mut self, larger: V<S>, smaller: V<S>) {
         self.larger *= larger;
@@ -60,10 +62,17 @@ impl<S: Simd> LogProducts<S> {
         let ratio = f64::from(self.larger[lane]) / f64::from(self.smaller[lane]);
         f64::from(self.exponent[lane].cast_signed()) * std::f64::consts::LN_2 + ratio.ln()
     }
+}
 
-    /// The sum over all lanes.
+impl<S: Simd> Sum<S> for LogProducts<S> {
     #[inline(always)]
-    pub(super) fn total(&self) -> f64 {
+    fn new(simd: S) -> Self {
+        let one = V::<S>::splat(simd, 1.0);
+        Self { larger: one, smaller: one, exponent: Bits::<S>::splat(simd, 0) }
+    }
+
+    #[inline(always)]
+    fn total(&self) -> f64 {
         let (mut product, mut exponent) = (1.0, 0);
         for lane in 0..V::<S>::LEN {
             product *= f64::from(self.larger[lane]) / f64::from(self.smaller[lane]);
@@ -73,7 +82,7 @@ impl<S: Simd> LogProducts<S> {
     }
 }
 
-impl<S: Simd> LogDifferences<S> for LogProducts<S> {
+impl<S: Simd> Differences<S> for LogProducts<S> {
     /// The product of six radiances below 2^21 and a mantissa fits a float.
     #[inline(always)]
     fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
@@ -100,6 +109,47 @@ impl<S: Simd> LogDifferences<S> for LogProducts<S> {
     }
 }
 
+/// The sum of squares.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Squares(f64);
+
+impl<S: Simd> Sum<S> for Squares {
+    #[inline(always)]
+    fn new(_: S) -> Self {
+        Self(0.0)
+    }
+
+    #[inline(always)]
+    fn total(&self) -> f64 {
+        self.0
+    }
+}
+
+impl<S: Simd> Differences<S> for Squares {
+    /// The squares of a tile of differences below 2^21 fit a float, and few are added in f32.
+    #[inline(always)]
+    fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
+        if SAFE {
+            for (a, b) in a.0.iter().zip(&b.0) {
+                for (a, b) in a.values().iter().zip(b.values()) {
+                    self.0 += (f64::from(*a) - f64::from(*b)).powi(2);
+                }
+            }
+            return;
+        }
+        let mut sums = [V::<S>::splat(simd, 0.0); 3];
+        for i in 0..vectors::<S>() {
+            for (c, sum) in sums.iter_mut().enumerate() {
+                let difference = a.0[c].load(simd, i) - b.0[c].load(simd, i);
+                *sum = difference.mul_add(difference, *sum);
+            }
+        }
+        for lane in 0..V::<S>::LEN {
+            self.0 += sums.iter().map(|sum| f64::from(sum[lane])).sum::<f64>();
+        }
+    }
+}
+
 /// A product for each texel and channel of a tile.
 #[derive(Clone, Debug)]
 pub(super) struct TexelLogProducts<S: Simd> {
@@ -121,7 +171,7 @@ impl<S: Simd> TexelLogProducts<S> {
     }
 }
 
-impl<S: Simd> LogDifferences<S> for TexelLogProducts<S> {
+impl<S: Simd> Differences<S> for TexelLogProducts<S> {
     #[inline(always)]
     fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
         for (i, channels) in self.products.iter_mut().enumerate() {

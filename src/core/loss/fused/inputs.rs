@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use crate::material::Material;
-use crate::model::convention::Convention;
+use crate::model::grammar::words::Norm;
+use crate::render::simd::kernel::Kernel;
 use crate::render::simd::shade::ShadingParams;
 use crate::render::simd::size::TEXELS_PER_BLOCK;
 use crate::render::simd::tile::{GridAxes, TexelSpan};
@@ -12,7 +13,7 @@ use crate::render::simd::tile::{GridAxes, TexelSpan};
 pub(super) struct LossInputs<'a> {
     pub(super) ground_truth: &'a Material<f32>,
     pub(super) predictions: &'a [&'a Material<f32>],
-    pub(super) convention: &'a Convention,
+    pub(super) kernel: Kernel,
     pub(super) params: ShadingParams,
     pub(super) axes: GridAxes,
     /// The texels that are compared; `None`: all.
@@ -30,7 +31,7 @@ impl<'a> LossInputs<'a> {
         ground_truth: &'a Material<f32>,
         predictions: &'a [&'a Material<f32>],
         listed: Option<&'a [usize]>,
-        convention: &'a Convention,
+        kernel: Kernel,
     ) -> Self {
         let grid = ground_truth.grid();
         let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
@@ -39,8 +40,11 @@ impl<'a> LossInputs<'a> {
         Self {
             ground_truth,
             predictions,
-            convention,
-            params: ShadingParams::from(convention),
+            params: match kernel.norm {
+                Norm::LogL1 => ShadingParams::from(&kernel),
+                _ => ShadingParams::without_epsilon(&kernel),
+            },
+            kernel,
             axes: if listed.is_none() { GridAxes::from(grid) } else { GridAxes::without_runs(grid) },
             listed,
             planes: planes.collect(),

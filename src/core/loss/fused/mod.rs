@@ -20,9 +20,11 @@ use rayon::prelude::*;
 use super::comparison::{Backend, Comparison, Compute, by_prediction};
 use super::plain::Plain;
 use crate::error::Error;
+use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::simd::Level;
+use crate::render::simd::kernel::Kernel;
 use inputs::LossInputs;
 use pass::LossTile;
 use sums::SCENES_PER_GROUP;
@@ -45,20 +47,26 @@ impl Fused {
     /// usable. A block of texels is one step of `progress`.
     ///
     /// # Errors
-    /// [`Error::Cancelled`]; [`Error::OnProcessorOnly`] for a member of the grammar, which the kernel does not have.
+    /// [`Error::Cancelled`]; [`Error::NotComputed`] where the kernel does not have the renderer, or the norm is not log L1.
     pub fn texel_means(
         &self,
         comparison: &Comparison<'_, f32>,
         scenes: &[Scene],
         progress: &Progress,
     ) -> Result<Vec<Vec<[f32; 3]>>, Error> {
-        // The kernel has Algorithm 3 only.
-        comparison.convention().check_is_algorithm_3()?;
+        let kernel = kernel(comparison)
+            .filter(|kernel| kernel.norm == Norm::LogL1)
+            .ok_or_else(|| Error::not_by("the mean of each texel", comparison.convention().name))?;
         let level = self.level.unwrap_or_else(Level::best);
         let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
-        let inputs = LossInputs::new(ground_truth, predictions, None, comparison.convention());
+        let inputs = LossInputs::new(ground_truth, predictions, None, kernel);
         inputs.texel_means(level, scenes, progress)
     }
+}
+
+/// What the kernel computes; `None` where it does not have the renderer with the norm.
+fn kernel(comparison: &Comparison<'_, f32>) -> Option<Kernel> {
+    Kernel::of(comparison.convention()).filter(Kernel::has_norm)
 }
 
 impl Compute for f32 {
@@ -83,11 +91,11 @@ impl Backend<f32> for Fused {
         if predictions.is_empty() {
             return Ok(Vec::new());
         }
-        if comparison.convention().member.is_some() {
+        let Some(kernel) = kernel(comparison) else {
             return Plain.scene_losses(comparison, scenes, texels, progress);
-        }
+        };
         let level = self.level.unwrap_or_else(Level::best);
-        let inputs = LossInputs::new(comparison.ground_truth(), predictions, texels, comparison.convention());
+        let inputs = LossInputs::new(comparison.ground_truth(), predictions, texels, kernel);
         let groups: usize = scenes.len().div_ceil(SCENES_PER_GROUP);
         progress.begin((groups * inputs.blocks) as u64);
         let per_batch = SCENES_PER_GROUP * (MAX_SUMS / (SCENES_PER_GROUP * inputs.blocks)).max(1);
@@ -106,14 +114,14 @@ impl Backend<f32> for Fused {
         progress: &Progress,
     ) -> Result<Vec<Vec<f64>>, Error> {
         let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
-        if comparison.convention().member.is_some() {
+        let Some(kernel) = kernel(comparison) else {
             return Plain.losses_on_own_texels(comparison, scenes, texels, progress);
-        }
+        };
         let level = self.level.unwrap_or_else(Level::best);
         progress.begin(scenes.len() as u64);
         let of_scene = |tile: &mut LossTile, (index, scene)| {
             let texels = texels(index);
-            let inputs = LossInputs::new(ground_truth, predictions, Some(&texels), comparison.convention());
+            let inputs = LossInputs::new(ground_truth, predictions, Some(&texels), kernel);
             progress.step().map(|()| inputs.losses_of_scene(level, tile, scene))
         };
         let tile = || LossTile::new(predictions.len());

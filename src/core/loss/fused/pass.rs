@@ -1,6 +1,6 @@
 //! One scene over the tile in cache: all materials are rendered and compared.
 
-use super::compare::LogDifferences;
+use super::compare::Differences;
 use super::inputs::LossInputs;
 use crate::render::simd::geometry::{Geometry, KernelScene, TileGeometry, is_short};
 use crate::render::simd::lanes::{Lanes, V};
@@ -30,18 +30,23 @@ impl LossTile {
     }
 
     #[inline(always)]
-    pub(super) fn fill<S: Lanes>(&mut self, simd: S, inputs: &LossInputs<'_>, span: &TexelSpan<'_>) {
+    pub(super) fn fill<S: Lanes, const SMITH: bool>(
+        &mut self,
+        simd: S,
+        inputs: &LossInputs<'_>,
+        span: &TexelSpan<'_>,
+    ) {
         self.positions.fill(&inputs.axes, span);
-        let ShadingParams { roughness_floor, narrow, .. } = inputs.params;
-        self.ground_truth.fill(simd, inputs.ground_truth.planes(), span, roughness_floor, narrow);
+        let ShadingParams { roughness_floor: floor, narrow, smith, .. } = inputs.params;
+        self.ground_truth.fill::<S, SMITH>(simd, inputs.ground_truth.planes(), span, floor, narrow, smith);
         for (terms, material) in self.predictions.iter_mut().zip(inputs.predictions) {
-            terms.fill(simd, material.planes(), span, roughness_floor, narrow);
+            terms.fill::<S, SMITH>(simd, material.planes(), span, floor, narrow, smith);
         }
     }
 
     /// Adds the differences in one scene to the sums of the predictions. `distant` is the geometry of a distant scene.
     #[inline(always)]
-    pub(super) fn add<S: Lanes, D: LogDifferences<S>>(
+    pub(super) fn add<S: Lanes, const SMITH: bool, D: Differences<S>>(
         &mut self,
         simd: S,
         params: &ShadingParams,
@@ -50,7 +55,7 @@ impl LossTile {
         sums: &mut [D],
     ) {
         match distant {
-            Some(geometry) => self.add_with(
+            Some(geometry) => self.add_with::<S, SMITH, D>(
                 simd,
                 params,
                 scene,
@@ -60,8 +65,8 @@ impl LossTile {
                 |_, _| geometry,
             ),
             None => {
-                let is_short = self.geometry.fill(simd, scene, &self.positions);
-                self.add_with(
+                let is_short = self.geometry.fill::<S, SMITH>(simd, scene, &self.positions);
+                self.add_with::<S, SMITH, D>(
                     simd,
                     params,
                     scene,
@@ -75,7 +80,7 @@ impl LossTile {
     }
 
     #[inline(always)]
-    fn add_with<S: Lanes, D: LogDifferences<S>>(
+    fn add_with<S: Lanes, const SMITH: bool, D: Differences<S>>(
         &mut self,
         simd: S,
         params: &ShadingParams,
@@ -86,7 +91,7 @@ impl LossTile {
     ) {
         let tile = &self.geometry;
         let (expected, predicted) = (&mut self.expected, &mut self.predicted);
-        let expected_is_small = expected.render(
+        let expected_is_small = expected.render::<S, SMITH>(
             simd,
             params,
             scene,
@@ -96,7 +101,7 @@ impl LossTile {
             |i| geometry(tile, i),
         );
         for (terms, sum) in self.predictions.iter().zip(sums) {
-            let predicted_is_small = predicted.render(
+            let predicted_is_small = predicted.render::<S, SMITH>(
                 simd,
                 params,
                 scene,

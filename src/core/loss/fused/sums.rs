@@ -4,10 +4,11 @@ use fearless_simd::{Fallback, Simd};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::compare::LogProducts;
+use super::compare::{LogProducts, Squares, Sum};
 use super::inputs::LossInputs;
 use super::pass::LossTile;
 use crate::error::Error;
+use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::simd::geometry::KernelScene;
@@ -35,7 +36,7 @@ impl LossInputs<'_> {
                 || LossTile::new(self.predictions.len()),
                 |tile, i| {
                     let (group, block) = (groups[i / self.blocks], i % self.blocks);
-                    let sums = dispatch!(level, simd => self.block(simd, tile, group, block));
+                    let sums = self.block_at(level, tile, group, block);
                     progress.step()?;
                     Ok(sums)
                 },
@@ -58,7 +59,7 @@ impl LossInputs<'_> {
         let scenes = self.kernel_scenes(std::slice::from_ref(scene));
         let mut losses = vec![0.0; self.predictions.len()];
         for block in 0..self.blocks {
-            let sums = dispatch!(level, simd => self.block(simd, tile, &scenes, block));
+            let sums = self.block_at(level, tile, &scenes, block);
             losses.iter_mut().zip(sums).for_each(|(loss, sum)| *loss += sum);
         }
         losses.iter_mut().for_each(|loss| *loss /= (3.0 * self.texels as f64).max(1.0));
@@ -68,30 +69,42 @@ impl LossInputs<'_> {
     /// The scenes as the kernel takes them.
     pub(super) fn kernel_scenes(&self, scenes: &[Scene]) -> Vec<KernelScene> {
         let reach = self.ground_truth.grid().position::<DVec3>(0, 0).length();
-        scenes.iter().map(|scene| KernelScene::new(scene, self.convention, reach)).collect()
+        scenes.iter().map(|scene| KernelScene::new(scene, &self.kernel, reach)).collect()
     }
 
     /// The sums of one block: for each scene, for each prediction.
+    fn block_at(&self, level: Level, tile: &mut LossTile, scenes: &[KernelScene], block: usize) -> Vec<f64> {
+        match (self.kernel.smith, self.kernel.norm) {
+            (Some(_), _) => {
+                dispatch!(level, simd => self.block::<_, true, LogProducts<_>>(simd, tile, scenes, block))
+            }
+            (None, Norm::LogL1) => {
+                dispatch!(level, simd => self.block::<_, false, LogProducts<_>>(simd, tile, scenes, block))
+            }
+            (None, _) => dispatch!(level, simd => self.block::<_, false, Squares>(simd, tile, scenes, block)),
+        }
+    }
+
     #[inline(always)]
-    fn block<S: Lanes>(
+    fn block<S: Lanes, const SMITH: bool, D: Sum<S>>(
         &self,
         simd: S,
         tile: &mut LossTile,
         scenes: &[KernelScene],
         block: usize,
     ) -> Vec<f64> {
-        let mut sums = vec![LogProducts::<S>::new(simd); scenes.len() * self.predictions.len()];
+        let mut sums = vec![D::new(simd); scenes.len() * self.predictions.len()];
         let distant: Vec<_> = scenes.iter().map(|scene| scene.distant(simd)).collect();
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         self.look_up_pages(simd, end);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
-            tile.fill(simd, self, &self.span(start..end.min(start + TEXELS)));
+            tile.fill::<S, SMITH>(simd, self, &self.span(start..end.min(start + TEXELS)));
             for (i, sums) in sums.chunks_mut(self.predictions.len()).enumerate() {
                 self.prefetch_part(simd, start + AHEAD, i, scenes.len());
-                tile.add(simd, &self.params, &scenes[i], distant[i], sums);
+                tile.add::<S, SMITH, D>(simd, &self.params, &scenes[i], distant[i], sums);
             }
         }
-        sums.iter().map(LogProducts::total).collect()
+        sums.iter().map(D::total).collect()
     }
 
     /// Prefetches a part of the tile at `start`. All `parts` calls together prefetch all of it, spread over the scenes.

@@ -5,12 +5,13 @@
 mod description;
 mod radiance;
 mod scenes;
+pub mod shader;
 pub mod words;
 
 use serde::{Deserialize, Serialize};
 
 pub use description::{Description, TermDifference};
-pub use radiance::Point;
+pub use radiance::{Factors, Point};
 pub use scenes::SceneTerms;
 use words::{
     Alpha, Denominator, Distribution, F90, Falloff, Fresnel, K, Maps, Norm, NormalY, Normals, Rows,

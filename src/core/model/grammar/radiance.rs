@@ -32,6 +32,17 @@ struct Surface {
     normal: DVec3,
 }
 
+/// The factors of the specular term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Factors {
+    /// n.l, n.v, n.h and v.h before the limits.
+    pub cosines: [f64; 4],
+    pub d: f64,
+    /// Shadowing over n.l n.v: 4 times what D F is multiplied by.
+    pub g: f64,
+    pub f: [f64; 3],
+}
+
 /// The unit vectors, and their products before the limits.
 struct Vectors {
     l_z: f64,
@@ -167,15 +178,10 @@ impl RendererTerms {
     ///
     /// Where the formulas of a code divide by 0, it is not finite.
     pub fn radiance(&self, point: &Point, is_near: bool) -> [f64; 3] {
-        let (m, s, light) = (&self.material, &self.specular, &self.light);
-        let surface = m.surface(point);
-        let w_l = DVec3::from(point.light);
-        let w_v = if light.collocated { w_l } else { DVec3::from(point.view) };
-        let (l, v) = (divided(w_l, m.vec_eps), divided(w_v, m.vec_eps));
-        let h = divided((l + v) / 2.0, m.vec_eps);
-        let n = surface.normal;
-        let x = Vectors { l_z: l.z, nl: n.dot(l), nv: n.dot(v), nh: n.dot(h), vh: v.dot(h) };
-        let irradiance = self.irradiance(&x, w_l.length_squared(), is_near);
+        let (s, light) = (&self.specular, &self.light);
+        let surface = self.material.surface(point);
+        let x = self.products(point, surface.normal);
+        let irradiance = self.irradiance(&x, DVec3::from(point.light).length_squared(), is_near);
         if light.lz == Some(0.0) && (x.l_z <= 0.0 || x.nl <= 0.0) {
             return self.encoded([0.0; 3]);
         }
@@ -193,6 +199,47 @@ impl RendererTerms {
         self.encoded(sum)
     }
 
+    fn products(&self, point: &Point, n: DVec3) -> Vectors {
+        let epsilon = self.material.vec_eps;
+        let w_l = DVec3::from(point.light);
+        let w_v = if self.light.collocated { w_l } else { DVec3::from(point.view) };
+        let (l, v) = (divided(w_l, epsilon), divided(w_v, epsilon));
+        let h = divided((l + v) / 2.0, epsilon);
+        Vectors { l_z: l.z, nl: n.dot(l), nv: n.dot(v), nh: n.dot(h), vh: v.dot(h) }
+    }
+
+    /// The factors of the specular term at a point.
+    pub fn factors(&self, point: &Point) -> Factors {
+        let s = &self.specular;
+        let surface = self.material.surface(point);
+        let x = self.products(point, surface.normal);
+        let (nl, nv) = (s.limited(x.nl, s.nl_min), s.limited(x.nv, s.nv_min));
+        let nh = if s.nh_clamped { s.limited(x.nh, s.nh_min) } else { x.nh };
+        let a = self.width(surface.roughness);
+        let weight = s.fresnel_weight(s.limited(x.vh, s.vh_min));
+        Factors {
+            cosines: [x.nl, x.nv, x.nh, x.vh],
+            d: s.distribution(nh, x.nh, a),
+            g: 4.0 * s.geometry(nl, nv, x.nv, surface.roughness, a),
+            f: self.fresnel(&surface, weight),
+        }
+    }
+
+    fn width(&self, roughness: f64) -> f64 {
+        match self.material.alpha {
+            Alpha::Square => roughness * roughness,
+            Alpha::Linear => roughness,
+        }
+    }
+
+    fn fresnel(&self, surface: &Surface, weight: f64) -> [f64; 3] {
+        let f90 = match self.specular.f90 {
+            F90::One => 1.0,
+            F90::Filament => (16.5 * surface.specular.iter().sum::<f64>()).clamp(0.0, 1.0),
+        };
+        surface.specular.map(|specular| specular + (f90 - specular) * weight)
+    }
+
     /// The diffuse and the specular term, without the light.
     fn terms(&self, surface: &Surface, x: &Vectors) -> ([f64; 3], [f64; 3]) {
         let s = &self.specular;
@@ -200,21 +247,14 @@ impl RendererTerms {
         let nh = if s.nh_clamped { s.limited(x.nh, s.nh_min) } else { x.nh };
         let weight = s.fresnel_weight(s.limited(x.vh, s.vh_min));
         let r = surface.roughness;
-        let a = match self.material.alpha {
-            Alpha::Square => r * r,
-            Alpha::Linear => r,
-        };
+        let a = self.width(r);
         let is_front = s.front_min.is_none_or(|least| x.nl > least && x.nv > least);
         let lobe = match is_front {
             true => s.distribution(nh, x.nh, a) * s.geometry(nl, nv, x.nv, r, a),
             false => 0.0,
         };
-        let f90 = match s.f90 {
-            F90::One => 1.0,
-            F90::Filament => (16.5 * surface.specular.iter().sum::<f64>()).clamp(0.0, 1.0),
-        };
         let dielectric = self.material.f0 + (1.0 - self.material.f0) * weight;
-        let fresnel = surface.specular.map(|specular| specular + (f90 - specular) * weight);
+        let fresnel = self.fresnel(surface, weight);
         let share = |c: usize| match self.diffuse.diffuse {
             Weight::One => 1.0,
             Weight::Specular => 1.0 - surface.specular[c],

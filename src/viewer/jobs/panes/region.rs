@@ -123,10 +123,11 @@ fn numbers<'a>(
             (None, _) => (of_values(), false),
         };
         let loss = ground_truth.as_ref().map(|[ground_truth, _]| {
-            let pairs = ground_truth.par_iter().zip(&renderings);
-            let terms: Vec<f64> =
-                pairs.map(|(g, p)| Difference::Log.of_texel(*g, *p, convention.epsilon)).collect();
-            terms.iter().sum::<f64>() / terms.len() as f64
+            let numbers = |all: &Vec<[f32; 3]>| -> Vec<f64> {
+                all.as_flattened().iter().map(|x| f64::from(*x)).collect()
+            };
+            let norm = convention.norm();
+            norm.of(&numbers(ground_truth), &numbers(&renderings), convention.epsilon).unwrap_or_default()
         });
         all.push(RegionNumbers { rows, is_difference, loss });
         ground_truth.get_or_insert([renderings, values]);

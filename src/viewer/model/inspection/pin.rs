@@ -1,11 +1,11 @@
 //! Numbers of a pinned texel, computed in f64.
 
 use svbrdf_core::material::Material;
-use svbrdf_core::math::real::Vec3;
 use svbrdf_core::model::brdf::{Model, Texel};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::model::terms::Terms;
+use svbrdf_core::render::{texel_terms, widened};
 
 /// The columns of [`PinnedTexel::cells`]: a name, and what it means.
 pub const HEADS: [(&str, &str); 14] = [
@@ -14,7 +14,7 @@ pub const HEADS: [(&str, &str); 14] = [
     ("specular", "Specular reflectance at normal incidence, linear RGB"),
     ("roughness", "Roughness; the GGX width is its square"),
     ("rendering", "Radiance under this light and view, linear RGB"),
-    ("D", "The GGX distribution"),
+    ("D", "The distribution of microfacets"),
     ("G", "The geometry term, with 1 / (NoL NoV) of the microfacet denominator cancelled"),
     ("F", "The Fresnel term, RGB"),
     ("NoL", "Cosine between normal and light"),
@@ -24,7 +24,8 @@ pub const HEADS: [(&str, &str); 14] = [
     ("normal error", "The angle to the ground truth's normal, in degrees"),
     (
         "loss term",
-        "Mean over RGB of |ln(p + epsilon) - ln(g + epsilon)|: the texel's part of the loss of this scene",
+        "Mean over RGB of the difference that the convention takes, |ln(p + epsilon) - ln(g + epsilon)| or that of its norm: the texel's \
+        part of the loss of this scene",
     ),
 ];
 
@@ -71,30 +72,17 @@ pub fn rows<'a>(
     let (model, rays) = (Model::<f64>::from(convention), scene.rays::<f64>());
     let mut rows: Vec<PinnedTexel> = Vec::new();
     for material in materials {
-        let texel = in_f64(&material.texel(row * material.width() + column));
-        let at: Vec3<f64> = material.grid().position(column, row);
-        let (w_l, w_v) = rays.from_texel(at);
-        let terms = Terms::of(&model, &texel, w_l, w_v);
+        let texel = widened(&material.texel(row * material.width() + column));
+        let terms = texel_terms(&texel, material.grid(), &model, &rays, [column, row]);
         let errors = rows.first().map(|ground_truth| {
             let [g, p] = [ground_truth.terms.radiance, terms.radiance];
-            let ln = |v: f64| (v + convention.epsilon).ln();
-            let loss = (0..3).map(|c| (ln(p[c]) - ln(g[c])).abs()).sum::<f64>() / 3.0;
+            let loss = convention.norm().of(&p, &g, convention.epsilon).unwrap_or_default();
             let [g, p] = [ground_truth.texel.normal, texel.normal];
             [g.cross(p).length().atan2(g.dot(p)).to_degrees(), loss]
         });
         rows.push(PinnedTexel { texel, terms, errors });
     }
     rows
-}
-
-/// As a cast material has it.
-fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
-    Texel {
-        normal: texel.normal.as_dvec3(),
-        diffuse: texel.diffuse.map(f64::from),
-        specular: texel.specular.map(f64::from),
-        roughness: f64::from(texel.roughness),
-    }
 }
 
 /// All pins as CSV, one line for each pin and material, every number in full.

@@ -1,7 +1,7 @@
 //! State of the view: light, view and display as one value, which undo covers.
 
 use svbrdf_core::material::Grid;
-use svbrdf_core::model::convention::{self, Convention};
+use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
@@ -26,7 +26,7 @@ impl Default for ViewState {
     fn default() -> Self {
         Self {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
-            convention: convention::PRINTED.name.to_owned(),
+            convention: PRINTED.name.to_owned(),
             exposure_ev: 0.0,
             display: SessionDisplay::default(),
         }

@@ -4,8 +4,6 @@ use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{self, PopupCloseBehavior, Role, Sense, Stroke, Vec2, WidgetInfo, vec2};
 use glam::DVec3;
 
-use svbrdf_core::model::convention;
-use svbrdf_core::model::grammar::Description;
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::scene::{Kind, Scene};
 
@@ -163,26 +161,19 @@ impl ScenePanel<'_> {
     fn convention(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let now = self.state.convention();
         ui.horizontal(|ui| {
-            let combo = egui::ComboBox::from_id_salt("convention").selected_text(now.name).width(140.0);
+            let combo =
+                egui::ComboBox::from_id_salt("convention").selected_text(now.name).width(140.0).height(300.0);
             let combo = combo.show_ui(ui, |ui| {
-                for one in convention::ALL {
-                    let label = ui.selectable_label(one.name == now.name, one.name);
-                    if label.on_hover_text(named::summary(&Description::from(&one))).clicked() {
-                        commands.push(SceneCommand::SetConvention(one.name).into());
+                for one in named::all() {
+                    let label = ui.selectable_label(one.name == now.name, &one.name);
+                    if label.on_hover_text(named::summary(one)).clicked() {
+                        commands.push(SceneCommand::SetConvention(&one.name).into());
                     }
-                }
-                for other in &named::all()[convention::ALL.len()..] {
-                    let label = ui.add_enabled(false, egui::Button::selectable(false, &other.name));
-                    label.on_disabled_hover_text(format!(
-                        "{}. Not drawn by the window: `svbrdf loss --convention {}`",
-                        named::summary(other),
-                        other.name
-                    ));
                 }
             });
             combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Convention"));
             combo.response.on_hover_text(
-                "Convention: light intensity, clamps and epsilon: they differ between the papers and their released code",
+                "Convention: the renderer, its light, clamps and epsilon: they differ from code to code",
             );
         });
     }
