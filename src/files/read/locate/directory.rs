@@ -47,7 +47,10 @@ fn is_folder(entry: &fs::DirEntry) -> bool {
     entry.file_type().is_ok_and(|kind| kind.is_dir() || (kind.is_symlink() && entry.path().is_dir()))
 }
 
-/// The prefix without separators at its end, or else the name of the folder.
+/// Folders of these names have the maps of the material that the folder above is named after.
+const OF_MAPS: [&str; 4] = ["textures", "texture", "maps", "tex"];
+
+/// The prefix without separators at its end, or else the name of the folder, or of the one above a folder called `textures`.
 pub(crate) fn material_name(path: &Path, prefix: &str) -> String {
     let prefix = prefix.trim_end_matches(|c: char| !c.is_alphanumeric());
     if !prefix.is_empty() {
@@ -55,7 +58,10 @@ pub(crate) fn material_name(path: &Path, prefix: &str) -> String {
     }
     // A folder such as `..` has a name only once it is resolved.
     let resolved: PathBuf = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-    resolved.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+    let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+    let own = name(&resolved).unwrap_or_else(|| path.to_string_lossy().into_owned());
+    let is_of_maps = OF_MAPS.iter().any(|of_maps| own.eq_ignore_ascii_case(of_maps));
+    resolved.parent().filter(|_| is_of_maps).and_then(name).unwrap_or(own)
 }
 
 /// The folder of a file that may be named without one.
@@ -66,6 +72,16 @@ pub(super) fn folder_of(path: &Path) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_called_textures_has_the_name_of_the_one_above() {
+        let named = |path: &str, prefix: &str| material_name(Path::new(path), prefix);
+        assert_eq!(named("/no/brick/textures", ""), "brick");
+        assert_eq!(named("/no/brick/Maps", ""), "brick");
+        assert_eq!(named("/no/brick/textures", "wall_"), "wall");
+        assert_eq!(named("/no/brick/painted", ""), "painted");
+        assert_eq!(named("/textures", ""), "textures");
+    }
 
     #[test]
     fn files_and_links_to_files_are_listed_and_folders_and_links_to_folders_are_not() {
