@@ -10,7 +10,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
 
 use crate::error::Error;
-use crate::metrics::{RenderedScenes, of_maps, of_renderings};
+use crate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
 
 /// Scenes of the questions about one kind of them, and texels of each.
 const SCENES: usize = 2048;
@@ -133,32 +133,29 @@ impl RobustInput<'_> {
         Ok(Answered::of_outcome(name, &outcome))
     }
 
-    /// The measures of maps, each a mean over the four of them.
-    fn maps(&self) -> Result<[Answered; 2], Error> {
-        let mut scores = [Vec::new(), Vec::new()];
-        for prediction in &self.predictions {
-            let metrics = of_maps(self.ground_truth, prediction)?;
-            let mean = |names: [&str; 4]| {
-                let values =
-                    metrics.iter().filter(|metric| names.contains(&metric.name)).map(|metric| metric.value);
-                values.sum::<f64>() / 4.0
-            };
-            scores[0].push(mean([
-                "rmse_normal_stored",
-                "rmse_diffuse_srgb",
-                "rmse_specular_srgb",
-                "rmse_roughness",
-            ]));
-            // Larger is better.
-            scores[1].push(-mean([
-                "ssim11_gaussian_normal_stored",
-                "ssim11_gaussian_diffuse_srgb",
-                "ssim11_gaussian_specular_srgb",
-                "ssim11_gaussian_roughness",
-            ]));
-        }
-        let [rmse, ssim] = scores;
-        Ok([Answered::exact("RMSE of maps", rmse), Answered::exact("SSIM of maps", ssim)])
+    /// The measures of maps, each a mean over the four of them; those that maps of this size have.
+    fn maps(&self) -> Result<Vec<Answered>, Error> {
+        const RMSE: [&str; 4] =
+            ["rmse_normal_stored", "rmse_diffuse_srgb", "rmse_specular_srgb", "rmse_roughness"];
+        const SSIM: [&str; 4] = [
+            "ssim11_gaussian_normal_stored",
+            "ssim11_gaussian_diffuse_srgb",
+            "ssim11_gaussian_specular_srgb",
+            "ssim11_gaussian_roughness",
+        ];
+        let of_prediction = |prediction: &&Material<f32>| Ok(of_maps(self.ground_truth, prediction)?);
+        let all = self.predictions.iter().map(of_prediction).collect::<Result<Vec<_>, Error>>()?;
+        // Larger is better in SSIM.
+        let asked = [("RMSE of maps", RMSE, 0.25), ("SSIM of maps", SSIM, -0.25)];
+        let answer = |(question, names, factor): (&str, [&str; 4], f64)| {
+            let value =
+                |name: &str, of: &[Metric]| of.iter().find(|one| one.name == name).map(|one| one.value);
+            let score = |of: &Vec<Metric>| names.iter().map(|name| value(name, of)).sum::<Option<f64>>();
+            let scores: Option<Vec<f64>> = all.iter().map(score).collect();
+            scores
+                .map(|scores| Answered::exact(question, scores.iter().map(|score| factor * score).collect()))
+        };
+        Ok(asked.into_iter().filter_map(answer).collect())
     }
 
     /// FLIP of renderings under nine flashes.

@@ -135,11 +135,18 @@ fn a_renderer_that_writes_pictures_is_known_by_them() {
         };
         let (view, light) = (of("view"), of("light"));
         let maps = "--read workflow=specular,normal-y=up,albedo=linear";
-        let output = format!("-o probe/{number}/radiance.exr {maps}");
-        succeed(at, &format!("render probe/{number} --view={view} --light={light} {output}"));
+        for folder in ["probe", "display"] {
+            std::fs::create_dir_all(at.join(format!("{folder}/{number}"))).unwrap();
+            let output =
+                format!("-o {folder}/{number}/radiance.{}", if folder == "probe" { "exr" } else { "png" });
+            succeed(at, &format!("render probe/{number} --view={view} --light={light} {output} {maps}"));
+        }
     }
     let stdout = succeed(at, "conform probe --workflow diffuse");
     assert!(stdout.starts_with("The renderer conforms to `printed`."), "{stdout}");
-    let output = run_in(at, "conform probe --workflow diffuse --convention material-palette-2024");
-    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    // A picture for a screen, of 8 bits.
+    let output = run_in(at, "conform display --workflow diffuse");
+    let stdout = text(&output.stdout);
+    let expected = "As `printed`, but clip is [0, 1], not none and transfer is srgb, not linear.";
+    assert!(output.status.code() == Some(1) && stdout.starts_with(expected), "{output:?}");
 }

@@ -5,15 +5,15 @@ use std::path::Path;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use super::{data_set, fail, folder, json_of, rows_of, run_in, succeed, text, write_tiles};
+use super::{fail, folder, json_of, rows_of, run_in, succeed, text, write_material, write_tiles};
 
 const ROBUST: &str = "--robust --target-error 10%";
 
 #[track_caller]
 fn assert_survives(answer: &Value) {
-    let sentence = answer["sentence"].as_str().unwrap();
-    assert!(sentence.starts_with("near beats far by default, and no pair"), "{answer}");
     let questions = answer["questions"].as_array().unwrap();
+    let under_all = format!("near beats far under all {} questions.", questions.len());
+    assert_eq!(answer["sentence"], under_all, "{answer}");
     assert!(questions.len() > 18, "{answer}");
     let order = json!(["near", "far"]);
     assert!(questions.iter().all(|one| one["tau"] == 1.0 && one["order"] == order), "{answer}");
@@ -27,7 +27,13 @@ fn a_roughness_that_is_farther_off_is_so_under_every_question() {
 
 #[test]
 fn methods_are_compared_over_the_materials_that_all_have() {
-    let folder = data_set(&[("near", 8), ("far", 60)], 6);
+    let folder = tempfile::tempdir().unwrap();
+    for (name, more) in [("gt", 0), ("near", 8), ("far", 60)] {
+        std::fs::create_dir(folder.path().join(name)).unwrap();
+        for i in 0..6 {
+            write_material(&folder.path().join(format!("{name}/m{i}.png")), 8, 140 + 10 * i + more);
+        }
+    }
     std::fs::remove_file(folder.path().join("far/m2.png")).unwrap();
     let command = format!("rank --dataset gt near far {ROBUST}");
     let output = run_in(folder.path(), &format!("{command} --format json"));

@@ -88,7 +88,7 @@ impl RobustReport {
             tau: default.tau(answer),
             order: answer.order().into_iter().map(|index| names[index].to_owned()).collect(),
         };
-        let sentence = sentence(names, default, answers.len(), &changes);
+        let sentence = sentence(names, answers, &changes);
         let questions = answers.iter().map(question).collect();
         Self { compared, materials: Vec::new(), sentence, questions, changes }
     }
@@ -106,21 +106,26 @@ impl RobustReport {
 }
 
 /// The answer in a sentence.
-fn sentence(names: &[&str], default: &Answered, questions: usize, changes: &[Change]) -> String {
+fn sentence(names: &[&str], answers: &[Answered], changes: &[Change]) -> String {
+    let default = &answers[0];
     if let Some(change) = changes.first() {
         let (first, second) = (&change.first, &change.second);
         let of_pair = changes.iter().filter(|other| (&other.first, &other.second) == (first, second));
         let on = of_pair.map(|change| change.question.as_str()).collect::<Vec<_>>().join(", ");
         return format!("The order of {first} and {second} depends on the question: it changes under {on}.");
     }
-    match default.order()[..] {
-        [best, second, ..] if default.sign(best, second) < 0 => {
-            let (best, second) = (names[best], names[second]);
-            format!(
-                "{best} beats {second} by default, and no pair changes sides under any of {questions} questions."
-            )
+    let questions = answers.len();
+    let [best, second, ..] = default.order()[..] else {
+        return format!("No pair changes sides under any of {questions} questions.");
+    };
+    let under = answers.iter().filter(|answer| answer.sign(best, second) < 0).count();
+    let (best, second) = (names[best], names[second]);
+    match under {
+        0 => format!("No pair changes sides under any of {questions} questions."),
+        all if all == questions => format!("{best} beats {second} under all {questions} questions."),
+        some => {
+            format!("{best} beats {second} under {some} of {questions} questions, and no pair changes sides.")
         }
-        _ => format!("No pair changes sides under any of {questions} questions."),
     }
 }
 
@@ -187,9 +192,10 @@ mod tests {
         let usual = answered("printed", [0.1, 0.2, 0.4], 0.05);
         let found = report(&[usual, answered("epsilon 0.1", [0.12, 0.1, 0.4], 0.05)]);
         assert_eq!((found.changes.len(), found.questions[1].tau), (0, 1.0));
-        assert_eq!(
-            found.sentence,
-            "a beats b by default, and no pair changes sides under any of 2 questions."
-        );
+        assert_eq!(found.sentence, "a beats b under 1 of 2 questions, and no pair changes sides.");
+        let usual = answered("printed", [0.1, 0.2, 0.4], 0.05);
+        assert_eq!(report(&[usual.clone(), usual]).sentence, "a beats b under all 2 questions.");
+        let none = answered("printed", [0.1, 0.2, 0.4], 0.5);
+        assert_eq!(report(&[none]).sentence, "No pair changes sides under any of 1 questions.");
     }
 }

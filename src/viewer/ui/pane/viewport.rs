@@ -264,8 +264,13 @@ impl Viewport {
         if let Some(scale) = PaneScale::of(scenery, content) {
             scale.paint(&painter, rect);
         }
-        if gpu.reduction() > 1 {
-            paint_hint(&painter, rect, &reduced(gpu.reduction(), grid, gpu.gpu.report.max_texture_side as usize));
+        if let (2.., Some(one)) = (gpu.reduction(), scenery.materials.first()) {
+            let grid = one.grid();
+            paint_hint(
+                &painter,
+                rect,
+                &reduced(gpu.reduction(), grid, gpu.gpu.report.max_texture_side as usize),
+            );
         } else if let Some(text) = hint(scenery, self.pane_pixels()) {
             paint_hint(&painter, rect, text);
         }
@@ -381,22 +386,12 @@ fn placed(state: &ViewState, grid: Grid, rect: Rect, pixels: [f32; 2]) -> Placed
 /// The badge of a pane whose adapter has no room for all texels, of which it takes at most `limit` along a side.
 fn reduced(stride: usize, grid: Grid, limit: usize) -> String {
     let reason = match grid.width.max(grid.height) {
-        side if side > limit => format!("The adapter takes at most {limit} along a side, and these are {side}"),
+        side if side > limit => {
+            format!("The adapter takes at most {limit} along a side, and these are {side}")
+        }
         _ => "The adapter's memory is full".to_owned(),
     };
     format!("Reduced display: one of {stride} x {stride} texels. {reason}. Losses use all texels.")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_badge_tells_a_limit_of_the_adapter_from_a_lack_of_memory() {
-        let of = |width| reduced(2, Grid { width, height: 8 }, 16_384);
-        assert!(of(16_400).contains("at most 16384 along a side, and these are 16400"), "{}", of(16_400));
-        assert!(of(16_384).contains("memory is full"), "{}", of(16_384));
-    }
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.
@@ -410,4 +405,16 @@ fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<&'static str> {
     let steep = z > STEEP * (x * x + y * y + z * z).sqrt();
     let perspective = state.display.projection == Projection::Perspective;
     (perspective && steep).then_some("Perspective from straight above: right-drag to tilt")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_badge_tells_a_limit_of_the_adapter_from_a_lack_of_memory() {
+        let of = |width| reduced(2, Grid { width, height: 8 }, 16_384);
+        assert!(of(16_400).contains("at most 16384 along a side, and these are 16400"), "{}", of(16_400));
+        assert!(of(16_384).contains("memory is full"), "{}", of(16_384));
+    }
 }
