@@ -97,6 +97,11 @@ impl ViewArgs {
             Some(path) if Session::is_named(path) => materials.refuse_of_session(given)?,
             Some(_) => (),
         }
+        if is_dataset {
+            let reason = "the materials of a data set are not compared with a photograph";
+            given.refuse::<PhotoSceneArgs>(reason)?;
+            given.refuse::<PhotoReadingArgs>(reason)?;
+        }
         if self.photo.as_deref().is_some_and(Capture::is_named) {
             let reason = "a capture lists the lights and views of its photographs, and how they are read";
             given.refuse::<PhotoSceneArgs>(reason)?;

@@ -11,7 +11,7 @@ use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::generate;
 use svbrdf_files::scene_file::PhotographLight;
-use svbrdf_viewer::model::command::{MaterialsCommand, PhotographCommand, TrainingCommand};
+use svbrdf_viewer::model::command::{DatasetCommand, MaterialsCommand, PhotographCommand, TrainingCommand};
 
 use super::materials::{SIDE, materials, strip};
 use super::*;
@@ -154,6 +154,48 @@ fn training() {
     let known = |app: &App, slot| app.step_losses(slot).iter().all(Option::is_some);
     wait(&mut window, "the losses", |app| known(app, 1) && known(app, 2) && app.losses().is_some());
     write(&mut window, "training.jpg");
+}
+
+/// Nine materials with two methods: the sheet under one light, and the losses of the methods.
+#[test]
+#[ignore = "writes a picture in docs/assets"]
+fn the_picture_of_a_data_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let truth = generate::ground_truth();
+    let sets = [
+        ("gt", generate::pack(&truth)),
+        ("blurred normals", generate::pack(&generate::blurred_normals(&truth))),
+        ("wrong roughness", generate::pack(&generate::wrong_roughness(&truth))),
+    ];
+    for (name, pixels) in &sets {
+        std::fs::create_dir(folder.path().join(name)).unwrap();
+        for index in 0..9_u32 {
+            // Moved, and in other colours.
+            let picture = image::RgbImage::from_fn(4 * SIDE, SIDE, |x, y| {
+                let [tile, column] = [x / SIDE, (x + 37 * index) % SIDE];
+                let at = 3 * (4 * SIDE * ((y + 53 * index) % SIDE) + tile * SIDE + column) as usize;
+                let channel = |c: usize| pixels[at + if tile == 1 { (c + index as usize) % 3 } else { c }];
+                image::Rgb([channel(0), channel(1), channel(2)])
+            });
+            picture.save(folder.path().join(name).join(format!("tiles {index}.png"))).unwrap();
+        }
+    }
+    let mut window = built_in();
+    window.set_size(SIZE);
+    drop_files(&mut window, sets.each_ref().map(|(name, _)| folder.path().join(name)));
+    wait(&mut window, "all losses", |app| app.parts.jobs.dataset.losses.count() == 9);
+    tab(&mut window, "Methods");
+    click(&mut window, "Light and view");
+    window.key_press(egui::Key::S);
+    window.run_steps(4);
+    apply(&mut window, DatasetCommand::SetCell(142.0));
+    wait(&mut window, "the summary", |app| app.parts.jobs.dataset.summary.get().is_some());
+    let cell = svbrdf_viewer::jobs::dataset::cells::Cell { case: 4, column: 2 };
+    wait(&mut window, "the cells", |app| {
+        app.parts.jobs.dataset.sheet.get().is_some_and(|sheet| sheet.part(cell).is_some())
+    });
+    rest(&mut window, 40);
+    write(&mut window, "dataset.jpg");
 }
 
 /// A photograph of the ground truth from the side, on a gray table, and the corners of the material in it.

@@ -51,7 +51,7 @@ const GENERATED: [Generated; 12] = [
     },
     Generated {
         name: "pictures",
-        files: "docs/assets/{window,why,where,diagnosis,training,photograph}.jpg",
+        files: "docs/assets/{window,why,where,diagnosis,training,photograph,dataset}.jpg",
         script: "cargo test --package window-tests screenshots -- --ignored",
     },
     Generated {

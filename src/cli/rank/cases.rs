@@ -37,7 +37,7 @@ pub fn source(materials: &MaterialArgs, is_table: bool) -> Result<Source, Comman
     let given = wildcards::expanded(&materials.predictions)?;
     if given.is_empty() {
         return Err(CommandError::Usage(format!(
-            "there is no method to compare with {}; give one or more folders",
+            "--dataset: there is no method to compare with {}; give one or more folders",
             ground_truth.path.display()
         )));
     }
