@@ -109,9 +109,9 @@ def test_the_loss_is_that_of_the_kernel_and_a_changed_term_is_seen(convention: s
     ground_truth, prediction, _ = svbrdf.built_in()
     expected = svbrdf.loss(ground_truth, prediction, near=2, distant=2, convention=convention).results[0].loss
     scenes = svbrdf.sample_scenes(2, 2, convention=convention)
-    given = [tensors(m) for m in (prediction, ground_truth)]
+    got, truth = tensors(prediction), tensors(ground_truth)
     chosen = svbrdf.CONVENTIONS[convention]
-    assert sv.scene_losses(*given, scenes, chosen).mean().item() == pytest.approx(expected, rel=1e-6)
+    assert sv.scene_losses(got, truth, scenes, chosen).mean().item() == pytest.approx(expected, rel=1e-6)
     assert chosen.smith
     for changed in (
         replace(chosen.smith, is_weighted=not chosen.smith.is_weighted),
@@ -119,8 +119,8 @@ def test_the_loss_is_that_of_the_kernel_and_a_changed_term_is_seen(convention: s
         replace(chosen.smith, cosine_floor=0.05),
         replace(chosen.smith, intensity_distant=1.0),
     ):
-        got = sv.scene_losses(*given, scenes, replace(chosen, smith=changed)).mean().item()
-        assert got != pytest.approx(expected, rel=1e-5), changed
+        other = sv.scene_losses(got, truth, scenes, replace(chosen, smith=changed)).mean().item()
+        assert other != pytest.approx(expected, rel=1e-5), changed
 
 
 @pytest.mark.parametrize("precision", ["f64", "f32"])

@@ -17,7 +17,8 @@ pub enum Error {
 
     /// A convention whose renderer or norm something does not have.
     #[error(
-        "{what} has not the renderer or the norm of the convention {convention}; compute it on the processor, where all are"
+        "{what} does not have the renderer or the norm of the convention {convention}; choose another convention, or compute \
+        the loss on the processor"
     )]
     NotComputed { what: &'static str, convention: &'static str },
 

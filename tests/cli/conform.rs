@@ -98,7 +98,7 @@ fn a_convention_is_printed_as_it_is_read() {
 }
 
 #[test]
-fn a_loss_takes_a_convention_of_the_grammar_and_shaders_refuse_it() {
+fn a_loss_and_a_page_take_any_convention_of_the_grammar() {
     let folder = folder();
     let loss = |args: &str| -> f64 {
         let text =
@@ -113,8 +113,14 @@ fn a_loss_takes_a_convention_of_the_grammar_and_shaders_refuse_it() {
     assert!(printed > 0.0 && other > 0.0 && printed != other && mine != other, "{printed}, {other}, {mine}");
     let text = succeed(folder.path(), "loss gt.png a.png --near 2 --convention material-palette-2024");
     assert!(text.contains("convention material-palette-2024, epsilon 0.1"), "{text}");
-    let stderr = fail(folder.path(), "report gt.png a.png -o r.html --convention matfuse-2024", 1);
-    assert!(stderr.contains("matfuse-2024 is rendered on the processor only"), "{stderr}");
+    succeed(folder.path(), "report gt.png a.png -o r.html --convention mine.toml");
+    let page = std::fs::read_to_string(folder.path().join("r.html")).unwrap();
+    assert!(page.contains("vh_min") && !page.contains("light_z_floor"), "the page has another shader");
+    let stderr = fail(folder.path(), "map gt.png a.png -o m.png --near 2 --convention matfuse-2024", 1);
+    assert!(
+        stderr.contains("does not have the renderer or the norm of the convention matfuse-2024"),
+        "{stderr}"
+    );
 }
 
 #[test]

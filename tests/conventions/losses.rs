@@ -4,10 +4,13 @@ use glam::DVec3;
 use svbrdf::{Comparison, Convention, Progress, Request, built_in};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, base_and_metallic};
+use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::grammar::words::{Maps, Norm};
 use svbrdf_core::model::grammar::{Description, Point, RendererTerms};
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::model::terms::Terms;
+use svbrdf_core::render::texel_terms;
 
 fn scenes() -> Vec<Scene> {
     vec![
@@ -96,6 +99,35 @@ fn the_grammar_renders_the_four_as_algorithm_3_does() {
         assert_eq!(own.scenes, member.scenes, "{}", described.name);
         let [own, member] = [own, member].map(|outcome| outcome.losses[0].estimate.mean);
         assert!((own / member - 1.0).abs() < 1e-9, "{}: {own} and {member}", described.name);
+    }
+}
+
+/// The terms that the window shows of a pinned texel: by the grammar those of Algorithm 3, where the renderer is that.
+#[test]
+fn the_terms_of_a_texel_are_those_of_its_renderer() {
+    let materials = built_in::<f64>().unwrap();
+    let material = &materials.ground_truth.material;
+    let of = |convention: &Convention, place: [usize; 2], scene: &Scene| {
+        let texel = material.texel(place[1] * material.width() + place[0]);
+        texel_terms(&texel, material.grid(), &Model::from(convention), &scene.rays(), place)
+    };
+    let numbers = |terms: &Terms<f64>| {
+        let Terms { n_dot_l, n_dot_v, n_dot_h, v_dot_h, d, g, f, radiance } = *terms;
+        [[n_dot_l, n_dot_v, n_dot_h], [v_dot_h, d, g], f, radiance].concat()
+    };
+    let off = |a: &Terms<f64>, b: &Terms<f64>| {
+        let pairs = numbers(a).into_iter().zip(numbers(b));
+        pairs.map(|(a, b)| (a - b).abs() / b.abs().max(1e-3)).fold(0.0, f64::max)
+    };
+    for described in &named::all()[..4] {
+        let renamed = Description { name: "renamed".to_owned(), ..described.clone() };
+        let [own, member] = [described, &renamed].map(|one| Convention::try_from(one).unwrap());
+        let smith: Convention = "svbrdf-estimation-2022".parse().unwrap();
+        for (scene, place) in scenes().iter().zip([[30, 50], [200, 111]]) {
+            let expected = of(&own, place, scene);
+            assert!(off(&of(&member, place, scene), &expected) < 1e-9, "{}", described.name);
+            assert!(off(&of(&smith, place, scene), &expected) > 1e-3, "another renderer is not seen");
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The loss over texels, and over scenes.
 
+use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::Material;
@@ -55,6 +56,32 @@ fn every_texel_of_the_error_map_is_its_mean_log_difference() {
         faulty.pixels.swap(3000, 3001);
         assert!(off(&faulty) > ERROR_MAP_TEXEL, "two swapped texels are not seen");
     }
+}
+
+#[test]
+fn the_error_map_of_other_renderers_is_theirs() {
+    let [truth, _, rough] = built_in();
+    let [truth, rough] = [truth, rough].map(|material| material.resized([37, 20]).unwrap());
+    for name in ["svbrdf-estimation-2022", "material-palette-2024", "gltf-viewer"] {
+        let convention = name.parse().unwrap();
+        let comparison = Comparison::new(&truth, &[&rough], convention).unwrap();
+        let scenes = Sampling { near: 6, distant: 3, ..Sampling::default() }.scenes(&convention).unwrap();
+        let map = error_maps(&comparison, &scenes, &Progress::default()).unwrap().remove(0);
+        let expected = by_definition(&comparison, &scenes);
+        let off = |map: &Image<f32>| {
+            let pairs = map.pixels.as_flattened().iter().zip(expected.as_flattened());
+            pairs.map(|(found, expected)| (f64::from(*found) - expected).abs()).fold(0.0, f64::max)
+        };
+        println!("{name}: off by {:e}", off(&map));
+        assert!(off(&map) < ERROR_MAP_TEXEL, "{name}: {:e}", off(&map));
+        let other = Comparison::new(&truth, &[&rough], printed()).unwrap();
+        let other = error_maps(&other, &scenes, &Progress::default()).unwrap().remove(0);
+        assert!(off(&other) > ERROR_MAP_TEXEL, "{name}: another convention is not seen");
+    }
+    let squared = Comparison::new(&truth, &[&rough], "matfuse-2024".parse().unwrap()).unwrap();
+    let refused =
+        error_maps(&squared, &Sampling::default().scenes(&printed()).unwrap(), &Progress::default());
+    assert!(matches!(refused, Err(Error::NotComputed { .. })));
 }
 
 #[test]

@@ -79,6 +79,38 @@ impl<T: Real> Backend<T> for Plain {
     }
 }
 
+/// For each prediction the mean of the log differences of each texel and channel over `scenes`. A row is one step of `progress`.
+///
+/// # Errors
+/// [`Error::Cancelled`].
+pub(super) fn texel_means(
+    comparison: &Comparison<'_, f32>,
+    scenes: &[Scene],
+    progress: &Progress,
+) -> Result<Vec<Vec<[f32; 3]>>, Error> {
+    let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
+    let (model, epsilon) = (Model::from(comparison.convention()), comparison.convention().epsilon);
+    let rays: Vec<_> = scenes.iter().map(Scene::rays).collect();
+    let mean = |prediction: &Material<f32>, column: usize, row: usize| {
+        let mut sums = [0.0; 3];
+        for rays in &rays {
+            let [a, b] = [ground_truth, prediction]
+                .map(|m| render_texel(m, &model, rays, column, row).map(|x| (f64::from(x) + epsilon).ln()));
+            (0..3).for_each(|c| sums[c] += (a[c] - b[c]).abs());
+        }
+        sums.map(|sum| (sum / scenes.len() as f64) as f32)
+    };
+    progress.begin((ground_truth.height() * predictions.len()) as u64);
+    let of = |prediction: &&Material<f32>| {
+        let rows = (0..ground_truth.height()).into_par_iter().map(|row| {
+            progress.step()?;
+            Ok((0..ground_truth.width()).map(|column| mean(prediction, column, row)).collect::<Vec<_>>())
+        });
+        rows.collect::<Result<Vec<_>, Error>>().map(|rows| rows.concat())
+    };
+    predictions.iter().map(of).collect()
+}
+
 /// For each prediction the sum of the differences of what `log_radiance` gives over `texels` and RGB.
 fn block_sums<T: Real>(
     ground_truth: &Material<T>,

@@ -18,7 +18,7 @@ mod texel_means;
 use rayon::prelude::*;
 
 use super::comparison::{Backend, Comparison, Compute, by_prediction};
-use super::plain::Plain;
+use super::plain::{self, Plain};
 use crate::error::Error;
 use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
@@ -47,16 +47,19 @@ impl Fused {
     /// usable. A block of texels is one step of `progress`.
     ///
     /// # Errors
-    /// [`Error::Cancelled`]; [`Error::NotComputed`] where the kernel does not have the renderer, or the norm is not log L1.
+    /// [`Error::Cancelled`]; [`Error::NotComputed`] where the norm is not log L1.
     pub fn texel_means(
         &self,
         comparison: &Comparison<'_, f32>,
         scenes: &[Scene],
         progress: &Progress,
     ) -> Result<Vec<Vec<[f32; 3]>>, Error> {
-        let kernel = kernel(comparison)
-            .filter(|kernel| kernel.norm == Norm::LogL1)
-            .ok_or_else(|| Error::not_by("the mean of each texel", comparison.convention().name))?;
+        if comparison.convention().norm() != Norm::LogL1 {
+            return Err(Error::not_by("the mean of each texel", comparison.convention().name));
+        }
+        let Some(kernel) = kernel(comparison) else {
+            return plain::texel_means(comparison, scenes, progress);
+        };
         let level = self.level.unwrap_or_else(Level::best);
         let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
         let inputs = LossInputs::new(ground_truth, predictions, None, kernel);
