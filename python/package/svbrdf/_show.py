@@ -41,8 +41,8 @@ def show(
         predictions: One or several materials or paths.
         scene: The light and the view that the window starts with.
         convention: A name of `svbrdf.CONVENTIONS`.
-        dataset: Whether `ground_truth` is a folder of ground truths, and each of `predictions` the folder of a method, as for
-            `svbrdf.rank_dataset`. Then `scene` and `convention` are chosen in the window.
+        dataset: Whether `ground_truth` is a folder of ground truths, and each of `predictions` the folder of a method,
+            as for `svbrdf.rank_dataset`. Then `scene` and `convention` are chosen in the window.
         results: The folder of losses of a data set that are known, to which the others are added.
         wait: Whether to return only when the window is closed.
 
