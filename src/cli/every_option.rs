@@ -13,7 +13,7 @@ use super::output::CommandError;
 use super::{Cli, Subcommands};
 
 /// The subcommands with arguments that select a mode; options are added to these. `@` stands for the folder of the fixture.
-const MODES: [&str; 57] = [
+const MODES: [&str; 59] = [
     "loss @gt.png @a.png",
     "loss @gt.png @a.png --near 4 --sampler sobol",
     "loss @gt.png @a.png --target-error 30%",
@@ -33,6 +33,8 @@ const MODES: [&str; 57] = [
     "strip @gt.png @a.png -o @x.png --columns normal,diffuse,roughness,specular,diffuse:",
     "strip @gt.png @a.png -o @x.png --columns rendering",
     "strip @gt.png @a.png -o @x.png --lights hemisphere",
+    "strip --dataset @set/gt @set/ours -o @x.png",
+    "strip --dataset @set/gt @set/ours -o @x.png --columns roughness:",
     "report @gt.png @a.png -o @x.html",
     "report @gt.png @a.png -o @x.html --figure",
     "report @gt.png -o @x.html",

@@ -22,6 +22,7 @@ mod render;
 mod report;
 mod schema;
 mod strip;
+mod strip_methods;
 mod study;
 mod version;
 mod view;

@@ -14,7 +14,7 @@ use svbrdf_files::export::GAP;
 use svbrdf_files::export::strip::HEADER;
 use svbrdf_files::samples;
 
-use super::{assert_has, assert_holds, assert_refused, folder, succeed};
+use super::{assert_has, assert_holds, assert_refused, data_set, folder, succeed};
 use crate::support::losses::losses;
 
 /// The built-in materials as `render` shows them: side by side.
@@ -237,4 +237,36 @@ fn a_strip_has_a_column_for_each_scene_and_says_what_it_shows() {
     ] {
         assert_refused(folder.path(), &[(&args, code, words)]);
     }
+}
+
+#[test]
+fn a_figure_of_a_data_set_has_a_row_a_material_and_a_column_a_method_with_the_losses_of_rank() {
+    let folder = data_set(&[("ours", 3), ("theirs", 60)], 3);
+    let at = folder.path();
+    std::fs::remove_file(at.join("theirs/m1.png")).unwrap();
+    let reading = "--read albedo=linear,roughness=r,normal-y=up,order=ndrs";
+    succeed(at, &format!("strip --dataset gt ours theirs {reading} -o plain.png"));
+    let size = |name: &str| image::image_dimensions(at.join(name)).unwrap();
+    let plain = size("plain.png");
+    assert!(plain.0 > 3 * 192 && plain.1 > 3 * 192, "{plain:?}");
+    succeed(at, &format!("strip --dataset gt ours theirs {reading} --results kept -o losses.png"));
+    let picture = |name: &str| image::open(at.join(name)).unwrap().to_rgb8();
+    assert!(size("losses.png") == plain && picture("losses.png") != picture("plain.png"), "no losses");
+    // They are in the folder under the keys of rank: it computes none.
+    let files = || std::fs::read_dir(at.join("kept")).unwrap().count();
+    assert_eq!(files(), 5);
+    succeed(at, &format!("rank --dataset gt ours theirs {reading} --results kept"));
+    assert_eq!(files(), 5);
+    assert_holds(at, "losses.png", &["ground truth | ours | theirs", "m0 | m1 | m2"]);
+    // A planted fault: methods that changed places.
+    succeed(at, &format!("strip --dataset gt theirs ours {reading} -o swapped.png"));
+    assert!(picture("swapped.png") != picture("plain.png"));
+    assert_refused(
+        at,
+        &[
+            ("strip --dataset gt ours -o x.png --columns normal,diffuse", 64, "one of --columns"),
+            ("strip --dataset gt ours -o x.png --crop 1,1,2,2", 64, "leave out --crop"),
+            ("strip gt/m0.png ours/m0.png -o x.png --results kept", 64, "--dataset"),
+        ],
+    );
 }

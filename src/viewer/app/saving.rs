@@ -47,6 +47,7 @@ pub(super) fn save_file(
         (SaveKind::Report, _) => report::start(displayed, path),
         (SaveKind::Session, _) => saving::session(displayed, path),
         (SaveKind::Scenes, _) => saving::scenes(displayed, path),
+        (SaveKind::Sheet, _) => saving::sheet(displayed, parts.ui.dataset.listed().to_vec(), path),
         (SaveKind::Materials, _) => {
             saving::materials_csv(displayed, parts.ui.dataset.listed().to_vec(), path)
         }

@@ -3,6 +3,7 @@
 mod column;
 mod crop;
 mod legend;
+mod methods;
 mod sheet;
 
 use svbrdf_core::image::Image;
@@ -12,6 +13,7 @@ use svbrdf_core::progress::Progress;
 
 pub use column::Column;
 pub use crop::Crop;
+pub use methods::{MethodRow, MethodStrip};
 pub use sheet::{GAP, HEADER};
 
 use super::text::{self, Anchor};

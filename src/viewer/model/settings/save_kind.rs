@@ -29,14 +29,19 @@ pub enum SaveKind {
     Session,
     /// The scenes of the loss of the chosen prediction, as `svbrdf scenes` writes.
     Scenes,
+    /// The contact sheet of a data set, as `svbrdf strip --dataset` writes.
+    Sheet,
     /// The list of materials of a data set, with marks, notes and losses.
     Materials,
 }
 
 impl SaveKind {
-    /// The kinds of a single comparison; a data set has [`SaveKind::Materials`], too.
+    /// The kinds of a single comparison.
     pub const ALL: [Self; 6] =
         [Self::View, Self::Renderings, Self::Strip, Self::Report, Self::Session, Self::Scenes];
+
+    /// Those of a data set beside them.
+    pub const OF_DATASET: [Self; 2] = [Self::Sheet, Self::Materials];
 
     /// The label of its button.
     pub fn name(self) -> &'static str {
@@ -47,6 +52,7 @@ impl SaveKind {
             Self::Report => "Report",
             Self::Session => "Session",
             Self::Scenes => "Scenes",
+            Self::Sheet => "Sheet",
             Self::Materials => "List",
         }
     }
@@ -78,6 +84,10 @@ impl SaveKind {
                 "The scenes that the tab Why lists for the chosen prediction, worst first, with their losses. Open takes \
                  them as the scenes of the loss, and so does --scenes of `svbrdf`."
             }
+            Self::Sheet => {
+                "A labelled figure: the materials that are listed in rows, the ground truth and all methods in columns, \
+                 under the present light, with their losses; the same as `svbrdf strip --dataset` writes."
+            }
             Self::Materials => {
                 "The materials that are listed, in their order, as CSV: mark, note and the loss of each method."
             }
@@ -93,6 +103,7 @@ impl SaveKind {
             Self::Report => "svbrdf-report.html",
             Self::Session => "comparison.svbrdf-session.json",
             Self::Scenes => "scenes.json",
+            Self::Sheet => "sheet.png",
             Self::Materials => "materials.csv",
         }
     }

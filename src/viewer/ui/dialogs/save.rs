@@ -122,13 +122,13 @@ impl SaveDialog {
     /// What is saved; a name that was proposed follows.
     fn choice(&mut self, ui: &mut egui::Ui) {
         ui.horizontal(|ui| {
-            let of_dataset = self.has_dataset.then_some(SaveKind::Materials);
+            let of_dataset = SaveKind::OF_DATASET.into_iter().filter(|_| self.has_dataset);
             for what in SaveKind::ALL.into_iter().chain(of_dataset) {
                 let button = ui.selectable_label(self.what == what, what.name());
                 if button.on_hover_text(what.explanation()).clicked() {
                     if SaveKind::ALL
                         .iter()
-                        .chain(&[SaveKind::Materials])
+                        .chain(&SaveKind::OF_DATASET)
                         .any(|kind| kind.proposal() == self.path)
                     {
                         self.path = what.proposal().to_owned();

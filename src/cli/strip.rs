@@ -10,13 +10,14 @@ use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::PngDestination;
 use svbrdf_files::export::strip::{Column, Crop, Strip};
 
-use super::args::scenes::{Lights, ListArgs, RenderingArgs};
-use super::args::values::Range;
-use super::args::{ComparisonArgs, Given, refuse};
-use super::job::{ComparisonJob, Job, MaterialJob, NewJob, SessionSettings};
-use super::output::stop::stoppable;
-use super::output::{CommandError, watched};
-use super::render::difference_of;
+use crate::cli::args::scenes::{Lights, ListArgs, RenderingArgs};
+use crate::cli::args::values::Range;
+use crate::cli::args::{ComparisonArgs, Given, refuse};
+use crate::cli::job::{ComparisonJob, Job, MaterialJob, NewJob, SessionSettings};
+use crate::cli::output::stop::stoppable;
+use crate::cli::output::{CommandError, watched};
+use crate::cli::render::difference_of;
+use crate::cli::strip_methods;
 
 /// Writes a labelled figure: a row per material, a column per map, rendering or difference
 ///
@@ -35,14 +36,18 @@ pub struct StripArgs {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
+    /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method: a row for each material, a column for each
+    /// method, all of one of --columns
+    #[arg(long, requires = "ground_truth")]
+    dataset: bool,
+
+    #[command(flatten)]
+    of_data_set: OfDataSetArgs,
+
     /// Columns: rendering, normal, diffuse, specular, roughness; with a colon and a kind, or a colon alone, differences:
     /// rendering:log, normal:; of a session, the difference that was chosen in its window
-    #[arg(
-        long,
-        value_name = "COLUMN,...",
-        value_delimiter = ',',
-        default_value = "normal,diffuse,roughness,specular,rendering,rendering:"
-    )]
+    /// [default: normal,diffuse,roughness,specular,rendering,rendering:; with --dataset: rendering]
+    #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     columns: Vec<String>,
 
     #[command(flatten)]
@@ -65,6 +70,18 @@ pub struct StripArgs {
     comparison: ComparisonArgs,
 }
 
+/// The columns where none are specified, of a data set and of materials.
+const OF_DATA_SET: [&str; 1] = ["rendering"];
+const OF_MATERIALS: [&str; 6] = ["normal", "diffuse", "roughness", "specular", "rendering", "rendering:"];
+
+/// What the figure of a data set has beside that of materials.
+#[derive(Debug, clap::Args)]
+struct OfDataSetArgs {
+    /// Writes the loss of each prediction of a data set below its cell: those in this folder, to which the others are added
+    #[arg(long, value_name = "DIR", requires = "dataset")]
+    results: Option<PathBuf>,
+}
+
 #[derive(Debug)]
 struct StripJob {
     materials: MaterialJob,
@@ -74,11 +91,37 @@ struct StripJob {
 }
 
 impl StripArgs {
-    pub fn job(self, given: &Given) -> NewJob {
+    pub fn job(mut self, given: &Given) -> NewJob {
         let destination = PngDestination::new(&self.output)?;
+        if self.columns.is_empty() {
+            let columns: &[&str] = if self.dataset { &OF_DATA_SET } else { &OF_MATERIALS };
+            self.columns = columns.iter().map(|column| (*column).to_owned()).collect();
+        }
+        if self.dataset {
+            refuse(
+                !self.crops.is_empty(),
+                "crop",
+                "materials of a data set have unlike sizes, and no crops",
+            )?;
+            let columns = columns(&self, None)?;
+            self.refuse_unused(&columns, given)?;
+            let (exposure, results) = (self.rendering.exposure, self.of_data_set.results);
+            return strip_methods::job(&self.comparison, &columns, exposure, results, self.output);
+        }
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         let session = comparison.session.as_ref();
         let columns = columns(&self, session)?;
+        self.refuse_unused(&columns, given)?;
+        let saved = session.map(|session| session.exposure_ev);
+        let exposure_ev = self.rendering.exposure.or(saved).unwrap_or(0.0);
+        let strip = Strip { columns, convention: comparison.convention, exposure_ev, crops: self.crops };
+        Ok(Box::new(StripJob { materials: comparison.materials, output: self.output, destination, strip }))
+    }
+}
+
+impl StripArgs {
+    /// Refuses what none of the columns uses.
+    fn refuse_unused(&self, columns: &[Column], given: &Given) -> Result<(), CommandError> {
         if columns.iter().all(|column| column.content.quantity != Quantity::Rendering) {
             let reason =
                 "maps have no light, no view, no exposure and no convention, and no column is a rendering";
@@ -87,11 +130,7 @@ impl StripArgs {
             refuse(self.comparison.convention.is_some(), "convention", reason)?;
         }
         let has_difference = columns.iter().any(|column| column.content.difference.is_some());
-        refuse(self.range.is_some() && !has_difference, "range", "no column is a difference")?;
-        let saved = session.map(|session| session.exposure_ev);
-        let exposure_ev = self.rendering.exposure.or(saved).unwrap_or(0.0);
-        let strip = Strip { columns, convention: comparison.convention, exposure_ev, crops: self.crops };
-        Ok(Box::new(StripJob { materials: comparison.materials, output: self.output, destination, strip }))
+        refuse(self.range.is_some() && !has_difference, "range", "no column is a difference")
     }
 }
 

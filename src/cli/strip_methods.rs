@@ -1,0 +1,137 @@
+//! The figure of a data set: materials in rows, methods in columns.
+
+use std::path::PathBuf;
+
+use svbrdf_core::loss::check_same_size;
+use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::dataset::{
+    self, Case, DatasetReading, DatasetResults, DatasetSettings, MaterialResult, Pick, counted_loss,
+};
+use svbrdf_files::disk::inputs::check_output_of;
+use svbrdf_files::export::PngDestination;
+use svbrdf_files::export::strip::{Column, MethodRow, MethodStrip};
+use svbrdf_files::read::{self, ReadOptions};
+
+use crate::cli::args::{ComparisonArgs, refuse};
+use crate::cli::job::{Job, NewJob};
+use crate::cli::output::stop::stoppable;
+use crate::cli::output::{CommandError, exit, watched_on};
+use crate::cli::rank::cases;
+
+/// Longest side of a cell, in pixels.
+const SIDE: usize = 192;
+/// Half of the 95% interval of each loss below a cell, as a share of it: that of `svbrdf rank`.
+const TARGET_ERROR: f64 = 0.01;
+
+#[derive(Debug)]
+pub struct MethodsJob {
+    settings: DatasetSettings,
+    reading: DatasetReading,
+    cases: Vec<Case>,
+    results: Option<PathBuf>,
+    output: PathBuf,
+    destination: PngDestination,
+    strip: MethodStrip,
+}
+
+/// The job of the figure of a data set, which shows one column in each cell.
+pub fn job(
+    comparison: &ComparisonArgs,
+    columns: &[Column],
+    exposure_ev: Option<f32>,
+    results: Option<PathBuf>,
+    output: PathBuf,
+) -> NewJob {
+    let destination = PngDestination::new(&output)?;
+    let given = &comparison.materials.reading;
+    let reason =
+        "a figure tells what cannot be read, and `svbrdf rank --dataset --verbose` all that is noticed";
+    refuse(given.both.verbose, "verbose", reason)?;
+    let reason = "materials of a data set are averaged to one size";
+    refuse(given.resize_to.is_some(), "resize-to", reason)?;
+    let [column] = columns else {
+        return Err(CommandError::usage(
+            "a figure of methods shows one thing in one scene; give one of --columns, such as rendering or rendering:log",
+        ));
+    };
+    let source = cases::source(&comparison.materials, false)?;
+    let cases = source.cases()?;
+    let convention = comparison.convention.unwrap_or_default();
+    let settings = DatasetSettings::new(source, convention.name, TARGET_ERROR, 0, &cases);
+    let reading = cases::reading(given, &settings.methods)?;
+    let mut content = column.content;
+    if let Some(difference) = &mut content.difference {
+        difference.range = Some(difference.range.unwrap_or_else(|| difference.kind.default_range()));
+    }
+    let strip = MethodStrip { content, scene: column.scene, convention, exposure_ev, side: SIDE };
+    Ok(Box::new(MethodsJob { settings, reading, cases, results, output, destination, strip }))
+}
+
+/// Reads the materials, looks up or computes the losses where they are asked for, and writes the figure.
+impl Job for MethodsJob {
+    fn run(self: Box<Self>) -> Result<(), CommandError> {
+        let predictions = self.cases.iter().flat_map(|case| case.candidates.iter().map(|one| &one.path));
+        check_output_of(&self.output, self.cases.iter().map(|case| &case.ground_truth).chain(predictions))?;
+        stoppable(|progress| self.write(progress))
+    }
+}
+
+impl MethodsJob {
+    fn write(&self, progress: &Progress) -> Result<(), CommandError> {
+        let Self { settings, reading, cases, results, strip, destination, .. } = self;
+        let losses = match results {
+            None => Vec::new(),
+            Some(folder) => {
+                let DatasetResults { results, notes } =
+                    watched_on(progress, "comparing materials", |progress| {
+                        dataset::run(cases, settings, reading, Some(folder), progress)
+                    })?;
+                notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
+                results
+            }
+        };
+        let (methods, materials) = (&settings.methods, &settings.materials);
+        let row = |index: usize| self.row(&cases[index], losses.get(index));
+        let picture =
+            watched_on(progress, "rendering", |progress| strip.picture(methods, materials, row, progress))?;
+        Ok(destination.write(&picture, &strip.entries(methods, materials), progress)?)
+    }
+
+    /// A row; what cannot be read is told, and missing in the figure.
+    fn row(&self, case: &Case, losses: Option<&MaterialResult>) -> MethodRow {
+        let open = |path: &PathBuf, options: &ReadOptions| -> Option<Material<f32>> {
+            let read = read::read::<f32>(path, options, &Progress::default());
+            let read = read.map_err(|problem| exit::tell(&format!("note: {problem}"))).ok()?;
+            Some(read.material)
+        };
+        let truth = open(&case.ground_truth, &self.reading.ground_truths);
+        let prediction = |method: &String| {
+            let one = case.candidates.iter().find(|one| one.method == *method)?;
+            match &one.missing {
+                Some(problem) => {
+                    exit::tell(&format!("note: {}, {method}: {problem}", case.material));
+                    None
+                }
+                None => open(&one.path, self.reading.of_method(method)),
+            }
+        };
+        let text = |losses: &MaterialResult, method: &String| {
+            counted_loss(losses, method, Pick::Fixed)
+                .map_or_else(String::new, |known| format!("{:.3}", known.loss))
+        };
+        let methods = &self.settings.methods;
+        let texts = losses.map(|losses| {
+            std::iter::once(String::new()).chain(methods.iter().map(|method| text(losses, method))).collect()
+        });
+        let mut materials: Vec<Option<Material<f32>>> = methods.iter().map(prediction).collect();
+        for (one, method) in materials.iter().zip(methods) {
+            let pair = truth.as_ref().zip(one.as_ref());
+            if let Some(Err(problem)) = pair.map(|(truth, one)| check_same_size(truth, one)) {
+                exit::tell(&format!("note: {}, {method}: {problem}", case.material));
+            }
+        }
+        materials.insert(0, truth);
+        MethodRow { materials, texts: texts.unwrap_or_default() }
+    }
+}
