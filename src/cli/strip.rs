@@ -117,9 +117,7 @@ impl StripArgs {
         let strip = Strip { columns, convention: comparison.convention, exposure_ev, crops: self.crops };
         Ok(Box::new(StripJob { materials: comparison.materials, output: self.output, destination, strip }))
     }
-}
 
-impl StripArgs {
     /// Refuses what none of the columns uses.
     fn refuse_unused(&self, columns: &[Column], given: &Given) -> Result<(), CommandError> {
         if columns.iter().all(|column| column.content.quantity != Quantity::Rendering) {

@@ -259,6 +259,15 @@ fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_i
     });
     assert_eq!(loss(&window, 0, 1), None);
     assert!(has(&window, "theirs: "));
+    // Watched files are read again with their losses, without a key.
+    apply(&mut window, svbrdf_viewer::model::command::MaterialsCommand::SetWatch(true));
+    rest(&mut window, 20);
+    let before = loss(&window, 0, 0).unwrap();
+    std::fs::copy(all[0].join("a.png"), all[1].join("a.png")).unwrap();
+    wait(&mut window, "the loss of what was written", |app| {
+        let now = app.parts.jobs.dataset.losses.row(0).and_then(|row| row.by_method[0]);
+        now.is_some_and(|now| now != before && now.loss == 0.0)
+    });
 }
 
 #[needs(adapter)]
@@ -275,4 +284,17 @@ fn a_data_set_is_opened_in_the_window_and_closed_by_another_comparison() {
     apply(&mut window, svbrdf_viewer::model::command::MaterialsCommand::OpenBuiltIn);
     wait(&mut window, "the built-in materials", |app| app.names()[0] == "worn tiles");
     assert!(!has(&window, "Tab Methods"));
+}
+
+#[needs(adapter)]
+#[test]
+fn a_results_folder_that_cannot_be_used_is_told_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let results = folder.path().join("a file");
+    std::fs::write(&results, "").unwrap();
+    let mut window = on_dataset(&dataset(folders(folder.path()), Some(results)));
+    wait(&mut window, "the message", |app| !app.messages().is_empty());
+    rest(&mut window, 20);
+    let messages = window.state().messages();
+    assert!(messages.len() == 1 && messages[0].contains("a file"), "{messages:?}");
 }

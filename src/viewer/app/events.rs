@@ -68,6 +68,12 @@ fn report_problems(parts: &mut Parts, problems: Vec<MaterialProblem>) {
 /// Reads files that have changed again, and marks materials whose files are gone.
 fn follow_files(parts: &mut Parts) {
     for (index, change) in parts.jobs.watch.poll(&parts.jobs.waker, &parts.model.materials) {
+        if let (Some(case), FileChange::Changed) = (parts.model.dataset.shown, &change) {
+            // With its losses, all of it in one frame.
+            parts.model.dataset.is_stale = true;
+            dataset::read_again(parts, case);
+            continue;
+        }
         let material = &mut parts.model.materials.all[index];
         match change {
             FileChange::Changed => {

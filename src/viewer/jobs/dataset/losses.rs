@@ -31,6 +31,8 @@ pub struct DatasetLosses {
     /// What is computed first.
     first: Arc<Mutex<Vec<usize>>>,
     job: Option<Job<(), Update>>,
+    /// Whether the last job has failed, which is not tried again by itself.
+    has_failed: bool,
     /// What a user should know about the results folder.
     pub notes: Vec<String>,
 }
@@ -66,7 +68,7 @@ impl DatasetLosses {
         if let Some(result) = self.results.get_mut(case) {
             (*result, self.rows[case]) = (None, None);
             self.generation += 1;
-            self.job = None;
+            (self.job, self.has_failed) = (None, false);
         }
     }
 
@@ -88,7 +90,7 @@ impl DatasetLosses {
         let error = self.take(open);
         let missing: Vec<usize> =
             (0..self.results.len()).filter(|case| self.results[*case].is_none()).collect();
-        if self.job.is_none() && error.is_none() && !missing.is_empty() {
+        if self.job.is_none() && !self.has_failed && !missing.is_empty() {
             let work =
                 LossesWork { settings: self.settings(open), open: open.clone(), first: self.first.clone() };
             let progress = Progress::default();
@@ -108,10 +110,7 @@ impl DatasetLosses {
             }
         }
         let error = ended?.err();
-        if error.is_none() {
-            self.job = None;
-        }
-        // What fails is not tried again in every frame: the job stays, and has nothing to say any more.
+        (self.job, self.has_failed) = (None, error.is_some());
         error.filter(|error| !error.is_cancelled())
     }
 

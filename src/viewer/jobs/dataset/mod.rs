@@ -63,7 +63,7 @@ impl DatasetJobs {
             return Vec::new();
         };
         if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, open)) {
-            *self = Self { of: Some(open.clone()), ..Self::default() };
+            *self = Self { opening: self.opening.take(), of: Some(open.clone()), ..Self::default() };
         }
         let wanted: Vec<usize> =
             std::iter::once(model.dataset.wanted).chain(model.dataset.ahead.iter().copied()).collect();
