@@ -69,6 +69,9 @@ fn a_saved_strip_is_that_of_the_session_and_has_the_rectangle_as_a_crop() {
     assert!(file_contains(&cropped, "40,60,32,20"));
 }
 
+/// Height of the caption of a saved view, in points.
+const CAPTION: u32 = 20;
+
 #[needs(adapter)]
 #[test]
 fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
@@ -83,10 +86,16 @@ fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
     apply(&mut window, WindowCommand::ShowSave(false));
     let size = window.state().picture_size();
     let path = folder.path().join("view.png");
-    save(&mut window, SaveKind::View, &path);
+    let with_caption = [size[0], size[1] + CAPTION];
+    let request = SaveRequest { kind: SaveKind::View, path: path.clone(), size: with_caption, handles: true };
+    save_as(&mut window, request);
     window.run_steps(8);
-    let saved = image::open(&path).unwrap().to_rgb8();
-    assert_eq!([saved.width(), saved.height()], size);
+    let whole = image::open(&path).unwrap().to_rgb8();
+    assert_eq!([whole.width(), whole.height()], with_caption);
+    let is_ink = |pixel: &image::Rgb<u8>| pixel.0[0] > 90;
+    let caption = image::imageops::crop_imm(&whole, 0, size[1], size[0], CAPTION).to_image();
+    assert!(caption.pixels().filter(|pixel| is_ink(pixel)).count() > 300, "no caption");
+    let saved = image::imageops::crop_imm(&whole, 0, 0, size[0], size[1]).to_image();
     let top = pane(&window, GROUND_TRUTH).top() - 24.0;
     let area = egui::Rect::from_min_size(egui::pos2(0.0, top), vec2(size[0] as f32, size[1] as f32));
     let seen = pixels(&mut window, area);
@@ -106,15 +115,15 @@ fn the_saved_view_has_the_pixels_of_the_window_and_any_size() {
         assert!(file_contains(&path, text), "{text}");
     }
     let large = folder.path().join("large.png");
-    let [width, height] = size.map(|side| 2 * side);
+    let [width, height] = with_caption.map(|side| 2 * side);
     let request =
         SaveRequest { kind: SaveKind::View, path: large.clone(), size: [width, height], handles: true };
     save_as(&mut window, request);
     let large = image::open(&large).unwrap().to_rgb8();
     assert_eq!([large.width(), large.height()], [width, height]);
     // The same picture, larger: not the same one in a corner.
-    let small = image::imageops::thumbnail(&large, size[0], size[1]);
-    let near = saved
+    let small = image::imageops::thumbnail(&large, with_caption[0], with_caption[1]);
+    let near = whole
         .pixels()
         .zip(small.pixels())
         .map(|(a, b)| (0..3).map(|c| f64::from(a.0[c].abs_diff(b.0[c]))).sum::<f64>() / 3.0);

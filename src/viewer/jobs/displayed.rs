@@ -21,8 +21,9 @@ use crate::model::view::state::ViewState;
 pub struct Displayed<'a> {
     pub model: &'a Model,
     pub jobs: &'a Jobs,
-    /// Whether panes show a photograph as it is compared even while its corners are edited: in pictures that are saved.
-    pub hides_corners: bool,
+    /// Whether this is a picture that is saved: with a caption, without controls, and a photograph as it is compared even
+    /// while its corners are edited.
+    pub is_picture: bool,
     /// Whether panes are without sun and eye: in pictures that are saved so.
     pub hides_handles: bool,
 }
@@ -30,7 +31,7 @@ pub struct Displayed<'a> {
 impl<'a> Displayed<'a> {
     /// What the panes of the window display.
     pub fn of(model: &'a Model, jobs: &'a Jobs) -> Self {
-        Self { model, jobs, hides_corners: false, hides_handles: false }
+        Self { model, jobs, is_picture: false, hides_handles: false }
     }
 
     /// The materials in the panes, the ground truth first: with a replacement of the chosen prediction where one is displayed.
@@ -75,7 +76,7 @@ impl<'a> Displayed<'a> {
         let is_rendering = self.view().display.quantity == Quantity::Rendering && !self.view().is_computed();
         let photograph = self.jobs.photograph.displayed(&self.model.photograph, self.materials());
         let mut photograph = photograph.filter(|_| is_rendering && !self.materials().is_empty())?;
-        photograph.corners = photograph.corners.filter(|_| !self.hides_corners);
+        photograph.corners = photograph.corners.filter(|_| !self.is_picture);
         Some(photograph)
     }
 

@@ -2,16 +2,23 @@
 
 use eframe::egui;
 
+use svbrdf_core::model::scene::Kind;
+
 use super::legend::histograms::ValueStrip;
 use super::legend::strip::LegendStrip;
 use super::pane::scenery::Scenery;
 use super::pane::viewport::{PaneTools, STRIP, Viewport};
 use super::shading::gpu_view::GpuView;
 use super::widgets::bare;
+use super::widgets::numbers::digits;
 use super::widgets::texture::PanelTextures;
 use crate::jobs::displayed::Displayed;
+use crate::model::Model;
 use crate::model::command::Command;
 use crate::model::view::state::ViewState;
+
+/// Height of the caption of a picture that is saved, in points.
+const CAPTION: f32 = 20.0;
 
 /// The panes and what is below them.
 #[derive(Debug)]
@@ -27,6 +34,10 @@ impl CentralArea<'_> {
     pub fn ui(&mut self, ui: &mut egui::Ui, gpu: Option<&mut GpuView>) -> Vec<Command> {
         let displayed = self.displayed;
         let mut commands = Vec::new();
+        if displayed.is_picture {
+            let panel = bare(egui::Panel::bottom("caption"), ui).exact_size(CAPTION).resizable(false);
+            panel.show(ui, |ui| caption(ui, displayed.model, self.magnification()));
+        }
         let strip = BelowPanes::of(displayed, self.viewport.has_extra);
         if let Some(strip) = &strip {
             let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
@@ -43,6 +54,34 @@ impl CentralArea<'_> {
         });
         commands
     }
+
+    /// Screen pixels per texel, where there is a material.
+    fn magnification(&self) -> Option<f32> {
+        let grid = self.displayed.model.materials.ground_truth()?.grid();
+        Some(self.viewport.magnification(grid, self.view))
+    }
+}
+
+/// How a saved picture was rendered, in a line that is cut where the picture is too narrow.
+fn caption(ui: &mut egui::Ui, model: &Model, magnification: Option<f32>) {
+    let view = &model.view;
+    let place = |[x, y, z]: [f32; 3]| format!("{x:.2}, {y:.2}, {z:.2}");
+    let kind = if view.scene.kind == Kind::Near { "near-field" } else { "distant" };
+    let size = model.materials.ground_truth().map(|one| one.material().size());
+    let texels = size.map(|[width, height]| format!("{width} x {height} texels"));
+    let parts = [
+        texels,
+        magnification.map(|pixels| format!("{} pixels per texel", digits(f64::from(pixels)))),
+        Some(format!("{kind} light {}", place(view.scene.light))),
+        Some(format!("view {}", place(view.scene.view))),
+        Some(format!("exposure {:+.1} EV", view.exposure_ev)),
+        Some(view.convention().name.to_owned()),
+    ];
+    let text = parts.into_iter().flatten().collect::<Vec<_>>().join("  \u{b7}  ");
+    ui.horizontal_centered(|ui| {
+        ui.add_space(8.0);
+        ui.add(egui::Label::new(egui::RichText::new(text).small()).truncate());
+    });
 }
 
 /// What is below the panes, of one height.
@@ -77,6 +116,7 @@ pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, view: &'a View
         dark: model.settings.dark,
         highlight_follows: model.settings.highlight_follows,
         handles: !displayed.hides_handles,
+        is_picture: displayed.is_picture,
         view_handle: model.settings.view_handle,
         peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
         swapped: model.swapped,

@@ -35,8 +35,8 @@ impl WindowUi {
             let uploaded = displayed.jobs.uploads.get(material.id());
             uploaded.into_iter().for_each(|uploaded| uploaded.complete(&gpu, material.material()));
         }
-        // Gestures and corner handles stay in the window.
-        let displayed = Displayed { hides_corners: true, hides_handles: !handles, ..displayed };
+        // Gestures, controls and corner handles stay in the window.
+        let displayed = Displayed { is_picture: true, hides_handles: !handles, ..displayed };
         let mut viewport = self.viewport.exact();
         // A larger picture shows the same part of the material.
         let mut magnified = displayed.model.view.clone();

@@ -108,7 +108,7 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
     click(&mut window, &header);
     assert_eq!(lines(&window), marked);
     // The other prediction, whose error is none of these: the line that explains most.
-    let other = "Diagnosis of darker: no mark";
+    let other = "Diagnosis of darker: nothing trivial";
     see(&mut window, other);
     window.get_by_label_contains("Diagnosis of flipped: Normal Y ");
     click(&mut window, other);
@@ -234,7 +234,7 @@ fn nothing_moves(all: bool) {
     for _ in 0..6000 {
         window.step();
         assert_eq!(tops(&window), before);
-        if window.query_by_label("Diagnosis of darker: no mark").is_some() {
+        if window.query_by_label("Diagnosis of darker: nothing trivial").is_some() {
             break;
         }
         std::thread::sleep(std::time::Duration::from_millis(10));

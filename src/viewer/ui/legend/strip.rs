@@ -53,6 +53,8 @@ pub struct LegendStrip<'a> {
     pub first: usize,
     /// The chosen one of them.
     pub chosen: usize,
+    /// Whether this is in a picture that is saved, where nothing can be chosen.
+    pub is_picture: bool,
 }
 
 impl<'a> LegendStrip<'a> {
@@ -75,6 +77,7 @@ impl<'a> LegendStrip<'a> {
             chosen: (view.display.prediction + 1)
                 .min(materials.len().saturating_sub(1))
                 .saturating_sub(first),
+            is_picture: displayed.is_picture,
         }
     }
 
@@ -82,7 +85,10 @@ impl<'a> LegendStrip<'a> {
         let mut commands = Vec::new();
         ui.horizontal_top(|ui| {
             ui.allocate_ui(vec2(CONTROLS, HISTOGRAM + BAR), |ui| {
-                ui.vertical(|ui| self.controls(ui, &mut commands));
+                ui.vertical(|ui| match self.is_picture {
+                    true => self.labels(ui),
+                    false => self.controls(ui, &mut commands),
+                });
             });
             let statistics = if ui.available_width() > STATISTICS + 200.0 { STATISTICS } else { 0.0 };
             let width = (ui.available_width() - statistics - 16.0).max(80.0);
@@ -92,6 +98,14 @@ impl<'a> LegendStrip<'a> {
             }
         });
         commands
+    }
+
+    /// What the controls have chosen.
+    fn labels(&self, ui: &mut egui::Ui) {
+        ui.label(self.error_map.map_or(self.kind.name(), |_| ERROR_MAP));
+        let how = if self.set_range.is_some() { "held" } else { "automatic" };
+        ui.label(format!("Range {}, {how}", digits(self.range)));
+        ui.label(RichText::new(self.unit()).small().weak());
     }
 
     fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {

@@ -22,6 +22,8 @@ pub struct Scenery<'a> {
     pub highlight_follows: bool,
     /// Whether light and view have handles, sun and eye.
     pub handles: bool,
+    /// Whether this is in a picture that is saved, which has no buttons.
+    pub is_picture: bool,
     /// Whether the handle of the view is shown.
     pub view_handle: bool,
     /// Whether every pane shows the ground truth, as long as a key is held.

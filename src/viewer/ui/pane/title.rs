@@ -34,6 +34,7 @@ pub fn title_bar(
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let replaced = chosen && scenery.state.display.is_replaced();
+    let has_button = replaced && !scenery.is_picture;
     let back =
         inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
     let painter = ui.painter_at(rect);
@@ -61,7 +62,7 @@ pub fn title_bar(
             ui.visuals().weak_text_color(),
         )
     });
-    let room = if replaced { BACK } else { loss.map_or(0.0, |loss| loss.width() + 8.0) };
+    let room = if has_button { BACK } else { loss.map_or(0.0, |loss| loss.width() + 8.0) };
     let width = (rect.width() - left - 8.0 - room).max(0.0);
     let font = FontId::proportional(13.5);
     // Names lose what they have in common, and then their middles; where that is not enough, the quantity goes, which the legend has.
@@ -77,7 +78,7 @@ pub fn title_bar(
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
         painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
     }
-    if replaced {
+    if has_button {
         let label = if scenery.state.display.corrected.is_some() { "Show original" } else { "Show all maps" };
         let button = ui.put(back, egui::Button::new(egui::RichText::new(label).small()));
         if button.on_hover_text("Show the prediction itself again (Esc)").clicked() {

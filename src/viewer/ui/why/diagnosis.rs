@@ -69,7 +69,7 @@ impl DiagnosisSection<'_> {
             let first = diagnosed.and_then(|diagnosed| diagnosed.diagnosis.marked().next());
             let text = match (diagnosed, first) {
                 (None, _) => "...".to_owned(),
-                (Some(_), None) => "no mark".to_owned(),
+                (Some(_), None) => "nothing trivial".to_owned(),
                 (_, Some(finding)) => format!("{} {}", label(finding.hypothesis), share(finding)),
             };
             let change = first.and_then(|finding| shown_change(finding, pair));
@@ -146,7 +146,7 @@ impl DiagnosisSection<'_> {
             return;
         };
         let floor = self.jobs.diagnosis.floor(pair, self.settings.seed).map(|floor| digits(floor.mean));
-        let floor = floor.map(|floor| format!("Floor {floor}, ")).unwrap_or_default();
+        let floor = floor.map(|floor| format!("Losses below {floor} are not resolvable; ")).unwrap_or_default();
         let [near, distant] = SCENES;
         let text = format!("{floor}{near} + {distant} scenes, {}", seconds(*elapsed));
         ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
