@@ -73,6 +73,10 @@ pub struct DatasetLossArgs {
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
 
+    /// Computes the floor of every ground truth, too, as `svbrdf rank --diagnose` does: losses below it are not resolvable
+    #[arg(long)]
+    diagnose: bool,
+
     #[command(flatten)]
     accuracy: AccuracyArgs,
 }
@@ -183,6 +187,7 @@ fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
     let accuracy = losses.accuracy.target_and_seed();
     let mut dataset =
         svbrdf::OpenDataset::new(source, DatasetReading::default(), accuracy, losses.results.clone())?;
+    dataset.settings.diagnose = losses.diagnose;
     dataset.reading = cases::reading(&args.materials.reading, dataset.methods())?;
     Ok(dataset)
 }

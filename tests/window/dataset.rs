@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{DatasetReading, Evaluation, KnownLoss, Source};
 use svbrdf_files::session::Session;
+use svbrdf_files::source::MaterialSource;
 use svbrdf_viewer::OpenDataset;
 use svbrdf_viewer::model::command::{DatasetCommand, DisplayCommand, SceneCommand};
 use svbrdf_viewer::model::dataset::list::{Filter, ListView, Order};
@@ -297,4 +300,85 @@ fn a_results_folder_that_cannot_be_used_is_told_once() {
     rest(&mut window, 20);
     let messages = window.state().messages();
     assert!(messages.len() == 1 && messages[0].contains("a file"), "{messages:?}");
+}
+
+/// A ground truth and 25 predictions of it, each worse than the one before.
+fn many(folder: &Path) -> ViewerOptions {
+    let write = |name: &str, error: u32| {
+        let path = folder.join(format!("{name}.png"));
+        write_packed(&path, 16, |tile, x, y| {
+            let shade = |value: u32| (value + error).min(255) as u8;
+            [[128, 128, 255], [shade(60 + 4 * x); 3], [shade(90 + 3 * y); 3], [20; 3]][tile as usize]
+        });
+        MaterialSource::from(path)
+    };
+    let predictions = (0..25).map(|number| write(&format!("p{number:02}"), 3 + number)).collect();
+    ViewerOptions { ground_truth: Some(write("gt", 0)), predictions, ..ViewerOptions::default() }
+}
+
+#[needs(adapter)]
+#[test]
+fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the_pinned_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window(many(folder.path()));
+    wait(&mut window, "the first prediction", |app| app.names() == ["gt", "p00"]);
+    wait(&mut window, "all losses", |app| app.parts.jobs.dataset.losses.count() == 25);
+    see(&mut window, "25 predictions");
+    // Assistive software is told what is open, and the menu has what only lists have.
+    let name = |window: &Window<'_>| window.root().accesskit_node().label();
+    assert_eq!(name(&window).as_deref(), Some("p00 (1 of 25) - svbrdf"));
+    for is_open in [false, true] {
+        click(&mut window, "Menu");
+        click(&mut window, "List of predictions");
+        window.key_press(egui::Key::Escape);
+        window.run_steps(2);
+        assert_eq!(window.state().parts.model.dataset.list.is_open, is_open);
+    }
+    // The losses are those of one comparison each, over the same scenes.
+    let materials = |window: &Window<'_>| window.state().materials().cloned().collect::<Vec<_>>();
+    let pair = materials(&window);
+    let by_seed = |seed| {
+        let comparison = Comparison::new(&pair[0], &[&pair[1]], Convention::default()).unwrap();
+        let request = Request::Accuracy { target: 0.01, seed };
+        comparison.run(&request, &Progress::default()).unwrap().losses[0].estimate.mean
+    };
+    assert_eq!(loss(&window, 0, 0).unwrap().loss, by_seed(0));
+    assert_ne!(loss(&window, 0, 0).unwrap().loss, by_seed(1));
+    let losses: Vec<f64> = (0..25).map(|case| loss(&window, case, 0).unwrap().loss).collect();
+    assert!(losses.is_sorted(), "{losses:?}");
+    // A pinned one stays, beside those that are flipped through; the ground truth is read once.
+    let id = |window: &Window<'_>| window.state().parts.model.materials.all[0].id();
+    let first = id(&window);
+    apply(&mut window, SceneCommand::MoveOverPlane(Endpoint::Light, [0.4, -0.2]));
+    let scene = window.state().parts.model.view.scene;
+    window.key_press(egui::Key::K);
+    for name in ["p01", "p02"] {
+        window.key_press(egui::Key::PageDown);
+        wait(&mut window, "the next prediction", |app| app.names() == ["gt", name, "p00"]);
+    }
+    window.key_press(egui::Key::K);
+    window.key_press(egui::Key::PageDown);
+    wait(&mut window, "two pinned ones", |app| app.names() == ["gt", "p03", "p00", "p02"]);
+    window.key_press(egui::Key::PageUp);
+    wait(&mut window, "a pinned one once", |app| app.names() == ["gt", "p02", "p00"]);
+    assert_eq!((id(&window), window.state().parts.model.view.scene), (first, scene));
+    // Worst first.
+    let list = ListView { order: Order::Loss(0), ..ListView::default() };
+    apply(&mut window, DatasetCommand::SetList(list));
+    let listed = window.state().parts.ui.dataset.listed();
+    assert_eq!(listed[..3], [24, 23, 22]);
+    let session = folder.path().join("many.svbrdf-session.json");
+    save(&mut window, SaveKind::Session, &session);
+    let session = Some(Session::read(&session).unwrap());
+    let mut later = super::window(ViewerOptions { session, ..ViewerOptions::default() });
+    wait(&mut later, "the session", |app| app.names() == ["gt", "p02", "p00"]);
+    // The ground truth that all have changes: all losses are of the new one.
+    let before = loss(&window, 5, 0);
+    std::fs::copy(folder.path().join("p10.png"), folder.path().join("gt.png")).unwrap();
+    window.key_press_modifiers(Modifiers::COMMAND, egui::Key::R);
+    wait(&mut window, "losses of another ground truth", |app| {
+        let row = app.parts.jobs.dataset.losses.row(5);
+        row.is_some_and(|row| row.by_method[0] != before) && app.parts.jobs.dataset.losses.count() == 25
+    });
+    assert!(loss(&window, 10, 0).unwrap().loss == 0.0);
 }

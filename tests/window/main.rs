@@ -60,7 +60,7 @@ use std::sync::Arc;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Modifiers, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_needs::needs;

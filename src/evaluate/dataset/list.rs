@@ -50,13 +50,16 @@ impl FromStr for Shard {
 impl Source {
     /// Folders of materials; every method has the name that it is given or that of its folder, where need be with that of the one above.
     pub fn folders(ground_truths: PathBuf, methods: Vec<(Option<String>, PathBuf)>) -> Self {
-        let named: Vec<String> =
-            methods.iter().map(|(name, path)| name.clone().unwrap_or_else(|| method_name(path))).collect();
-        let named: Vec<(&str, &Path)> =
-            named.iter().zip(&methods).map(|(name, (_, path))| (name.as_str(), path.as_path())).collect();
-        let names = distinct_names(&named);
-        let methods = names.into_iter().zip(methods).map(|(name, (_, path))| Method { name, path }).collect();
-        Self::Folders { ground_truths, methods }
+        Self::Folders { ground_truths, methods: named(methods, method_name) }
+    }
+
+    /// Predictions of one ground truth; every one has the name that it is given or that of its file, where need be with folders.
+    pub fn predictions(ground_truth: PathBuf, predictions: Vec<(Option<String>, PathBuf)>) -> Self {
+        let stem = |path: &Path| {
+            let stem = if path.is_dir() { path.file_name() } else { path.file_stem() };
+            stem.map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned())
+        };
+        Self::Predictions { ground_truth, predictions: named(predictions, stem) }
     }
 
     /// Its materials.
@@ -67,8 +70,33 @@ impl Source {
         match self {
             Self::Folders { ground_truths, methods } => cases_of_folders(ground_truths, methods),
             Self::Table(path) => cases_of_table(path),
+            Self::Predictions { ground_truth, predictions } => {
+                Ok(cases_of_predictions(ground_truth, predictions))
+            }
         }
     }
+}
+
+/// The method of all [`Source::Predictions`].
+const ONE_METHOD: &str = "prediction";
+
+fn cases_of_predictions(ground_truth: &Path, predictions: &[Method]) -> Vec<Case> {
+    let case = |(index, Method { name, path }): (usize, &Method)| {
+        let (method, path) = (ONE_METHOD.to_owned(), path.clone());
+        let candidates = vec![CandidateFile { method, sample: 0, path, missing: None }];
+        Case { index, material: name.clone(), ground_truth: ground_truth.to_owned(), candidates }
+    };
+    predictions.iter().enumerate().map(case).collect()
+}
+
+/// Paths with the names that they are given, or that `name` has for them, told apart.
+fn named(given: Vec<(Option<String>, PathBuf)>, name: impl Fn(&Path) -> String) -> Vec<Method> {
+    let names: Vec<String> =
+        given.iter().map(|(given, path)| given.clone().unwrap_or_else(|| name(path))).collect();
+    let pairs: Vec<(&str, &Path)> =
+        names.iter().zip(&given).map(|(name, (_, path))| (name.as_str(), path.as_path())).collect();
+    let names = distinct_names(&pairs);
+    names.into_iter().zip(given).map(|(name, (_, path))| Method { name, path }).collect()
 }
 
 /// The name of a method: that of its folder, or what its pattern adds to the name of a material.

@@ -47,6 +47,23 @@ pub enum Source {
     /// A table of pairs.
     #[serde(serialize_with = "as_text")]
     Table(PathBuf),
+    /// Predictions of one ground truth, each of which is a material of the list.
+    Predictions {
+        #[serde(serialize_with = "as_text")]
+        ground_truth: PathBuf,
+        predictions: Vec<Method>,
+    },
+}
+
+impl Source {
+    /// What was named first: the ground truths, or the table.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::Folders { ground_truths: path, .. }
+            | Self::Table(path)
+            | Self::Predictions { ground_truth: path, .. } => path,
+        }
+    }
 }
 
 /// A method by its name.
@@ -108,8 +125,11 @@ impl DatasetSettings {
     }
 
     /// The seed of the scenes of each material, in order: by its name, and for materials of one name by their order, so that it does
-    /// not depend on which other materials there are.
+    /// not depend on which other materials there are. Predictions of one ground truth have the same scenes.
     pub fn seeds(&self) -> Vec<u64> {
+        if matches!(self.source, Source::Predictions { .. }) {
+            return vec![self.seed; self.materials.len()];
+        }
         let mut counts: HashMap<&str, u64> = HashMap::new();
         let mut seeds = Vec::new();
         for material in &self.materials {

@@ -14,6 +14,10 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
             words.extend(["--dataset".to_owned(), ground_truths.display().to_string()]);
             words.extend(methods.iter().map(method));
         }
+        Source::Predictions { ground_truth, predictions } => {
+            words.push(ground_truth.display().to_string());
+            words.extend(predictions.iter().map(method));
+        }
         Source::Table(path) => words.extend(["--pairs".to_owned(), path.display().to_string()]),
     }
     let options = [

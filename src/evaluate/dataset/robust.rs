@@ -11,7 +11,7 @@ use svbrdf_files::read::ReadOptions;
 
 use super::bootstrap::{FEWEST, interval_of_mean};
 use super::evaluate::open;
-use super::record::{Case, DatasetReading, DatasetSettings, Source};
+use super::record::{Case, DatasetReading, DatasetSettings};
 use crate::error::Error;
 use crate::report::{Compared, RobustReport};
 use crate::robust::{Answered, RobustInput};
@@ -60,12 +60,11 @@ pub fn robust(
 
 /// Refuses fewer than [`FEWEST`] materials.
 fn enough(count: usize, settings: &DatasetSettings) -> Result<(), FilesError> {
-    let (Source::Folders { ground_truths, .. } | Source::Table(ground_truths)) = &settings.source;
     if count >= FEWEST {
         return Ok(());
     }
     Err(FilesError::NotAMaterial {
-        path: ground_truths.clone(),
+        path: settings.source.path().to_owned(),
         expected: format!("at least {FEWEST} materials that all methods have"),
         found: count.to_string(),
         remedy: "add materials, or ask about the predictions of one material without --dataset".to_owned(),
@@ -79,10 +78,9 @@ impl DatasetAnswers {
     /// [`FilesError::NotAMaterial`] for fewer than [`FEWEST`] materials: they have no interval.
     pub fn report(self, settings: &DatasetSettings) -> Result<RobustReport, Error> {
         enough(self.materials.len(), settings)?;
-        let (Source::Folders { ground_truths, .. } | Source::Table(ground_truths)) = &settings.source;
         let (materials, answers): (Vec<_>, Vec<_>) = self.materials.into_iter().unzip();
         let Convention { name: convention, epsilon, .. } = settings.convention.parse()?;
-        let ground_truth = ground_truths.display().to_string();
+        let ground_truth = settings.source.path().display().to_string();
         let compared = Compared { ground_truth, size: [0; 2], convention, epsilon };
         let methods: Vec<&str> = settings.methods.iter().map(String::as_str).collect();
         Ok(RobustReport::of_answers(compared, &methods, &over_materials(&answers)).over(materials))

@@ -11,16 +11,22 @@ use crate::read::ReadOptions;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct SessionDataset {
-    /// The folder of the ground truths; without methods, a table of pairs.
+    /// The folder of the ground truths; without methods, a table of pairs; with predictions, their ground truth.
     pub ground_truths: PathBuf,
     #[serde(default)]
     pub methods: Vec<SessionMethod>,
+    /// Predictions of one ground truth.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub predictions: Vec<SessionMethod>,
     /// The folder of losses that are known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub results: Option<PathBuf>,
     /// Half of the 95% interval of each loss over scenes, as a share of the loss.
     pub target_error: f64,
     pub seed: u64,
+    /// Whether floors are known: what the ground truths cannot resolve.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub diagnose: bool,
     /// How the ground truths are read, how predictions are, and how those of methods that differ.
     #[serde(default)]
     pub read: ReadOptions,
@@ -56,13 +62,13 @@ pub struct SessionMark {
 impl SessionDataset {
     /// Every path, to be changed.
     pub(super) fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
-        let methods = self.methods.iter_mut().map(|method| &mut method.path);
+        let methods = self.methods.iter_mut().chain(&mut self.predictions).map(|method| &mut method.path);
         std::iter::once(&mut self.ground_truths).chain(methods).chain(&mut self.results)
     }
 
     /// Every path.
     pub fn paths(&self) -> impl Iterator<Item = &PathBuf> {
-        let methods = self.methods.iter().map(|method| &method.path);
+        let methods = self.methods.iter().chain(&self.predictions).map(|method| &method.path);
         std::iter::once(&self.ground_truths).chain(methods).chain(&self.results)
     }
 }

@@ -4,16 +4,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use svbrdf_evaluate::dataset::{DatasetReading, Method, Source};
-use svbrdf_files::session::dataset::SessionDataset;
+use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 
 use super::parts::Parts;
 use crate::jobs::work::job::Job;
 use crate::model::apply::dataset::show_case;
-use crate::model::dataset::{DatasetState, OpenDataset};
+use crate::model::dataset::{DatasetState, OpenDataset, TARGET_ERROR};
 use crate::model::message::Message;
-
-/// Half of the 95% interval of each loss, as a share of it, where nothing else is asked for: that of `svbrdf rank`.
-const TARGET_ERROR: f64 = 0.01;
 
 /// Matches the materials of these folders, or of one table.
 pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
@@ -27,18 +24,26 @@ pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
     }));
 }
 
+/// Opens a list of predictions of one ground truth.
+pub(super) fn open_many(parts: &mut Parts, open: OpenDataset) {
+    parts.ui.dialogs.open = None;
+    parts.model.open_dataset(DatasetState::of(Arc::new(open), 0, Default::default()));
+}
+
 /// Matches the materials of a session.
 pub(super) fn restore(parts: &mut Parts, session: SessionDataset) {
     let strict = parts.model.materials.rules.strict;
     parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
-        let SessionDataset { ground_truths, methods, results, target_error, seed, shown, marks, .. } =
-            session;
-        let method =
-            |one: svbrdf_files::session::dataset::SessionMethod| Method { name: one.name, path: one.path };
-        let methods: Vec<Method> = methods.into_iter().map(method).collect();
-        let source = match methods.is_empty() {
-            true => Source::Table(ground_truths),
-            false => Source::Folders { ground_truths, methods },
+        let SessionDataset { ground_truths, methods, predictions, results, shown, marks, .. } = session;
+        let named = |all: Vec<SessionMethod>| -> Vec<Method> {
+            all.into_iter().map(|one| Method { name: one.name, path: one.path }).collect()
+        };
+        let source = match (methods.is_empty(), predictions.is_empty()) {
+            (_, false) => {
+                Source::Predictions { ground_truth: ground_truths, predictions: named(predictions) }
+            }
+            (true, true) => Source::Table(ground_truths),
+            (false, true) => Source::Folders { ground_truths, methods: named(methods) },
         };
         let reading = DatasetReading {
             ground_truths: session.read,
@@ -46,7 +51,8 @@ pub(super) fn restore(parts: &mut Parts, session: SessionDataset) {
             methods: session.read_methods,
             strict,
         };
-        let open = OpenDataset::new(source, reading, (target_error, seed), results)?;
+        let mut open = OpenDataset::new(source, reading, (session.target_error, session.seed), results)?;
+        open.settings.diagnose = session.diagnose;
         let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
         Ok(DatasetState::of(Arc::new(open), wanted, marks))
     }));
@@ -55,6 +61,11 @@ pub(super) fn restore(parts: &mut Parts, session: SessionDataset) {
 /// Reads a material and its losses again.
 pub(super) fn read_again(parts: &mut Parts, case: usize) {
     let jobs = &mut parts.jobs.dataset;
+    if parts.model.dataset.open.as_ref().is_some_and(|open| open.is_of_predictions()) {
+        // It may be the ground truth of all.
+        jobs.restart();
+        return;
+    }
     jobs.cases.forget(case);
     jobs.losses.forget(case);
     jobs.cells.forget(case);
@@ -79,7 +90,8 @@ pub(super) fn take(parts: &mut Parts) {
 pub(super) fn show(parts: &mut Parts) {
     let dataset = &parts.model.dataset;
     let Some(open) = dataset.open.clone().filter(|_| dataset.is_waiting()) else { return };
-    let Some(read) = parts.jobs.dataset.cases.get(dataset.wanted).cloned() else { return };
+    let (case, pinned) = (dataset.wanted, dataset.pinned());
+    let Some(read) = parts.jobs.dataset.cases.get(case, &pinned).cloned() else { return };
     read.uploads.iter().for_each(|(id, uploaded)| parts.jobs.uploads.add(*id, Some(uploaded.clone())));
     show_case(&mut parts.model, &open, read.case, &read.materials, read.problems.clone());
 }

@@ -39,6 +39,7 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::AllowOutside => allow_outside(),
         Effect::ReadScenes(paths) => parts.jobs.read_scenes(paths),
         Effect::OpenDataset(paths) => dataset::open(parts, paths),
+        Effect::OpenMany(open) => dataset::open_many(parts, *open),
         Effect::ReadCaseAgain(case) => dataset::read_again(parts, case),
         Effect::RestoreDataset(session) => dataset::restore(parts, *session),
         Effect::ReadSession(paths) => read_session(parts, &paths),

@@ -162,6 +162,8 @@ impl App {
         let of_dataset = self.parts.ui.dataset.title(self.parts.displayed());
         let open = of_dataset.or_else(|| self.parts.model.materials.title());
         let title = open.map_or_else(|| NAME.to_owned(), |open| format!("{open} - {NAME}"));
+        // Assistive software asks the root for the name of the window.
+        ctx.accesskit_node_builder(egui::accesskit_root_id(), |root| root.set_label(title.as_str()));
         if title != self.title {
             ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.title = title;

@@ -88,9 +88,14 @@ impl Model {
     /// The tab of the side panel that is open.
     pub fn tab(&self) -> settings::Tab {
         match self.settings.tab {
-            settings::Tab::Methods if self.dataset.open.is_none() => settings::Tab::Loss,
+            settings::Tab::Methods if !self.has_methods() => settings::Tab::Loss,
             tab => tab,
         }
+    }
+
+    /// Whether methods are compared over materials.
+    pub fn has_methods(&self) -> bool {
+        self.dataset.open.as_ref().is_some_and(|open| !open.is_of_predictions())
     }
 
     /// The question of the loss: by the settings, in the convention that is rendered.

@@ -51,8 +51,15 @@ impl Model {
                     self.light_alone();
                 }
                 let predictions = sources(options.predictions);
-                let all = std::iter::once(ground_truth).chain(predictions).collect();
-                Some(ReadRequest::new(all, Target::Everything))
+                let all: Vec<_> = std::iter::once(ground_truth).chain(predictions).collect();
+                let many = OpenDataset::of_many(&all, self.materials.rules);
+                match many.filter(|_| options.photograph.is_none()) {
+                    Some(open) => {
+                        self.open_dataset(DatasetState::of(Arc::new(open), 0, BTreeMap::new()));
+                        None
+                    }
+                    None => Some(ReadRequest::new(all, Target::Everything)),
+                }
             }
         };
         if let Some(dataset) = options.dataset {
@@ -128,20 +135,24 @@ impl Model {
     /// The data set of the current session.
     fn session_dataset(&self, open: &OpenDataset) -> SessionDataset {
         let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
-        let (ground_truths, methods) = match &open.settings.source {
-            Source::Table(table) => (absolute(table), Vec::new()),
-            Source::Folders { ground_truths, methods } => {
-                let method =
-                    |one: &Method| SessionMethod { name: one.name.clone(), path: absolute(&one.path) };
-                (absolute(ground_truths), methods.iter().map(method).collect())
-            }
+        let of_session = |all: &[Method]| {
+            let one = |one: &Method| SessionMethod { name: one.name.clone(), path: absolute(&one.path) };
+            all.iter().map(one).collect()
+        };
+        let source = &open.settings.source;
+        let (methods, predictions) = match source {
+            Source::Table(_) => (Vec::new(), Vec::new()),
+            Source::Folders { methods, .. } => (of_session(methods), Vec::new()),
+            Source::Predictions { predictions, .. } => (Vec::new(), of_session(predictions)),
         };
         SessionDataset {
-            ground_truths,
+            ground_truths: std::path::absolute(source.path()).unwrap_or_else(|_| source.path().to_owned()),
             methods,
+            predictions,
             results: open.results.as_ref().map(absolute),
             target_error: open.settings.target_error,
             seed: open.settings.seed,
+            diagnose: open.settings.diagnose,
             read: open.reading.ground_truths,
             read_predictions: open.reading.predictions,
             read_methods: open.reading.methods.clone(),

@@ -65,7 +65,7 @@ impl CentralArea<'_> {
 /// How a saved picture was rendered, in a line that is cut where the picture is too narrow.
 fn caption(ui: &mut egui::Ui, model: &Model, magnification: Option<f32>) {
     let view = &model.view;
-    let place = |[x, y, z]: [f32; 3]| format!("{x:.2}, {y:.2}, {z:.2}");
+    let place = |[x, y, z]: [f64; 3]| format!("{x:.2}, {y:.2}, {z:.2}");
     let kind = if view.scene.kind == Kind::Near { "near-field" } else { "distant" };
     let size = model.materials.ground_truth().map(|one| one.material().size());
     let texels = size.map(|[width, height]| format!("{width} x {height} texels"));

@@ -91,7 +91,7 @@ fn tabs(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     let unsure = unsure_guesses(displayed);
     ui.horizontal(|ui| {
-        let has_methods = model.dataset.open.is_some();
+        let has_methods = model.has_methods();
         for (tab, name, question) in
             Tab::ALL.into_iter().filter(|(tab, ..)| has_methods || *tab != Tab::Methods)
         {

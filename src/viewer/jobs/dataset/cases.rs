@@ -24,6 +24,8 @@ const AHEAD: usize = 256 << 20;
 #[derive(Debug)]
 pub struct ReadCase {
     pub case: usize,
+    /// The predictions of a list that were asked for beside it.
+    pub pinned: Vec<usize>,
     /// The ground truth first; empty where it cannot be read.
     pub materials: Vec<Arc<ReadMaterial>>,
     /// Of each material, where there is an adapter.
@@ -47,9 +49,9 @@ pub struct CaseJobs {
 }
 
 impl CaseJobs {
-    /// A material, once it has been read.
-    pub fn get(&self, case: usize) -> Option<&Arc<ReadCase>> {
-        self.ready.iter().find(|ready| ready.case == case)
+    /// A material, once it has been read, with these predictions beside it.
+    pub fn get(&self, case: usize, pinned: &[usize]) -> Option<&Arc<ReadCase>> {
+        self.ready.iter().find(|ready| ready.case == case && ready.pinned == pinned)
     }
 
     /// Whether the maps of a material stay on the adapter.
@@ -70,26 +72,30 @@ impl CaseJobs {
         gpu: Option<&Gpu>,
         open: &Arc<OpenDataset>,
         rules: Rules,
-        wanted: &[usize],
+        (wanted, pinned): (&[usize], &[usize]),
     ) -> Option<Error> {
         let mut error = None;
         if let Some((case, job)) = &self.running
             && let Some(read) = job.poll()
         {
             match read {
-                Ok(read) => self.ready.push(Arc::new(read)),
+                Ok(read) => {
+                    self.ready.retain(|ready| ready.case != read.case);
+                    self.ready.push(Arc::new(read));
+                }
                 Err(problem) => {
                     // It is not tried again in every frame.
                     let problems = vec![(open.name(*case).to_owned(), problem.to_string())];
-                    let (case, materials, uploads) = (*case, Vec::new(), Vec::new());
-                    self.ready.push(Arc::new(ReadCase { case, materials, uploads, problems }));
+                    let (case, pinned) = (*case, pinned.to_vec());
+                    let (materials, uploads) = (Vec::new(), Vec::new());
+                    self.ready.push(Arc::new(ReadCase { case, pinned, materials, uploads, problems }));
                     error = Some(problem).filter(|problem| !problem.is_cancelled());
                 }
             }
             self.running = None;
         }
         self.ready.retain(|ready| wanted.contains(&ready.case));
-        let is_ready = |case: &usize| self.ready.iter().any(|ready| ready.case == *case);
+        let is_ready = |case: &usize| self.get(*case, pinned).is_some();
         let is_first_ready = wanted.first().is_none_or(is_ready);
         let is_small = self.ready.iter().all(|ready| ready.bytes() <= AHEAD);
         let count = if is_first_ready && is_small { wanted.len() } else { 1 };
@@ -100,8 +106,10 @@ impl CaseJobs {
             self.running = None;
         }
         if let Some(case) = next.filter(|_| self.running.is_none()) {
-            let (open, gpu) = (open.clone(), gpu.cloned());
-            let job = Job::start(waker, move |progress| Ok(read(&open, case, rules, gpu.as_ref(), progress)));
+            let known = if open.is_of_predictions() { self.ready.clone() } else { Vec::new() };
+            let reading =
+                CaseReading { open: open.clone(), gpu: gpu.cloned(), rules, pinned: pinned.to_vec(), known };
+            let job = Job::start(waker, move |progress| Ok(reading.read(case, progress)));
             self.running = Some((case, job));
         }
         error
@@ -111,50 +119,89 @@ impl CaseJobs {
 /// A material that was read and sent to the adapter, or why not.
 type Column = Result<(Arc<ReadMaterial>, Option<Arc<Uploaded>>), String>;
 
-/// Reads a material with its predictions, several at a time.
-fn read(open: &OpenDataset, case: usize, rules: Rules, gpu: Option<&Gpu>, progress: &Progress) -> ReadCase {
-    let column = |column: usize, size: Option<[usize; 2]>| -> Column {
-        let source = open.source(case, column)?;
-        let mut reader = MaterialReader { rules, size, retries: false };
-        let read =
-            read_with_retries(&source, &mut reader, &progress.part()).map_err(|error| error.to_string())?;
-        let uploaded = gpu.map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
-        Ok((Arc::new(read), uploaded))
-    };
-    let mut found = ReadCase { case, materials: Vec::new(), uploads: Vec::new(), problems: Vec::new() };
-    let (truth, uploaded) = match column(0, None) {
-        Ok(read) => read,
-        Err(problem) => {
-            found.problems.push(("ground truth".to_owned(), problem));
-            return found;
-        }
-    };
-    let size = Some(truth.material().size());
-    found.uploads.extend(uploaded.map(|uploaded| (truth.id, uploaded)));
-    found.materials.push(truth.clone());
-    let columns: Vec<usize> = (1..=open.methods().len()).collect();
-    let threads = thread::available_parallelism().map_or(1, usize::from).min(4);
-    for group in columns.chunks(threads) {
-        let read: Vec<Column> = thread::scope(|scope| {
-            let started: Vec<_> = group.iter().map(|index| scope.spawn(|| column(*index, size))).collect();
-            started
-                .into_iter()
-                .map(|one| one.join().unwrap_or_else(|_| Err("its reading has failed".to_owned())))
-                .collect()
-        });
-        for (index, one) in group.iter().zip(read) {
-            let of_size = one.and_then(|(read, uploaded)| {
-                check_same_size(truth.material(), read.material()).map_err(|problem| problem.to_string())?;
-                Ok((read, uploaded))
+/// What reads a material with its predictions.
+struct CaseReading {
+    open: Arc<OpenDataset>,
+    gpu: Option<Gpu>,
+    rules: Rules,
+    pinned: Vec<usize>,
+    /// What has the ground truth of all, and the pinned predictions, once they are read.
+    known: Vec<Arc<ReadCase>>,
+}
+
+impl CaseReading {
+    /// Reads a material with its predictions, several at a time.
+    fn read(&self, case: usize, progress: &Progress) -> ReadCase {
+        let (pinned, problems) = (self.pinned.clone(), Vec::new());
+        let mut found = ReadCase { case, pinned, materials: Vec::new(), uploads: Vec::new(), problems };
+        let (truth, uploaded) = match self.column((case, 0), None, progress) {
+            Ok(read) => read,
+            Err(problem) => {
+                found.problems.push(("ground truth".to_owned(), problem));
+                return found;
+            }
+        };
+        let size = Some(truth.material().size());
+        found.uploads.extend(uploaded.map(|uploaded| (truth.id, uploaded)));
+        found.materials.push(truth.clone());
+        let pinned = self.pinned.iter().filter(|pinned| **pinned != case).map(|pinned| (*pinned, 1));
+        let columns: Vec<(usize, usize)> =
+            (1..=self.open.methods().len()).map(|column| (case, column)).chain(pinned).collect();
+        let threads = thread::available_parallelism().map_or(1, usize::from).min(4);
+        for group in columns.chunks(threads) {
+            let read: Vec<Column> = thread::scope(|scope| {
+                let start = |place: &(usize, usize)| {
+                    let place = *place;
+                    scope.spawn(move || self.column(place, size, progress))
+                };
+                let started: Vec<_> = group.iter().map(start).collect();
+                let failed = |_| Err("its reading has failed".to_owned());
+                started.into_iter().map(|one| one.join().unwrap_or_else(failed)).collect()
             });
-            match of_size {
-                Ok((read, uploaded)) => {
-                    found.uploads.extend(uploaded.map(|uploaded| (read.id, uploaded)));
-                    found.materials.push(read);
+            for (place, one) in group.iter().zip(read) {
+                let of_size = one.and_then(|(read, uploaded)| {
+                    check_same_size(truth.material(), read.material())
+                        .map_err(|problem| problem.to_string())?;
+                    Ok((read, uploaded))
+                });
+                match of_size {
+                    Ok((read, uploaded)) => {
+                        found.uploads.extend(uploaded.map(|uploaded| (read.id, uploaded)));
+                        found.materials.push(read);
+                    }
+                    Err(problem) => found.problems.push((self.name(*place), problem)),
                 }
-                Err(problem) => found.problems.push((open.methods()[index - 1].clone(), problem)),
             }
         }
+        found
     }
-    found
+
+    /// The ground truth of a material, in column 0, or a prediction of it.
+    fn column(
+        &self,
+        (case, column): (usize, usize),
+        size: Option<[usize; 2]>,
+        progress: &Progress,
+    ) -> Column {
+        let source = self.open.source(case, column)?;
+        for known in &self.known {
+            if let Some(read) = known.materials.iter().find(|one| one.source == source) {
+                let uploaded = known.uploads.iter().find(|(id, _)| *id == read.id);
+                return Ok((read.clone(), uploaded.map(|(_, uploaded)| uploaded.clone())));
+            }
+        }
+        let mut reader = MaterialReader { rules: self.rules, size, retries: false };
+        let read =
+            read_with_retries(&source, &mut reader, &progress.part()).map_err(|error| error.to_string())?;
+        let uploaded = self.gpu.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
+        Ok((Arc::new(read), uploaded))
+    }
+
+    /// What a prediction is called.
+    fn name(&self, (case, column): (usize, usize)) -> String {
+        match self.open.is_of_predictions() {
+            true => self.open.name(case).to_owned(),
+            false => self.open.methods()[column - 1].clone(),
+        }
+    }
 }

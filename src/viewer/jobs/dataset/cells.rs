@@ -53,7 +53,7 @@ pub struct CellJobs {
 struct ReadCell {
     cell: Cell,
     reduced: Reduced,
-    /// Of a ground truth.
+    /// Of the column that stands for a material.
     thumbnail: Option<Picture>,
 }
 
@@ -62,7 +62,7 @@ impl CellJobs {
         self.reduced.get(&cell)
     }
 
-    /// The rendering of a ground truth in a scene of its own.
+    /// The rendering of a ground truth, in a list of predictions of one of them, in a scene of its own.
     pub fn thumbnail(&self, case: usize) -> Option<&Arc<Picture>> {
         self.thumbnails.get(&case)
     }
@@ -99,10 +99,12 @@ impl CellJobs {
         let thumbnails = cases.iter().filter(|case| !self.thumbnails.contains_key(case));
         let mut missing: Vec<Cell> =
             cells.iter().filter(|cell| !self.reduced.contains_key(cell)).copied().collect();
-        missing.extend(thumbnails.map(|case| Cell { case: *case, column: 0 }).filter(|cell| {
-            // One that cannot be read has no thumbnail, either.
-            !matches!(self.reduced.get(cell), Some(Err(_)))
-        }));
+        missing.extend(thumbnails.map(|case| Cell { case: *case, column: open.own_column() }).filter(
+            |cell| {
+                // One that cannot be read has no thumbnail, either.
+                !matches!(self.reduced.get(cell), Some(Err(_)))
+            },
+        ));
         let is_missing = !missing.is_empty();
         *self.wanted.lock().unwrap_or_else(PoisonError::into_inner) = missing;
         if self.job.is_none() && is_missing && error.is_none() {
@@ -143,8 +145,8 @@ fn run(
         };
         let Some(cell) = next else { return Ok(()) };
         let reduced = read(open, cell, side, &worker.progress);
-        let of_truth = reduced.as_ref().ok().filter(|_| cell.column == 0);
-        let thumbnail = of_truth.map(|material| thumbnail(material, &worker.progress)).transpose()?;
+        let own = reduced.as_ref().ok().filter(|_| cell.column == open.own_column());
+        let thumbnail = own.map(|material| thumbnail(material, &worker.progress)).transpose()?;
         done.push(cell);
         worker.report(ReadCell { cell, reduced, thumbnail })?;
     }

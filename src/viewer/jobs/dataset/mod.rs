@@ -47,6 +47,11 @@ pub struct DisplayedCases {
 }
 
 impl DatasetJobs {
+    /// Computes everything again.
+    pub fn restart(&mut self) {
+        *self = Self { opening: self.opening.take(), ..Self::default() };
+    }
+
     /// Takes over results, and computes what is displayed, then the rest.
     pub fn follow(
         &mut self,
@@ -58,19 +63,20 @@ impl DatasetJobs {
     ) -> Vec<Error> {
         let Some(open) = &model.dataset.open else {
             if self.of.is_some() {
-                *self = Self { opening: self.opening.take(), ..Self::default() };
+                self.restart();
             }
             return Vec::new();
         };
         if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, open)) {
-            *self = Self { opening: self.opening.take(), of: Some(open.clone()), ..Self::default() };
+            self.restart();
+            self.of = Some(open.clone());
         }
         let wanted: Vec<usize> =
             std::iter::once(model.dataset.wanted).chain(model.dataset.ahead.iter().copied()).collect();
         let first: Vec<usize> = wanted[..1].iter().chain(&displayed.cases).copied().collect();
         let errors = [
             self.losses.follow(waker, open, &model.view.convention, &first),
-            self.cases.follow(waker, gpu, open, model.materials.rules, &wanted),
+            self.cases.follow(waker, gpu, open, model.materials.rules, (&wanted, &model.dataset.pinned())),
             self.cells.follow(waker, open, &displayed.cells, &displayed.cases, displayed.pixels),
             self.sheet.follow(waker, &self.cells, &displayed.cells, &model.view, range),
             self.summary.follow(waker, open, &self.losses, model.tab() == Tab::Methods && model.side_panel()),

@@ -27,7 +27,11 @@ pub(super) fn apply(model: &mut Model, command: DatasetCommand) -> Vec<Effect> {
             (dataset.sheet.is_open, dataset.sheet.is_behind) = (is_open && dataset.open.is_some(), false);
         }
         DatasetCommand::SetCell(cell) => dataset.sheet.cell = cell.clamp(*CELL.start(), *CELL.end()),
-        DatasetCommand::ToggleMark => change_mark(dataset, |mark| mark.is_marked ^= true),
+        DatasetCommand::ToggleMark => {
+            let before = dataset.pinned();
+            change_mark(dataset, |mark| mark.is_marked ^= true);
+            dataset.is_stale |= dataset.pinned() != before;
+        }
         DatasetCommand::SetNote(note) => change_mark(dataset, |mark| mark.note = note),
     }
     Vec::new()
@@ -74,6 +78,8 @@ pub fn show_case(
     let chosen = model.dataset.method.as_deref().and_then(|method| names().position(|name| name == method));
     let count = model.materials.predictions().len();
     let display = &mut model.view.display;
+    // Of a list of predictions, the chosen one is before the pinned ones.
+    let chosen = if open.is_of_predictions() { Some(0) } else { chosen };
     display.prediction = chosen.unwrap_or(display.prediction).min(count.saturating_sub(1));
     display.corrected = None;
     if let (Some(before), Some(now)) = (before, model.materials.ground_truth().map(LoadedMaterial::grid)) {

@@ -11,6 +11,7 @@ use svbrdf_files::source::MaterialSource;
 use crate::model::Model;
 use crate::model::command::MaterialsCommand;
 use crate::model::command::effect::{DialogEffect, Effect};
+use crate::model::dataset::OpenDataset;
 use crate::model::material::request::{ReadRequest, Target};
 use crate::model::material::source::sources;
 use crate::model::message::Message;
@@ -89,6 +90,9 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     if is_dataset(&paths) {
         return vec![Effect::OpenDataset(paths)];
     }
+    if let Some(many) = many(model, &paths, replace, read) {
+        return vec![Effect::OpenMany(Box::new(many))];
+    }
     model.read = read;
     model.opened_alone &= !replace;
     if replace && paths.len() == 1 && model.photograph.source().is_none() {
@@ -100,6 +104,18 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     let predictions = sources(predictions.iter().map(material).collect());
     let sources = first.iter().map(material).chain(predictions).collect();
     vec![Effect::ReadForDialog(ReadRequest::new(sources, target))]
+}
+
+/// The list of predictions that there are, where these make them too many for panes.
+fn many(model: &Model, paths: &[PathBuf], replace: bool, read: ReadOptions) -> Option<OpenDataset> {
+    let open = if replace { &[][..] } else { &model.materials.all };
+    let present = open.iter().map(|one| one.read.source.clone());
+    let new = paths.iter().map(|path| MaterialSource::path(path.clone(), read));
+    let mut all = present.chain(new);
+    let truth = all.next()?;
+    let all: Vec<_> = std::iter::once(truth).chain(sources(all.collect())).collect();
+    let is_possible = model.dataset.open.is_none() && model.photograph.source().is_none();
+    OpenDataset::of_many(&all, model.materials.rules).filter(|_| is_possible)
 }
 
 /// Whether a command puts other materials into the place of those in the window.

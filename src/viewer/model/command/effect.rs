@@ -7,6 +7,7 @@ use svbrdf_files::scene_file::PhotographLight;
 use svbrdf_files::session::dataset::SessionDataset;
 
 use super::BrowseFor;
+use crate::model::dataset::OpenDataset;
 use crate::model::material::request::ReadRequest;
 use crate::model::settings::save_kind::{SaveKind, SaveRequest};
 
@@ -25,6 +26,8 @@ pub enum Effect {
     ReadScenes(Vec<PathBuf>),
     /// Matches the materials of folders, or reads a table of pairs.
     OpenDataset(Vec<PathBuf>),
+    /// Opens a list of predictions of one ground truth.
+    OpenMany(Box<OpenDataset>),
     /// Reads a material of the data set and its losses again.
     ReadCaseAgain(usize),
     /// Opens the data set of a session.

@@ -8,10 +8,18 @@ use std::sync::Arc;
 
 use svbrdf_evaluate::dataset::{CandidateFile, Case, DatasetReading, DatasetSettings, Source};
 use svbrdf_files::session::dataset::SessionMark;
-use svbrdf_files::source::MaterialSource;
+use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::error::Error;
+use crate::model::material::read::Rules;
 use list::ListView;
+
+/// The most predictions of one ground truth that have a pane each; more are a list.
+pub const MOST_PANES: usize = 24;
+/// The most predictions of the list that are pinned beside the chosen one.
+const MOST_PINNED: usize = 8;
+/// Half of the 95% interval of each loss, as a share of it, where nothing else is asked for: that of `svbrdf rank`.
+pub const TARGET_ERROR: f64 = 0.01;
 
 /// A data set as it was opened: names are matched, pixels are read when they are needed.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +48,44 @@ impl OpenDataset {
         Ok(Self { settings, reading, cases, results })
     }
 
+    /// The predictions of one ground truth as a list of them, where they are too many to be seen at once and all are files that are
+    /// read alike; `all` begins with the ground truth.
+    pub fn of_many(all: &[MaterialSource], rules: Rules) -> Option<Self> {
+        let [truth, predictions @ ..] = all else { return None };
+        let first = predictions.first()?;
+        let is_file = |one: &MaterialSource| {
+            matches!(one.place, Place::Path(_)) && one.chosen.is_none() && one.run.is_none() && !one.fit
+        };
+        let are_alike = all.iter().all(is_file) && predictions.iter().all(|one| one.options == first.options);
+        if predictions.len() <= MOST_PANES || !are_alike || rules.fit {
+            return None;
+        }
+        let named = predictions.iter().map(|one| (one.name.clone(), one.location().to_owned()));
+        let source = Source::predictions(truth.location().to_owned(), named.collect());
+        let reading = DatasetReading {
+            ground_truths: truth.options,
+            predictions: first.options,
+            strict: rules.strict,
+            ..DatasetReading::default()
+        };
+        Self::new(source, reading, (TARGET_ERROR, 0), None).ok()
+    }
+
+    /// Whether its materials are predictions of one ground truth.
+    pub fn is_of_predictions(&self) -> bool {
+        matches!(self.settings.source, Source::Predictions { .. })
+    }
+
+    /// What a row of its list is.
+    pub fn noun(&self) -> &'static str {
+        if self.is_of_predictions() { "prediction" } else { "material" }
+    }
+
+    /// The column that stands for a material: the ground truth, or the prediction.
+    pub fn own_column(&self) -> usize {
+        usize::from(self.is_of_predictions())
+    }
+
     pub fn methods(&self) -> &[String] {
         &self.settings.methods
     }
@@ -57,7 +103,7 @@ impl OpenDataset {
         let case = self.cases.get(case).ok_or("there is no such material")?;
         let Some(method) = column.checked_sub(1) else {
             let read = self.reading.ground_truths;
-            let name = Some(case.material.clone());
+            let name = (!self.is_of_predictions()).then(|| case.material.clone());
             return Ok(MaterialSource { name, ..MaterialSource::path(case.ground_truth.clone(), read) });
         };
         let method = self.methods().get(method).ok_or("there is no such method")?;
@@ -67,7 +113,8 @@ impl OpenDataset {
             Some(problem) => Err(problem.clone()),
             None => {
                 let read = *self.reading.of_method(method);
-                Ok(MaterialSource { name: Some(method.clone()), ..MaterialSource::path(path.clone(), read) })
+                let name = if self.is_of_predictions() { &case.material } else { method };
+                Ok(MaterialSource { name: Some(name.clone()), ..MaterialSource::path(path.clone(), read) })
             }
         }
     }
@@ -130,6 +177,15 @@ impl DatasetState {
     /// Whether the material that was asked for is still being read.
     pub fn is_waiting(&self) -> bool {
         self.open.is_some() && (self.is_stale || self.shown != Some(self.wanted))
+    }
+
+    /// The predictions of the list that have a pane beside the chosen one: those that are marked.
+    pub fn pinned(&self) -> Vec<usize> {
+        let Some(open) = self.open.as_ref().filter(|open| open.is_of_predictions()) else {
+            return Vec::new();
+        };
+        let is_marked = |case: &usize| self.mark(open.name(*case)).is_some_and(|mark| mark.is_marked);
+        (0..open.cases.len()).filter(is_marked).take(MOST_PINNED).collect()
     }
 
     pub fn mark(&self, name: &str) -> Option<&SessionMark> {

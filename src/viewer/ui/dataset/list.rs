@@ -98,8 +98,9 @@ impl MaterialsDrawer<'_> {
     fn counts(&self) -> String {
         let (listed, all) = (self.rows.cases.len(), self.open.cases.len());
         let losses = &self.displayed.jobs.dataset.losses;
+        let noun = self.open.noun();
         let materials =
-            if listed == all { format!("{all} materials") } else { format!("{listed} of {all} materials") };
+            if listed == all { format!("{all} {noun}s") } else { format!("{listed} of {all} {noun}s") };
         match losses.count() {
             known if known < all => format!("{materials}, losses of {known}"),
             _ => materials,
@@ -160,7 +161,11 @@ impl MaterialsDrawer<'_> {
             star.widget_info(|| {
                 WidgetInfo::selected(egui::Role::Button, true, mark.is_marked, "Mark this material")
             });
-            if star.on_hover_text("Mark this material (K)").clicked() {
+            let hover = match self.open.is_of_predictions() {
+                true => "Pin this prediction: it stays beside the others (K)",
+                false => "Mark this material (K)",
+            };
+            if star.on_hover_text(hover).clicked() {
                 commands.push(DatasetCommand::ToggleMark.into());
             }
             let mut note = mark.note.clone();
@@ -198,7 +203,7 @@ impl MaterialsDrawer<'_> {
         });
         *self.in_sight = shown.inner;
         if self.rows.cases.is_empty() {
-            ui.weak("No material is like this.");
+            ui.weak(format!("No {} is like this.", self.open.noun()));
         }
     }
 
@@ -256,9 +261,10 @@ impl MaterialsDrawer<'_> {
         let Some(losses) = losses else { return };
         let largest = self.displayed.jobs.dataset.losses.largest.max(f64::MIN_POSITIVE);
         let chosen = chosen_method(self.displayed);
+        let is_alone = self.open.methods().len() == 1;
         for (index, known) in losses.by_method.iter().take(MOST_BARS).enumerate() {
             let top = area.top() + index as f32 * BAR;
-            let is_chosen = self.open.methods().get(index).map(String::as_str) == chosen;
+            let is_chosen = is_alone || self.open.methods().get(index).map(String::as_str) == chosen;
             let colour = match known {
                 None => ui.visuals().error_fg_color,
                 Some(_) if is_chosen => theme::accent(ui.visuals()),

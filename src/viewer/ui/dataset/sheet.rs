@@ -17,8 +17,9 @@ use crate::jobs::displayed::Displayed;
 use crate::model::command::{Command, DatasetCommand, SceneCommand};
 use crate::model::dataset::OpenDataset;
 use crate::model::material::loaded::drawable;
+use crate::ui::widgets::colour_bar::colour_bar;
 use crate::ui::widgets::names::Names;
-use crate::ui::widgets::numbers::significant;
+use crate::ui::widgets::numbers::{digits, significant};
 use crate::ui::widgets::texture::PanelTextures;
 use crate::ui::widgets::{names, theme};
 
@@ -87,6 +88,7 @@ impl ContactSheet<'_> {
     /// The names of the columns.
     fn head(&self, ui: &mut egui::Ui, cell: f32) {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
+        self.legend(ui, rect.with_max_x(rect.left() + NAMES));
         let methods: Vec<&str> = self.open.methods().iter().map(String::as_str).collect();
         let all = Names::new(&methods);
         let font = FontId::proportional(12.0);
@@ -112,6 +114,26 @@ impl ContactSheet<'_> {
                 colour,
             );
         }
+    }
+
+    /// The colours of differences, which all cells share, between the numbers of both ends.
+    fn legend(&self, ui: &egui::Ui, area: Rect) {
+        let (display, range) = (&self.displayed.model.view.display, self.displayed.range());
+        if !display.difference {
+            return;
+        }
+        let (kind, _) = display.differences.pointwise(display.quantity);
+        let least = if kind.is_signed() { -1.0 } else { 0.0 };
+        let (font, ink) = (FontId::monospace(10.0), ui.visuals().text_color());
+        let middle = area.center().y;
+        let text = |value: f64| digits(value).replace('-', "\u{2212}");
+        let at = pos2(area.left() + INDENT, middle);
+        let low = ui.painter().text(at, Align2::LEFT_CENTER, text(least * range), font.clone(), ink);
+        let at = pos2(area.right() - GAP, middle);
+        let high = ui.painter().text(at, Align2::RIGHT_CENTER, text(range), font, ink);
+        let bar =
+            Rect::from_min_max(pos2(low.right() + 3.0, middle - 4.0), pos2(high.left() - 3.0, middle + 4.0));
+        ui.painter().add(colour_bar(bar, [least as f32, 1.0], kind.is_signed()));
     }
 
     fn row(&mut self, ui: &mut egui::Ui, row: usize, cell: f32, commands: &mut Vec<Command>) {

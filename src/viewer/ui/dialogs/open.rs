@@ -42,6 +42,10 @@ const LEAST_RECENT: f32 = 60.0;
 /// The materials of a comparison, the ground truth first.
 fn compared(session: &Session) -> String {
     if let Some(dataset) = &session.dataset {
+        if !dataset.predictions.is_empty() {
+            let count = dataset.predictions.len();
+            return format!("{} | {count} predictions", file_name(&dataset.ground_truths));
+        }
         let methods: Vec<&str> = dataset.methods.iter().map(|method| method.name.as_str()).collect();
         return format!("data set {} | {}", file_name(&dataset.ground_truths), methods.join(", "));
     }

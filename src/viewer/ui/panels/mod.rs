@@ -3,6 +3,7 @@
 pub mod bar_item;
 pub mod inspection;
 pub mod light_and_view;
+pub mod menu;
 pub mod messages;
 pub mod status;
 pub mod top;

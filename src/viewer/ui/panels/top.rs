@@ -7,7 +7,8 @@ use egui_material_icons::icons;
 use svbrdf_core::picture::quantity::Quantity;
 
 use crate::jobs::displayed::Displayed;
-use crate::model::command::{Command, DisplayCommand, LossCommand, PhotographCommand, WindowCommand};
+use crate::model::command::{Command, DisplayCommand, WindowCommand};
+use crate::model::dataset::DatasetState;
 use crate::model::view::state::{AutoExposure, Layout, Projection, ViewState};
 use crate::ui::panels::bar_item::{BarItem, Room};
 use crate::ui::widgets::number;
@@ -34,6 +35,7 @@ pub struct TopBar<'a> {
     pub has_predictions: bool,
     /// Whether renderings are compared with a photograph.
     pub has_photograph: bool,
+    pub dataset: &'a DatasetState,
 }
 
 impl<'a> TopBar<'a> {
@@ -49,6 +51,7 @@ impl<'a> TopBar<'a> {
             scale: model.settings.ui_scale,
             has_predictions: !model.materials.predictions().is_empty(),
             has_photograph: model.photograph.source().is_some(),
+            dataset: &model.dataset,
         }
     }
 
@@ -162,7 +165,7 @@ impl<'a> TopBar<'a> {
         }
     }
 
-    fn item(&self, ui: &mut egui::Ui, item: BarItem, face: Face, commands: &mut Vec<Command>) {
+    pub(super) fn item(&self, ui: &mut egui::Ui, item: BarItem, face: Face, commands: &mut Vec<Command>) {
         let display = &self.state.display;
         let on = match item {
             BarItem::Histogram => Some(self.histograms),
@@ -185,7 +188,7 @@ impl<'a> TopBar<'a> {
         }
     }
 
-    fn exposure(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    pub(super) fn exposure(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         segments(ui, |ui| {
             let darker = Face::Text.button(ui, "\u{2212}", "Darker", true, None);
             if darker.on_hover_text("Exposure lower by 0.5 stops (Shift+E)").clicked() {
@@ -252,52 +255,6 @@ impl<'a> TopBar<'a> {
             "Study, photograph, theme, size of the window's text, and what does not fit into this line",
         );
     }
-
-    fn menu(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
-        let hidden: Vec<BarItem> = BarItem::ALL.into_iter().filter(|item| !room.has(*item)).collect();
-        if !room.exposure {
-            self.exposure(ui, commands);
-        }
-        hidden.iter().for_each(|item| self.item(ui, *item, Face::Name, commands));
-        if !hidden.is_empty() {
-            ui.separator();
-        }
-        let study = ui.add_enabled(self.has_predictions, egui::Button::new("Study: time against error..."));
-        let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
-        if study.on_hover_text(hover).clicked() {
-            commands.push(LossCommand::ShowStudy(true).into());
-            ui.close();
-        }
-        ui.separator();
-        let (text, hover, command) = if self.has_photograph {
-            ("Close photograph", "Compare with the ground truth again", PhotographCommand::Close)
-        } else {
-            let hover = "Compare renderings with a photograph, under its light and view";
-            ("Open photograph...", hover, PhotographCommand::ShowOpen(true))
-        };
-        if ui.button(text).on_hover_text(hover).clicked() {
-            commands.push(command.into());
-            ui.close();
-        }
-        ui.separator();
-        let theme = if self.dark { "Light theme" } else { "Dark theme" };
-        if ui.button(theme).on_hover_text("Colours of the window").clicked() {
-            commands.push(WindowCommand::SetDark(!self.dark).into());
-            ui.close();
-        }
-        ui.menu_button("UI scale", |ui| {
-            for percent in [75, 100, 125, 150, 175, 200, 250, 300] {
-                let scale = percent as f32 / 100.0;
-                let is_current = (self.scale - scale).abs() < 1e-3;
-                if ui.selectable_label(is_current, format!("{percent}%")).clicked() {
-                    commands.push(WindowCommand::SetScale(scale).into());
-                    ui.close();
-                }
-            }
-        })
-        .response
-        .on_hover_text("Size of text and controls (Ctrl with plus, minus; Ctrl+0 for 100%)");
-    }
 }
 
 /// The names of what panes of predictions show.
@@ -337,7 +294,7 @@ fn room(ui: &egui::Ui) -> Room {
 
 /// What a button shows.
 #[derive(Clone, Copy, Debug)]
-enum Face {
+pub(super) enum Face {
     Icon,
     Text,
     /// Its name, in the menu.
@@ -346,7 +303,7 @@ enum Face {
 
 impl Face {
     /// A button that is named `name` for assistive software, and is on or off where it can be: `None` is a button that does something.
-    fn button(
+    pub(super) fn button(
         self,
         ui: &mut egui::Ui,
         text: &str,

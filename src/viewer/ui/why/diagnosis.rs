@@ -146,7 +146,8 @@ impl DiagnosisSection<'_> {
             return;
         };
         let floor = self.jobs.diagnosis.floor(pair, self.settings.seed).map(|floor| digits(floor.mean));
-        let floor = floor.map(|floor| format!("Losses below {floor} are not resolvable; ")).unwrap_or_default();
+        let floor =
+            floor.map(|floor| format!("Losses below {floor} are not resolvable; ")).unwrap_or_default();
         let [near, distant] = SCENES;
         let text = format!("{floor}{near} + {distant} scenes, {}", seconds(*elapsed));
         ui.allocate_ui(vec2(ui.available_width(), height), |ui| {

@@ -1,0 +1,85 @@
+//! The menu at the right of the bar: what is seldom used, and what of the bar has no room in its line.
+
+use eframe::egui;
+
+use super::bar_item::{BarItem, Room};
+use super::top::{Face, TopBar};
+use crate::model::command::{Command, DatasetCommand, LossCommand, PhotographCommand, WindowCommand};
+use crate::model::dataset::DatasetState;
+use crate::model::dataset::list::ListView;
+
+impl TopBar<'_> {
+    /// What is in the menu, where this of the bar has room.
+    pub fn menu(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
+        let hidden: Vec<BarItem> = BarItem::ALL.into_iter().filter(|item| !room.has(*item)).collect();
+        if !room.exposure {
+            self.exposure(ui, commands);
+        }
+        hidden.iter().for_each(|item| self.item(ui, *item, Face::Name, commands));
+        if !hidden.is_empty() {
+            ui.separator();
+        }
+        if let Some(open) = &self.dataset.open {
+            self.of_dataset(ui, open.noun(), commands);
+            ui.separator();
+        }
+        let study = ui.add_enabled(self.has_predictions, egui::Button::new("Study: time against error..."));
+        let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
+        if study.on_hover_text(hover).clicked() {
+            commands.push(LossCommand::ShowStudy(true).into());
+            ui.close();
+        }
+        ui.separator();
+        let (text, hover, command) = if self.has_photograph {
+            ("Close photograph", "Compare with the ground truth again", PhotographCommand::Close)
+        } else {
+            let hover = "Compare renderings with a photograph, under its light and view";
+            ("Open photograph...", hover, PhotographCommand::ShowOpen(true))
+        };
+        if ui.button(text).on_hover_text(hover).clicked() {
+            commands.push(command.into());
+            ui.close();
+        }
+        ui.separator();
+        let theme = if self.dark { "Light theme" } else { "Dark theme" };
+        if ui.button(theme).on_hover_text("Colours of the window").clicked() {
+            commands.push(WindowCommand::SetDark(!self.dark).into());
+            ui.close();
+        }
+        ui.menu_button("UI scale", |ui| {
+            for percent in [75, 100, 125, 150, 175, 200, 250, 300] {
+                let scale = percent as f32 / 100.0;
+                let is_current = (self.scale - scale).abs() < 1e-3;
+                if ui.selectable_label(is_current, format!("{percent}%")).clicked() {
+                    commands.push(WindowCommand::SetScale(scale).into());
+                    ui.close();
+                }
+            }
+        })
+        .response
+        .on_hover_text("Size of text and controls (Ctrl with plus, minus; Ctrl+0 for 100%)");
+    }
+
+    /// The parts of the window that only a data set has; `noun` is what it lists.
+    fn of_dataset(&self, ui: &mut egui::Ui, noun: &str, commands: &mut Vec<Command>) {
+        let DatasetState { list, sheet, .. } = self.dataset;
+        let name = format!("List of {noun}s");
+        if Face::Name
+            .button(ui, &name, &name, true, Some(list.is_open))
+            .on_hover_text("Beside the panes (A)")
+            .clicked()
+        {
+            commands
+                .push(DatasetCommand::SetList(ListView { is_open: !list.is_open, ..list.clone() }).into());
+        }
+        let hover = format!("All {noun}s under the present light (S)");
+        if Face::Name
+            .button(ui, "", "Contact sheet", true, Some(sheet.is_open))
+            .on_hover_text(hover)
+            .clicked()
+        {
+            commands.push(DatasetCommand::ShowSheet(!sheet.is_open).into());
+            ui.close();
+        }
+    }
+}
