@@ -36,6 +36,7 @@ pub const SHADE: Shader = Shader {
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
+        piece!("maps.wgsl"),
         piece!("shade.wgsl"),
         piece!("shade_entry.wgsl"),
     ],
@@ -50,8 +51,52 @@ pub const GRAMMAR: Shader = Shader {
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
+        piece!("maps.wgsl"),
         piece!("shade.wgsl"),
         piece!("shade_entry.wgsl"),
+    ],
+};
+
+/// As [`SHADE`], of coded maps.
+pub const CODED_SHADE: Shader = Shader {
+    name: "shade",
+    pieces: &[
+        piece!("texel.wgsl"),
+        piece!("brdf.wgsl"),
+        piece!("scene.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("stride.wgsl"),
+        piece!("coded_maps.wgsl"),
+        piece!("shade.wgsl"),
+        piece!("shade_entry.wgsl"),
+    ],
+};
+
+/// As [`GRAMMAR`], of coded maps.
+pub const CODED_GRAMMAR: Shader = Shader {
+    name: "shade",
+    pieces: &[
+        piece!("texel.wgsl"),
+        piece!("grammar.wgsl"),
+        piece!("grid.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("stride.wgsl"),
+        piece!("coded_maps.wgsl"),
+        piece!("shade.wgsl"),
+        piece!("shade_entry.wgsl"),
+    ],
+};
+
+/// As [`REDUCE`], of coded maps.
+pub const CODED_REDUCE: Shader = Shader {
+    name: "reduce",
+    pieces: &[
+        piece!("texel.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("stride.wgsl"),
+        piece!("coded_maps.wgsl"),
+        piece!("coded_reduce.wgsl"),
     ],
 };
 
@@ -132,6 +177,7 @@ pub const PAGE_SHADE: Shader = Shader {
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
+        piece!("maps.wgsl"),
         piece!("shade.wgsl"),
         piece!("page_shade.wgsl"),
     ],
@@ -146,6 +192,7 @@ pub const PAGE_GRAMMAR: Shader = Shader {
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
+        piece!("maps.wgsl"),
         piece!("shade.wgsl"),
         piece!("page_shade.wgsl"),
     ],
@@ -193,9 +240,12 @@ pub const PAGE: [(&str, Shader); 4] = [
 ];
 
 /// Every shader of this crate.
-pub const ALL: [Shader; 13] = [
+pub const ALL: [Shader; 16] = [
     SHADE,
     REDUCE,
+    CODED_SHADE,
+    CODED_GRAMMAR,
+    CODED_REDUCE,
     DISPLAY,
     BLIT,
     PROBE,

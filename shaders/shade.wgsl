@@ -18,15 +18,6 @@ struct Shading {
 }
 
 @group(0) @binding(0) var<uniform> shading: Shading;
-@group(0) @binding(1) var normal_roughness: texture_2d<f32>;
-@group(0) @binding(2) var diffuse: texture_2d<f32>;
-@group(0) @binding(3) var specular: texture_2d<f32>;
-
-fn load_texel(place: vec2u) -> Texel {
-    let first = textureLoad(normal_roughness, place, 0);
-    return Texel(first.xyz, textureLoad(diffuse, place, 0).rgb, textureLoad(specular, place, 0).rgb, first.w);
-}
-
 // The texel at the position `c`, which the maps hold at `stored`.
 fn shade_texel(c: vec3f, stored: vec2u) -> vec3f {
     let texel = load_texel(stored);
@@ -43,7 +34,7 @@ fn shade_texel(c: vec3f, stored: vec2u) -> vec3f {
 fn shaded(corner: Corner) -> vec4f {
     let fragment = vec2u(corner.position.xy);
     // Reduced maps hold the texels of the fragments, and no others.
-    let stored_size = textureDimensions(normal_roughness);
+    let stored_size = stored_size();
     let is_reduced = any(stored_size != shading.size);
     if REPEATED {
         let cell = first_cell(shading.size) + shaded_place(fragment, shading.stride, repeated_cells(shading.size));
