@@ -96,14 +96,20 @@ pub const CODED_REDUCE: Shader = Shader {
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
         piece!("coded_maps.wgsl"),
-        piece!("coded_reduce.wgsl"),
+        piece!("reduce.wgsl"),
     ],
 };
 
 /// Every n-th texel of a map.
 pub const REDUCE: Shader = Shader {
     name: "reduce",
-    pieces: &[piece!("fullscreen.wgsl"), piece!("stride.wgsl"), piece!("reduce.wgsl")],
+    pieces: &[
+        piece!("texel.wgsl"),
+        piece!("fullscreen.wgsl"),
+        piece!("stride.wgsl"),
+        piece!("maps.wgsl"),
+        piece!("reduce.wgsl"),
+    ],
 };
 
 /// Pass 2: a screen pixel a fragment.

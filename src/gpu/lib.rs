@@ -12,6 +12,7 @@
 
 mod adapter;
 mod backends;
+mod codes;
 mod context;
 mod display;
 mod fault;

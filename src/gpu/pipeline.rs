@@ -47,14 +47,23 @@ pub(super) fn bind(
 }
 
 /// A binding of a buffer.
-pub(super) fn buffer_type(ty: BufferBindingType) -> BindingType {
+pub(super) const fn buffer_type(ty: BufferBindingType) -> BindingType {
     BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None }
 }
 
 /// A binding of a float texture whose texels are loaded, never filtered.
-pub(super) fn texture_type() -> BindingType {
+pub(super) const fn texture_type() -> BindingType {
     BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable: false },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    }
+}
+
+/// A binding of a texture of integers.
+pub(super) const fn codes_type() -> BindingType {
+    BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Uint,
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
     }
@@ -207,7 +216,7 @@ mod tests {
             Ok(gpu) => gpu,
             Err(error) => return eprintln!("NOT TESTED: {error}"),
         };
-        let types = [buffer_type(BufferBindingType::Uniform), texture_type()];
+        let types = [buffer_type(BufferBindingType::Uniform), texture_type(), texture_type(), texture_type()];
         let format = gpu.report.shading_format;
         let all = Fullscreen::new(&gpu.device, &shaders::REDUCE, &types, format, Constants::new());
         let count = || all.compiled.lock().unwrap().len();

@@ -3,20 +3,22 @@
 use std::sync::OnceLock;
 
 use wgpu::{
-    BufferBindingType, Extent3d, LoadOp, Texture, TextureDescriptor, TextureFormat, TextureUsages,
-    TextureView,
+    BindGroup, BindingResource, BindingType, Buffer, BufferBindingType, Extent3d, LoadOp, Texture,
+    TextureDescriptor, TextureFormat, TextureUsages, TextureView,
 };
 
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_shaders as shaders;
+use svbrdf_shaders::{self as shaders, Shader};
 
 use super::fault::scoped;
 use super::params::ShadeParams;
-use super::pipeline::{CLEAR, Constants, Fullscreen, begin, bind, buffer_type, texture_type, uniform_buffer};
-use super::textures::{descriptor, extent, write};
+use super::pipeline::{
+    CLEAR, Constants, Fullscreen, begin, bind, buffer_type, codes_type, texture_type, uniform_buffer,
+};
+use super::textures::{Maps, descriptor, extent, write};
 use super::uniforms::{GrammarShading, ShadingUniforms};
 use super::{Gpu, MaterialTextures};
 
@@ -26,11 +28,41 @@ const LARGEST_F16: f32 = 65504.0;
 /// The pipelines of pass 1.
 #[derive(Debug)]
 pub struct Shading {
-    pipelines: Fullscreen,
+    /// Of maps as floats; of coded ones, compiled when one is drawn.
+    floats: Passes,
+    coded: OnceLock<Passes>,
+}
+
+/// The pipelines for maps that are held in one way.
+#[derive(Debug)]
+struct Passes {
+    shading: Fullscreen,
     /// Of the renderers of the grammar of conventions, compiled when one is drawn.
     grammar: OnceLock<Fullscreen>,
     reduction: Fullscreen,
 }
+
+impl Passes {
+    /// With these shaders, and these bindings of the maps.
+    fn new(gpu: &Gpu, [shade, reduce]: [&'static Shader; 2], maps: [BindingType; 3]) -> Self {
+        let shading = pipelines(gpu, shade, maps, constants(Quantity::Rendering, false));
+        Self { shading, grammar: OnceLock::new(), reduction: pipelines(gpu, reduce, maps, reduced(0)) }
+    }
+
+    /// Those for [`Maps::Floats`].
+    fn of_floats(gpu: &Gpu) -> Self {
+        Self::new(gpu, [&shaders::SHADE, &shaders::REDUCE], FLOATS)
+    }
+
+    /// Those for [`Maps::Coded`].
+    fn of_codes(gpu: &Gpu) -> Self {
+        Self::new(gpu, [&shaders::CODED_SHADE, &shaders::CODED_REDUCE], CODES)
+    }
+}
+
+/// The bindings of maps as floats, and as codes.
+const FLOATS: [BindingType; 3] = [texture_type(); 3];
+const CODES: [BindingType; 3] = [codes_type(), codes_type(), buffer_type(BufferBindingType::Uniform)];
 
 /// What pass 1 writes: linear floats, a texel each, row 0 on top.
 #[derive(Debug)]
@@ -52,7 +84,7 @@ impl Shaded {
         let extent = extent(gpu, size)?;
         scoped(&gpu.device, "uploading a picture", || {
             let texture = gpu.device.create_texture(&descriptor("picture", extent));
-            write(gpu, &texture, size, |index| {
+            write(gpu, &texture, |index| {
                 let [r, g, b] = image.pixels[index];
                 [r, g, b, 0.0]
             });
@@ -83,14 +115,18 @@ impl Shading {
     /// # Errors
     /// [`Error::Gpu`] where the driver refuses.
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
-        scoped(&gpu.device, "compiling the shading pass", || {
-            let uniform = buffer_type(BufferBindingType::Uniform);
-            let pipelines = pipelines(gpu, &shaders::SHADE);
-            let (types, none) = ([uniform, texture_type()], Constants::new());
-            let reduction =
-                Fullscreen::new(&gpu.device, &shaders::REDUCE, &types, gpu.report.shading_format, none);
-            Self { pipelines, grammar: OnceLock::new(), reduction }
+        scoped(&gpu.device, "compiling the shading pass", || Self {
+            floats: Passes::of_floats(gpu),
+            coded: OnceLock::new(),
         })
+    }
+
+    /// The pipelines for these maps.
+    fn passes(&self, gpu: &Gpu, textures: &MaterialTextures) -> &Passes {
+        match textures.maps {
+            Maps::Floats(_) => &self.floats,
+            Maps::Coded(..) => self.coded.get_or_init(|| Passes::of_codes(gpu)),
+        }
     }
 
     /// A target for materials of `size` = (width, height).
@@ -135,21 +171,20 @@ impl Shading {
         let extent = extent(gpu, size.map(|side| side.div_ceil(stride)))?;
         scoped(&gpu.device, "reducing a material", || {
             let uniform = uniform_buffer(&gpu.device, bytemuck::bytes_of(&(stride as u32)));
-            let pipeline = self.reduction.with(&gpu.device, Constants::new());
+            let reduction = &self.passes(gpu, textures).reduction;
+            let group = bind_maps(gpu, reduction, &uniform, textures);
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            let views = textures.views.each_ref().map(|whole| {
+            let views = std::array::from_fn(|map| {
                 let view = floats(gpu, "reduced", extent).create_view(&Default::default());
-                let resources = [uniform.as_entire_binding(), wgpu::BindingResource::TextureView(whole)];
-                let group = bind(&gpu.device, &self.reduction.layout, &resources);
                 let mut pass = begin(&mut encoder, "reducing", &view, CLEAR);
-                pass.set_pipeline(&pipeline);
+                pass.set_pipeline(&reduction.with(&gpu.device, reduced(map as u32)));
                 pass.set_bind_group(0, &group, &[]);
                 pass.draw(0..3, 0..1);
                 drop(pass);
                 view
             });
             gpu.queue.submit([encoder.finish()]);
-            MaterialTextures { views }
+            MaterialTextures { maps: Maps::Floats(views) }
         })
     }
 
@@ -176,21 +211,25 @@ impl Shading {
             _ => f32::MAX,
         };
         let (stride, size) = (target.stride, target.size);
+        let passes = self.passes(gpu, textures);
         let (pipelines, buffer) = match params.convention.member {
             Some(member) if params.quantity == Quantity::Rendering => {
                 let uniforms = GrammarShading::new(&member.terms, &params.scene, largest, stride, size);
-                let pipelines = self.grammar.get_or_init(|| pipelines(gpu, &shaders::GRAMMAR));
-                (pipelines, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
+                let grammar = passes.grammar.get_or_init(|| {
+                    let (shader, types) = match textures.maps {
+                        Maps::Floats(_) => (&shaders::GRAMMAR, FLOATS),
+                        Maps::Coded(..) => (&shaders::CODED_GRAMMAR, CODES),
+                    };
+                    pipelines(gpu, shader, types, constants(Quantity::Rendering, false))
+                });
+                (grammar, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
             }
             _ => {
                 let uniforms = ShadingUniforms::new(params, largest, stride, size);
-                (&self.pipelines, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
+                (&passes.shading, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
             }
         };
-        let [normal_roughness, diffuse, specular] = &textures.views;
-        let maps = [normal_roughness, diffuse, specular].map(wgpu::BindingResource::TextureView);
-        let [a, b, c] = maps;
-        let group = bind(&gpu.device, &pipelines.layout, &[buffer.as_entire_binding(), a, b, c]);
+        let group = bind_maps(gpu, pipelines, &buffer, textures);
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let mut pass = begin(&mut encoder, "shading", &target.view, part.map_or(CLEAR, |_| LoadOp::Load));
@@ -205,11 +244,27 @@ impl Shading {
     }
 }
 
-/// The pipelines of a shader of pass 1.
-fn pipelines(gpu: &Gpu, shader: &'static shaders::Shader) -> Fullscreen {
-    let maps = [buffer_type(BufferBindingType::Uniform), texture_type(), texture_type(), texture_type()];
-    let first = constants(Quantity::Rendering, false);
-    Fullscreen::new(&gpu.device, shader, &maps, gpu.report.shading_format, first)
+/// The pipelines of a shader that reads these maps; those with the `first` constants are compiled at once.
+fn pipelines(
+    gpu: &Gpu,
+    shader: &'static Shader,
+    [a, b, c]: [BindingType; 3],
+    first: Constants,
+) -> Fullscreen {
+    let types = [buffer_type(BufferBindingType::Uniform), a, b, c];
+    Fullscreen::new(&gpu.device, shader, &types, gpu.report.shading_format, first)
+}
+
+/// The group of uniforms and maps.
+fn bind_maps(gpu: &Gpu, pipelines: &Fullscreen, uniforms: &Buffer, textures: &MaterialTextures) -> BindGroup {
+    let [a, b, c] = match &textures.maps {
+        Maps::Floats(views) => views.each_ref().map(BindingResource::TextureView),
+        Maps::Coded([first, specular], values) => {
+            let [first, specular] = [first, specular].map(BindingResource::TextureView);
+            [first, specular, values.as_entire_binding()]
+        }
+    };
+    bind(&gpu.device, &pipelines.layout, &[uniforms.as_entire_binding(), a, b, c])
 }
 
 /// A target for every `stride`-th of `count` = [columns, rows] texels or cells of a material of `size`.
@@ -234,6 +289,11 @@ fn floats(gpu: &Gpu, label: &str, size: Extent3d) -> Texture {
         usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_SRC,
         view_formats: &[],
     })
+}
+
+/// The constants of the pipeline that reduces one texture of floats: normal and roughness, diffuse, or specular.
+fn reduced(map: u32) -> Constants {
+    vec![("MAP", map)]
 }
 
 /// The constants of the pipeline that shades this quantity of texels, or of the cells of the repeated plane.

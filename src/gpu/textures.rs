@@ -1,9 +1,12 @@
 //! A material on the device: the core's f32 numbers, exactly.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use bytemuck::Pod;
 use rayon::prelude::*;
 use wgpu::util::StagingBelt;
 use wgpu::{
-    BufferSize, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, Origin3d, PollType, SubmissionIndex,
+    Buffer, BufferSize, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, Origin3d, PollType, SubmissionIndex,
     TexelCopyBufferInfo, TexelCopyBufferLayout, TexelCopyTextureInfo, Texture, TextureDescriptor,
     TextureFormat, TextureUsages, TextureView,
 };
@@ -12,17 +15,31 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 
 use super::Gpu;
+use super::codes::{Codes, VALUES};
 use super::fault::scoped;
+use super::pipeline::uniform_buffer;
 
 /// About how many bytes are sent at once: bounds the memory that an upload takes beside the textures.
 const BAND_BYTES: usize = 4 << 20;
-/// Bytes of a texel of one texture: four f32.
-const TEXEL_BYTES: usize = 16;
+/// Bytes that are a multiple of those of every texel.
+const ALIGNMENT: u64 = 16;
+/// Texels that are looked at first, to find maps of many values soon.
+const SAMPLE: usize = 4096;
 
-/// The four maps as three float textures: normal with roughness, diffuse, specular.
+/// The four maps: exactly the numbers of the core.
 #[derive(Clone, Debug)]
 pub struct MaterialTextures {
-    pub(super) views: [TextureView; 3],
+    pub(super) maps: Maps,
+}
+
+/// How the maps are held.
+#[derive(Clone, Debug)]
+pub(super) enum Maps {
+    /// Normal with roughness, diffuse, specular: four f32 a texel each.
+    Floats([TextureView; 3]),
+    /// The f32 of the normal with the codes of roughness and diffuse, the codes of specular, and the values of the codes: where
+    /// roughness, diffuse and specular have at most 256 values each, as those of 8-bit files.
+    Coded([TextureView; 2], Buffer),
 }
 
 impl MaterialTextures {
@@ -55,16 +72,92 @@ impl MaterialTextures {
         source: impl Fn(usize) -> usize + Sync,
     ) -> Result<Self, Error> {
         let extent = extent(gpu, size)?;
-        let textures = scoped(&gpu.device, "uploading a material", || {
-            let create = |label| gpu.device.create_texture(&descriptor(label, extent));
-            let textures = [create("normal and roughness"), create("diffuse"), create("specular")];
-            for (texture, texel) in textures.iter().zip([normal_roughness, diffuse, specular]) {
-                write(gpu, texture, size, |index| texel(material.planes(), source(index)));
-            }
-            textures
+        let planes = material.planes();
+        let maps = scoped(&gpu.device, "uploading a material", || {
+            coded(gpu, planes, extent, &source).unwrap_or_else(|| floats(gpu, planes, extent, &source))
         })?;
-        Ok(Self { views: textures.map(|t| t.create_view(&Default::default())) })
+        Ok(Self { maps })
     }
+
+    /// Bytes of a texel on the device.
+    pub fn texel_bytes(&self) -> usize {
+        match self.maps {
+            Maps::Floats(_) => 48,
+            Maps::Coded(..) => 20,
+        }
+    }
+}
+
+/// The maps as floats.
+fn floats(
+    gpu: &Gpu,
+    planes: &Planes<f32>,
+    extent: Extent3d,
+    source: &(impl Fn(usize) -> usize + Sync),
+) -> Maps {
+    let of = |label, texel: fn(&Planes<f32>, usize) -> [f32; 4]| {
+        let texture = gpu.device.create_texture(&descriptor(label, extent));
+        write(gpu, &texture, |index| texel(planes, source(index)));
+        texture.create_view(&Default::default())
+    };
+    let [a, b] = [of("normal and roughness", normal_roughness), of("diffuse", diffuse)];
+    Maps::Floats([a, b, of("specular", specular)])
+}
+
+/// The maps as codes; `None` where they have too many values.
+fn coded(
+    gpu: &Gpu,
+    planes: &Planes<f32>,
+    extent: Extent3d,
+    source: &(impl Fn(usize) -> usize + Sync),
+) -> Option<Maps> {
+    let codes: [Codes; 3] = std::array::from_fn(|_| Codes::new());
+    let [roughness, diffuse, specular] = &codes;
+    let count = extent.width as usize * extent.height as usize;
+    let colour = |codes: &Codes, planes: &[Vec<f32>; 3], index: usize| -> Option<u32> {
+        let [r, g, b] = planes.each_ref().map(|plane| codes.code(plane[index]));
+        Some(r? << 16 | g? << 8 | b?)
+    };
+    let normal_and_codes = |index: usize| -> Option<[u32; 4]> {
+        let [x, y, z] = planes.normal.each_ref().map(|plane| plane[index].to_bits());
+        let first = roughness.code(planes.roughness[index])?;
+        Some([x, y, z, first << 24 | colour(diffuse, &planes.diffuse, index)?])
+    };
+    let specular_codes = |index: usize| colour(specular, &planes.specular, index);
+    for index in (0..count).step_by((count / SAMPLE).max(1)).map(source) {
+        (normal_and_codes(index)?, specular_codes(index)?);
+    }
+    let has_failed = AtomicBool::new(false);
+    let failed = || has_failed.store(true, Ordering::Relaxed);
+    let create =
+        |label, format| gpu.device.create_texture(&TextureDescriptor { format, ..descriptor(label, extent) });
+    let textures = [
+        create("normal and codes", TextureFormat::Rgba32Uint),
+        create("codes of specular", TextureFormat::R32Uint),
+    ];
+    write(gpu, &textures[0], |index| {
+        normal_and_codes(source(index)).unwrap_or_else(|| {
+            failed();
+            [0; 4]
+        })
+    });
+    if !has_failed.load(Ordering::Relaxed) {
+        write(gpu, &textures[1], |index| {
+            specular_codes(source(index)).unwrap_or_else(|| {
+                failed();
+                0
+            })
+        });
+    }
+    if has_failed.load(Ordering::Relaxed) {
+        return None;
+    }
+    let mut values = [[0.0_f32; 4]; VALUES];
+    for (channel, codes) in codes.iter().enumerate() {
+        values.iter_mut().zip(codes.values()).for_each(|(row, value)| row[channel] = value);
+    }
+    let values = uniform_buffer(&gpu.device, bytemuck::cast_slice(&values));
+    Some(Maps::Coded(textures.map(|texture| texture.create_view(&Default::default())), values))
 }
 
 /// `size` as wgpu wants it, if the device can hold it.
@@ -97,15 +190,12 @@ pub(super) fn descriptor(label: &'static str, size: Extent3d) -> TextureDescript
 }
 
 /// Sends the texels band by band, through buffers that are used again: clearing fresh memory takes longer than the copy.
-pub(super) fn write(
-    gpu: &Gpu,
-    texture: &Texture,
-    [width, height]: [usize; 2],
-    texel: impl Fn(usize) -> [f32; 4] + Sync,
-) {
-    let pitch = width.next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT as usize / TEXEL_BYTES);
-    let rows_per_band = (BAND_BYTES / (pitch * TEXEL_BYTES)).clamp(1, height);
-    let mut texels = vec![[0.0; 4]; rows_per_band * pitch];
+pub(super) fn write<T: Pod + Send>(gpu: &Gpu, texture: &Texture, texel: impl Fn(usize) -> T + Sync) {
+    let [width, height] = [texture.width() as usize, texture.height() as usize];
+    let bytes = size_of::<T>();
+    let pitch = width.next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT as usize / bytes);
+    let rows_per_band = (BAND_BYTES / (pitch * bytes)).clamp(1, height);
+    let mut texels = vec![T::zeroed(); rows_per_band * pitch];
     let mut belt = StagingBelt::new(gpu.device.clone(), size_of_val(texels.as_slice()) as u64);
     let mut last = None;
     for top in (0..height).step_by(rows_per_band) {
@@ -115,9 +205,9 @@ pub(super) fn write(
             values[..width].iter_mut().zip(first..).for_each(|(value, index)| *value = texel(index));
         });
         // Where the adapter has no buffer for it, it has reported a fault.
-        let Some(submission) = send_band(gpu, &mut belt, texture, top, bytemuck::cast_slice(band)) else {
-            return;
-        };
+        let rows = bytemuck::cast_slice(band);
+        let bytes_per_row = (pitch * bytes) as u32;
+        let Some(submission) = send_band(gpu, &mut belt, texture, top, (rows, bytes_per_row)) else { return };
         // The buffer of the band before is free again when its copy has ended. A lost device is reported where it draws.
         let copied = |submission_index| PollType::Wait { submission_index, timeout: None };
         last.replace(submission).map(|last| gpu.device.poll(copied(Some(last))));
@@ -130,11 +220,10 @@ fn send_band(
     belt: &mut StagingBelt,
     texture: &Texture,
     top: usize,
-    rows: &[u8],
+    (rows, bytes_per_row): (&[u8], u32),
 ) -> Option<SubmissionIndex> {
     let width = texture.width();
-    let bytes_per_row = (width * TEXEL_BYTES as u32).next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT);
-    let slice = belt.allocate(BufferSize::new(rows.len() as u64)?, BufferSize::new(TEXEL_BYTES as u64)?);
+    let slice = belt.allocate(BufferSize::new(rows.len() as u64)?, BufferSize::new(ALIGNMENT)?);
     slice.get_mapped_range_mut().ok()?.copy_from_slice(rows);
     let layout = TexelCopyBufferLayout {
         offset: slice.offset(),

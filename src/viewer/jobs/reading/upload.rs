@@ -21,7 +21,7 @@ pub const BAND: usize = 1 << 19;
 
 /// Strides that are tried in turn where the adapter cannot hold all texels.
 const REDUCTIONS: [usize; 5] = [2, 4, 8, 16, 32];
-/// Bytes of a texel in the three textures of a material.
+/// The most bytes of a texel in the textures of a material.
 const TEXEL_BYTES: u64 = 48;
 
 /// Every n-th texel of a material along both axes.
@@ -106,11 +106,14 @@ impl Uploaded {
 /// Sends every `stride`-th texel.
 fn send(gpu: &Gpu, material: &Material<f32>, stride: usize) -> Result<DraftTextures, Error> {
     let texels: usize = material.size().into_iter().map(|side| side.div_ceil(stride)).product();
-    let _reserved = reserve_for(gpu, texels, TEXEL_BYTES)?;
+    let reserved = reserve_for(gpu, texels, TEXEL_BYTES)?;
     let textures = match stride {
         1 => MaterialTextures::upload(gpu, material)?,
         stride => MaterialTextures::upload_reduced(gpu, material, stride)?,
     };
+    // Most files have codes, which take less.
+    drop(reserved);
+    let _reserved = reserve_for(gpu, texels, textures.texel_bytes() as u64)?;
     Ok(DraftTextures { stride, textures, _reserved })
 }
 
