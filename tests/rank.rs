@@ -15,6 +15,7 @@ use svbrdf_evaluate::dataset::{
     PredictionResult, Source, best_by_metric, interval_of_mean, interval_of_positive_mean,
 };
 use svbrdf_evaluate::rank;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::samples;
 
 #[test]
@@ -157,7 +158,8 @@ fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
 
 fn ranked(methods: &[&str], results: &[MaterialResult], pick: Pick) -> DatasetReport {
     let methods = methods.iter().map(|method| (*method).to_owned()).collect();
-    let settings = DatasetSettings::new(Source::Table("pairs.csv".into()), "printed", 0.01, 0, &[]);
+    let settings =
+        DatasetSettings::new(Source::Table("pairs.csv".into()), ChosenConvention::default(), 0.01, 0, &[]);
     let settings = DatasetSettings { methods, ..settings };
     DatasetReport::new(settings, DatasetReading::default(), results.to_vec(), pick)
 }

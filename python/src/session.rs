@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf_core::model::convention::Convention;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::{ReadOptions, Sidecar};
 use svbrdf_files::session::{Session, SessionMaterial};
 
@@ -22,7 +22,7 @@ pub fn session(
     convention: &str,
 ) -> PyResult<String> {
     let scene = scene.scene()?;
-    let convention: Convention = convention.parse().map_err(exception)?;
+    let convention = ChosenConvention::read(convention).map_err(exception)?;
     let entry = |(path, options): (PathBuf, Option<String>)| {
         let read: ReadOptions = match options {
             Some(options) => read_options(&options)?,
@@ -31,5 +31,5 @@ pub fn session(
         Ok(SessionMaterial { name: None, path: Some(path), built_in: None, read, fit: false, steps: false })
     };
     let materials = materials.into_iter().map(entry).collect::<PyResult<_>>()?;
-    Session::new(materials, scene, convention.name.to_owned(), 0.0).text(&path).map_err(exception)
+    Session::new(materials, scene, convention.text(), 0.0).text(&path).map_err(exception)
 }

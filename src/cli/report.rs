@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_evaluate::report::Report as _;
+use svbrdf_evaluate::report::{Report as _, RobustReport};
+use svbrdf_evaluate::robust::RobustInput;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::session::window::{Layout, SessionDisplay};
@@ -42,6 +43,11 @@ pub struct ReportArgs {
     #[arg(long)]
     figure: bool,
 
+    /// Adds whether the order of the predictions survives other conventions, exposures, resolutions, scenes and measures, as
+    /// `svbrdf rank --robust` tells
+    #[arg(long, conflicts_with = "figure")]
+    robust: bool,
+
     /// Layout that the figure begins with: side-by-side, wipe or single [default: side-by-side, or as in the session]
     #[arg(long, value_name = "LAYOUT")]
     layout: Option<Layout>,
@@ -74,11 +80,13 @@ struct ReportJob {
 struct WholePage {
     /// The request of the findings; `None` without predictions.
     request: Option<Request>,
+    /// The error of the losses and the seed of the questions about the order, where they are asked.
+    robust: Option<(f64, u64)>,
 }
 
 impl ReportArgs {
     pub fn job(self, given: &Given) -> NewJob {
-        let Self { output, max_size, figure, layout, accuracy, rendering, comparison } = self;
+        let Self { output, max_size, figure, robust, layout, accuracy, rendering, comparison } = self;
         check_destination(&output)?;
         let comparison = ComparisonJob::new(&comparison, given)?;
         let (session, is_alone) = (comparison.session.as_ref(), comparison.materials.predictions() == 0);
@@ -89,6 +97,7 @@ impl ReportArgs {
             let reason = "there is no prediction, and no loss";
             given.refuse::<AccuracyArgs>(reason)?;
             refuse(layout.is_some(), "layout", reason)?;
+            refuse(robust, "robust", reason)?;
         }
         let question = || SessionSettings::question(session, &accuracy.options());
         let request = (!is_alone && !figure).then(question).transpose()?.map(|question| question.request);
@@ -96,7 +105,8 @@ impl ReportArgs {
         display.layout = layout.unwrap_or(display.layout);
         let scene = rendering.scene.scene(session.map(|session| session.scene))?;
         let exposure_ev = rendering.exposure.or(session.map(|session| session.exposure_ev));
-        let whole = (!figure).then_some(WholePage { request });
+        let robust = robust.then(|| accuracy.target_and_seed());
+        let whole = (!figure).then_some(WholePage { request, robust });
         Ok(Box::new(ReportJob { comparison, output, max_size, scene, exposure_ev, display, whole }))
     }
 }
@@ -111,8 +121,15 @@ impl Job for ReportJob {
         let ground_truth = &opened.ground_truth;
         let exposure_ev = exposure_ev.unwrap_or_else(|| exposure(ground_truth, &scene, &convention));
         let predictions: Vec<_> = opened.predictions.iter().collect();
-        let findings = |request: &Request| {
-            watched("rendering", |p| Findings::new(ground_truth, &predictions, convention, request, p))
+        let robust = whole.as_ref().and_then(|page| page.robust).map(|(target_error, seed)| {
+            let predictions = predictions.clone();
+            RobustInput { ground_truth, predictions, convention, target_error, seed }
+        });
+        let findings = |request: &Request| -> Result<Findings, CommandError> {
+            let found =
+                watched("rendering", |p| Findings::new(ground_truth, &predictions, convention, request, p))?;
+            let asked = robust.as_ref().map(|input| watched("rendering", |p| RobustReport::new(input, p)));
+            Ok(Findings { robust: asked.transpose()?, ..found })
         };
         let request = whole.as_ref().and_then(|page| page.request.as_ref());
         let findings = request.map(findings).transpose()?;

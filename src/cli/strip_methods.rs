@@ -57,8 +57,9 @@ pub fn job(
     };
     let source = cases::source(&comparison.materials, false)?;
     let cases = source.cases()?;
-    let convention = comparison.convention.unwrap_or_default();
-    let settings = DatasetSettings::new(source, convention.name, TARGET_ERROR, 0, &cases);
+    let chosen = comparison.convention.clone().unwrap_or_default();
+    let convention = chosen.convention;
+    let settings = DatasetSettings::new(source, chosen, TARGET_ERROR, 0, &cases);
     let reading = cases::reading(given, &settings.methods)?;
     let mut content = column.content;
     if let Some(difference) = &mut content.difference {

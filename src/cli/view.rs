@@ -10,6 +10,7 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_evaluate::dataset::DatasetReading;
 #[cfg(feature = "viewer")]
 use svbrdf_files::Error;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::photograph::Capture;
 #[cfg(feature = "viewer")]
 use svbrdf_files::photograph::SessionPhotograph;
@@ -43,6 +44,11 @@ pub struct ViewArgs {
 
     #[command(flatten)]
     dataset: DatasetArgs,
+
+    /// Convention of renderings and losses: a name, which `svbrdf conventions` lists, or a .toml file [default: printed, or as in the
+    /// session]
+    #[arg(long, value_name = "NAME", value_parser = ChosenConvention::read)]
+    convention: Option<ChosenConvention>,
 
     #[command(flatten)]
     materials: MaterialArgs,
@@ -157,8 +163,8 @@ impl ViewArgs {
         };
         if self.dataset.dataset || self.dataset.pairs {
             let strict = self.materials.reading.both.strict;
-            let dataset = Some(Box::new(dataset_of(self)?));
-            return Ok(svbrdf::ViewerOptions { dataset, strict, ..svbrdf::ViewerOptions::default() });
+            let (dataset, convention) = (Some(Box::new(dataset_of(self)?)), self.convention.clone());
+            return Ok(svbrdf::ViewerOptions { dataset, convention, strict, ..Default::default() });
         }
         let photograph = photograph_of(self)?;
         let materials = &mut self.materials;
@@ -169,6 +175,7 @@ impl ViewArgs {
         Ok(svbrdf::ViewerOptions {
             session,
             photograph,
+            convention: self.convention.clone(),
             scenes,
             strict: materials.reading.both.strict,
             fit,

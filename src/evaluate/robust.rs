@@ -89,35 +89,56 @@ pub struct RobustInput<'a> {
 }
 
 impl RobustInput<'_> {
-    /// The answers to all questions, the default one first.
+    /// The answers to all questions, the default one first. A question is one step of `progress`.
     ///
     /// # Errors
     /// Where the materials cannot be compared; [`Error`] of a cancelled computation.
     pub fn answers(&self, progress: &Progress) -> Result<Vec<Answered>, Error> {
         let usual = Request::Accuracy { target: self.target_error, seed: self.seed };
-        let mut all = vec![self.loss(self.convention.name, self.convention, &usual, progress)?];
-        for described in named::all().iter().filter(|described| described.name != self.convention.name) {
-            all.push(self.loss(&described.name, Convention::try_from(described)?, &usual, progress)?);
-        }
-        for epsilon in [0.01, 0.1].into_iter().filter(|epsilon| *epsilon != self.convention.epsilon) {
-            let convention = Convention { epsilon, ..self.convention };
-            all.push(self.loss(&format!("epsilon {epsilon}"), convention, &usual, progress)?);
-        }
-        for (name, factor) in [("exposure -1 EV", 0.5), ("exposure +1 EV", 2.0)] {
-            all.push(self.loss(name, exposed(&self.convention, factor)?, &usual, progress)?);
+        let losses = self.losses(&usual)?;
+        progress.begin(losses.len() as u64 + 3);
+        let mut all = Vec::new();
+        for (name, convention, request) in losses {
+            all.push(self.loss(&name, convention, &request, progress)?);
+            progress.step()?;
         }
         all.push(self.halved(&usual, progress)?);
+        progress.step()?;
+        all.extend(self.maps()?);
+        progress.step()?;
+        all.push(self.flip(progress)?);
+        progress.step()?;
+        Ok(all)
+    }
+
+    /// The questions that are losses of the materials as they are.
+    fn losses(&self, usual: &Request) -> Result<Vec<(String, Convention, Request)>, Error> {
+        let mut all = vec![(self.convention.name.to_owned(), self.convention, usual.clone())];
+        for described in named::all().iter().filter(|described| described.name != self.convention.name) {
+            all.push((described.name.clone(), Convention::try_from(described)?, usual.clone()));
+        }
+        for epsilon in [0.01, 0.1].into_iter().filter(|epsilon| *epsilon != self.convention.epsilon) {
+            all.push((
+                format!("epsilon {epsilon}"),
+                Convention { epsilon, ..self.convention },
+                usual.clone(),
+            ));
+        }
+        for (name, factor) in [("exposure -1 EV", 0.5), ("exposure +1 EV", 2.0)] {
+            all.push((name.to_owned(), exposed(&self.convention, factor)?, usual.clone()));
+        }
         for (name, near, distant) in [("near-field scenes", SCENES, 0), ("distant scenes", 0, SCENES)] {
             let texels = Texels::Sampled(TEXELS);
             let sampling = Sampling { near, distant, seed: self.seed, sampler: Sampler::Sobol, texels };
-            all.push(self.loss(name, self.convention, &Request::Scenes(sampling), progress)?);
+            all.push((name.to_owned(), self.convention, Request::Scenes(sampling)));
         }
         for lights in NamedScenes::ALL {
-            let request = Request::Listed(lights.scenes()?);
-            all.push(self.loss(&format!("lights {}", lights.name()), self.convention, &request, progress)?);
+            all.push((
+                format!("lights {}", lights.name()),
+                self.convention,
+                Request::Listed(lights.scenes()?),
+            ));
         }
-        all.extend(self.maps()?);
-        all.push(self.flip(progress)?);
         Ok(all)
     }
 

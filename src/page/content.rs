@@ -5,7 +5,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Endpoint, Scene};
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::report::LossReport;
+use svbrdf_evaluate::report::{LossReport, RobustReport};
 use svbrdf_evaluate::why::{
     Attribution, Hemisphere, RankedScene, attribute, hemisphere, worst_on_all_texels,
 };
@@ -32,6 +32,8 @@ pub struct View {
 #[derive(Clone, Debug)]
 pub struct Findings {
     pub loss: LossReport,
+    /// Whether the order of the predictions survives other questions; `None`: not asked.
+    pub robust: Option<RobustReport>,
     /// One per prediction.
     pub attributions: Vec<Attribution>,
     /// The worst scenes of the loss, worst first, with their losses on all texels.
@@ -60,7 +62,7 @@ impl Findings {
             |prediction: &&Material<f32>| attribute(ground_truth, prediction, &convention, request, progress);
         let attributions = predictions.iter().map(one).collect::<Result<_, _>>()?;
         let lights = hemisphere(&comparison, Endpoint::Light, ALONG_NORMAL, SIDE, progress, |_| {})?;
-        Ok(Self { loss, attributions, worst, lights })
+        Ok(Self { loss, robust: None, attributions, worst, lights })
     }
 }
 

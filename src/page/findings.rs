@@ -16,7 +16,7 @@ use super::exposure::exposure;
 use super::markup::{MOST_NAMES, escaped, number, place};
 use super::pictures::Rows;
 use super::tables::HtmlTable;
-use super::{pictures, plots};
+use super::{pictures, plots, robust};
 use svbrdf_files::disk::atomic::SOFTWARE;
 
 /// Thumbnails of the materials in a scene.
@@ -35,6 +35,7 @@ pub(super) fn sections(
     let mut linked = Vec::new();
     if let Some(findings) = &report.findings {
         html += &losses(findings);
+        html += &findings.robust.as_ref().map_or(String::new(), robust::section);
         html += &shares(&findings.attributions);
         let (scenes, of_scenes) = worst_scenes(report, findings, small, progress)?;
         html += &scenes;

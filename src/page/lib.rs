@@ -13,6 +13,7 @@ mod pictures;
 mod plots;
 mod ranking;
 mod ranking_views;
+mod robust;
 mod tables;
 
 use std::path::Path;

@@ -5,10 +5,10 @@ use std::collections::BTreeSet;
 use svbrdf_core::loss::Estimate;
 
 use super::markup::{Document, escaped, filled, number};
-use super::plots;
 use super::tables::{HtmlTable, cell, row_heading};
+use super::{plots, robust};
 use svbrdf_evaluate::dataset::{DatasetReport, MaterialResult, MethodSummary, counted_loss, marks_table};
-use svbrdf_evaluate::report::{Reader, Report as _};
+use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
 
 const PAGE: &str = include_str!("ranking.html");
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("ranking.css"));
@@ -25,12 +25,13 @@ pub struct MaterialView {
     pub(super) figure: Option<String>,
 }
 
-/// The ranking as HTML; `views` are those of the results, in their order, or none.
-pub fn ranking(report: &DatasetReport, views: &[MaterialView]) -> String {
+/// The ranking as HTML; `views` are those of the results, in their order, or none; `robust` tells whether the order survives.
+pub fn ranking(report: &DatasetReport, views: &[MaterialView], robust: Option<&RobustReport>) -> String {
     let settings = &report.settings;
     let title =
         format!("Rendering loss over {} of {} materials", report.results.len(), settings.materials.len());
-    let sections = methods(report) + &metrics(report) + &marks(report) + &materials(report, views);
+    let robust = robust.map_or(String::new(), robust::section);
+    let sections = methods(report) + &robust + &metrics(report) + &marks(report) + &materials(report, views);
     let body = filled(PAGE, &[("title", &title), ("settings", &heading(report)), ("sections", &sections)]);
     Document { title: &title, style: STYLE, script: SCRIPT, body: &body }.html()
 }
@@ -39,7 +40,7 @@ pub fn ranking(report: &DatasetReport, views: &[MaterialView]) -> String {
 fn heading(report: &DatasetReport) -> String {
     let settings = &report.settings;
     let percent = 100.0 * settings.target_error;
-    let (convention, pick) = (escaped(&settings.convention), &report.pick);
+    let (convention, pick) = (escaped(settings.convention.convention.name), &report.pick);
     format!(
         "Convention {convention}, &plusmn;{percent}% per loss, seed {}, pick {pick}. {}. Repeat with <code>{}</code>",
         settings.seed,

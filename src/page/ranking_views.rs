@@ -66,7 +66,7 @@ impl FromStr for Figures {
 /// which is named after it. A material that cannot be read any more has neither. A material is one step of `progress`.
 ///
 /// # Errors
-/// [`Cancelled`](Error::is_cancelled), [`Error::Unwritable`], [`CoreError::UnknownName`] for an unknown convention.
+/// [`Cancelled`](Error::is_cancelled), [`Error::Unwritable`].
 pub fn material_views(
     report: &DatasetReport,
     cases: &[Case],
@@ -74,7 +74,7 @@ pub fn material_views(
     page: &Path,
     progress: &Progress,
 ) -> Result<Vec<MaterialView>, Error> {
-    let convention: Convention = report.settings.convention.parse()?;
+    let convention = report.settings.convention.convention;
     let chosen = figures.map_or_else(BTreeSet::new, |figures| chosen(report, figures));
     let folder = folder(page);
     if !chosen.is_empty() {

@@ -18,12 +18,6 @@ pub enum Error {
     #[error("{0} is not complete yet: save it once it is displayed")]
     Incomplete(&'static str),
 
-    /// A session names a convention that is no named one.
-    #[error(
-        "the window draws the conventions that have a name, and `{0}` is a file; choose one of the names"
-    )]
-    UnnamedConvention(String),
-
     /// Of an analysis, a file or a computation.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),

@@ -116,9 +116,13 @@ fn a_loss_and_a_page_take_any_convention_of_the_grammar() {
     succeed(folder.path(), "report gt.png a.png -o r.html --convention mine.toml");
     let page = std::fs::read_to_string(folder.path().join("r.html")).unwrap();
     assert!(page.contains("vh_min") && !page.contains("light_z_floor"), "the page has another shader");
-    let stderr = fail(folder.path(), "map gt.png a.png -o m.png --near 2 --convention matfuse-2024", 1);
+    let text = succeed(folder.path(), "map gt.png a.png -o m.png --near 2 --convention matfuse-2024");
+    assert!(text.contains("mean squared difference of each texel"), "{text}");
+    let text = succeed(folder.path(), "conventions matfuse-2024").replace("\"mse\"", "\"rmse\"");
+    std::fs::write(folder.path().join("root.toml"), text).unwrap();
+    let stderr = fail(folder.path(), "map gt.png a.png -o n.png --near 2 --convention root.toml", 1);
     assert!(
-        stderr.contains("does not have the renderer or the norm of the convention matfuse-2024"),
+        stderr.contains("does not have the renderer or the norm of the convention root.toml"),
         "{stderr}"
     );
 }

@@ -95,3 +95,63 @@ fn an_order_that_depends_on_epsilon_is_said_to() {
     assert!(text.starts_with("order by the rendering loss over 6 materials of gt\n"), "{text}");
     assert!(text.contains("by default") && text.contains("under epsilon 0.1"), "{text}");
 }
+
+#[test]
+fn pages_have_the_answer_of_the_command() {
+    let folder = halves();
+    let of = "--dataset gt dark bright --robust --target-error 10%";
+    let sentence = json_of(folder.path(), &format!("rank {of}"))["sentence"].as_str().unwrap().to_owned();
+    succeed(folder.path(), &format!("rank {of} --format html -o page.html"));
+    succeed(folder.path(), "rank --dataset gt dark bright --target-error 10% --format html -o without.html");
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(read("page.html").contains(&sentence), "{sentence}");
+    assert!(!read("without.html").contains("Does the order survive?"));
+    let of = "gt/m0.png dark=dark/m0.png bright=bright/m0.png --robust --target-error 10%";
+    let answer = json_of(folder.path(), &format!("rank {of}"));
+    succeed(folder.path(), &format!("report {of} -o report.html"));
+    let page = read("report.html");
+    assert!(page.contains(answer["sentence"].as_str().unwrap()), "{answer}");
+    let rows = answer["questions"].as_array().unwrap().iter();
+    let names = rows.map(|row| row["question"].as_str().unwrap());
+    assert!(names.clone().count() > 18 && names.clone().all(|name| page.contains(&format!(">{name}</th>"))));
+    let stderr = fail(folder.path(), "report gt/m0.png --robust -o report.html", 64);
+    assert!(stderr.contains("--robust"), "{stderr}");
+}
+
+/// The questions of a convention in a file, of a data set, too.
+#[test]
+fn a_data_set_is_ranked_and_asked_about_by_the_convention_of_a_file() {
+    let folder = halves();
+    let write = |factor: &str| {
+        let text = format!(
+            "name = \"mine\"\n[light]\nfactor = {factor}\n[loss]\nnorm = \"log-l1\"\nepsilon = 0.01\n"
+        );
+        std::fs::write(folder.path().join("mine.toml"), text).unwrap();
+    };
+    let rank = "rank --dataset gt dark bright --convention mine.toml --target-error 10% --results results";
+    let of = |factor: &str| {
+        write(factor);
+        json_of(folder.path(), rank)
+    };
+    let (one, two, again) = (of("1.0"), of("5.0"), of("1.0"));
+    assert_eq!(one["settings"]["convention"], "mine");
+    assert_eq!(one["methods"], again["methods"]);
+    assert_ne!(one["methods"], two["methods"], "files of one name are told apart in the results folder");
+    let command = one["repetition"]["command"].as_str().unwrap();
+    assert!(command.contains("mine.toml"), "{command}");
+    write("5.0");
+    let answer =
+        json_of(folder.path(), &format!("rank --dataset gt dark bright --convention mine.toml {ROBUST}"));
+    assert_eq!(answer["questions"][0]["question"], "mine");
+    // A changed copy of a named convention has the name of its file.
+    let printed = succeed(folder.path(), "conventions printed");
+    std::fs::write(folder.path().join("copy.toml"), &printed).unwrap();
+    let loss = |file: &str| {
+        json_of(folder.path(), &format!("loss gt/m0.png dark/m0.png --convention {file}"))["convention"]
+            .clone()
+    };
+    assert_eq!(loss("copy.toml"), "printed");
+    std::fs::write(folder.path().join("copy.toml"), printed.replace("epsilon = 0.01", "epsilon = 0.02"))
+        .unwrap();
+    assert_eq!(loss("copy.toml"), "copy.toml");
+}

@@ -4,14 +4,19 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
 
+use svbrdf_core::model::convention::PRINTED;
 use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, Pick,
     PredictionResult, Remark, Source,
 };
+use svbrdf_evaluate::report::{Compared, RobustReport};
+use svbrdf_evaluate::robust::Answered;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_needs::needs;
 use svbrdf_page::ranking;
 
 use super::browser::Page;
+use super::noise;
 
 const HOSTILE: &str = "</td></script><img src=x onerror=window.hit=1><!--\"'>{{sections}}\u{202e}";
 /// When the page can be used.
@@ -58,7 +63,7 @@ pub fn page() -> String {
             ground_truths: HOSTILE.into(),
             methods: vec![method("ours"), method(HOSTILE)],
         },
-        convention: "printed".to_owned(),
+        convention: ChosenConvention::default(),
         target_error: 0.01,
         seed: 0,
         materials: names.map(str::to_owned).to_vec(),
@@ -67,14 +72,40 @@ pub fn page() -> String {
         diagnose: true,
     };
     let reading = DatasetReading::default();
-    ranking(&DatasetReport::new(settings, reading, results.collect(), Pick::Fixed), &[])
+    let report = DatasetReport::new(settings, reading, results.collect(), Pick::Fixed);
+    ranking(&report, &[], Some(&robust()))
+}
+
+/// A pair of methods that changes sides.
+fn robust() -> RobustReport {
+    let answered = |question: &str, scores: [f64; 2]| {
+        let row = |a: f64| scores.iter().map(|b| Some([a - b - 0.01, a - b + 0.01])).collect();
+        Answered { question: question.to_owned(), scores: scores.into(), differences: scores.map(row).into() }
+    };
+    let answers = [answered("printed", [0.1, 0.3]), answered("epsilon 0.1", [0.3, 0.1])];
+    let compared = Compared::new(&noise(1), &PRINTED);
+    RobustReport::of_answers(compared, &["ours", HOSTILE], &answers)
+}
+
+#[test]
+fn the_page_tells_whether_the_order_survives() {
+    let html = page();
+    let section = &html[html.find("id=\"robust\"").unwrap()..];
+    let section = &section[..section.find("</section>").unwrap()];
+    for text in [
+        "depends on the question: it changes under epsilon 0.1",
+        "-0.2100 to -0.1900 by default, 0.1900 to 0.2100 under epsilon 0.1",
+        "<td>-1.00</td>",
+    ] {
+        assert!(section.contains(text), "{text}: {section}");
+    }
 }
 
 #[test]
 fn names_add_no_elements_to_a_ranking() {
     let html = page();
     let count = |text: &str| html.matches(text).count();
-    assert_eq!([count("<script"), count("</script"), count("<img"), count("<tbody")], [1, 1, 0, 4]);
+    assert_eq!([count("<script"), count("</script"), count("<img"), count("<tbody")], [1, 1, 0, 5]);
     assert!(count("&lt;/td&gt;&lt;/script&gt;") >= 5, "{html}");
     assert!(html.contains("<td>5</td><td>0</td></tr>"), "the marks of ours, and none of the other method");
     assert!(html.contains("<td>lacks materials</td>") && html.contains("<td>best</td>"));

@@ -4,10 +4,14 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::grammar::Description;
+use svbrdf_core::model::grammar::words::Norm;
+use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_evaluate::why::{error_maps, worst_first};
+use svbrdf_evaluate::why::{error_maps, mean, worst_first};
 
 use super::{built_in, printed};
 use crate::support::tolerance::ERROR_MAP_TEXEL;
@@ -15,16 +19,21 @@ use crate::support::tolerance::ERROR_MAP_TEXEL;
 /// The error map by the definition: renderings of whole materials, and logarithms in f64.
 fn by_definition(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Vec<[f64; 3]> {
     let epsilon = comparison.convention().epsilon;
+    let ln = |value: f32| (f64::from(value) + epsilon).ln();
+    means(comparison, scenes, |a, b| (ln(a) - ln(b)).abs())
+}
+
+/// The mean over scenes of `of` of two renderings of whole materials.
+fn means(comparison: &Comparison<'_, f32>, scenes: &[Scene], of: impl Fn(f32, f32) -> f64) -> Vec<[f64; 3]> {
     let render = |material, scene| {
         render_f32(material, scene, comparison.convention(), &Progress::default()).unwrap().pixels
     };
-    let ln = |value: f32| (f64::from(value) + epsilon).ln();
     let (truth, prediction) = (comparison.ground_truth(), comparison.predictions()[0]);
     let mut means = vec![[0.0; 3]; truth.width() * truth.height()];
     for scene in scenes {
         let (expected, predicted) = (render(truth, scene), render(prediction, scene));
         for (mean, (a, b)) in means.iter_mut().zip(expected.iter().zip(&predicted)) {
-            (0..3).for_each(|c| mean[c] += (ln(a[c]) - ln(b[c])).abs() / scenes.len() as f64);
+            (0..3).for_each(|c| mean[c] += of(a[c], b[c]) / scenes.len() as f64);
         }
     }
     means
@@ -78,10 +87,43 @@ fn the_error_map_of_other_renderers_is_theirs() {
         let other = error_maps(&other, &scenes, &Progress::default()).unwrap().remove(0);
         assert!(off(&other) > ERROR_MAP_TEXEL, "{name}: another convention is not seen");
     }
-    let squared = Comparison::new(&truth, &[&rough], "matfuse-2024".parse().unwrap()).unwrap();
-    let refused =
-        error_maps(&squared, &Sampling::default().scenes(&printed()).unwrap(), &Progress::default());
-    assert!(matches!(refused, Err(Error::NotComputed { .. })));
+}
+
+/// Its mean is the loss of every norm that is a mean over texels; another has no map.
+#[test]
+fn the_error_map_of_other_norms_is_their_term() {
+    let [truth, _, rough] = built_in();
+    let [truth, rough] = [truth, rough].map(|material| material.resized([37, 20]).unwrap());
+    let matfuse = named::all().iter().find(|one| one.name == "matfuse-2024").unwrap();
+    let squared = |a: f32, b: f32| (f64::from(a) - f64::from(b)).powi(2);
+    let absolute = |a: f32, b: f32| (f64::from(a) - f64::from(b)).abs();
+    for (norm, of, other) in [
+        (Norm::Mse, squared as fn(f32, f32) -> f64, absolute as fn(f32, f32) -> f64),
+        (Norm::L1, absolute, squared),
+    ] {
+        let mut described = Description { name: format!("{norm}"), ..matfuse.clone() };
+        described.loss.norm = norm;
+        let convention = Convention::try_from(&described).unwrap();
+        let comparison = Comparison::new(&truth, &[&rough], convention).unwrap();
+        let scenes = Sampling { near: 0, distant: 9, ..Sampling::default() }.scenes(&convention).unwrap();
+        let map = error_maps(&comparison, &scenes, &Progress::default()).unwrap().remove(0);
+        let off = |expected: Vec<[f64; 3]>| {
+            let pairs = map.pixels.as_flattened().iter().zip(expected.as_flattened());
+            pairs.map(|(a, b)| (f64::from(*a) - b).abs() / b.max(1.0)).fold(0.0, f64::max)
+        };
+        let [right, wrong] = [of, other].map(|of| off(means(&comparison, &scenes, of)));
+        println!("{norm}: off by {right:e}");
+        assert!(right < 1e-4 && wrong > 1e-2, "{norm}: {right:e}, the other norm {wrong:e}");
+        let loss =
+            comparison.run(&Request::Listed(scenes.clone()), &Progress::default()).unwrap().losses.remove(0);
+        let ratio = mean(&map) / loss.estimate.mean;
+        assert!((ratio - 1.0).abs() < 1e-4, "{norm}: {ratio}");
+        described.loss.norm = Norm::Rmse;
+        let rmse = Convention::try_from(&described).unwrap();
+        let refused =
+            error_maps(&Comparison::new(&truth, &[&rough], rmse).unwrap(), &scenes, &Progress::default());
+        assert!(matches!(refused, Err(Error::NotComputed { .. })));
+    }
 }
 
 #[test]

@@ -47,7 +47,7 @@ fn auto_computes_again_when_the_convention_changes() {
     wait(&mut window, "the first loss", |app| app.losses().is_some());
     let before = window.state().losses().unwrap()[0].estimate.mean;
     choose(&mut window, "Convention", "guided-2020");
-    assert_eq!(window.state().parts.model.view.convention, "guided-2020");
+    assert_eq!(window.state().parts.model.view.convention().name, "guided-2020");
     wait(&mut window, "the second loss", |app| app.losses().is_some());
     assert!(window.state().losses().unwrap()[0].estimate.mean > before);
 }

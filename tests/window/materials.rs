@@ -7,7 +7,7 @@ use image::RgbImage;
 
 use svbrdf_core::loss::{Comparison, Loss, Request};
 use svbrdf_core::material::Material;
-use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::samples::{self, generate};
@@ -20,9 +20,14 @@ pub fn materials() -> Vec<Material<f32>> {
 
 /// The losses of the built-in predictions.
 pub fn losses(request: &Request) -> Vec<Loss> {
+    losses_in(request, PRINTED)
+}
+
+/// The same in a convention.
+pub fn losses_in(request: &Request, convention: Convention) -> Vec<Loss> {
     let materials = materials();
     let predictions: Vec<_> = materials[1..].iter().collect();
-    let comparison = Comparison::new(&materials[0], &predictions, PRINTED).unwrap();
+    let comparison = Comparison::new(&materials[0], &predictions, convention).unwrap();
     comparison.run(request, &Progress::default()).unwrap().losses
 }
 

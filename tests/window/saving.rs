@@ -4,6 +4,7 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::{NormalY, ReadOptions};
 use svbrdf_files::session::Session;
 use svbrdf_viewer::model::command::{
@@ -149,7 +150,7 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     apply(&mut first, DisplayCommand::ToggleProjection);
     apply(&mut first, DisplayCommand::SetQuantity(Quantity::Normal));
     apply(&mut first, DisplayCommand::SetExposure(1.5));
-    apply(&mut first, SceneCommand::SetConvention("guided-2020"));
+    apply(&mut first, SceneCommand::SetConvention(ChosenConvention::read("guided-2020").unwrap()));
     let mut scene = first.state().parts.model.view.scene;
     scene.light = [0.1, -0.7, 1.3];
     apply(&mut first, SceneCommand::Set(scene));

@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::model::convention::Convention;
+use svbrdf_files::Error;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::source::MaterialSource;
 use svbrdf_files::steps::{RunId, runs_in};
-use svbrdf_files::{Error, convention};
 
 use super::floor::FloorArgs;
 use super::reading::{FormerSideArgs, PairReadingArgs, Side, StatementArgs};
@@ -15,8 +15,8 @@ use crate::cli::output::CommandError;
 #[derive(Debug, clap::Args)]
 pub struct ComparisonArgs {
     /// Convention: a name, which `svbrdf conventions` lists, or a .toml file [default: printed, or as in the session]
-    #[arg(long, value_name = "NAME", value_parser = convention::of_loss)]
-    pub convention: Option<Convention>,
+    #[arg(long, value_name = "NAME", value_parser = ChosenConvention::read)]
+    pub convention: Option<ChosenConvention>,
 
     #[command(flatten)]
     pub materials: MaterialArgs,

@@ -55,7 +55,12 @@ impl ComparisonJob {
         let session = file.as_ref().zip(args.materials.paths().next()).map(settings).transpose()?;
         let of_session = session.as_ref().map(|session| session.convention);
         Ok(Self {
-            convention: args.convention.or(of_session).unwrap_or_default(),
+            convention: args
+                .convention
+                .as_ref()
+                .map(|chosen| chosen.convention)
+                .or(of_session)
+                .unwrap_or_default(),
             materials: MaterialJob::new(&args.materials, file.as_ref(), given)?,
             session,
         })

@@ -1,6 +1,6 @@
 //! Methods over many materials.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
@@ -13,6 +13,7 @@ use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
 use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat, check_limit};
 use super::cases::{reading, source};
+use super::robust::asked;
 use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{Given, refuse};
 use crate::cli::job::{Job, NewJob};
@@ -37,7 +38,7 @@ struct ManyJob {
 #[derive(Debug)]
 enum Output {
     Stdout(RankFormat),
-    Page { path: PathBuf, figures: Option<Figures> },
+    Page { path: PathBuf, figures: Option<Figures>, robust: bool },
 }
 
 pub fn job(args: RankArgs, given: &Given) -> NewJob {
@@ -53,7 +54,7 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     let settings = DatasetSettings {
         metrics,
         diagnose,
-        ..DatasetSettings::new(source, convention.name, target_error, seed, &cases)
+        ..DatasetSettings::new(source, convention, target_error, seed, &cases)
     };
     let given = &args.comparison.materials.reading;
     let reading = reading(given, &settings.methods)?;
@@ -75,7 +76,7 @@ fn output(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<Output, Comm
     let predictions = cases.iter().flat_map(|case| case.candidates.iter().map(|one| &one.path));
     let materials = cases.iter().map(|case| &case.ground_truth).chain(predictions);
     check_output_of(&path, materials.chain(args.comparison.materials.paths()))?;
-    Ok(Output::Page { path, figures: *figures })
+    Ok(Output::Page { path, figures: *figures, robust: args.robust })
 }
 
 /// Prints the ranking, or writes the page; fails where a loss is above a limit, after that.
@@ -102,7 +103,14 @@ impl ManyJob {
         let report = DatasetReport::new(settings, reading, results, pick);
         tell_reading(verbose, &output, &report);
         match output {
-            Output::Page { path, figures } => write_page(&path, figures, &report, &cases, progress)?,
+            Output::Page { path, figures, robust } => {
+                let DatasetReport { settings, reading, .. } = &report;
+                let robust = robust.then(|| asked(&cases, settings, reading, progress)).transpose()?;
+                let views = watched_on(progress, "rendering materials", |progress| {
+                    material_views(&report, &cases, figures, &path, progress)
+                })?;
+                write_text(&path, &ranking(&report, &views, robust.as_ref()), progress)?;
+            }
             Output::Stdout(format) => exit::put(&format.write(&report, DatasetReport::latex)?)?,
         }
         check_any(&report)?;
@@ -110,20 +118,6 @@ impl ManyJob {
         let means = report.methods.into_iter().filter(|summary| summary.materials > 0);
         check_limit(fail_above, means.map(|summary| (summary.method, summary.mean)))
     }
-}
-
-/// Writes the page, with thumbnails and figures of the materials `cases`.
-fn write_page(
-    path: &Path,
-    figures: Option<Figures>,
-    report: &DatasetReport,
-    cases: &[Case],
-    progress: &Progress,
-) -> Result<(), CommandError> {
-    let views = watched_on(progress, "rendering materials", |progress| {
-        material_views(report, cases, figures, path, progress)
-    })?;
-    Ok(write_text(path, &ranking(report, &views), progress)?)
 }
 
 /// The cases of a shard, which is reported.

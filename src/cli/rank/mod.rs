@@ -7,6 +7,7 @@ mod one;
 mod robust;
 
 pub use args::RankArgs;
+use args::RankFormat;
 
 use super::args::Given;
 use super::job::NewJob;
@@ -14,8 +15,8 @@ use super::job::NewJob;
 impl RankArgs {
     pub fn job(self, given: &Given) -> NewJob {
         match (self.dataset || self.pairs, self.robust) {
-            (true, true) => robust::job(&self, given),
-            (true, false) => many::job(self, given),
+            (true, true) if self.format != RankFormat::Html => robust::job(&self, given),
+            (true, _) => many::job(self, given),
             (false, _) => one::job(self, given),
         }
     }

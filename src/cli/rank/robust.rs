@@ -1,5 +1,6 @@
 //! Whether the order of methods over many materials survives other questions.
 
+use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{self, Case, DatasetReading, DatasetSettings};
 use svbrdf_evaluate::report::RobustReport;
 
@@ -8,7 +9,7 @@ use super::cases::{reading, source};
 use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{Given, refuse};
 use crate::cli::job::{Job, NewJob};
-use crate::cli::output::{CommandError, exit, watched};
+use crate::cli::output::{CommandError, exit, watched_on};
 
 /// The questions about a data set.
 #[derive(Debug)]
@@ -20,20 +21,19 @@ struct RobustJob {
 }
 
 pub fn job(args: &RankArgs, given: &Given) -> NewJob {
-    let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no page, no floor, no limit and no remarks";
+    let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no floor, no limit and no remarks";
     given.refuse::<DataSetArgs>(reason)?;
     given.refuse::<PageArgs>(reason)?;
     given.refuse::<FloorArgs>(reason)?;
     refuse(args.comparison.materials.reading.both.verbose, "verbose", reason)?;
     refuse(args.fail_above.is_some(), "fail-above", reason)?;
-    refuse(args.format == RankFormat::Html, "format html", reason)?;
     let of_files = "materials of a data set are not resized";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", of_files)?;
     let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
-    let convention = args.comparison.convention.unwrap_or_default();
+    let convention = args.comparison.convention.clone().unwrap_or_default();
     let (target_error, seed) = args.accuracy.target_and_seed();
-    let settings = DatasetSettings::new(source, convention.name, target_error, seed, &cases);
+    let settings = DatasetSettings::new(source, convention, target_error, seed, &cases);
     let reading = reading(&args.comparison.materials.reading, &settings.methods)?;
     Ok(Box::new(RobustJob { settings, reading, cases, format: args.format }))
 }
@@ -41,13 +41,23 @@ pub fn job(args: &RankArgs, given: &Given) -> NewJob {
 impl Job for RobustJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
         let Self { settings, reading, cases, format } = *self;
-        let answers = watched("comparing materials", |progress| {
-            dataset::robust(&cases, &settings, &reading, progress)
-        })?;
-        for (material, problem) in &answers.failures {
-            exit::tell(&format!("note: {material} is left out: {problem}"));
-        }
-        let report = answers.report(&settings)?;
+        let report = asked(&cases, &settings, &reading, &Progress::default())?;
         Ok(exit::put(&format.write(&report, RobustReport::latex)?)?)
     }
+}
+
+/// The answers about a data set; materials that are left out are reported.
+pub fn asked(
+    cases: &[Case],
+    settings: &DatasetSettings,
+    reading: &DatasetReading,
+    progress: &Progress,
+) -> Result<RobustReport, CommandError> {
+    let answers = watched_on(progress, "asking about the order", |progress| {
+        dataset::robust(cases, settings, reading, progress)
+    })?;
+    for (material, problem) in &answers.failures {
+        exit::tell(&format!("note: {material} is left out: {problem}"));
+    }
+    Ok(answers.report(settings)?)
 }

@@ -79,24 +79,27 @@ impl<T: Real> Backend<T> for Plain {
     }
 }
 
-/// For each prediction the mean of the log differences of each texel and channel over `scenes`. A row is one step of `progress`.
+/// For each prediction the mean over `scenes` of what each texel and channel adds to the loss. A row is one step of `progress`.
 ///
 /// # Errors
-/// [`Error::Cancelled`].
+/// [`Error::Cancelled`]; [`Error::NotComputed`] where the loss is no mean over texels.
 pub(super) fn texel_means(
     comparison: &Comparison<'_, f32>,
     scenes: &[Scene],
     progress: &Progress,
 ) -> Result<Vec<Vec<[f32; 3]>>, Error> {
     let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
-    let (model, epsilon) = (Model::from(comparison.convention()), comparison.convention().epsilon);
+    let (convention, model) = (comparison.convention(), Model::from(comparison.convention()));
+    let Some(term) = convention.norm().term(convention.epsilon) else {
+        return Err(Error::not_by("a loss of single texels", convention.name));
+    };
     let rays: Vec<_> = scenes.iter().map(Scene::rays).collect();
     let mean = |prediction: &Material<f32>, column: usize, row: usize| {
         let mut sums = [0.0; 3];
         for rays in &rays {
-            let [a, b] = [ground_truth, prediction]
-                .map(|m| render_texel(m, &model, rays, column, row).map(|x| (f64::from(x) + epsilon).ln()));
-            (0..3).for_each(|c| sums[c] += (a[c] - b[c]).abs());
+            let [a, b] =
+                [ground_truth, prediction].map(|m| render_texel(m, &model, rays, column, row).map(f64::from));
+            (0..3).for_each(|c| sums[c] += term(a[c], b[c]));
         }
         sums.map(|sum| (sum / scenes.len() as f64) as f32)
     };

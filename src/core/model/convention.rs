@@ -2,6 +2,8 @@
 //!
 //! A loss is meaningful only together with its convention, so every result carries its name.
 
+use serde::Serialize;
+
 use super::grammar::RendererTerms;
 use super::grammar::words::Norm;
 
@@ -9,7 +11,7 @@ use super::grammar::words::Norm;
 ///
 /// A limit of 0 means "no limit". The four named values are [`PRINTED`], [`SINGLE_IMAGE_2018`],
 /// [`MULTI_IMAGE_2019`] and [`GUIDED_2020`].
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Convention {
     /// The name on the command line and in results.
     pub name: &'static str,
@@ -40,7 +42,7 @@ pub struct Convention {
 }
 
 /// A member of the grammar that is rendered by its own terms, on the processor.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Member {
     pub terms: RendererTerms,
     pub norm: Norm,

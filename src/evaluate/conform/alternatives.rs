@@ -107,18 +107,10 @@ pub fn of_words(terms: &RendererTerms) -> Vec<(&'static str, RendererTerms)> {
     all
 }
 
-/// Each number that is tried: the key, its setter, its value, and the renderer with it.
-pub fn of_numbers(terms: &RendererTerms) -> Vec<(&'static str, Set, f64, RendererTerms)> {
-    let floors = FLOORS.iter().map(|(key, set)| (*key, *set, &LADDER[..]));
-    let mut all = Vec::new();
-    for (key, set, values) in floors.chain(CAPS) {
-        for &value in values {
-            let mut changed = *terms;
-            set(&mut changed, value);
-            all.push((key, set, value, changed));
-        }
-    }
-    all
+/// The numbers that are tried: the key, its setter, its values, and whether a larger value changes all that a smaller one does.
+pub fn of_numbers() -> impl Iterator<Item = (&'static str, Set, &'static [f64], bool)> {
+    let floors = FLOORS.iter().map(|(key, set)| (*key, *set, &LADDER[..], true));
+    floors.chain(CAPS.iter().map(|(key, set, values)| (*key, *set, *values, false)))
 }
 
 /// The renderer without one of its numbers.

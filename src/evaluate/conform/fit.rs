@@ -1,5 +1,7 @@
 //! How well a renderer of the grammar explains what was observed.
 
+use std::sync::OnceLock;
+
 use glam::DVec3;
 
 use svbrdf_core::model::grammar::words::{Alpha, Maps, NormalY, Normals};
@@ -29,6 +31,20 @@ pub struct Problem {
     pub roundoff: f64,
     /// Relative noise.
     pub noise: f64,
+    /// Whether the maps of a point are within [0, 1].
+    in_range: Vec<bool>,
+    /// A radiance of usual size.
+    typical: f64,
+    /// n.l, n.v and n.h, which many renderers share: by how they take normals and the camera.
+    cosines: [OnceLock<Vec<[f64; 3]>>; 16],
+}
+
+/// What a residual depends on beside the prediction.
+struct Scale {
+    ambient: f64,
+    /// Relative rounding errors.
+    errors: Vec<f64>,
+    factor: [f64; 3],
 }
 
 /// A renderer, and how it fits.
@@ -55,7 +71,12 @@ pub struct Fit {
 impl Problem {
     pub fn new(points: &[Point], observed: Observed, roundoff: f64) -> Self {
         let diffuse_points = points.iter().map(|p| Point { base_color: p.diffuse, ..*p }).collect();
-        Self { points: points.to_vec(), diffuse_points, observed, roundoff, noise: 0.0 }
+        let values = observed.readings.as_flattened().iter();
+        let values = values.filter(|r| r.bound == Bound::Value && r.value > 0.0).map(|r| r.value);
+        let typical = median(values.collect()).unwrap_or(1.0);
+        let in_range = points.iter().map(is_in_range).collect();
+        let (points, cosines) = (points.to_vec(), Default::default());
+        Self { points, diffuse_points, observed, roundoff, noise: 0.0, in_range, typical, cosines }
     }
 
     /// The points as a renderer reads them.
@@ -63,59 +84,99 @@ impl Problem {
         if metallic { &self.points } else { &self.diffuse_points }
     }
 
+    /// The radiances of a renderer, without factor and ambient light.
+    pub fn predicted(&self, terms: &RendererTerms, metallic: bool) -> Vec<[f64; 3]> {
+        self.points(metallic).iter().map(|point| terms.radiance(point, true)).collect()
+    }
+
     pub fn fit(&self, terms: &RendererTerms, metallic: bool) -> Fit {
-        let points = self.points(metallic);
-        let ambient = self.ambient(terms, points);
-        let predicted: Vec<[f64; 3]> = points.iter().map(|point| terms.radiance(point, true)).collect();
-        let errors: Vec<f64> = points.iter().map(|point| self.relative_error(terms, point)).collect();
-        let factor = self.factors(&predicted, &errors, metallic, ambient);
+        let predicted = self.predicted(terms, metallic);
+        let scale = self.scale(terms, metallic, &predicted);
         let mut fit = Fit {
             terms: *terms,
             metallic,
-            factor,
-            ambient,
-            expected: Vec::with_capacity(points.len()),
-            residuals: Vec::with_capacity(points.len()),
-            relative: Vec::with_capacity(points.len()),
-            in_range: points.iter().map(is_in_range).collect(),
-            score: 0.0,
+            factor: scale.factor,
+            ambient: scale.ambient,
+            expected: Vec::with_capacity(predicted.len()),
+            residuals: vec![[0.0; 3]; predicted.len()],
+            relative: vec![[f64::NAN; 3]; predicted.len()],
+            in_range: self.in_range.clone(),
+            score: self.score_within(metallic, &predicted, &scale, f64::INFINITY),
         };
-        let least = 1e-3 * self.roundoff * self.typical();
-        for (i, point) in points.iter().enumerate() {
-            let (mut residuals, mut relatives) = ([0.0; 3], [f64::NAN; 3]);
-            let diffuse = point.diffuse_of(metallic);
-            let expected = [0, 1, 2].map(|c| factor[c] * predicted[i][c] + ambient * diffuse[c]);
+        for (i, predicted) in predicted.iter().enumerate() {
+            let expected = self.expected(metallic, i, *predicted, &scale);
             for c in 0..3 {
-                let (reading, expected) = (self.observed.readings[i][c], expected[c]);
-                if reading.bound == Bound::Missing {
-                    continue;
+                fit.residuals[i][c] = self.residual([i, c], expected[c], scale.errors[i]).unwrap_or(0.0);
+                let reading = self.observed.readings[i][c];
+                if reading.bound == Bound::Value && expected[c] > 0.0 {
+                    fit.relative[i][c] = (reading.value - expected[c]) / expected[c];
                 }
-                let off = reading.value - expected;
-                let limit = self.limit(&reading, errors[i], expected).max(least);
-                residuals[c] = match reading.bound {
-                    Bound::AtLeast if off <= 0.0 => 0.0,
-                    Bound::AtMost if off >= 0.0 => 0.0,
-                    // 0 / 0, which the code guards.
-                    _ if expected.is_nan() && reading.value == 0.0 => 0.0,
-                    _ if !off.is_finite() => FARTHEST,
-                    _ => (off / limit).clamp(-FARTHEST, FARTHEST),
-                };
-                if reading.bound == Bound::Value && expected > 0.0 {
-                    relatives[c] = off / expected;
-                }
-                fit.score += residuals[c].powi(2).ln_1p();
             }
             fit.expected.push(expected);
-            fit.residuals.push(residuals);
-            fit.relative.push(relatives);
         }
         fit
+    }
+
+    /// The score of the [fit](Self::fit) of a renderer with these radiances; where it is above `most`, a number above that.
+    pub fn score(&self, terms: &RendererTerms, metallic: bool, predicted: &[[f64; 3]], most: f64) -> f64 {
+        self.score_within(metallic, predicted, &self.scale(terms, metallic, predicted), most)
+    }
+
+    /// The sum of log(1 + residual^2): logarithms of products, since most of the time goes into them otherwise.
+    fn score_within(&self, metallic: bool, predicted: &[[f64; 3]], scale: &Scale, most: f64) -> f64 {
+        /// Points whose factors fit a number.
+        const TOGETHER: usize = 8;
+        let mut score = 0.0;
+        for (block, predicted) in predicted.chunks(TOGETHER).enumerate() {
+            let mut product = 1.0;
+            for (i, predicted) in (block * TOGETHER..).zip(predicted) {
+                let expected = self.expected(metallic, i, *predicted, scale);
+                for (c, expected) in expected.into_iter().enumerate() {
+                    let residual = self.residual([i, c], expected, scale.errors[i]).unwrap_or(0.0);
+                    product *= 1.0 + residual * residual;
+                }
+            }
+            score += product.ln();
+            if score > most {
+                break;
+            }
+        }
+        score
+    }
+
+    /// What a renderer is expected to give out at a point.
+    fn expected(&self, metallic: bool, i: usize, predicted: [f64; 3], scale: &Scale) -> [f64; 3] {
+        let diffuse = self.points(metallic)[i].diffuse_of(metallic);
+        [0, 1, 2].map(|c| scale.factor[c] * predicted[c] + scale.ambient * diffuse[c])
+    }
+
+    /// The residual at a point and channel in units of its limit; `None` where there is no value.
+    fn residual(&self, [i, c]: [usize; 2], expected: f64, error: f64) -> Option<f64> {
+        let reading = self.observed.readings[i][c];
+        let off = reading.value - expected;
+        let limit = self.limit(&reading, error, expected).max(1e-3 * self.roundoff * self.typical);
+        Some(match reading.bound {
+            Bound::Missing => return None,
+            Bound::AtLeast if off <= 0.0 => 0.0,
+            Bound::AtMost if off >= 0.0 => 0.0,
+            // 0 / 0, which the code guards.
+            _ if expected.is_nan() && reading.value == 0.0 => 0.0,
+            _ if !off.is_finite() => FARTHEST,
+            _ => (off / limit).clamp(-FARTHEST, FARTHEST),
+        })
+    }
+
+    fn scale(&self, terms: &RendererTerms, metallic: bool, predicted: &[[f64; 3]]) -> Scale {
+        let ambient = self.ambient(terms, metallic);
+        let errors: Vec<f64> = (0..predicted.len()).map(|i| self.relative_error(terms, i)).collect();
+        let factor = self.factors(predicted, &errors, metallic, ambient);
+        Scale { ambient, errors, factor }
     }
 
     /// The relative error of a reading by rounding and storage.
     pub fn rounding(&self, fit: &Fit, row: usize, channel: usize) -> f64 {
         let reading = self.observed.readings[row][channel];
-        let error = self.relative_error(&fit.terms, &self.points(fit.metallic)[row]);
+        let error = self.relative_error(&fit.terms, row);
         error + if reading.value > 0.0 { reading.half / reading.value } else { 1.0 }
     }
 
@@ -133,31 +194,43 @@ impl Problem {
         steps.get(steps.len() / 4).copied().unwrap_or(0.0)
     }
 
-    /// A radiance of usual size.
-    fn typical(&self) -> f64 {
-        let values =
-            self.observed.readings.as_flattened().iter().filter(|r| r.bound == Bound::Value && r.value > 0.0);
-        median(values.map(|r| r.value).collect()).unwrap_or(1.0)
+    /// n.l, n.v and n.h of all points.
+    fn cosines(&self, terms: &RendererTerms) -> &[[f64; 3]] {
+        let material = &terms.material;
+        let kinds = [
+            material.normal_y == NormalY::Down,
+            material.normal == Normals::Stored,
+            material.flip_below,
+            terms.light.collocated,
+        ];
+        let index = kinds.into_iter().fold(0, |index, is| 2 * index + usize::from(is));
+        self.cosines[index].get_or_init(|| {
+            let of = |point: &Point| {
+                let (n, l, v) = vectors(terms, point);
+                let h = (l + v).normalize_or(n);
+                [n.dot(l), n.dot(v), n.dot(h)]
+            };
+            self.points.iter().map(of).collect()
+        })
     }
 
     /// The relative rounding error of a radiance.
-    fn relative_error(&self, terms: &RendererTerms, point: &Point) -> f64 {
-        let (n, l, v) = vectors(terms, point);
-        let h = (l + v).normalize_or(n);
-        let (nl, nv, nh) = (n.dot(l).abs(), n.dot(v).abs(), n.dot(h));
-        let r = point.roughness.clamp(terms.material.r_min, terms.material.r_max.max(terms.material.r_min));
-        let a = if terms.material.alpha == Alpha::Square { r * r } else { r };
+    fn relative_error(&self, terms: &RendererTerms, i: usize) -> f64 {
+        let [nl, nv, nh] = self.cosines(terms)[i];
+        let material = &terms.material;
+        let r = self.points[i].roughness.clamp(material.r_min, material.r_max.max(material.r_min));
+        let a = if material.alpha == Alpha::Square { r * r } else { r };
         let denominator = (nh * nh * a * a + (1.0 - nh * nh)).max(terms.specular.d_den_min).max(1e-300);
-        let condition = 4.0 + 4.0 / denominator + 1.0 / nl.max(1e-9) + 1.0 / nv.max(1e-9);
+        let condition = 4.0 + 4.0 / denominator + 1.0 / nl.abs().max(1e-9) + 1.0 / nv.abs().max(1e-9);
         UNITS * self.roundoff * condition
     }
 
     /// Light from everywhere: what is seen where the light is behind, as a multiple of the diffuse colour.
-    fn ambient(&self, terms: &RendererTerms, points: &[Point]) -> f64 {
+    fn ambient(&self, terms: &RendererTerms, metallic: bool) -> f64 {
+        let (points, cosines) = (self.points(metallic), self.cosines(terms));
         let mut ratios = Vec::new();
-        for (point, readings) in points.iter().zip(&self.observed.readings) {
-            let (n, l, _) = vectors(terms, point);
-            if n.dot(l) < -0.02 {
+        for (i, (point, readings)) in points.iter().zip(&self.observed.readings).enumerate() {
+            if cosines[i][0] < -0.02 {
                 let diffuse =
                     if terms.material.material == Maps::Diffuse { point.diffuse } else { point.base_color };
                 let used = readings
@@ -190,9 +263,8 @@ impl Problem {
                     ratios.push((value / predicted, self.limit(reading, errors[i], value) / value));
                 }
             }
-            let middle =
-                weighted_median(ratios.iter().map(|(ratio, limit)| (*ratio, limit.recip())).collect());
-            let middle = middle.unwrap_or(1.0);
+            let mut weighted: Vec<_> = ratios.iter().map(|(ratio, limit)| (*ratio, limit.recip())).collect();
+            let middle = weighted_median(&mut weighted).unwrap_or(1.0);
             let (mut sum, mut weights) = (0.0, 0.0);
             for (ratio, limit) in ratios {
                 let off = ratio / middle - 1.0;
@@ -265,13 +337,25 @@ pub fn median(mut values: Vec<f64>) -> Option<f64> {
     (!values.is_empty()).then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// The value that has half of the weight below it.
-fn weighted_median(mut values: Vec<(f64, f64)>) -> Option<f64> {
-    values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-    let half = values.iter().map(|(_, weight)| weight).sum::<f64>() / 2.0;
-    let mut below = 0.0;
-    values.into_iter().find_map(|(value, weight)| {
-        below += weight;
-        (below >= half).then_some(value)
-    })
+/// The value that has half of the weight below it, by selection.
+fn weighted_median(mut values: &mut [(f64, f64)]) -> Option<f64> {
+    let mut half = values.iter().map(|(_, weight)| weight).sum::<f64>() / 2.0;
+    let mut found = None;
+    while !values.is_empty() {
+        let middle = values.len() / 2;
+        let (below, (value, weight), above) =
+            values.select_nth_unstable_by(middle, |a, b| a.0.total_cmp(&b.0));
+        let (value, weight, weights) = (*value, *weight, below.iter().map(|(_, weight)| weight).sum::<f64>());
+        if weights >= half && !below.is_empty() {
+            values = below;
+        } else {
+            found = Some(value);
+            if weights + weight >= half {
+                break;
+            }
+            half -= weights + weight;
+            values = above;
+        }
+    }
+    found
 }

@@ -248,19 +248,25 @@ pub fn refined(problem: &Problem, start: &Candidate) -> Fit {
         if best.is_perfect() {
             break;
         }
-        let words = alternatives::of_words(&best.terms).into_iter().map(|(_, terms)| (None, terms));
-        let numbers = alternatives::of_numbers(&best.terms).into_iter();
-        let numbers = numbers.map(|(_, set, value, terms)| (Some((set, value)), terms));
+        let metallic = best.metallic;
+        let words = alternatives::of_words(&best.terms).into_par_iter().map(|(_, terms)| {
+            let predicted = problem.predicted(&terms, metallic);
+            Tried { number: None, score: problem.score(&terms, metallic, &predicted, f64::INFINITY), terms }
+        });
+        let word = words.min_by(|a, b| a.score.total_cmp(&b.score));
+        let most = word.as_ref().map_or(best.score, |word| word.score.min(best.score));
         // Maps that are out of range tell no number.
-        let tried: Vec<_> = words.chain(numbers.filter(|_| !best.is_explained())).collect();
-        let of = |(number, terms): (Option<(alternatives::Set, f64)>, RendererTerms)| {
-            (number, problem.fit(&terms, best.metallic))
-        };
+        let number = if best.is_explained() { None } else { best_number(problem, &best, most) };
         // Of a word and a number that do as well, the word.
-        let cost = |(number, fit): &(Option<_>, Fit)| fit.score + f64::from(u8::from(number.is_some()));
-        let tried = tried.into_par_iter().map(of);
-        let Some((number, mut next)) = tried.min_by(|a, b| cost(a).total_cmp(&cost(b))) else { break };
-        if let Some((set, value)) = number {
+        let tried = match (word, number) {
+            (Some(word), Some(number)) if number.score + 1.0 < word.score => number,
+            (word, number) => match word.or(number) {
+                Some(tried) => tried,
+                None => break,
+            },
+        };
+        let mut next = problem.fit(&tried.terms, metallic);
+        if let Some((set, value)) = tried.number {
             next = refined_number(problem, next, set, value);
         }
         // Noise is explained by any number, a little.
@@ -271,6 +277,57 @@ pub fn refined(problem: &Problem, start: &Candidate) -> Fit {
         best = next;
     }
     simplified(problem, best)
+}
+
+/// A renderer that was tried.
+struct Tried {
+    /// The number that it differs in from the best one.
+    number: Option<(alternatives::Set, f64)>,
+    score: f64,
+    terms: RendererTerms,
+}
+
+/// The renderer that differs from `best` in one number and has the least score, where one has less than `most`.
+fn best_number(problem: &Problem, best: &Fit, most: f64) -> Option<Tried> {
+    let metallic = best.metallic;
+    let points = problem.points(metallic);
+    let own = problem.predicted(&best.terms, metallic);
+    let numbers: Vec<_> = alternatives::of_numbers().collect();
+    let of_key = |(_, set, values, is_monotone): (&str, alternatives::Set, &[f64], bool)| {
+        let with = |value: f64| {
+            let mut terms = best.terms;
+            set(&mut terms, value);
+            terms
+        };
+        // The smallest of a ladder, and what the value above has changed of that: no other point can be changed by less.
+        let least = problem.predicted(&with(values[0]), metallic);
+        let mut predicted: Option<Vec<[f64; 3]>> = None;
+        let mut found: Option<Tried> = None;
+        for &value in values.iter().rev() {
+            let terms = with(value);
+            let now: Vec<[f64; 3]> = match &predicted {
+                Some(above) if is_monotone => (points.iter().zip(above).zip(&least))
+                    .map(
+                        |((point, above), least)| {
+                            if above == least { *least } else { terms.radiance(point, true) }
+                        },
+                    )
+                    .collect(),
+                _ => problem.predicted(&terms, metallic),
+            };
+            if now != own {
+                let most = found.as_ref().map_or(most, |found| found.score);
+                let score = problem.score(&terms, metallic, &now, most);
+                if score < most {
+                    found = Some(Tried { number: Some((set, value)), score, terms });
+                }
+            }
+            predicted = Some(now);
+        }
+        found
+    };
+    let found = numbers.into_par_iter().filter_map(of_key);
+    found.min_by(|a, b| a.score.total_cmp(&b.score))
 }
 
 /// The renderer without the numbers that it does not need.
@@ -291,21 +348,39 @@ fn refined_number(problem: &Problem, fit: Fit, set: alternatives::Set, value: f6
     if fit.is_perfect() {
         return fit;
     }
-    let of = |value: f64| {
+    let with = |value: f64| {
         let mut terms = fit.terms;
         set(&mut terms, value);
-        problem.fit(&terms, fit.metallic)
+        terms
+    };
+    let score = |log: f64| {
+        let terms = with(log.exp());
+        let predicted = problem.predicted(&terms, fit.metallic);
+        problem.score(&terms, fit.metallic, &predicted, f64::INFINITY)
     };
     let (mut low, mut high) = ((value / 6.0).ln(), (value * 6.0).min(0.95_f64.max(value)).ln());
+    let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+    let [mut a, mut b] = inner(low, high).map(|log| (log, score(log)));
     for _ in 0..40 {
-        let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-        if of(a.exp()).score <= of(b.exp()).score { high = b } else { low = a }
+        // One of the two inner points is one of the next two.
+        if a.1 <= b.1 {
+            (high, b) = (b.0, a);
+            let log = inner(low, high)[0];
+            a = (log, score(log));
+        } else {
+            (low, a) = (a.0, b);
+            let log = inner(low, high)[1];
+            b = (log, score(log));
+        }
     }
     let middle = ((low + high) / 2.0).exp();
-    let best = of(middle);
+    let best = problem.fit(&with(middle), fit.metallic);
     if best.score >= fit.score {
         return fit;
     }
-    let rounded = (0..8).map(|digits| of(format!("{middle:.digits$e}").parse().unwrap_or(middle)));
+    let rounded = (0..8).map(|digits| {
+        let rounded = format!("{middle:.digits$e}").parse().unwrap_or(middle);
+        problem.fit(&with(rounded), fit.metallic)
+    });
     rounded.into_iter().find(|rounded| rounded.score < best.score + WORTH / 4.0).unwrap_or(best)
 }

@@ -192,9 +192,11 @@ fn indistinguishable(problem: &Problem, fit: &Fit) -> Vec<(String, Vec<String>)>
             add(&terms);
         }
     }
-    for (key, _, value, terms) in alternatives::of_numbers(&fit.terms) {
-        let is_single = fit.terms.differences(&terms).len() == 1 && key != "lz";
-        if value == 1e-3 && is_single && fits(&terms) {
+    for (key, set, values, _) in alternatives::of_numbers() {
+        let mut terms = fit.terms;
+        set(&mut terms, 1e-3);
+        let is_tried = key != "lz" && values.contains(&1e-3);
+        if is_tried && fit.terms.differences(&terms).len() == 1 && fits(&terms) {
             add(&terms);
         }
     }

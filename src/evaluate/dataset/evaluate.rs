@@ -91,7 +91,7 @@ impl<'a> Evaluation<'a> {
         results: Option<&Path>,
         progress: &'a Progress,
     ) -> Result<Self, Error> {
-        let convention = settings.convention.parse()?;
+        let convention = settings.convention.convention;
         let results = results.map(ResultsFolder::open).transpose()?;
         Ok(Self { settings, convention, seeds: settings.seeds(), reading, results, progress })
     }
@@ -175,7 +175,11 @@ impl<'a> Evaluation<'a> {
         // How it is read is a part of the digest.
         let material =
             |path: &Path, sha256: &str| json!({"path": path.display().to_string(), "sha256": sha256});
-        let DatasetSettings { convention, target_error, metrics, diagnose, .. } = self.settings;
+        let DatasetSettings { target_error, metrics, diagnose, .. } = self.settings;
+        let Convention { name, .. } = self.convention;
+        // That of a file by its content.
+        let is_named = name.parse().is_ok_and(|named: Convention| named == self.convention);
+        let convention = if is_named { json!(name) } else { json!(self.convention) };
         // Another version may compute other numbers, and remark on other things.
         let of = json!({
             "format": 2,

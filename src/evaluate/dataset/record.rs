@@ -10,6 +10,7 @@ use crate::diagnose::Finding;
 use svbrdf_core::loss::Estimate;
 
 use super::remark::Remark;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::ReadOptions;
 
 /// A material: its ground truth, and the predictions of all methods.
@@ -85,7 +86,7 @@ fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error>
 pub struct DatasetSettings {
     /// Where the materials are.
     pub source: Source,
-    pub convention: String,
+    pub convention: ChosenConvention,
     /// Half of the 95% interval of each loss over scenes, as a share of the loss.
     pub target_error: f64,
     /// Names the scenes, together with the name of the material.
@@ -104,7 +105,13 @@ pub struct DatasetSettings {
 
 impl DatasetSettings {
     /// The settings for `cases`, which are those of the whole data set.
-    pub fn new(source: Source, convention: &str, target_error: f64, seed: u64, cases: &[Case]) -> Self {
+    pub fn new(
+        source: Source,
+        convention: ChosenConvention,
+        target_error: f64,
+        seed: u64,
+        cases: &[Case],
+    ) -> Self {
         let mut methods: Vec<String> = Vec::new();
         for candidate in cases.iter().flat_map(|case| &case.candidates) {
             if !methods.contains(&candidate.method) {
@@ -112,16 +119,7 @@ impl DatasetSettings {
             }
         }
         let materials = cases.iter().map(|case| case.material.clone()).collect();
-        Self {
-            source,
-            convention: convention.to_owned(),
-            target_error,
-            seed,
-            materials,
-            methods,
-            metrics: false,
-            diagnose: false,
-        }
+        Self { source, convention, target_error, seed, materials, methods, metrics: false, diagnose: false }
     }
 
     /// The seed of the scenes of each material, in order: by its name, and for materials of one name by their order, so that it does

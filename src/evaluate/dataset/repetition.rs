@@ -21,7 +21,7 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
         Source::Table(path) => words.extend(["--pairs".to_owned(), path.display().to_string()]),
     }
     let options = [
-        ("--convention", convention.clone(), "printed"),
+        ("--convention", convention.text(), "printed"),
         ("--target-error", format!("{}%", 100.0 * target_error), "1%"),
         ("--seed", seed.to_string(), "0"),
         ("--pick", pick.to_string(), "fixed"),

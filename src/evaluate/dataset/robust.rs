@@ -29,7 +29,7 @@ pub struct DatasetAnswers {
 /// step of `progress`.
 ///
 /// # Errors
-/// [`FilesError::NotAMaterial`] for fewer than [`FEWEST`] materials; as [`RobustInput::answers`]; [`UnknownName`](CoreError::UnknownName) for an unknown convention.
+/// [`FilesError::NotAMaterial`] for fewer than [`FEWEST`] materials; as [`RobustInput::answers`].
 pub fn robust(
     cases: &[Case],
     settings: &DatasetSettings,
@@ -39,7 +39,7 @@ pub fn robust(
     // What is missing is known before anything is computed.
     let is_whole = |case: &&Case| case.candidates.iter().all(|candidate| candidate.missing.is_none());
     enough(cases.iter().filter(is_whole).count(), settings)?;
-    let (convention, seeds) = (settings.convention.parse()?, settings.seeds());
+    let (convention, seeds) = (settings.convention.convention, settings.seeds());
     progress.begin(cases.len() as u64);
     let of_case = |case: &Case| {
         let seed = seeds.get(case.index).copied().unwrap_or(settings.seed);
@@ -79,7 +79,7 @@ impl DatasetAnswers {
     pub fn report(self, settings: &DatasetSettings) -> Result<RobustReport, Error> {
         enough(self.materials.len(), settings)?;
         let (materials, answers): (Vec<_>, Vec<_>) = self.materials.into_iter().unzip();
-        let Convention { name: convention, epsilon, .. } = settings.convention.parse()?;
+        let Convention { name: convention, epsilon, .. } = settings.convention.convention;
         let ground_truth = settings.source.path().display().to_string();
         let compared = Compared { ground_truth, size: [0; 2], convention, epsilon };
         let methods: Vec<&str> = settings.methods.iter().map(String::as_str).collect();

@@ -52,7 +52,7 @@ struct MapSummary {
 }
 
 impl MapReport {
-    /// The mean log difference of each texel over `scenes`.
+    /// The mean over `scenes` of the log difference of each texel, or what else the norm takes the mean of.
     ///
     /// # Errors
     /// As [`why::error_maps`].
@@ -71,7 +71,11 @@ impl MapReport {
         };
         Ok(Self {
             compared: Compared::new(comparison.ground_truth(), comparison.convention()),
-            shows: format!("mean log difference of each texel over {} scenes", scenes.len()),
+            shows: format!(
+                "mean {} of each texel over {} scenes",
+                comparison.convention().norm().of_term(),
+                scenes.len()
+            ),
             results: names(comparison).zip(&images).map(entry).collect(),
             images,
             directions: None,

@@ -98,6 +98,19 @@ impl RobustReport {
         Self { materials, ..self }
     }
 
+    /// The answer in a sentence.
+    pub fn sentence(&self) -> &str {
+        &self.sentence
+    }
+
+    /// Each pair of predictions that changes sides, with both intervals.
+    pub fn changes(&self) -> impl Iterator<Item = String> {
+        self.changes.iter().map(|change| {
+            let Change { question, first, second, default_interval95: [a, b], interval95: [c, d] } = change;
+            format!("{first} - {second}: {a:.4} to {b:.4} by default, {c:.4} to {d:.4} under {question}")
+        })
+    }
+
     /// A table for a paper.
     pub fn latex(&self) -> String {
         let row = |asked: &AskedQuestion| format!("{} & {:.2} \\\\\n", escaped(&asked.question), asked.tau);
@@ -137,10 +150,7 @@ const FIELDS: [Field<AskedQuestion>; 3] = [
 
 impl Report for RobustReport {
     fn heading(&self) -> String {
-        let changes = self.changes.iter().map(|change| {
-            let Change { question, first, second, default_interval95: [a, b], interval95: [c, d] } = change;
-            format!("{first} - {second}: {a:.4} to {b:.4} by default, {c:.4} to {d:.4} under {question}\n")
-        });
+        let changes = self.changes().map(|change| change + "\n");
         let Compared { ground_truth, convention, epsilon, .. } = &self.compared;
         let heading = match self.materials.len() {
             0 => self.compared.heading("order by the rendering loss"),

@@ -1,4 +1,4 @@
-//! Error map: the mean log difference of each texel over all scenes.
+//! Error map: the loss of each texel, its mean over all scenes.
 
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
@@ -6,13 +6,14 @@ use svbrdf_core::loss::{Comparison, Fused};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 
-/// For each prediction the mean over `scenes` of |ln(R_gt + epsilon) - ln(R_pred + epsilon)| of every texel and channel.
+/// For each prediction the mean over `scenes` of |ln(R_gt + epsilon) - ln(R_pred + epsilon)| of every texel and channel, or what else
+/// the norm of the convention takes the mean of.
 ///
 /// The [`mean`] of a map is the loss of the prediction over the same scenes on all texels, within the rounding of f32. A
 /// block of texels is one step of `progress`. The maps do not depend on the number of threads.
 ///
 /// # Errors
-/// [`Error::UnusableScene`], [`Error::Cancelled`].
+/// [`Error::UnusableScene`], [`Error::Cancelled`]; [`Error::NotComputed`] for a norm that is no mean over texels.
 pub fn error_maps(
     comparison: &Comparison<'_, f32>,
     scenes: &[Scene],

@@ -6,6 +6,7 @@ use eframe::egui;
 
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::Error as FilesError;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::disk::open::allow_outside;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::SessionPhotograph;
@@ -37,6 +38,7 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         }
         Effect::CancelReading(number) => parts.jobs.openings.cancel(number),
         Effect::AllowOutside => allow_outside(),
+        Effect::ReadConvention(path) => read_convention(parts, &path),
         Effect::ReadScenes(paths) => parts.jobs.read_scenes(paths),
         Effect::OpenDataset(paths) => dataset::open(parts, paths),
         Effect::OpenMany(open) => dataset::open_many(parts, *open),
@@ -107,6 +109,18 @@ fn carry_out_on_dialogs(parts: &mut Parts, effect: DialogEffect) {
             let from = parts.model.files().next().and_then(Path::parent);
             parts.jobs.browsing = Some(browse::start(&parts.jobs.waker, what, from));
         }
+    }
+}
+
+/// Renders and compares by the convention of a file.
+fn read_convention(parts: &mut Parts, path: &Path) {
+    match (ChosenConvention::read(&path.to_string_lossy()), &mut parts.ui.dialogs.open) {
+        (Ok(convention), _) => {
+            parts.ui.dialogs.open = None;
+            parts.model.use_convention(convention);
+        }
+        (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
+        (Err(error), None) => parts.model.report([Message::Failed(error.into())]),
     }
 }
 

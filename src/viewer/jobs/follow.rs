@@ -40,6 +40,7 @@ impl Jobs {
     pub fn follow(&mut self, model: &Model, parts: DisplayedParts) -> JobFindings {
         let mut findings = JobFindings::default();
         self.follow_losses(model);
+        self.follow_order(model, &mut findings);
         self.follow_replacement(model, &mut findings);
         if let Some(gpu) = &self.gpu {
             self.uploads.send_missing(&self.waker, gpu, &model.materials.all);
@@ -70,6 +71,15 @@ impl Jobs {
         let query = LossQuery { request: Request::Scenes(few), ..query };
         self.few.follow(waker, materials, &query, model.settings.auto_loss && done);
         self.few.poll(waker);
+    }
+
+    /// Whether the order of the predictions survives, where that is in sight.
+    fn follow_order(&mut self, model: &Model, findings: &mut JobFindings) {
+        let is_open = model.asks_order && model.tab() == Tab::Loss && model.side_panel();
+        let (materials, view, loss) = (&model.materials.all[..], &model.view, &model.settings.loss);
+        let work = JobContext { waker: &self.waker, gpu: None, materials, view };
+        let question = (loss.target_percent, loss.seed);
+        findings.errors.extend(self.order.follow_predictions(&work, is_open, question));
     }
 
     fn follow_replacement(&mut self, model: &Model, findings: &mut JobFindings) {

@@ -8,6 +8,7 @@ pub mod dataset;
 pub mod displayed;
 pub mod follow;
 pub mod loss;
+pub mod order;
 pub mod panes;
 pub mod photograph;
 pub mod reading;
@@ -32,6 +33,7 @@ use dataset::DatasetJobs;
 use loss::LossJob;
 use loss::scene::SceneLossJob;
 use loss::study::StudyJob;
+use order::{OrderJob, OrderKey};
 use panes::PaneJobs;
 use panes::difference::DifferenceJob;
 use panes::error_map::ErrorMapJob;
@@ -61,6 +63,7 @@ pub struct Jobs {
     pub few: LossJob,
     pub scene_loss: SceneLossJob,
     pub study: StudyJob,
+    pub order: OrderJob<OrderKey>,
     pub why: WhyJobs,
     pub panes: PaneJobs,
     pub photograph: PhotographJobs,

@@ -1,5 +1,6 @@
 //! Occasion of the last automatic exposure.
 
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 
 use svbrdf_files::source::Place;
@@ -15,6 +16,6 @@ pub enum Exposed {
     For {
         ground_truth: Place,
         scene: Scene,
-        convention: String,
+        convention: Convention,
     },
 }

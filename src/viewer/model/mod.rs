@@ -19,6 +19,7 @@ pub mod view;
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::loss::FileScenes;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
@@ -69,10 +70,14 @@ pub struct Model {
     pub help: bool,
     /// Whether the study is open.
     pub study: bool,
+    /// Whether it is asked if the order of the predictions, or of the methods, survives other questions.
+    pub asks_order: bool,
     /// Whether the side panel is open where the window is narrow.
     pub narrow_side_panel: bool,
     /// How the last materials were read: the open dialog starts with it.
     pub read: ReadOptions,
+    /// The conventions of files that were opened.
+    pub conventions: Vec<ChosenConvention>,
     /// What the last frame measured.
     pub geometry: WindowGeometry,
     /// The time of this frame, in seconds.
@@ -121,6 +126,15 @@ impl Model {
     pub fn use_scenes(&mut self, file: FileScenes) {
         self.report([Message::ScenesOpened(file.name.clone(), file.scenes.len())]);
         self.settings.loss = self.settings.loss.with_file(Some(file));
+    }
+
+    /// Takes a convention as that of renderings and loss; one of a file stays in the list of choices.
+    pub fn use_convention(&mut self, chosen: ChosenConvention) {
+        self.view.convention = chosen.clone();
+        if chosen.file.is_some() {
+            self.conventions.retain(|one| one.file != chosen.file);
+            self.conventions.push(chosen);
+        }
     }
 
     /// Moves on what moves by itself, by `seconds`; whether anything does.

@@ -4,13 +4,11 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::dataset::{Method, Source};
-use svbrdf_files::convention;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
@@ -30,7 +28,6 @@ use super::material::request::{ReadRequest, Target};
 use super::message::Message;
 use super::ranges::bring_into_range;
 use super::view::state::ViewState;
-use crate::error::Error;
 use crate::model::material::source::sources;
 use crate::model::settings::options::ViewerOptions;
 use svbrdf_files::source::{MaterialSource, Place};
@@ -66,6 +63,7 @@ impl Model {
             self.open_dataset(DatasetState::of(Arc::from(dataset), 0, BTreeMap::new()));
         }
         // After a session, which may have others.
+        options.convention.into_iter().for_each(|convention| self.use_convention(convention));
         if let Some((photograph, scene)) = options.photograph {
             let stamp = Stamp::of(&photograph.path);
             self.show_photograph(photograph, stamp, scene);
@@ -116,7 +114,7 @@ impl Model {
             }
         });
         let view = &self.view;
-        let convention = view.convention.clone();
+        let convention = view.convention.text();
         let mut session = Session::new(materials.collect(), view.scene, convention, view.exposure_ev);
         let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
         session.photograph = self.photograph.source().map(|source| SessionPhotograph {
@@ -163,10 +161,10 @@ impl Model {
 
     /// Takes over light, view, display, loss settings and photograph of a session; the request that reads its materials.
     pub fn open_session(&mut self, session: &Session) -> ReadRequest {
-        let drawn = drawn(&session.convention);
+        let convention = ChosenConvention::read(&session.convention);
         self.view = ViewState {
             scene: session.scene,
-            convention: drawn.as_ref().map_or(PRINTED.name, |name| name).to_owned(),
+            convention: ChosenConvention::default(),
             exposure_ev: session.exposure,
             display: session.window.display.clone().unwrap_or_default(),
         };
@@ -179,7 +177,10 @@ impl Model {
         // Of its materials, once they are there.
         self.inspection = Inspection::default();
         self.inspected_later = session.window.inspection.as_ref().map(Inspection::from);
-        self.report(drawn.err().map(Message::Failed));
+        match convention {
+            Ok(convention) => self.use_convention(convention),
+            Err(problem) => self.report([Message::Failed(problem.into())]),
+        }
         let out_of_range = bring_into_range(self).map(Message::OutOfRange);
         self.report(out_of_range);
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
@@ -236,15 +237,4 @@ fn compared_files(session: &Session) -> Vec<PathBuf> {
         Some(run.map_or(path, |(run, _)| run.folder))
     };
     session.materials.iter().filter_map(file).collect()
-}
-
-/// The name of the convention that a session names, where it is drawn.
-fn drawn(convention: &str) -> Result<&'static str, Error> {
-    let named: Result<Convention, CoreError> = convention.parse();
-    match named {
-        Ok(found) => Ok(found.name),
-        // Neither a name nor a file, or a file.
-        Err(_) => Err(convention::read(convention)
-            .map_or_else(Error::from, |_| Error::UnnamedConvention(convention.to_owned()))),
-    }
 }

@@ -10,6 +10,7 @@ use super::loss::panel::LossPanel;
 use super::loss::training::TrainingPanel;
 use super::materials::alone::{AloneCard, MapThumbnails};
 use super::materials::panel::MaterialsPanel;
+use super::order;
 use super::panels::light_and_view::ScenePanel;
 use super::photograph::card::PhotographCard;
 use super::why::WhyPanel;
@@ -44,7 +45,12 @@ pub fn ui(
     };
     bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
         let header = egui::CollapsingHeader::new("Light and view").default_open(true);
-        let scene = ScenePanel { state: &model.view, settings: &model.settings, animation: &model.animation };
+        let scene = ScenePanel {
+            state: &model.view,
+            conventions: &model.conventions,
+            settings: &model.settings,
+            animation: &model.animation,
+        };
         let header = header.show_unindented(ui, |ui| commands.extend(scene.ui(ui)));
         header
             .header_response
@@ -128,6 +134,9 @@ fn loss_tab(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
         chosen: model.view.display.prediction,
     };
     let mut commands = loss.ui(ui);
+    if model.materials.predictions().len() > 1 {
+        commands.extend(order::fold(ui, model.asks_order, &jobs.order));
+    }
     commands.extend(unsure_reading(ui, displayed));
     let training = TrainingPanel {
         runs: jobs.training.views(&model.materials.all, model.training.requested.as_ref()),

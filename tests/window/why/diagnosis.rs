@@ -4,6 +4,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::{NormalY, Order, ReadOptions};
 use svbrdf_viewer::model::command::{MaterialsCommand, SceneCommand, WhyCommand};
 use svbrdf_viewer::model::settings::why::WhySection;
@@ -216,7 +217,7 @@ fn nothing_moves(all: bool) {
     click(&mut window, SECTION);
     window.run_steps(8);
     // What is diagnosed is dropped.
-    apply(&mut window, SceneCommand::SetConvention("guided-2020"));
+    apply(&mut window, SceneCommand::SetConvention(ChosenConvention::read("guided-2020").unwrap()));
     rest(&mut window, 40);
     assert!(window.state().diagnosis().is_none(), "its section is folded");
     click(&mut window, SECTION);

@@ -43,21 +43,19 @@ pub struct Fused {
 }
 
 impl Fused {
-    /// For each prediction of `comparison` the mean of the log differences of each texel and channel over `scenes`, which are
-    /// usable. A block of texels is one step of `progress`.
+    /// For each prediction of `comparison` the mean over `scenes`, which are usable, of what each texel and channel adds to the loss.
+    /// A block of texels is one step of `progress`.
     ///
     /// # Errors
-    /// [`Error::Cancelled`]; [`Error::NotComputed`] where the norm is not log L1.
+    /// [`Error::Cancelled`]; [`Error::NotComputed`] where the loss is no mean over texels.
     pub fn texel_means(
         &self,
         comparison: &Comparison<'_, f32>,
         scenes: &[Scene],
         progress: &Progress,
     ) -> Result<Vec<Vec<[f32; 3]>>, Error> {
-        if comparison.convention().norm() != Norm::LogL1 {
-            return Err(Error::not_by("the mean of each texel", comparison.convention().name));
-        }
-        let Some(kernel) = kernel(comparison) else {
+        let of_logs = |kernel: &Kernel| kernel.norm == Norm::LogL1;
+        let Some(kernel) = kernel(comparison).filter(of_logs) else {
             return plain::texel_means(comparison, scenes, progress);
         };
         let level = self.level.unwrap_or_else(Level::best);

@@ -276,18 +276,32 @@ base! {
 }
 
 impl Norm {
+    /// What a value of two renderings adds to the loss, where the loss is the mean of that over texels and channels.
+    pub fn term(self, epsilon: f64) -> Option<impl Fn(f64, f64) -> f64> {
+        let is_mean = matches!(self, Self::LogL1 | Self::L1 | Self::Mse);
+        is_mean.then_some(move |a: f64, b: f64| match self {
+            Self::LogL1 => ((a + epsilon).ln() - (b + epsilon).ln()).abs(),
+            Self::Mse => (a - b).powi(2),
+            _ => (a - b).abs(),
+        })
+    }
+
+    /// That term in words.
+    pub fn of_term(self) -> &'static str {
+        match self {
+            Self::LogL1 => "log difference",
+            Self::Mse => "squared difference",
+            _ => "absolute difference",
+        }
+    }
+
     /// The loss of renderings `a` and `b`; `None` of [`Norm::None`].
     pub fn of(self, a: &[f64], b: &[f64], epsilon: f64) -> Option<f64> {
-        let mean = |of: &dyn Fn(f64, f64) -> f64| {
-            a.iter().zip(b).map(|(a, b)| of(*a, *b)).sum::<f64>() / a.len().max(1) as f64
-        };
-        Some(match self {
-            Self::LogL1 => mean(&|a, b| ((a + epsilon).ln() - (b + epsilon).ln()).abs()),
-            Self::L1 => mean(&|a, b| (a - b).abs()),
-            Self::Mse => mean(&|a, b| (a - b).powi(2)),
-            Self::Rmse => mean(&|a, b| (a - b).powi(2)).sqrt(),
-            Self::None => return None,
-        })
+        if self == Self::Rmse {
+            return Self::Mse.of(a, b, epsilon).map(f64::sqrt);
+        }
+        let term = self.term(epsilon)?;
+        Some(a.iter().zip(b).map(|(a, b)| term(*a, *b)).sum::<f64>() / a.len().max(1) as f64)
     }
 }
 

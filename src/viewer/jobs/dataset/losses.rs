@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{Case, DatasetSettings, Evaluation, MaterialResult, Pick, counted_loss};
+use svbrdf_files::convention::ChosenConvention;
 
 use crate::error::Error;
 use crate::jobs::work::job::{Job, Worker};
@@ -20,12 +21,14 @@ pub const PICK: Pick = Pick::Fixed;
 /// The losses as far as they are known.
 #[derive(Debug, Default)]
 pub struct DatasetLosses {
-    convention: String,
+    convention: ChosenConvention,
     /// By material.
     results: Vec<Option<Arc<MaterialResult>>>,
     rows: Vec<Option<CaseLosses>>,
     /// Counts the changes.
     pub generation: u64,
+    /// How often a material was read again.
+    pub read_again: u64,
     /// The largest loss that is known.
     pub largest: f64,
     /// What is computed first.
@@ -68,6 +71,7 @@ impl DatasetLosses {
         if let Some(result) = self.results.get_mut(case) {
             (*result, self.rows[case]) = (None, None);
             self.generation += 1;
+            self.read_again += 1;
             (self.job, self.has_failed) = (None, false);
         }
     }
@@ -77,13 +81,13 @@ impl DatasetLosses {
         &mut self,
         waker: &Waker,
         open: &Arc<OpenDataset>,
-        convention: &str,
+        convention: &ChosenConvention,
         first: &[usize],
     ) -> Option<Error> {
-        if self.convention != convention || self.results.len() != open.cases.len() {
+        if self.convention != *convention || self.results.len() != open.cases.len() {
             let count = open.cases.len();
             let generation = self.generation + 1;
-            *self = Self { convention: convention.to_owned(), generation, ..Self::default() };
+            *self = Self { convention: convention.clone(), generation, ..Self::default() };
             (self.results, self.rows) = (vec![None; count], vec![None; count]);
         }
         *self.first.lock().unwrap_or_else(PoisonError::into_inner) = first.to_vec();

@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 use svbrdf_gpu::Gpu;
 
+use super::order::OrderJob;
 use super::work::job::Job;
 use super::work::waker::Waker;
 use crate::error::Error;
@@ -20,7 +21,7 @@ use cases::CaseJobs;
 use cells::{Cell, CellJobs};
 use losses::DatasetLosses;
 use sheet::SheetJob;
-use summary::SummaryJob;
+use summary::{DatasetOrderKey, SummaryJob};
 
 /// The work for the data set of the window.
 #[derive(Debug, Default)]
@@ -34,6 +35,7 @@ pub struct DatasetJobs {
     pub cells: CellJobs,
     pub sheet: SheetJob,
     pub summary: SummaryJob,
+    pub order: OrderJob<DatasetOrderKey>,
 }
 
 /// What the window displays of a data set.
@@ -74,12 +76,20 @@ impl DatasetJobs {
         let wanted: Vec<usize> =
             std::iter::once(model.dataset.wanted).chain(model.dataset.ahead.iter().copied()).collect();
         let first: Vec<usize> = wanted[..1].iter().chain(&displayed.cases).copied().collect();
+        let summary_is_open = model.tab() == Tab::Methods && model.side_panel();
         let errors = [
             self.losses.follow(waker, open, &model.view.convention, &first),
             self.cases.follow(waker, gpu, open, model.materials.rules, (&wanted, &model.dataset.pinned())),
             self.cells.follow(waker, open, &displayed.cells, &displayed.cases, displayed.pixels),
             self.sheet.follow(waker, &self.cells, &displayed.cells, &model.view, range),
-            self.summary.follow(waker, open, &self.losses, model.tab() == Tab::Methods && model.side_panel()),
+            self.summary.follow(waker, open, &self.losses, summary_is_open),
+            summary::follow_order(
+                &mut self.order,
+                waker,
+                open,
+                &self.losses,
+                summary_is_open && model.asks_order,
+            ),
         ];
         errors.into_iter().flatten().collect()
     }

@@ -1,13 +1,17 @@
-//! Summary: what `svbrdf rank --dataset` prints, of the losses that are known.
+//! Summary: what `svbrdf rank --dataset` prints, of the losses that are known; whether the order survives other questions.
 
 use std::sync::Arc;
 
-use svbrdf_evaluate::dataset::{DatasetReport, MaterialResult};
+use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::dataset::{self, DatasetReport, MaterialResult};
+use svbrdf_files::convention::ChosenConvention;
 
 use super::losses::{DatasetLosses, PICK};
 use crate::error::Error;
+use crate::jobs::order::OrderJob;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
+use crate::jobs::work::priority;
 use crate::jobs::work::waker::Waker;
 use crate::model::dataset::OpenDataset;
 
@@ -40,4 +44,30 @@ impl SummaryJob {
             })
         })
     }
+}
+
+/// What the order of the methods depends on: the convention, and how often a material was read again.
+pub type DatasetOrderKey = (ChosenConvention, u64);
+
+/// Asks whether the order of the methods survives, as `svbrdf rank --dataset --robust` does, where that is in sight.
+pub(super) fn follow_order(
+    order: &mut OrderJob<DatasetOrderKey>,
+    waker: &Waker,
+    open: &Arc<OpenDataset>,
+    losses: &DatasetLosses,
+    is_open: bool,
+) -> Option<Error> {
+    let settings = losses.settings(open);
+    let key = (settings.convention.clone(), losses.read_again);
+    order.follow(waker, (is_open && open.methods().len() > 1).then_some(key), |_| {
+        let open = open.clone();
+        move |progress: &Progress| {
+            // Threads of its own, as for the losses.
+            let pool = priority::background_pool().map_err(|error| Error::internal(error.to_string()))?;
+            pool.install(|| {
+                let answers = dataset::robust(&open.cases, &settings, &open.reading, progress)?;
+                Ok(answers.report(&settings)?)
+            })
+        }
+    })
 }

@@ -2,6 +2,7 @@
 
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 
 use crate::error::Error;
@@ -17,7 +18,7 @@ use crate::model::view::state::ViewState;
 struct SceneLossKey {
     ids: Vec<MaterialId>,
     scene: Scene,
-    convention: &'static str,
+    convention: Convention,
 }
 
 /// The loss of each prediction under the current light and view.
@@ -50,5 +51,5 @@ impl SceneLossJob {
 
 fn key(materials: &[LoadedMaterial], state: &ViewState) -> SceneLossKey {
     let ids = materials.iter().map(LoadedMaterial::id).collect();
-    SceneLossKey { ids, scene: state.scene, convention: state.convention().name }
+    SceneLossKey { ids, scene: state.scene, convention: state.convention() }
 }

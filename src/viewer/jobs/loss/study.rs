@@ -11,7 +11,7 @@ use crate::model::material::list::MaterialList;
 use crate::model::material::read::MaterialId;
 
 /// What a study depends on: the ids of ground truth and prediction, and the convention.
-type StudyKey = ([MaterialId; 2], &'static str);
+type StudyKey = ([MaterialId; 2], Convention);
 
 /// The running study, and the results of it or of an earlier one.
 #[derive(Debug, Default)]
@@ -122,5 +122,5 @@ impl StudyJob {
 
 fn key(materials: &MaterialList, prediction: usize, convention: &Convention) -> Option<StudyKey> {
     let ids = [materials.ground_truth()?.id(), materials.predictions().get(prediction)?.id()];
-    Some((ids, convention.name))
+    Some((ids, *convention))
 }

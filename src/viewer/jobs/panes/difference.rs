@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use svbrdf_core::error::Error as CoreError;
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::picture::quantity::Quantity;
@@ -29,7 +30,7 @@ struct DifferenceKey {
     scene: Option<Scene>,
     /// Where the difference depends on it.
     exposure_ev: Option<f32>,
-    convention: &'static str,
+    convention: Convention,
 }
 
 /// What is computed of a difference.
@@ -94,7 +95,7 @@ fn key(materials: &[LoadedMaterial], state: &ViewState) -> DifferenceKey {
         kind,
         scene: (state.display.quantity == Quantity::Rendering).then_some(state.scene),
         exposure_ev: (kind == Difference::Flip).then_some(state.exposure_ev),
-        convention: state.convention().name,
+        convention: state.convention(),
     }
 }
 

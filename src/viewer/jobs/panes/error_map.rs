@@ -25,7 +25,7 @@ struct ErrorMapKey {
     /// Of the materials, the ground truth first.
     ids: Vec<MaterialId>,
     scenes: Request,
-    convention: &'static str,
+    convention: Convention,
 }
 
 /// What the legend reports of error maps besides their statistics.
@@ -77,7 +77,7 @@ impl ErrorMapJob {
 
 fn key(materials: &[LoadedMaterial], state: &ViewState, scenes: Request) -> ErrorMapKey {
     let ids = materials.iter().map(LoadedMaterial::id).collect();
-    ErrorMapKey { ids, scenes, convention: state.convention().name }
+    ErrorMapKey { ids, scenes, convention: state.convention() }
 }
 
 fn maps(

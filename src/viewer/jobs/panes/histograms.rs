@@ -27,7 +27,7 @@ struct HistogramsKey {
     quantity: Quantity,
     /// Of a rendering.
     scene: Option<Scene>,
-    convention: &'static str,
+    convention: Convention,
 }
 
 /// One channel of one material.
@@ -71,7 +71,7 @@ fn key(materials: &[LoadedMaterial], state: &ViewState) -> HistogramsKey {
         ids: materials.iter().map(LoadedMaterial::id).collect(),
         quantity: state.display.quantity,
         scene: (state.display.quantity == Quantity::Rendering).then_some(state.scene),
-        convention: state.convention().name,
+        convention: state.convention(),
     }
 }
 

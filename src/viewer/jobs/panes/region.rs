@@ -29,7 +29,7 @@ pub struct RegionKey {
     /// The difference that the panes show; `None` for values, and for the maps that are not of single texels.
     difference: Option<Difference>,
     scene: Scene,
-    convention: &'static str,
+    convention: Convention,
 }
 
 /// The numbers of one material in the rectangle.
@@ -85,7 +85,7 @@ fn key(region: Region, materials: &[LoadedMaterial], state: &ViewState) -> Regio
         quantity: state.display.quantity,
         difference: shows_difference.then(|| state.difference_kind()),
         scene: state.scene,
-        convention: state.convention().name,
+        convention: state.convention(),
     }
 }
 
@@ -180,7 +180,7 @@ mod tests {
                 quantity: Quantity::Roughness,
                 difference,
                 scene,
-                convention: PRINTED.name,
+                convention: PRINTED,
             };
             let found = numbers(materials.iter(), &key(None), &PRINTED);
             assert!(found[0].loss.is_none());

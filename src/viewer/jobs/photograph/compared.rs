@@ -27,7 +27,7 @@ pub struct ComparedKey {
     /// Of all materials.
     ids: Vec<MaterialId>,
     scene: Scene,
-    convention: &'static str,
+    convention: Convention,
     pub kind: Difference,
 }
 
@@ -78,7 +78,7 @@ pub fn key(
         falloff,
         ids: materials.iter().map(LoadedMaterial::id).collect(),
         scene: state.scene,
-        convention: state.convention().name,
+        convention: state.convention(),
         kind: state.display.differences.kind(Quantity::Rendering),
     }
 }

@@ -18,14 +18,14 @@ use crate::model::view::state::ViewState;
 pub struct PairKey {
     /// Of the ground truth and of the prediction.
     ids: [MaterialId; 2],
-    convention: &'static str,
+    convention: Convention,
 }
 
 /// Identity of a ground truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroundTruthKey {
     id: MaterialId,
-    convention: &'static str,
+    convention: Convention,
 }
 
 /// A ground truth and a prediction, for a worker.
@@ -50,7 +50,7 @@ impl ComparedPair {
 
     fn new(materials: &[LoadedMaterial], prediction: usize, convention: Convention) -> Option<Self> {
         let pair = [materials.first()?, materials.get(prediction + 1)?];
-        let key = PairKey { ids: pair.map(LoadedMaterial::id), convention: convention.name };
+        let key = PairKey { ids: pair.map(LoadedMaterial::id), convention };
         Some(Self { key, materials: pair.map(|one| one.read.clone()), convention })
     }
 

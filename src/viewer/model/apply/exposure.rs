@@ -16,7 +16,7 @@ pub fn follow(model: &mut Model) {
     let now = Exposed::For {
         ground_truth: ground_truth.read.source.place.clone(),
         scene: model.view.scene,
-        convention: model.view.convention.clone(),
+        convention: model.view.convention(),
     };
     let is_due = match (model.view.display.auto_exposure, &model.exposed) {
         (AutoExposure::Off, _) | (AutoExposure::Once, Exposed::Restored) => false,

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_evaluate::dataset::{Case, Source};
+use svbrdf_files::convention;
 use svbrdf_files::read::{MaterialPath, ReadOptions};
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
@@ -24,7 +25,9 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
     match command {
         MaterialsCommand::Open { paths, replace, read } => open(model, paths, replace, read),
         MaterialsCommand::AddDropped { paths, read } => {
-            let opens_alone = |path: &PathBuf| scene_file::is_named(path) || Session::is_named(path);
+            let opens_alone = |path: &PathBuf| {
+                scene_file::is_named(path) || Session::is_named(path) || convention::is_file(path)
+            };
             if !paths.iter().any(opens_alone) && !is_dataset(&paths) {
                 model.report([Message::Dropped { paths: paths.clone(), read }]);
             }
@@ -75,7 +78,15 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
 }
 
 fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions) -> Vec<Effect> {
-    // First: the scenes of a file replace the scenes of a session.
+    // First: the scenes or the convention of a file replace those of a session.
+    if let Some(at) = paths.iter().position(|path| convention::is_file(path)) {
+        let mut paths = paths;
+        let mut effects = vec![Effect::ReadConvention(paths.remove(at))];
+        if !paths.is_empty() {
+            effects.extend(open(model, paths, replace, read));
+        }
+        return effects;
+    }
     if paths.iter().any(|path| scene_file::is_named(path)) {
         let (files, paths): (Vec<_>, Vec<_>) = paths.into_iter().partition(|path| scene_file::is_named(path));
         let mut effects = vec![Effect::ReadScenes(files)];
@@ -122,7 +133,7 @@ fn many(model: &Model, paths: &[PathBuf], replace: bool, read: ReadOptions) -> O
 fn replaces_all(command: &MaterialsCommand) -> bool {
     match command {
         MaterialsCommand::Open { paths, replace, .. } => {
-            *replace && !paths.iter().all(|path| scene_file::is_named(path))
+            *replace && !paths.iter().all(|path| scene_file::is_named(path) || convention::is_file(path))
         }
         MaterialsCommand::OpenBuiltIn | MaterialsCommand::Reopen(_) => true,
         _ => false,

@@ -39,6 +39,10 @@ fn apply_to_loss(model: &mut Model, command: LossCommand) -> Vec<Effect> {
         LossCommand::Compute => Effect::Loss(LossEffect::Compute),
         LossCommand::Cancel => Effect::Loss(LossEffect::Cancel),
         LossCommand::Copy => Effect::CopyLosses,
+        LossCommand::AskOrder(on) => {
+            model.asks_order = on;
+            return Vec::new();
+        }
         LossCommand::ShowStudy(on) => {
             model.study = on;
             Effect::Loss(if on { LossEffect::EnsureStudy } else { LossEffect::CancelStudy })

@@ -39,7 +39,7 @@ pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
             }
         }
         SceneCommand::TogglePause => model.animation.paused ^= true,
-        SceneCommand::SetConvention(name) => model.view.convention = name.to_owned(),
+        SceneCommand::SetConvention(convention) => model.use_convention(convention),
         SceneCommand::Copy => {
             return vec![Effect::CopyText { text: scene_text(*scene), what: "the scene as JSON" }];
         }

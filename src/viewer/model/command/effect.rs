@@ -22,6 +22,8 @@ pub enum Effect {
     CancelReading(u64),
     /// Lets files name others by absolute paths from now on.
     AllowOutside,
+    /// Reads a convention.
+    ReadConvention(PathBuf),
     /// Reads scene files.
     ReadScenes(Vec<PathBuf>),
     /// Matches the materials of folders, or reads a table of pairs.

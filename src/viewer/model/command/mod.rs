@@ -17,6 +17,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::diagnose::Change;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::ReadOptions;
 
 use super::inspection::Region;
@@ -121,7 +122,7 @@ pub enum SceneCommand {
     Animate(Animation),
     /// Pauses what moves, or goes on.
     TogglePause,
-    SetConvention(&'static str),
+    SetConvention(ChosenConvention),
     /// Puts the scene on the clipboard as a scene file.
     Copy,
     /// Takes the scene, or opens the files, that this text of the clipboard names.
@@ -195,6 +196,8 @@ pub enum LossCommand {
     /// Puts the losses on the clipboard as text.
     Copy,
     ShowStudy(bool),
+    /// Whether it is asked if the order of the predictions, or of the methods, survives other questions.
+    AskOrder(bool),
     StartStudy,
     CancelStudy,
     /// Sets the loss to the scenes and texels of a point of the study.

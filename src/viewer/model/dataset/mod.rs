@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use svbrdf_evaluate::dataset::{CandidateFile, Case, DatasetReading, DatasetSettings, Source};
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::dataset::SessionMark;
 use svbrdf_files::source::{MaterialSource, Place};
 
@@ -44,7 +45,7 @@ impl OpenDataset {
         results: Option<PathBuf>,
     ) -> Result<Self, Error> {
         let cases = source.cases()?;
-        let settings = DatasetSettings::new(source, "printed", target_error, seed, &cases);
+        let settings = DatasetSettings::new(source, ChosenConvention::default(), target_error, seed, &cases);
         Ok(Self { settings, reading, cases, results })
     }
 

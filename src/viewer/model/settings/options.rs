@@ -3,6 +3,7 @@
 use crate::model::dataset::OpenDataset;
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
@@ -23,6 +24,8 @@ pub struct ViewerOptions {
     pub fit: bool,
     /// A photograph that renderings are compared with; with its light and view, `None` for the scene of the session or the default.
     pub photograph: Option<(SessionPhotograph, Option<Scene>)>,
+    /// The convention of renderings and loss; `None` for that of the session or the default.
+    pub convention: Option<ChosenConvention>,
     /// The scenes of the loss; `None` for the scenes of the session or the settings.
     pub scenes: Option<FileScenes>,
 }

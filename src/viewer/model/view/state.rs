@@ -1,10 +1,11 @@
 //! State of the view: light, view and display as one value, which undo covers.
 
 use svbrdf_core::material::Grid;
-use svbrdf_core::model::convention::{Convention, PRINTED};
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::window::SessionDisplay;
 
 use super::texel_plane::TexelPlane;
@@ -15,8 +16,8 @@ pub use svbrdf_files::session::window::{AutoExposure, Layout, Projection};
 #[derive(Clone, Debug, PartialEq)]
 pub struct ViewState {
     pub scene: Scene,
-    /// The name of the convention of renderings and loss.
-    pub convention: String,
+    /// The convention of renderings and loss.
+    pub convention: ChosenConvention,
     /// Exposure in stops: radiance is multiplied by 2^exposure_ev.
     pub exposure_ev: f32,
     pub display: SessionDisplay,
@@ -26,7 +27,7 @@ impl Default for ViewState {
     fn default() -> Self {
         Self {
             scene: Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] },
-            convention: PRINTED.name.to_owned(),
+            convention: ChosenConvention::default(),
             exposure_ev: 0.0,
             display: SessionDisplay::default(),
         }
@@ -34,9 +35,8 @@ impl Default for ViewState {
 }
 
 impl ViewState {
-    /// The convention of that name; the default where the name is not known.
     pub fn convention(&self) -> Convention {
-        self.convention.parse().unwrap_or_default()
+        self.convention.convention
     }
 
     /// The chosen difference of the quantity.

@@ -14,6 +14,7 @@ use crate::jobs::displayed::Displayed;
 use crate::model::command::{Command, DatasetCommand};
 use crate::model::dataset::OpenDataset;
 use crate::model::material::loaded::drawable;
+use crate::ui::order;
 use crate::ui::widgets::numbers::digits;
 use crate::ui::widgets::plot::still_plot;
 use crate::ui::widgets::theme;
@@ -55,6 +56,10 @@ impl SummaryUi {
         for condition in report.conditions() {
             ui.label(RichText::new(drawable(&condition)).small().weak());
         }
+        let mut commands = Vec::new();
+        if open.methods().len() > 1 {
+            commands.extend(order::fold(ui, displayed.model.asks_order, &jobs.order));
+        }
         ui.add_space(8.0);
         let mut clicked = strips(ui, displayed, open);
         if open.methods().len() > 1 {
@@ -66,7 +71,8 @@ impl SummaryUi {
                 rows.row(case).and_then(|row| rows.at(row)).map(|(_, ahead)| ahead).unwrap_or_default();
             DatasetCommand::Show { case, ahead }.into()
         });
-        shown.into_iter().collect()
+        commands.extend(shown);
+        commands
     }
 
     /// The table of the ranking; a click on a title sorts by its column.

@@ -4,10 +4,13 @@ use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{self, PopupCloseBehavior, Role, Sense, Stroke, Vec2, WidgetInfo, vec2};
 use glam::DVec3;
 
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_files::convention::ChosenConvention;
 
-use crate::model::command::{Command, SceneCommand};
+use crate::model::command::{Command, SceneCommand, WindowCommand};
+use crate::model::material::loaded::drawable;
 use crate::model::settings::Settings;
 use crate::model::view::animation::{Animation, Path, Preset};
 use crate::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
@@ -20,6 +23,8 @@ use crate::ui::widgets::number;
 #[derive(Debug)]
 pub struct ScenePanel<'a> {
     pub state: &'a ViewState,
+    /// Those of files.
+    pub conventions: &'a [ChosenConvention],
     pub settings: &'a Settings,
     pub animation: &'a Animation,
 }
@@ -159,16 +164,25 @@ impl ScenePanel<'_> {
     }
 
     fn convention(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let now = self.state.convention();
+        let now = &self.state.convention;
         ui.horizontal(|ui| {
             let combo =
-                egui::ComboBox::from_id_salt("convention").selected_text(now.name).width(140.0).height(300.0);
+                egui::ComboBox::from_id_salt("convention").selected_text(label(now)).width(140.0).height(300.0);
             let combo = combo.show_ui(ui, |ui| {
-                for one in named::all() {
-                    let label = ui.selectable_label(one.name == now.name, &one.name);
-                    if label.on_hover_text(named::summary(one)).clicked() {
-                        commands.push(SceneCommand::SetConvention(&one.name).into());
+                let named = named::all().iter().filter_map(|one| {
+                    let convention = Convention::try_from(one).ok()?;
+                    Some((ChosenConvention { convention, file: None }, named::summary(one)))
+                });
+                let of_files = self.conventions.iter().map(|one| (one.clone(), one.text()));
+                for (one, hover) in named.chain(of_files) {
+                    if ui.selectable_label(one == *now, label(&one)).on_hover_text(hover).clicked() {
+                        commands.push(SceneCommand::SetConvention(one).into());
                     }
+                }
+                let open = ui.selectable_label(false, "Convention file...");
+                let hover = "Render and compare by the convention in a file (TOML, as `svbrdf conventions NAME` prints one)";
+                if open.on_hover_text(hover).clicked() {
+                    commands.push(WindowCommand::ShowOpen(true).into());
                 }
             });
             combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Convention"));
@@ -177,6 +191,12 @@ impl ScenePanel<'_> {
             );
         });
     }
+}
+
+/// The name of a convention, or of its file.
+fn label(chosen: &ChosenConvention) -> String {
+    let file = chosen.file.as_ref().and_then(|file| file.file_name());
+    file.map_or_else(|| chosen.to_string(), |file| drawable(&file.to_string_lossy()))
 }
 
 /// The directions of light and view, seen from above. A drag moves the nearer of the two; its distance stays.

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_evaluate::report::Cell;
+use svbrdf_evaluate::report::{Cell, Table};
 
 use crate::jobs::why::AnalysisTable;
 
@@ -28,6 +28,11 @@ pub fn ui(ui: &mut egui::Ui, found: Result<&AnalysisTable, Option<(f32, Duration
         )
         .on_hover_text(heading.trim_end());
     });
+    grid(ui, table);
+}
+
+/// The table of a report, which scrolls sideways.
+pub fn grid(ui: &mut egui::Ui, table: &Table) {
     egui::ScrollArea::horizontal().id_salt("table").show(ui, |ui| {
         egui::Grid::new("table").striped(true).spacing([8.0, 2.0]).min_row_height(0.0).show(ui, |ui| {
             for title in &table.columns {

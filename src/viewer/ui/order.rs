@@ -1,0 +1,44 @@
+//! Whether the order of predictions, or of methods, survives other questions: a fold below them.
+
+use eframe::egui::{self, RichText};
+
+use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
+
+use super::why;
+use super::widgets::theme;
+use crate::jobs::order::OrderJob;
+use crate::model::command::{Command, LossCommand};
+use crate::model::material::loaded::drawable;
+
+/// The fold, which is unfolded where `asks`; the command of a click on its title.
+pub fn fold<K: Clone + PartialEq>(ui: &mut egui::Ui, asks: bool, job: &OrderJob<K>) -> Option<Command> {
+    ui.add_space(4.0);
+    let title = RichText::new("Does the order survive?").strong();
+    let header = egui::CollapsingHeader::new(title).open(Some(asks));
+    let header = header.show_unindented(ui, |ui| match job.state() {
+        Err(running) => {
+            let text = format!("{} s", running.elapsed().as_secs());
+            ui.add(egui::ProgressBar::new(running.fraction()).text(text).corner_radius(3.0));
+        }
+        Ok(Some(Ok(report))) => answer(ui, report),
+        Ok(Some(Err(problem))) => {
+            ui.label(RichText::new(drawable(problem)).small().color(theme::problem(ui.visuals())));
+        }
+        Ok(None) => {}
+    });
+    let hover = "The order under other conventions, epsilons, exposures, resolutions, scenes and measures, as `svbrdf rank --robust` prints it";
+    let clicked = header.header_response.on_hover_text(hover).clicked();
+    clicked.then(|| LossCommand::AskOrder(!asks).into())
+}
+
+/// The sentence, the pairs that change sides, and the order under every question.
+fn answer(ui: &mut egui::Ui, report: &RobustReport) {
+    ui.label(drawable(report.sentence()));
+    for change in report.changes() {
+        ui.label(RichText::new(drawable(&change)).small().weak());
+    }
+    if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
+        ui.copy_text(report.text());
+    }
+    why::tables::grid(ui, &report.table(Reader::Person));
+}
