@@ -21,6 +21,7 @@ mod pictures;
 mod rank;
 mod rank_conditions;
 mod rank_html;
+mod rank_scenes;
 mod read;
 mod report;
 mod results;

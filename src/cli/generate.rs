@@ -1,4 +1,4 @@
-//! `svbrdf completions` and `svbrdf man`: files that packages install. Both are hidden from the help.
+//! `svbrdf completions` and `svbrdf man`: files that packages install.
 
 use std::fs;
 use std::io;

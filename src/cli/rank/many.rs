@@ -2,16 +2,17 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::loss::{Question, Request, Sampling};
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
-    self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Pick, Shard,
+    self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
+    Pick, Shard,
 };
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
-use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
-use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat, check_limit};
+use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit};
 use super::cases::{reading, source};
 use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{Given, refuse};
@@ -36,7 +37,7 @@ struct ManyJob {
 /// Where the ranking goes.
 #[derive(Debug)]
 enum Output {
-    Stdout(RankFormat),
+    Text(OutputArgs),
     Page { path: PathBuf, figures: Option<Figures> },
 }
 
@@ -48,12 +49,13 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     let cases = source.cases()?;
     let output = output(&args, given, &cases)?;
     let convention = args.comparison.convention.unwrap_or_default();
-    let (target_error, seed) = args.accuracy.target_and_seed();
+    let (target_error, seed) = args.scenes.target_and_seed();
+    let scenes = fixed_scenes(&args)?;
     let DataSetArgs { results, shard, pick, metrics, diagnose } = args.of_data_set;
     let settings = DatasetSettings {
         metrics,
         diagnose,
-        ..DatasetSettings::new(source, convention.name, target_error, seed, &cases)
+        ..DatasetSettings::new(source, convention.name, target_error, seed, &cases).in_scenes(scenes)
     };
     let given = &args.comparison.materials.reading;
     let reading = reading(given, &settings.methods)?;
@@ -62,20 +64,33 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     Ok(Box::new(job))
 }
 
-/// Where the ranking goes, before anything is computed: to a page that replaces no material and no list, or to stdout.
-fn output(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<Output, CommandError> {
-    if args.format != RankFormat::Html {
-        given.refuse::<PageArgs>("only --format html writes a file, and figures beside it")?;
-        return Ok(Output::Stdout(args.format));
+/// The scenes of all materials, where their number or a list is specified.
+fn fixed_scenes(args: &RankArgs) -> Result<Option<FixedScenes>, CommandError> {
+    let Question { request, .. } = args.scenes.options()?.question()?;
+    if let Request::Scenes(Sampling { near, distant, .. }) = request
+        && (near == 1 || distant == 1)
+    {
+        return Err(CommandError::usage(
+            "one scene of a kind has no error; give 0, or 2 or more, to --near and --distant",
+        ));
     }
-    let PageArgs { output, figures } = &args.page;
-    let missing = || CommandError::usage("--format html writes a file; give --output NAME.html");
-    let path = output.clone().ok_or_else(missing)?;
-    check_destination(&path)?;
+    Ok(FixedScenes::new(request, args.scenes.words()))
+}
+
+/// Where the ranking goes, before anything is computed: to a file that replaces no material and no list, or to stdout.
+fn output(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<Output, CommandError> {
+    let output = &args.output;
     let predictions = cases.iter().flat_map(|case| case.candidates.iter().map(|one| &one.path));
     let materials = cases.iter().map(|case| &case.ground_truth).chain(predictions);
-    check_output_of(&path, materials.chain(args.comparison.materials.paths()))?;
-    Ok(Output::Page { path, figures: *figures })
+    output.check(materials.chain(args.comparison.materials.paths()))?;
+    if output.format() != RankFormat::Html {
+        given.refuse::<PageArgs>("only --format html has figures beside it")?;
+        return Ok(Output::Text(output.clone()));
+    }
+    let missing = || CommandError::usage("--format html writes a file; give --output NAME.html");
+    let path = output.output.clone().ok_or_else(missing)?;
+    check_destination(&path)?;
+    Ok(Output::Page { path, figures: args.page.figures })
 }
 
 /// Prints the ranking, or writes the page; fails where a loss is above a limit, after that.
@@ -103,7 +118,7 @@ impl ManyJob {
         tell_reading(verbose, &output, &report);
         match output {
             Output::Page { path, figures } => write_page(&path, figures, &report, &cases, progress)?,
-            Output::Stdout(format) => exit::put(&format.write(&report, DatasetReport::latex)?)?,
+            Output::Text(output) => output.put(&report, DatasetReport::latex)?,
         }
         check_any(&report)?;
         target::warn_of(report.missed(), strict)?;
@@ -140,7 +155,7 @@ fn part(shard: Option<Shard>, cases: Vec<Case>) -> Vec<Case> {
 fn tell_reading(verbose: bool, output: &Output, report: &DatasetReport) {
     if verbose {
         report.remarks().for_each(|(name, remark)| exit::tell(&format!("note: {name}: {}", remark.text)));
-    } else if !matches!(output, Output::Stdout(RankFormat::Text)) {
+    } else if !matches!(output, Output::Text(output) if output.format() == RankFormat::Text) {
         report.conditions().iter().for_each(|condition| exit::tell(&format!("note: {condition}")));
     }
 }

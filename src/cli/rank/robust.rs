@@ -3,7 +3,7 @@
 use svbrdf_evaluate::dataset::{self, Case, DatasetReading, DatasetSettings};
 use svbrdf_evaluate::report::RobustReport;
 
-use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat};
+use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, refuse_scenes};
 use super::cases::{reading, source};
 use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{Given, refuse};
@@ -16,7 +16,7 @@ struct RobustJob {
     settings: DatasetSettings,
     reading: DatasetReading,
     cases: Vec<Case>,
-    format: RankFormat,
+    output: OutputArgs,
 }
 
 pub fn job(args: &RankArgs, given: &Given) -> NewJob {
@@ -26,21 +26,23 @@ pub fn job(args: &RankArgs, given: &Given) -> NewJob {
     given.refuse::<FloorArgs>(reason)?;
     refuse(args.comparison.materials.reading.both.verbose, "verbose", reason)?;
     refuse(args.fail_above.is_some(), "fail-above", reason)?;
-    refuse(args.format == RankFormat::Html, "format html", reason)?;
+    refuse(args.output.format() == RankFormat::Html, "format html", reason)?;
+    refuse_scenes(given)?;
+    args.output.check(args.comparison.materials.paths())?;
     let of_files = "materials of a data set are not resized";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", of_files)?;
     let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
     let convention = args.comparison.convention.unwrap_or_default();
-    let (target_error, seed) = args.accuracy.target_and_seed();
+    let (target_error, seed) = args.scenes.target_and_seed();
     let settings = DatasetSettings::new(source, convention.name, target_error, seed, &cases);
     let reading = reading(&args.comparison.materials.reading, &settings.methods)?;
-    Ok(Box::new(RobustJob { settings, reading, cases, format: args.format }))
+    Ok(Box::new(RobustJob { settings, reading, cases, output: args.output.clone() }))
 }
 
 impl Job for RobustJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { settings, reading, cases, format } = *self;
+        let Self { settings, reading, cases, output } = *self;
         let answers = watched("comparing materials", |progress| {
             dataset::robust(&cases, &settings, &reading, progress)
         })?;
@@ -48,6 +50,6 @@ impl Job for RobustJob {
             exit::tell(&format!("note: {material} is left out: {problem}"));
         }
         let report = answers.report(&settings)?;
-        Ok(exit::put(&format.write(&report, RobustReport::latex)?)?)
+        Ok(output.put(&report, RobustReport::latex)?)
     }
 }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::check_same_size;
+use svbrdf_core::loss::{ALL_SCENES_TARGET, check_same_size};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error as FilesError;
@@ -138,7 +138,8 @@ fn answers(
         Ok(opened) => opened,
         Err(problem) => return Ok(Err(problem)),
     };
-    let (target_error, predictions) = (settings.target_error, predictions.iter().collect());
+    let target_error = settings.target_error.unwrap_or(ALL_SCENES_TARGET);
+    let predictions = predictions.iter().collect();
     let input = RobustInput { ground_truth: &truth, predictions, convention, target_error, seed };
     Ok(Ok(input.answers(&progress.part())?))
 }

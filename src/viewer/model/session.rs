@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use svbrdf_core::error::Error as CoreError;
+use svbrdf_core::loss::ALL_SCENES_TARGET;
 use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
@@ -140,7 +141,7 @@ impl Model {
             ground_truths,
             methods,
             results: open.results.as_ref().map(absolute),
-            target_error: open.settings.target_error,
+            target_error: open.settings.target_error.unwrap_or(ALL_SCENES_TARGET),
             seed: open.settings.seed,
             read: open.reading.ground_truths,
             read_predictions: open.reading.predictions,
