@@ -10,6 +10,7 @@ mod links;
 mod loss;
 mod materials;
 mod memory;
+mod messages;
 mod metrics;
 mod names;
 mod notes;

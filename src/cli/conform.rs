@@ -143,7 +143,12 @@ fn read(path: &Path, metallic: Option<bool>) -> Result<Answer, Error> {
     let rendering = |number: usize| {
         let names = ["exr", "png"].map(|ending| format!("{number}/radiance.{ending}"));
         let file = names.iter().map(|name| path.join(name)).find(|file| file.exists());
-        let missing = || problem(format!("expected {}, found neither", names.join(" or ")));
+        let missing = || {
+            problem(format!(
+                "expected {}, found neither; render each material of `svbrdf conform --points FOLDER` into its folder",
+                names.join(" or ")
+            ))
+        };
         Ok(read_photograph(&file.ok_or_else(missing)?, &options)?.image)
     };
     let renderings = (0..probe_materials().len()).map(rendering).collect::<Result<Vec<_>, Error>>()?;

@@ -198,7 +198,7 @@ pub fn program(program: Command) -> Command {
         .override_usage("svbrdf [GT] [PRED]... [OPTIONS]\n       svbrdf COMMAND ...")
         .help_template(template)
         .after_help(format!("{OF_PROGRAM}\n\n{MORE}"))
-        .after_long_help(format!("{OF_PROGRAM}\n\n{OF_ENVIRONMENT}"))
+        .after_long_help(format!("{OF_PROGRAM}\n\n{MORE}\n\n{OF_ENVIRONMENT}"))
         .mut_args(of_program)
         .mut_subcommands(with_help)
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::image::{Image, mean_of_channels};
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::model::scene::Endpoint;
@@ -178,6 +179,11 @@ impl Output {
             check_place(path)?;
             return Ok(Self::Table);
         }
-        Destination::<PictureFormat>::new(path).map(Self::Picture)
+        Destination::<PictureFormat>::new(path).map(Self::Picture).map_err(|problem| match problem {
+            Error::Core(CoreError::UnknownName { what, found, known }) => {
+                CoreError::unknown_name(what, found, known + ", .csv (a table)").into()
+            }
+            other => other,
+        })
     }
 }

@@ -111,7 +111,7 @@ pub fn main() -> ExitCode {
             exit_code(note_former_options(&matches).and_then(|()| cli.run(&Given::of(&matches))))
         }
         Err(version) if version.kind() == ErrorKind::DisplayVersion => exit_code(print_version()),
-        Err(unusual) => explain(&unusual),
+        Err(unusual) => explain(unusual),
     }
 }
 

@@ -71,8 +71,9 @@ fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {
     match (materials.paths.first(), materials.predictions()) {
         (None, _) | (Some(_), 1) => Ok(()),
         (Some(path), count) => Err(CommandError::Usage(format!(
-            "a study takes one prediction of {}, not {count}; give one after it",
-            path.display()
+            "a study takes one prediction of {}, found {count}; {}",
+            path.display(),
+            if count == 0 { "give one after it" } else { "leave out the others" }
         ))),
     }
 }

@@ -26,8 +26,8 @@ struct OneJob {
 }
 
 pub fn job(mut args: RankArgs, given: &Given) -> NewJob {
-    let reason = "a ranking of the predictions of one material has no results folder, no samples, no metrics and no marks, unlike one \
-        with --dataset or --pairs (`svbrdf metrics` and `svbrdf diagnose` print them)";
+    let reason = "only a data set (--dataset, --pairs) has kept results, parts, samples, metrics and marks here; `svbrdf metrics` and \
+        `svbrdf diagnose` print those of one material";
     given.refuse::<DataSetArgs>(reason)?;
     given.refuse::<PageArgs>(reason)?;
     if args.output.format() == RankFormat::Html {

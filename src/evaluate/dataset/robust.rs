@@ -29,7 +29,7 @@ pub struct DatasetAnswers {
 /// step of `progress`.
 ///
 /// # Errors
-/// [`FilesError::NotAMaterial`] for fewer than [`FEWEST`] materials; as [`RobustInput::answers`]; [`UnknownName`](CoreError::UnknownName) for an unknown convention.
+/// [`FilesError::NotADataSet`] for fewer than [`FEWEST`] materials; as [`RobustInput::answers`]; [`UnknownName`](CoreError::UnknownName) for an unknown convention.
 pub fn robust(
     cases: &[Case],
     settings: &DatasetSettings,
@@ -64,11 +64,11 @@ fn enough(count: usize, settings: &DatasetSettings) -> Result<(), FilesError> {
     if count >= FEWEST {
         return Ok(());
     }
-    Err(FilesError::NotAMaterial {
+    Err(FilesError::NotADataSet {
         path: ground_truths.clone(),
         expected: format!("at least {FEWEST} materials that all methods have"),
         found: count.to_string(),
-        remedy: "add materials, or ask about the predictions of one material without --dataset".to_owned(),
+        remedy: "add materials, or ask about the predictions of one material",
     })
 }
 
@@ -76,7 +76,7 @@ impl DatasetAnswers {
     /// The report of the means over the materials, with paired intervals over them.
     ///
     /// # Errors
-    /// [`FilesError::NotAMaterial`] for fewer than [`FEWEST`] materials: they have no interval.
+    /// [`FilesError::NotADataSet`] for fewer than [`FEWEST`] materials: they have no interval.
     pub fn report(self, settings: &DatasetSettings) -> Result<RobustReport, Error> {
         enough(self.materials.len(), settings)?;
         let (Source::Folders { ground_truths, .. } | Source::Table(ground_truths)) = &settings.source;

@@ -1,6 +1,5 @@
 //! A selection of metrics by their names, or by words of them.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{maps, renderings};
@@ -8,9 +7,8 @@ use svbrdf_core::error::Error;
 
 /// Metrics by their names or by words of them: `psnr` is all peak signal-to-noise ratios, `rmse_roughness` those names that have these
 /// words. Empty: all.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<String>", into = "Vec<String>")]
-#[schemars(with = "Vec<String>")]
 pub struct MetricSelection(Vec<String>);
 
 impl MetricSelection {

@@ -139,6 +139,7 @@ pub struct MetricsOptions {
     #[schemars(extend("format" = "stops"))]
     pub exposure: f32,
     /// The metrics to compute, by words of their names, such as psnr; empty: all
+    #[schemars(with = "Vec<String>")]
     pub metrics: MetricSelection,
 }
 

@@ -47,7 +47,7 @@ pub struct RankReport {
     /// The number of scenes.
     scenes: usize,
     seed: Option<u64>,
-    /// The requested accuracy of every loss: half of its 95% interval, as a share of it; `None` where scenes were requested.
+    /// The requested accuracy of every loss: half of its 95% interval, as a share of it; `None` for given scenes.
     target_error: Option<f64>,
     /// By every prediction.
     target_reached: Option<bool>,
