@@ -118,7 +118,7 @@ fn files_that_are_no_whole_image_are_refused() {
     let mut damaged = whole.clone();
     damaged[45] ^= 0xff;
     assert_bytes_refused(&[
-        (Vec::new(), "cannot decode .. expected PNG, TIFF .. no known image .. give"),
+        (Vec::new(), "cannot decode .. expected an image, found an empty file; copy"),
         (b"not an image at all".into(), "expected PNG, TIFF .. no known image"),
         (b"\xff\xd8\xff\xe0 and so on".into(), "expected the whole image .. end of the file .. again"),
         (b"\xff\xd8\xff\xd9".into(), "expected a valid JPEG .. again"),

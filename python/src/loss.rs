@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use pyo3::prelude::*;
-use svbrdf_core::loss::{ALL_SCENES_TARGET, Comparison, Compute, Precision};
+use svbrdf_core::loss::{Comparison, Compute, Precision};
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::rank::most_scenes;
 use svbrdf_evaluate::report::{Compared, LossReport, RankReport};
@@ -61,10 +61,9 @@ pub fn rank(
     let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?;
     let comparison = comparison.at_most(most_scenes(predictions.len()));
-    let (request, target_error) =
-        (asked.request()?, asked.options()?.target_error.unwrap_or(ALL_SCENES_TARGET));
+    let request = asked.request()?;
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
-    let mut report = RankReport::new(Compared::new(all[0], &convention), target_error, &outcome);
+    let mut report = RankReport::new(Compared::new(all[0], &convention), &request, &outcome);
     if ground_truth.storage.has_steps() || !repeats.is_empty() {
         let (floor, captures) = floor_of(py, (ground_truth, &repeats), &convention, asked.seed()?, progress)?;
         report = report.with_floor(&floor, captures);

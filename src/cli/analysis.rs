@@ -45,7 +45,7 @@ fn commands() -> impl Iterator<Item = &'static AnyAnalysis> {
 }
 
 fn command(analysis: &AnyAnalysis) -> Command {
-    let AnyAnalysis { name, about, details, example, .. } = analysis;
+    let AnyAnalysis { name, about, details, .. } = analysis;
     let command = Command::new(*name).args(own_options(analysis).into_iter().map(|option| option.arg()));
     let scenes = analysis.scenes.iter().fold(command, |command, scenes| match scenes {
         SceneOptions::Seed => SeedArgs::augment_args(command),
@@ -59,7 +59,6 @@ fn command(analysis: &AnyAnalysis) -> Command {
     OutputArgs::augment_args(scenes.next_help_heading(None::<&str>))
         .about(*about)
         .long_about(format!("{about}\n\n{details} Without GT and PRED: the built-in materials."))
-        .after_help(format!("Example:\n  svbrdf {name} gt.png a.png{example}"))
 }
 
 /// An option of an analysis itself.

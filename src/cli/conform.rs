@@ -11,6 +11,8 @@ use svbrdf_files::export::PictureFormat;
 use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
 use svbrdf_files::{Error, arrays, convention};
 
+use super::args::comparison::names;
+use super::args::offered;
 use super::job::{Job, NewJob};
 use super::output::report::ReportFormat;
 use super::output::stop::stoppable;
@@ -24,7 +26,6 @@ use super::output::{CommandError, exit, watched};
 /// texels as EXR, and their lights and views into `scenes.json`: render each, one texel a pixel, as radiance.exr or radiance.png into its
 /// folder. Ends with exit code 1 where the renderer does not conform.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf conform answer.npz --convention svbrdf-estimation-2022")]
 pub struct ConformArgs {
     /// The points with `radiance`: an npz file, or the folder of materials with renderings
     #[arg(value_name = "ANSWER", required_unless_present = "points", conflicts_with = "points")]
@@ -36,6 +37,7 @@ pub struct ConformArgs {
 
     /// Convention that is expected: a name, or a .toml file
     #[arg(long, value_name = "NAME", default_value = "printed", conflicts_with = "points")]
+    #[arg(value_parser = offered(str::parse::<String>, names()), hide_possible_values = true)]
     convention: String,
 
     /// Maps that were read: diffuse and specular, or base_color and metallic [default: whichever fits]
@@ -141,7 +143,12 @@ fn read(path: &Path, metallic: Option<bool>) -> Result<Answer, Error> {
     let rendering = |number: usize| {
         let names = ["exr", "png"].map(|ending| format!("{number}/radiance.{ending}"));
         let file = names.iter().map(|name| path.join(name)).find(|file| file.exists());
-        let missing = || problem(format!("expected {}, found neither", names.join(" or ")));
+        let missing = || {
+            problem(format!(
+                "expected {}, found neither; render each material of `svbrdf conform --points FOLDER` into its folder",
+                names.join(" or ")
+            ))
+        };
         Ok(read_photograph(&file.ok_or_else(missing)?, &options)?.image)
     };
     let renderings = (0..probe_materials().len()).map(rendering).collect::<Result<Vec<_>, Error>>()?;

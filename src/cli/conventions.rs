@@ -4,6 +4,8 @@ use svbrdf_core::model::grammar::Description;
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_files::convention;
 
+use super::args::comparison::names;
+use super::args::offered;
 use super::output::CommandError;
 use super::output::exit::put_text;
 
@@ -12,10 +14,9 @@ use super::output::exit::put_text;
 /// A convention is everything that a rendering loss leaves open: the terms of the renderer, the grid, the scenes and the norm. A TOML
 /// file of the same keys can be given wherever a convention is named.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf conventions svbrdf-estimation-2022")]
 pub struct ConventionsArgs {
     /// Name of a convention, or a .toml file
-    #[arg(value_name = "NAME")]
+    #[arg(value_name = "NAME", value_parser = offered(str::parse::<String>, names()), hide_possible_values = true)]
     convention: Option<String>,
 }
 

@@ -7,8 +7,8 @@ use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::read::{Binding, Preset};
 use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 
-use super::args::NamedPath;
 use super::args::reading::ReadingArgs;
+use super::args::{NamedPath, offered};
 use super::job::materials::{OneMaterial, noted};
 use super::job::{Job, NewJob};
 use super::output::CommandError;
@@ -25,7 +25,6 @@ use super::output::stop::stoppable;
 /// glTF and MaterialX get base colour and metallic where these change diffuse and specular by at most one step of 8 bits,
 /// else specular as it is. A note states which, and what it changes.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf convert textures/ brick.exr")]
 pub struct ConvertArgs {
     /// A packed or layered image, a folder, a name prefix, or one of the files; NAME=PATH names it
     #[arg(id = "ground_truth", value_name = "IN", required = true, value_parser = NamedPath::parser())]
@@ -37,6 +36,7 @@ pub struct ConvertArgs {
 
     /// Type of the samples [default: half in a layered EXR, else 8 bits]; the pictures of MaterialX are EXR with half and float
     #[arg(long, value_name = "8|16|half|float")]
+    #[arg(value_parser = offered(str::parse::<Depth>, ["8", "16", "half", "float"]), hide_possible_values = true)]
     depth: Option<Depth>,
 
     /// Source of materials whose order of maps, file names and encoding are used
@@ -45,6 +45,7 @@ pub struct ConvertArgs {
     /// gltf, which writes base colour, normals and occlusion | roughness | metallic; specular that base colour and metallic
     /// cannot express is lost.
     #[arg(long, value_name = "PRESET")]
+    #[arg(value_parser = offered(str::parse::<Preset>, Preset::ALL), hide_possible_values = true)]
     like: Option<Preset>,
 
     /// Adds a rendering to an EXR as its R, G and B, for programs that do not read layers

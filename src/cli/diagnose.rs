@@ -21,7 +21,6 @@ use super::output::{CommandError, exit, watched};
 /// the floor, which the ground truth cannot resolve, have no mark. The second table has the loss between averages over larger and larger
 /// blocks. docs/diagnose.md describes each line. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf diagnose gt.png a.png")]
 pub struct DiagnoseArgs {
     #[command(flatten)]
     seed: SeedArgs,

@@ -13,7 +13,7 @@ use super::output::CommandError;
 use super::{Cli, Subcommands};
 
 /// The subcommands with arguments that select a mode; options are added to these. `@` stands for the folder of the fixture.
-const MODES: [&str; 59] = [
+const MODES: [&str; 63] = [
     "loss @gt.png @a.png",
     "loss @gt.png @a.png --near 4 --sampler sobol",
     "loss @gt.png @a.png --target-error 30%",
@@ -41,8 +41,11 @@ const MODES: [&str; 59] = [
     "report @s.svbrdf-session.json -o @x.html",
     "report @listed.svbrdf-session.json -o @x.html",
     "rank @gt.png @a.png @b.png",
+    "rank @gt.png @a.png @b.png --near 4 --sampler sobol",
     "rank @gt.png @a.png @b.png --robust",
     "rank --dataset @set/gt @set/ours",
+    "rank --dataset @set/gt @set/ours --lights flash-9",
+    "rank --dataset @set/gt @set/ours --near 8 --distant 4",
     "rank --dataset @set/gt @set/ours --robust",
     "rank --dataset @set/gt @set/ours --format html -o @x.html",
     "rank --pairs @pairs.csv",
@@ -54,6 +57,7 @@ const MODES: [&str; 59] = [
     "scenes @gt.png @a.png --scenes @one.json",
     "worst @gt.png @a.png",
     "map @gt.png @a.png -o @x.csv",
+    "map @gt.png @a.png -o @x.png",
     "map @gt.png @a.png -o @x.csv --over lights",
     "map @gt.png @a.png -o @x.png --over views",
     "metrics @gt.png @a.png",
@@ -93,13 +97,13 @@ const OF_PHOTOGRAPHS: [(&str, &[&str]); 3] = [
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there.
 #[rustfmt::skip]
-const VALUES: [(&str, &str); 59] = [
+const VALUES: [(&str, &str); 60] = [
     ("backend", "auto"), ("capture", "@cap"), ("clip", "0.2"), ("columns", "roughness"),
     ("convention", "guided-2020"), ("corners", "0,0 7,0 7,7 0,7"), ("crop", "1,1,3,3"), ("depth", "16"),
     ("distance-tail", "0.001%"), ("distant", "5"), ("exposure", "1"), ("fail-above", "0.0001"),
     ("figures", "worst:1"), ("fixed", "0.1,0.2,1"), ("format", "json"), ("fov", "30"),
     ("hold-out", "photo"), ("layout", "wipe"), ("light", "0.1,0.2,1"), ("lights", "flash"), ("like", "gao"),
-    ("map", "roughness=@gray.png"), ("max-size", "1kB"), ("near", "3"), ("output", "@y.png"),
+    ("map", "roughness=@gray.png"), ("max-size", "1kB"), ("metrics metrics", "psnr"), ("near", "3"), ("output", "@y.png"),
     ("over", "lights"), ("photo", "@photo.png"), ("photo difference", "absolute"),
     ("photo exposure", "photograph"), ("pick", "mean"), ("plot", "@x.svg"), ("precision", "f64"),
     ("preset", "gao"), ("protocol", "matfusion"), ("range", "0.125"), ("read", "albedo=gamma2.2"),

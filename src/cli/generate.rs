@@ -1,4 +1,4 @@
-//! `svbrdf completions` and `svbrdf man`: files that packages install. Both are hidden from the help.
+//! `svbrdf completions` and `svbrdf man`: files that packages install.
 
 use std::fs;
 use std::io;
@@ -49,7 +49,8 @@ pub fn man(args: &ManArgs, program: Command) -> Result<(), CommandError> {
         fs::create_dir_all(folder)?;
         clap_mangen::generate_to(program, folder)
     };
-    Ok(write(&args.folder).map_err(|source| Error::Unwritable {
+    let of_file = |source| if args.folder.is_file() { io::Error::other("it is a file") } else { source };
+    Ok(write(&args.folder).map_err(of_file).map_err(|source| Error::Unwritable {
         path: args.folder.clone(),
         source,
         remedy: "choose a folder that can be written",

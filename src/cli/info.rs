@@ -17,7 +17,6 @@ use super::output::{CommandError, advice, exit, json};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf info textures/ --read normal-y=down --save")]
 pub struct InfoArgs {
     /// A packed or layered image, a folder, a name prefix, or one of the files; NAME=PATH names it
     #[arg(id = "ground_truth", value_name = "MATERIAL", required = true, value_parser = NamedPath::parser())]

@@ -9,7 +9,7 @@ use svbrdf_evaluate::report::{LossReport, Report as _};
 
 use super::args::scenes::SceneArgs;
 use super::args::values::{duration, percent};
-use super::args::{ComparisonArgs, Given};
+use super::args::{ComparisonArgs, Given, offered};
 use super::job::{ComparisonJob, Job, NewJob, SessionSettings};
 use super::output::report::ReportFormat;
 use super::output::{CommandError, exit, target, watched};
@@ -23,7 +23,6 @@ use super::output::{CommandError, exit, target, watched};
 /// its own. A folder of training steps, such as NAME_step000100.png or epoch_12/, stands for all its steps. Without GT and PRED: the
 /// built-in materials. docs/loss.md defines the loss.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf loss gt.png a.png b.png --target-error 0.5%")]
 #[command(mut_arg("near", |arg| arg.help(
     "Number of near-field scenes, random and on all texels [default: as many as +-1% needs; with --distant two for each distant one]")))]
 #[command(mut_arg("distant", |arg| arg.help(
@@ -50,6 +49,7 @@ pub struct LossArgs {
 
     /// Floating-point precision
     #[arg(long, value_name = "f32|f64", default_value = "f32")]
+    #[arg(value_parser = offered(str::parse::<Precision>, ["f32", "f64"]), hide_possible_values = true)]
     precision: Precision,
 
     /// Device that computes the loss

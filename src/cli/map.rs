@@ -2,15 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::error::Error as CoreError;
+use svbrdf_core::image::{Image, mean_of_channels};
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::model::scene::Endpoint;
+use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_evaluate::report::{MapReport, Report as _};
 use svbrdf_files::Error;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, write_text};
 
 use super::args::scenes::SceneArgs;
-use super::args::{ComparisonArgs, Given, values};
+use super::args::values::{self, Range};
+use super::args::{ComparisonArgs, Given, refuse};
 use super::job::{ComparisonJob, Job, NewJob};
 use super::output::stop::stoppable;
 use super::output::{CommandError, exit, watched};
@@ -21,15 +25,18 @@ use super::output::{CommandError, exit, watched};
 /// distant scenes over the directions that Algorithm 2 samples, seen from above (x to the right, y up), with a standard
 /// error. Predictions stand side by side. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf map gt.png a.png --over lights -o lights.png")]
 pub struct MapArgs {
-    /// Output file: .exr for floats, .png for colours from 0 to the largest value, .csv for a table
+    /// Output file: .exr for floats, .png for colours, .csv for a table
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
     /// What the map is over
     #[arg(long, value_enum, default_value_t)]
     over: Over,
+
+    /// The loss with the last colour of a .png: a number, or auto for the 99th percentile of the largest map [default: auto]
+    #[arg(long, value_name = "LOSS|auto", allow_negative_numbers = true)]
+    range: Option<Range>,
 
     #[command(flatten)]
     directions: DirectionArgs,
@@ -69,6 +76,7 @@ enum Over {
 struct MapJob {
     comparison: ComparisonJob,
     axes: Axes,
+    range: Option<Range>,
     output: Output,
     path: PathBuf,
 }
@@ -92,7 +100,10 @@ impl MapArgs {
             Over::Lights => self.directions.axes(Endpoint::Light, given)?,
             Over::Views => self.directions.axes(Endpoint::View, given)?,
         };
-        Ok(Box::new(MapJob { comparison, axes, output: Output::new(&self.output)?, path: self.output }))
+        let output = Output::new(&self.output)?;
+        let is_png = matches!(&output, Output::Picture(picture) if picture.format() == PictureFormat::Png);
+        refuse(self.range.is_some() && !is_png, "range", "only the colours of a .png have a range")?;
+        Ok(Box::new(MapJob { comparison, axes, range: self.range, output, path: self.output }))
     }
 }
 
@@ -106,7 +117,8 @@ impl DirectionArgs {
 /// Writes the map, and prints its means and its largest values.
 impl Job for MapJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison: ComparisonJob { convention, materials, .. }, axes, output, path } = *self;
+        let Self { comparison: ComparisonJob { convention, materials, .. }, axes, range, output, path } =
+            *self;
         let opened = materials.open::<f32>()?;
         check_output(&path)?;
         let predictions: Vec<_> = opened.predictions.iter().collect();
@@ -120,24 +132,38 @@ impl Job for MapJob {
                 MapReport::over_directions(&comparison, moved, fixed, side, progress)
             }
         })?;
-        let pixels = map.images.iter().flat_map(|pane| pane.pixels.as_flattened());
-        let largest = pixels.copied().fold(0.0, f32::max);
+        let last = last_colour(&map, range);
         let sources: Vec<_> =
             [comparison.ground_truth()].into_iter().chain(predictions).map(|m| m.name()).collect();
         let entries = [
-            ("svbrdf:shows", format!("{}; the last colour is {largest}", map.shows)),
+            ("svbrdf:shows", format!("{}; the last colour is {last}", map.shows)),
             ("svbrdf:sources", sources.join(" | ")),
             ("svbrdf:convention", convention.name.to_owned()),
             ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
         ];
         stoppable(|progress| match &output {
             Output::Picture(destination) => {
-                destination.write_maps(&map.images, largest.max(f32::MIN_POSITIVE), &entries, progress)
+                destination.write_maps(&map.images, last as f32, &entries, progress)
             }
             Output::Table => write_text(&path, &map.csv()?, progress),
         })?;
-        Ok(exit::put_text(&map.text())?)
+        let colours = match &output {
+            Output::Picture(picture) if picture.format() == PictureFormat::Png => {
+                format!("\ncolours from 0 to {last:.6}; larger losses have the last colour, too\n")
+            }
+            _ => String::new(),
+        };
+        Ok(exit::put_text(&(map.text() + &colours))?)
     }
+}
+
+/// The loss with the last colour.
+fn last_colour(map: &MapReport, range: Option<Range>) -> f64 {
+    if let Some(Range::Last(last)) = range {
+        return last;
+    }
+    let losses = |pane: &Image<f32>| pane.pixels.iter().map(mean_of_channels).collect();
+    Distributions::of(&map.images.iter().map(losses).collect::<Vec<_>>(), false).auto_range
 }
 
 /// The format of the map.
@@ -153,6 +179,11 @@ impl Output {
             check_place(path)?;
             return Ok(Self::Table);
         }
-        Destination::<PictureFormat>::new(path).map(Self::Picture)
+        Destination::<PictureFormat>::new(path).map(Self::Picture).map_err(|problem| match problem {
+            Error::Core(CoreError::UnknownName { what, found, known }) => {
+                CoreError::unknown_name(what, found, known + ", .csv (a table)").into()
+            }
+            other => other,
+        })
     }
 }

@@ -3,12 +3,13 @@
 use serde_json::json;
 
 use svbrdf_evaluate::analyses::AnyAnalysis;
+use svbrdf_evaluate::metrics::MetricSelection;
 use svbrdf_evaluate::report::MetricsReport;
 
 use super::analysis::AnalysisJob;
 use super::args::scenes::SceneArgs;
 use super::args::values::stops;
-use super::args::{ComparisonArgs, Given, refuse};
+use super::args::{ComparisonArgs, Given, offered, refuse};
 use super::job::{ComparisonJob, Job, NewJob};
 use super::output::CommandError;
 use super::output::report::ReportFormat;
@@ -20,13 +21,17 @@ use super::protocol::{self, ProtocolArgs};
 /// metallic, angles between normals, and FLIP of renderings. docs/metrics.md defines each. With --protocol: those of a published evaluation, as
 /// its released code computes them. Without GT and PRED: the built-in materials.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf metrics gt.png a.png b.png --format csv")]
 pub struct MetricsArgs {
     #[command(flatten)]
     scenes: SceneArgs,
 
     #[command(flatten)]
     protocol: ProtocolArgs,
+
+    /// Metrics to compute, by words of their names: psnr, roughness, flip, ... [default: all]
+    #[arg(long, value_name = "WORDS,...", value_delimiter = ',')]
+    #[arg(value_parser = offered(str::parse::<String>, MetricSelection::words()), hide_possible_values = true)]
+    metrics: Vec<String>,
 
     /// Exposure of renderings in stops, before they are clipped [default: 0]
     #[arg(long, value_name = "EV", value_parser = stops, allow_hyphen_values = true)]
@@ -49,13 +54,14 @@ struct ProtocolJob {
 
 impl MetricsArgs {
     pub fn job(self, given: &Given) -> NewJob {
-        let Self { scenes, protocol, exposure, format, comparison: args } = self;
+        let Self { scenes, protocol, metrics, exposure, format, comparison: args } = self;
         let comparison = ComparisonJob::with_predictions(&args, given)?;
         if protocol.protocol.is_some() {
             let reason = "a protocol has its own scenes, convention and exposure";
             given.refuse::<SceneArgs>(reason)?;
             refuse(args.convention.is_some(), "convention", reason)?;
             refuse(exposure.is_some(), "exposure", reason)?;
+            refuse(!metrics.is_empty(), "metrics", "a protocol has its own metrics")?;
             let resizes = args.materials.reading.resize_to.is_some();
             refuse(resizes, "resize-to", "a protocol compares materials as they are")?;
             if comparison.session.is_some() {
@@ -65,9 +71,12 @@ impl MetricsArgs {
             return Ok(Box::new(ProtocolJob { comparison, protocol, format }));
         }
         refuse(protocol.renderings.is_some(), "renderings", "only a --protocol writes renderings")?;
+        let metrics = MetricSelection::try_from(metrics)?;
         let analysis = AnyAnalysis::of::<MetricsReport>();
-        let (request, options) =
-            (analysis.request(&scenes.options()?)?, json!({ "exposure": exposure.unwrap_or(0.0) }));
+        let (request, options) = (
+            analysis.request(&scenes.options()?)?,
+            json!({ "exposure": exposure.unwrap_or(0.0), "metrics": metrics }),
+        );
         Ok(Box::new(AnalysisJob { analysis, comparison, request, options, format }))
     }
 }

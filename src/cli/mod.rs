@@ -9,6 +9,7 @@ mod diagnose;
 #[cfg(test)]
 mod every_option;
 mod generate;
+mod help;
 mod info;
 mod job;
 mod loss;
@@ -43,47 +44,19 @@ use output::exit::{exit_code, explain, put, tell};
 /// The licences of the crates and fonts in this program.
 const THIRD_PARTY: &str = include_str!("../../packaging/THIRD-PARTY");
 
-const EXAMPLES: &str = "\
-Examples:
-  svbrdf                                  opens the built-in pair in the window
-  svbrdf gt.png prediction.png            opens your own materials
-  svbrdf loss gt.png a.png b.png          prints the losses of two predictions
-  svbrdf loss gt.png a.png --format json  the same as JSON
-  svbrdf loss gt.png run/ --format csv    prints the loss of each step of a training run
-  svbrdf blame gt.png prediction.png      prints how much of the loss comes from each map
-  svbrdf diagnose gt.png prediction.png   prints whether exposure, alignment or reading explain the loss
-  svbrdf render gt.png -o gt.exr          renders to linear floats
-  svbrdf strip gt.png a.png -o fig.png    writes a labelled figure of maps and renderings
-  svbrdf report gt.png a.png -o r.html    writes a page with a figure that readers light themselves
-  svbrdf photo photo.jpg a.png --flash --fov 45
-                                          compares renderings with a photograph
-  svbrdf study gt.png a.png --plot s.svg  plots the error of the loss against its time
-  svbrdf conform --points probe.npz       asks your renderer whose it is
-  svbrdf info gt.png                      prints what the files hold and what was assumed
-  svbrdf convert gt.png gt.exr            writes the material as one layered EXR
-
-Environment:
-  RUST_LOG      messages of window and graphics libraries: warn, info, debug, or wgpu=info
-  WGPU_BACKEND  graphics interfaces that may be used: vulkan, metal, dx12, gl
-
-Exit codes:
-   0  success
-   1  invalid input, or the operation failed
-   2  no display or no graphics adapter
-  64  invalid command line
- 130  interrupted by Ctrl+C; existing files are unchanged";
-
-/// Shows SVBRDF materials under a light that you drag, and computes their rendering loss.
+/// Shows SVBRDF materials under a light you drag; computes their rendering loss.
 ///
 /// A material is a packed image (photos, then normal | diffuse | roughness | specular, or another order), a layered
 /// EXR or npz, a glTF, MaterialX or MTL file, or a folder or name prefix with one file per map. Without a subcommand: `view`.
 #[derive(Debug, Parser)]
-#[command(version, disable_version_flag = true, args_conflicts_with_subcommands = true, after_help = EXAMPLES)]
+#[command(version, disable_version_flag = true, args_conflicts_with_subcommands = true)]
 struct Cli {
-    /// Prints the version; with --verbose also commit, features, processor and graphics adapter, for reports of faults
+    /// Prints the version; with --verbose what reports of faults need
+    ///
+    /// Commit, features, processor and graphics adapter.
     #[arg(short = 'V', long, action = ArgAction::Version)]
     version: (),
-    /// Prints the licences of svbrdf and of the crates and fonts in it
+    /// Prints the licences of svbrdf and of what is in it
     #[arg(long, exclusive = true)]
     licenses: bool,
     #[command(subcommand)]
@@ -97,7 +70,6 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Subcommands {
     /// Opens a ground truth and predictions, or the built-in pair, in the window
-    #[command(after_help = "Example:\n  svbrdf view gt.png a.png b.png")]
     View(view::ViewArgs),
     Loss(loss::LossArgs),
     Render(render::RenderArgs),
@@ -116,9 +88,7 @@ enum Subcommands {
     Schema(schema::SchemaArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
-    #[command(hide = true)]
     Completions(generate::CompletionsArgs),
-    #[command(hide = true)]
     Man(generate::ManArgs),
 }
 
@@ -130,14 +100,29 @@ pub fn main() -> ExitCode {
     if std::env::var_os("RUST_LOG").is_some() {
         env_logger::init();
     }
-    match Cli::command().try_get_matches().and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
+    if let Some(result) = before_parsing() {
+        return exit_code(result);
+    }
+    match help::program(Cli::command())
+        .try_get_matches()
+        .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
     {
         Ok((cli, matches)) => {
             exit_code(note_former_options(&matches).and_then(|()| cli.run(&Given::of(&matches))))
         }
         Err(version) if version.kind() == ErrorKind::DisplayVersion => exit_code(print_version()),
-        Err(unusual) => explain(&unusual),
+        Err(unusual) => explain(unusual),
     }
+}
+
+/// What the parser of the command line does not know: a topic of the help, and a mistyped command, which it would take for a file.
+fn before_parsing() -> Option<Result<(), CommandError>> {
+    let [first, second] = [1, 2].map(|n| std::env::args_os().nth(n).and_then(|word| word.into_string().ok()));
+    let first = first?;
+    if first == "help" {
+        return Some(put(&help::topic(&second?)?).map_err(CommandError::from));
+    }
+    help::mistyped(&first).map(|problem| Err(CommandError::Usage(problem)))
 }
 
 /// Notes the former options of reading, and the form that replaces them.
@@ -166,8 +151,8 @@ impl Cli {
         match command {
             Subcommands::Schema(args) => schema::run(&args),
             Subcommands::Conventions(args) => conventions::run(&args),
-            Subcommands::Completions(args) => generate::completions(&args, Self::command()),
-            Subcommands::Man(args) => generate::man(&args, Self::command()),
+            Subcommands::Completions(args) => generate::completions(&args, help::program(Self::command())),
+            Subcommands::Man(args) => generate::man(&args, help::program(Self::command())),
             command => command.job(given)?.run(),
         }
     }

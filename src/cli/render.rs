@@ -16,7 +16,7 @@ use svbrdf_files::export::{Destination, PictureFormat, Provenance};
 
 use super::args::scenes::RenderingArgs;
 use super::args::values::Range;
-use super::args::{ComparisonArgs, Given, refuse};
+use super::args::{ComparisonArgs, Given, offered, refuse};
 use super::job::{ComparisonJob, Job, NewJob, SessionSettings, check_heights};
 use super::output::stop::stoppable;
 use super::output::{CommandError, watched};
@@ -28,7 +28,6 @@ use super::output::{CommandError, watched};
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("exposure", |arg| arg.help(
     "Exposure of renderings in a PNG, in stops; an EXR keeps the radiance, and differences have none [default: 0, or that of the session]")))]
-#[command(after_help = "Example:\n  svbrdf render gt.png a.png --light 0.4,0.5,1.2 -o pair.png")]
 pub struct RenderArgs {
     /// Output file: .exr for linear floats, .png for exposed, sRGB-encoded 8 bits
     #[arg(short, long, value_name = "FILE")]
@@ -40,6 +39,7 @@ pub struct RenderArgs {
     /// What is written: rendering, normal, diffuse, specular or roughness [default: rendering; of a session what its window
     /// showed, value or difference]
     #[arg(long, value_name = "QUANTITY")]
+    #[arg(value_parser = offered(str::parse::<Quantity>, Quantity::ALL.map(Quantity::name)), hide_possible_values = true)]
     show: Option<Quantity>,
 
     /// Writes the difference of each prediction from GT, in a PNG as colours: log, signed-log, absolute, signed or relative;

@@ -13,7 +13,6 @@ use super::output::{CommandError, json};
 ///
 /// Reports have the names of their commands; `dataset` is that of `rank --dataset`, and `map` that of svbrdf.map in Python. Without a name: an object of all of them.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf schema loss")]
 pub struct SchemaArgs {
     /// Name of the report
     #[arg(value_name = "NAME", value_parser = PossibleValuesParser::new(schema::names()))]

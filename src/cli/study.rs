@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use svbrdf::backend::Adapter;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::text::time;
 use svbrdf_evaluate::study::{self, Pair, Study};
 use svbrdf_evaluate::study::{csv as study_csv, plot};
 use svbrdf_files::disk::inputs::check_output;
@@ -21,7 +22,6 @@ use super::output::{CommandError, exit, watched};
 /// graphics adapter, with float, half and 8-bit maps. Errors are relative to a reference over far more scenes. Prints the
 /// cheapest setting for a few target errors. Without GT and PRED: the built-in pair.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf study gt.png a.png -o study.csv --plot study.svg")]
 pub struct StudyArgs {
     /// Writes all points to a CSV file
     #[arg(short, long, value_name = "FILE")]
@@ -71,8 +71,9 @@ fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {
     match (materials.paths.first(), materials.predictions()) {
         (None, _) | (Some(_), 1) => Ok(()),
         (Some(path), count) => Err(CommandError::Usage(format!(
-            "a study takes one prediction of {}, not {count}; give one after it",
-            path.display()
+            "a study takes one prediction of {}, found {count}; {}",
+            path.display(),
+            if count == 0 { "give one after it" } else { "leave out the others" }
         ))),
     }
 }
@@ -92,5 +93,8 @@ fn measured(opened: &Opened<f32>, convention: Convention) -> Result<Study, Comma
     };
     let gpu = adapter.as_ref().map(Adapter::backend);
     let pair = Pair { ground_truth, prediction, convention, gpu };
-    Ok(watched("measuring", |progress| study::run(&pair, progress, |_| ()))?)
+    let reference = watched("computing the reference", |progress| study::reference(&pair, progress))?;
+    let expected = time(study::expected_seconds(&pair, &reference));
+    exit::tell(&format!("note: about {expected} to go, without the GPU"));
+    Ok(watched("measuring", |progress| study::measure(&pair, reference, progress, |_| ()))?)
 }

@@ -31,8 +31,9 @@ use super::rank::cases;
     scenes of the loss")))]
 #[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
 pub struct ViewArgs {
-    /// Compares renderings with this photograph, in the place of the ground truth; or with those of a capture: its folder, or the
-    /// file that lists them
+    /// Photograph, or folder of a capture, in the place of the ground truth
+    ///
+    /// Of a capture its folder, or the file that lists its photographs.
     #[arg(long, value_name = "FILE")]
     photo: Option<PathBuf>,
 
@@ -58,8 +59,9 @@ pub struct ViewArgs {
 #[derive(Debug, clap::Args)]
 #[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
 pub struct DatasetArgs {
-    /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method: materials are matched by name, as
-    /// `svbrdf rank --dataset` does
+    /// GT is a folder of ground truths, and every PRED that of a method
+    ///
+    /// Materials are matched by name, as `svbrdf rank --dataset` does.
     #[arg(long, requires = "ground_truth", conflicts_with_all = ["pairs", "photo"])]
     dataset: bool,
 

@@ -8,7 +8,7 @@
 #[non_exhaustive]
 pub enum Error {
     /// A name that is none of the known ones.
-    #[error("unknown {what} `{found}`; use one of: {known}")]
+    #[error("unknown {what} `{found}`; use {}{known}", if known.contains(", ") { "one of: " } else { "" })]
     UnknownName { what: &'static str, found: String, known: String },
 
     /// The text of a convention that is none.

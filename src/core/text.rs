@@ -18,6 +18,19 @@ pub fn percent(share: f64) -> String {
     format!("{text}%")
 }
 
+/// The problem of a JSON text that does not have the expected form, in words for users.
+pub fn of_json(problem: &impl std::fmt::Display) -> String {
+    const WORDS: [(&str, &str); 6] = [
+        ("EOF while parsing ", "the text ends within "),
+        ("unknown variant ", "unknown value "),
+        ("unknown field ", "unknown key "),
+        ("missing field ", "no key "),
+        ("invalid type: ", "found "),
+        ("invalid value: ", "found "),
+    ];
+    WORDS.iter().fold(problem.to_string(), |text, (code, words)| text.replace(code, words))
+}
+
 /// Most characters of a line that has no end of its own, such as a name from a file.
 const LONGEST: usize = 2000;
 

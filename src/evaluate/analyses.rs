@@ -32,7 +32,6 @@ pub struct AnyAnalysis {
     pub title: &'static str,
     pub about: &'static str,
     pub details: &'static str,
-    pub example: &'static str,
     pub doing: &'static str,
     pub scenes: &'static [SceneOptions],
     /// The schema of its options.
@@ -50,7 +49,6 @@ impl AnyAnalysis {
             title: A::TITLE,
             about: A::ABOUT,
             details: A::DETAILS,
-            example: A::EXAMPLE,
             doing: A::DOING,
             scenes: A::SCENES,
             options: schema_of::<A::Options>,

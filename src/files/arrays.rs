@@ -54,7 +54,8 @@ pub fn read(path: &Path) -> Result<Arrays, Error> {
 /// # Errors
 /// What is wrong.
 pub fn parse(bytes: &[u8]) -> Result<Arrays, String> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|e| format!("it is no npz file: {e}"))?;
+    let mut archive = ZipArchive::new(Cursor::new(bytes))
+        .map_err(|_| "expected an npz file, as numpy.savez writes it, found no archive")?;
     if archive.len() > MOST_ARRAYS {
         return Err(format!("expected at most {MOST_ARRAYS} arrays, found {}", archive.len()));
     }

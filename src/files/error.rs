@@ -22,6 +22,10 @@ pub enum Error {
     #[error("{} is not a material: expected {expected}, found {found}; {remedy}", path.display())]
     NotAMaterial { path: PathBuf, expected: String, found: String, remedy: String },
 
+    /// A folder or a table that is no data set.
+    #[error("{} is not a data set: expected {expected}, found {found}; {remedy}", path.display())]
+    NotADataSet { path: PathBuf, expected: String, found: String, remedy: &'static str },
+
     /// A map that a material needs is not among what was read.
     #[error("{} is not a material: expected one picture for the {map} map (named after one of {examples}), found {found}; \
         add or rename the file, specify the map, or open a packed picture by itself", path.display())]
@@ -48,8 +52,8 @@ pub enum Error {
     BadSidecar { path: PathBuf, problem: String, keys: String },
 
     /// Something had to be guessed where the user wants no guesses.
-    #[error("{} is ambiguous: {guesses}; specify what is unsure, or allow guesses", path.display())]
-    Guessed { path: PathBuf, guesses: String },
+    #[error("{} is ambiguous: {}; specify what is unsure, or allow guesses", path.display(), texts(guesses))]
+    Guessed { path: PathBuf, guesses: Vec<Guess> },
 
     /// A crop of a figure reaches beyond the materials.
     #[error("the crop {} reaches beyond the material: expected columns 0 to {} and rows 0 to {} of {} x {} texels, found \
@@ -161,6 +165,19 @@ pub enum Error {
     /// Of a computation.
     #[error(transparent)]
     Core(#[from] CoreError),
+}
+
+/// A guess in reading a material.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Guess {
+    /// What was guessed, and why.
+    pub text: String,
+    /// The key of the option that specifies it, where there is one.
+    pub key: Option<&'static str>,
+}
+
+fn texts(guesses: &[Guess]) -> String {
+    guesses.iter().map(|guess| guess.text.as_str()).collect::<Vec<_>>().join("; ")
 }
 
 /// Why a material cannot be written to a file.

@@ -33,4 +33,4 @@ pub mod source;
 pub mod steps;
 pub mod write;
 
-pub use error::{Error, OutputProblem};
+pub use error::{Error, Guess, OutputProblem};

@@ -39,11 +39,10 @@ pub fn ranking(report: &DatasetReport, views: &[MaterialView], robust: Option<&R
 /// Everything that the numbers depend on.
 fn heading(report: &DatasetReport) -> String {
     let settings = &report.settings;
-    let percent = 100.0 * settings.target_error;
+    let accuracy = escaped(&settings.accuracy()).replace("+-", "&plusmn;");
     let (convention, pick) = (escaped(settings.convention.convention.name), &report.pick);
     format!(
-        "Convention {convention}, &plusmn;{percent}% per loss, seed {}, pick {pick}. {}. Repeat with <code>{}</code>",
-        settings.seed,
+        "Convention {convention}, {accuracy}, pick {pick}. {}. Repeat with <code>{}</code>",
         report.repetition.software,
         escaped(&report.repetition.command)
     )

@@ -8,7 +8,7 @@ use super::{assert_has, assert_refused, fail, folder, succeed, svbrdf, text};
 fn help_shows_examples_and_exit_codes() {
     let folder = folder();
     let help = succeed(folder.path(), "--help");
-    assert_has(&help, &["view", "loss", "render", "Examples:", "Exit codes:", "64", "--read", "--preset"]);
+    assert_has(&help, &["view", "loss", "render", "Examples:", "Exit codes:", "64", "help reading"]);
     for (subcommand, option) in [("view", "--read"), ("loss", "--scenes"), ("render", "--exposure")] {
         assert_has(&succeed(folder.path(), &format!("{subcommand} --help")), &[option]);
     }
@@ -24,7 +24,7 @@ const REFUSALS: [(&str, i32, &str); 67] = [
     ("loss gt.png", 64, "no prediction"),
     ("map gt.png a.png -o x.csv --side 8", 64, "the size of its material; leave out --side"),
     ("report gt.png -o x.html --seed 5", 64, "there is no prediction, and no loss; leave out --seed"),
-    ("rank gt.png a.png --shard 1/2 --results kept", 64, "has no results folder"),
+    ("rank gt.png a.png --shard 1/2 --results kept", 64, "only a data set"),
     ("loss gt.png a.png --colour", 64, "--colour"),
     ("loss gt.png a.png --scenes nan.json", 1, "nan.json"),
     ("loss gt.png a.png --scenes below.json", 1, "scene 0: its light [0.5, 0.5, -1.0] is not above"),
@@ -74,7 +74,7 @@ const REFUSALS: [(&str, i32, &str); 67] = [
     ("loss --albedo srgb", 64, "the built-in materials are not read from files; leave out --read"),
     ("study gt.png gt.png -o study.csv", 1, "look the same"),
     ("study gt.png", 64, "one prediction"),
-    ("study gt.png a.png b.png", 64, "not 2"),
+    ("study gt.png a.png b.png", 64, "found 2; leave out the others"),
     ("study gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
     ("study gt.png a.png --plot study.jpg", 64, ".svg, .png"),
     ("study gt.png a.png --plot no/study.svg", 1, "create the folder"),

@@ -1,11 +1,12 @@
 //! The help pages of all subcommands.
 
 use std::collections::BTreeSet;
+use std::fs;
 
 use super::{svbrdf, text};
 
 /// The headings of help pages.
-const HEADINGS: &str = "Usage:|Arguments:|Options:|Commands:|Scenes:|Light and view:|Photograph:|Reading materials:|Files:|\
+const HEADINGS: &str = "Usage:|Arguments:|Options:|Look:|Compare:|Explain:|Prepare:|Scenes:|Light and view:|Photograph:|Reading materials:|Files:|\
     Environment:|Example:|Examples:|Exit codes:";
 
 /// The help page of a subcommand, which is named by its path from the program.
@@ -15,12 +16,12 @@ pub fn page(path: &[String]) -> String {
     text(&output.stdout).to_owned()
 }
 
-/// The subcommands that a page lists, without `help`.
+/// The subcommands that a page lists in groups.
 fn subcommands(page: &str) -> Vec<String> {
-    let after = page.lines().skip_while(|line| *line != "Commands:").skip(1);
-    let listed = after.take_while(|line| line.starts_with("  "));
+    let after = page.lines().skip_while(|line| *line != "Look:").take_while(|line| *line != "Options:");
+    let listed = after.filter(|line| line.starts_with("  "));
     let first = listed.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
-    first.filter(|name| !name.is_empty() && *name != "help").map(str::to_owned).collect()
+    first.filter(|name| !name.is_empty()).map(str::to_owned).collect()
 }
 
 /// The path of the program itself and those of all subcommands, each with its page.
@@ -74,19 +75,59 @@ fn every_heading_of_every_help_page_is_a_known_one() {
 }
 
 #[test]
-fn the_example_of_every_subcommand_is_a_command_line_of_it() {
+fn every_subcommand_is_in_a_group() {
+    // The completions have all of them.
+    let script = svbrdf().args(["completions", "fish"]).output().unwrap();
+    let of_script =
+        text(&script.stdout).lines().filter(|line| line.contains("__fish_svbrdf_needs_command\" -a"));
+    let named = of_script.filter_map(|line| line.split(" -a \"").nth(1)?.split('"').next());
+    let expected: BTreeSet<_> = named.filter(|name| *name != "help").map(str::to_owned).collect();
+    assert_eq!(subcommands(&page(&[])).into_iter().collect::<BTreeSet<_>>(), expected);
+    assert!(expected.len() > 20);
+}
+
+#[test]
+fn the_short_help_fits_a_screen_and_has_the_materials_before_the_options() {
+    for (path, _) in pages() {
+        let output = svbrdf().args(&path).arg("-h").env("COLUMNS", "80").output().unwrap();
+        let page = text(&output.stdout);
+        let lines = page.lines().count();
+        assert!(
+            lines <= 48 && page.lines().all(|line| line.chars().count() <= 80 || !line.trim().contains(' ')),
+            "{path:?}: {lines} lines\n{page}"
+        );
+        let place = |word: &str| page.find(word).unwrap_or(usize::MAX);
+        assert!(
+            path.is_empty() || place("  [GT]") > page.len() || place("  [GT]") < place("Options:"),
+            "{page}"
+        );
+        assert!(!page.contains("Reading materials:"), "{page}");
+    }
+    let reading = svbrdf().args(["help", "reading"]).output().unwrap();
+    for option in ["--read", "--preset", "--strict", "--resize-to", "normal-encoding"] {
+        assert!(text(&reading.stdout).contains(option), "{option}");
+    }
+}
+
+#[test]
+fn the_examples_of_every_subcommand_are_command_lines_of_it() {
     const USAGE: i32 = 64;
     for (path, page) in pages().iter().filter(|(path, _)| !path.is_empty()) {
-        let after = page.lines().skip_while(|line| *line != "Example:").skip(1);
+        let after = page.lines().skip_while(|line| !matches!(*line, "Example:" | "Examples:")).skip(1);
         let lines: Vec<_> = after.take_while(|line| line.starts_with("  svbrdf ")).collect();
-        assert_eq!(lines.len(), 1, "{path:?}: {page}");
-        let line = lines[0].split(" > ").next().unwrap_or_default();
-        let mut words = line.split_whitespace().skip(1);
-        assert_eq!(words.next(), Some(path[0].as_str()), "{line}");
-        // Without its files it fails, but not as a command line.
-        let folder = tempfile::tempdir().unwrap();
-        let output = super::run_in(folder.path(), &line.replacen("  svbrdf ", "", 1));
-        assert!(output.status.code().is_some_and(|code| code != USAGE), "{line}: {output:?}");
+        assert!((1..=3).contains(&lines.len()), "{path:?}: {page}");
+        for line in lines {
+            let line = line.split(" > ").next().unwrap_or_default();
+            let mut words = line.split_whitespace().skip(1);
+            assert_eq!(words.next(), Some(path[0].as_str()), "{line}");
+            // Without its files it fails, but not as a command line.
+            let folder = tempfile::tempdir().unwrap();
+            fs::create_dir(folder.path().join("out")).unwrap();
+            fs::write(folder.path().join("out/a.png"), "").unwrap();
+            let line = line.replacen("  svbrdf ", "", 1).replace('\'', "");
+            let output = super::run_in(folder.path(), &line);
+            assert!(output.status.code().is_some_and(|code| code != USAGE), "{line}: {output:?}");
+        }
     }
 }
 
@@ -116,4 +157,22 @@ fn an_unusable_value_of_an_option_is_refused_with_what_is_expected() {
         }
     }
     assert!(refused > 100, "{refused}");
+}
+
+#[test]
+fn a_mistyped_command_is_no_file() {
+    let folder = tempfile::tempdir().unwrap();
+    for (args, words) in [
+        ("los gt.png a.png", "no file or command `los`; did you mean `loss`?"),
+        ("rnak --dataset gt ours", "no file or command `rnak`; did you mean `rank`?"),
+        ("qqq", "no file or command `qqq`; `svbrdf -h` lists the commands"),
+    ] {
+        super::assert_refused(folder.path(), &[(args, 64, words)]);
+    }
+    // A folder of this name, and a prefix of files, are materials.
+    fs::create_dir(folder.path().join("los")).unwrap();
+    fs::write(folder.path().join("rnak_normal.png"), "").unwrap();
+    for args in ["los --no-such-option", "rnak --no-such-option"] {
+        super::assert_refused(folder.path(), &[(args, 64, "unexpected argument '--no-such-option'")]);
+    }
 }

@@ -21,7 +21,14 @@ fn info_says_what_was_assumed_and_strict_refuses_guesses() {
     RgbImage::from_pixel(32, 8, Rgb([90, 90, 90])).save(folder.path().join("flat.png")).unwrap();
     let unsure = "layout: ndrs in 4 x 1 tiles of 8 x 8 (normal, diffuse, roughness, specular) (unsure)";
     assert_has(&succeed(folder.path(), "info flat.png"), &[unsure]);
-    assert_refused(folder.path(), &[("info flat.png --strict", 1, "flat.png is ambiguous: layout")]);
+    assert_refused(
+        folder.path(),
+        &[(
+            "info flat.png --strict",
+            1,
+            "flat.png is ambiguous; specify what follows, or leave out --strict\nsvbrdf:   layout: ",
+        )],
+    );
 }
 
 #[test]

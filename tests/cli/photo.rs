@@ -95,7 +95,11 @@ fn what_cannot_be_done_is_refused_with_what_to_do() {
     let refused = [
         ("photo photo.png gt.png", 64, "give --scene FILE, or --flash with --fov DEGREES"),
         ("photo photo.png gt.png --flash --fov 180", 64, "0.1 to 179 degrees"),
-        ("photo photo.png gt.png --scene two.json", 1, "lists 2 scenes, of which a photograph"),
+        (
+            "photo photo.png gt.png --scene two.json",
+            1,
+            "a photograph has one of its 2 scenes: give its number, 0 to 1",
+        ),
         ("photo photo.png gt.png --scene one.json --corners 0,0 9,0 8,8 0,8", 1, "photograph, found 9,0"),
         ("photo photo.png gt.png --scene one.json --corners 0,0 8,0 8,8", 64, "--corners"),
         ("photo photo.png gt.png --flash --fov 9 -o x.png --difference angle", 64, "absolute, relative"),

@@ -70,7 +70,6 @@ fn a_page_is_a_file_of_a_data_set_and_replaces_no_material() {
     for (options, words) in [
         ("--format html", "--output NAME.html"),
         ("--format html -o out.txt", ".html"),
-        ("-o out.html", "--format html"),
         ("--figures all", "--figures"),
         ("--format html -o out.html --figures worst:0", "worst"),
     ] {

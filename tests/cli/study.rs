@@ -8,7 +8,10 @@ use super::{assert_has, folder, loss_of, rows, text, text_of, without_adapter, w
 fn study(folder: &Path, args: &str) -> String {
     let output = without_adapter(folder, &format!("study {args}"));
     assert!(output.status.success(), "{}", text(&output.stderr));
-    assert!(text(&output.stderr).contains("note: without the GPU: no usable graphics adapter"));
+    assert_has(
+        text(&output.stderr),
+        &["note: without the GPU: no usable graphics adapter", "note: about ", " to go"],
+    );
     text(&output.stdout).to_owned()
 }
 

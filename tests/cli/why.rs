@@ -3,8 +3,8 @@
 use serde_json::Value;
 
 use super::{
-    assert_has, folder, json, json_of, loss_of, losses_as_json, rows, rows_of, run_in, succeed, text,
-    text_of, write_material, write_tiles,
+    assert_has, assert_refused, folder, json, json_of, loss_of, losses_as_json, rows, rows_of, run_in,
+    succeed, text, text_of, write_material, write_tiles,
 };
 
 #[test]
@@ -108,4 +108,35 @@ fn maps_are_written_in_every_format() {
     let mean: f64 = cells.map(|cell| cell.parse::<f64>().unwrap()).sum::<f64>() / (3.0 * 64.0);
     let loss = loss_of(folder.path(), "gt.png a.png --near 128 --distant 64 --sampler sobol");
     assert!((mean / loss - 1.0).abs() < 1e-5, "{mean}, {loss}");
+}
+
+#[test]
+fn the_colours_of_a_map_have_a_range_of_their_own_or_the_one_that_is_given() {
+    let folder = folder();
+    let at = folder.path();
+    let last = |args: &str| {
+        let printed = succeed(at, &format!("map gt.png a.png --near 4 -o x.png {args}"));
+        let line = printed.lines().find_map(|line| line.strip_prefix("colours from 0 to ")).unwrap();
+        line.split(';').next().unwrap().parse::<f64>().unwrap()
+    };
+    let mut losses: Vec<f64> = rows(&{
+        succeed(at, "map gt.png a.png --near 4 -o x.csv");
+        super::text_of(at, "x.csv")
+    })
+    .iter()
+    .map(|row| ["red", "green", "blue"].iter().map(|c| row[*c].parse::<f64>().unwrap()).sum::<f64>() / 3.0)
+    .collect();
+    losses.sort_by(f64::total_cmp);
+    let (range, largest) = (last(""), losses[losses.len() - 1]);
+    let above = losses.iter().filter(|loss| **loss > range + 1e-6).count();
+    assert!(range <= largest && above <= 1 + losses.len() / 100, "{range} of {largest}, {above} above");
+    assert_eq!((last("--range auto"), last("--range 0.25")), (range, 0.25));
+    super::assert_holds(at, "x.png", &["the last colour is 0.25"]);
+    assert_refused(
+        at,
+        &[
+            ("map gt.png a.png -o x.csv --range 1", 64, "leave out --range"),
+            ("map gt.png a.png -o x.png --range -1", 64, "expected auto or a number above 0"),
+        ],
+    );
 }

@@ -142,7 +142,7 @@ fn what_is_kept_wrongly_is_refused_with_its_place() {
     let (folder, path) = glossy();
     let place = folder.path().join("a.svbrdf.json");
     for (text, expected) in [
-        ("", "EOF while parsing"),
+        ("", "the text ends within"),
         ("[]", "expected a map"),
         (r#"{"roughnes": "r"}"#, "unknown key `roughnes`"),
         (r#"{"roughness": "shiny"}"#, "roughness: unknown variant `shiny`, expected one of `r`, `gloss`"),

@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Sequence
 from typing import Any, Literal
 
 from . import _core
@@ -22,6 +23,7 @@ def metrics(
     scenes: Scenes | None = None,
     convention: str | None = None,
     exposure: float | None = None,
+    metrics: Sequence[str] = (),
     protocol: Literal["matfusion"] | None = None,
     progress: bool | Progress = False,
 ) -> MetricsReport:
@@ -35,6 +37,7 @@ def metrics(
     >>> report.results[0].metrics["rmse_roughness"]
     0.0
 
+    `metrics` are words of the names of those to compute, such as "psnr" or "rmse_roughness"; all where not given.
     `exposure` is that of the renderings in stops, before they are clipped, 0 where not given. The protocol "matfusion"
     is that of Sartor and Peers 2023, score.py; it takes files, since normals are compared as stored, and neither
     scenes nor a convention or an exposure. Scenes are those of `svbrdf.scenes`, the other args and errors those of
@@ -44,11 +47,11 @@ def metrics(
     if protocol is not None:
         if protocol != "matfusion":
             raise ValueError(f"protocol: expected 'matfusion', found {protocol!r}")
-        check_unused("protocol", **choice, convention=convention, exposure=exposure)
+        check_unused("protocol", **choice, convention=convention, exposure=exposure, metrics=list(metrics) or None)
         asked = Asked(ground_truth, predictions, convention="printed", precision="f64")
         return answered(MetricsReport, _core.matfusion, asked, "rendering", progress, asked.options)
     if exposure is not None and not math.isfinite(exposure):
         raise ValueError(f"exposure: expected a finite number of stops, found {exposure}")
     asked = Asked(ground_truth, predictions, convention=convention or "printed", **choice)
-    options = json.dumps({"exposure": exposure or 0.0})
+    options = json.dumps({"exposure": exposure or 0.0, "metrics": list(metrics)})
     return answered(MetricsReport, _core.analysis, asked, "rendering", progress, "metrics", options)

@@ -711,9 +711,9 @@ class RankReport(Report):
     scenes: int
     """The number of scenes."""
     seed: int | None
-    target_error: float
-    """The requested accuracy of every loss: half of its 95% interval, as a share of it."""
-    target_reached: bool
+    target_error: float | None
+    """The requested accuracy of every loss: half of its 95% interval, as a share of it; None for given scenes."""
+    target_reached: bool | None
     """By every prediction."""
     floor: float | None
     """The loss that the ground truth cannot resolve; None: the depth of its files is not known here."""

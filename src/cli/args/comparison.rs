@@ -2,6 +2,10 @@
 
 use std::path::PathBuf;
 
+use clap::error::ErrorKind;
+use clap::{ArgMatches, Command, FromArgMatches};
+
+use svbrdf_core::model::named_conventions;
 use svbrdf_files::Error;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::source::MaterialSource;
@@ -9,35 +13,91 @@ use svbrdf_files::steps::{RunId, runs_in};
 
 use super::floor::FloorArgs;
 use super::reading::{FormerSideArgs, PairReadingArgs, Side, StatementArgs};
-use super::{Given, NamedPath, refuse};
+use super::{Given, NamedPath, offered, refuse, wildcards};
 use crate::cli::output::CommandError;
 
 #[derive(Debug, clap::Args)]
 pub struct ComparisonArgs {
-    /// Convention: a name, which `svbrdf conventions` lists, or a .toml file [default: printed, or as in the session]
-    #[arg(long, value_name = "NAME", value_parser = ChosenConvention::read)]
+    /// Convention: a name of `svbrdf conventions`, or a .toml file [default: printed, or as in the session]
+    #[arg(long, value_name = "NAME", value_parser = offered(ChosenConvention::read, names()), hide_possible_values = true)]
     pub convention: Option<ChosenConvention>,
 
     #[command(flatten)]
     pub materials: MaterialArgs,
 }
 
-#[derive(Debug, clap::Args)]
+/// The names of all conventions.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    named_conventions::all().iter().map(|convention| convention.name.as_str())
+}
+
+/// The materials of a command, with patterns expanded.
+#[derive(Debug)]
 pub struct MaterialArgs {
-    /// Ground truth: a packed or layered image, a folder, a name prefix, or a session file of the window with its
-    /// predictions; without one, the built-in materials. NAME=PATH names it
-    #[arg(value_name = "GT", value_parser = NamedPath::parser())]
     pub ground_truth: Option<NamedPath>,
-
-    /// Predictions of it, of the same size; NAME=PATH names one
-    #[arg(value_name = "PRED", value_parser = NamedPath::parser())]
     pub predictions: Vec<NamedPath>,
-
-    #[command(flatten)]
     pub reading: PairReadingArgs,
 }
 
+/// The materials as they are typed.
+#[derive(Debug, clap::Args)]
+struct TypedMaterialArgs {
+    /// Ground truth: an image, a folder, a name prefix or a session
+    ///
+    /// A packed or layered image, a folder, a name prefix, or a session file of the window with its predictions; without one, the
+    /// built-in materials. NAME=PATH names it.
+    #[arg(value_name = "GT", value_parser = NamedPath::parser())]
+    ground_truth: Option<NamedPath>,
+
+    /// Predictions of it, of the same size; NAME=PATH names one
+    ///
+    /// Patterns such as 'out/*.png' are expanded.
+    #[arg(value_name = "PRED", value_parser = NamedPath::parser())]
+    predictions: Vec<NamedPath>,
+
+    #[command(flatten)]
+    reading: PairReadingArgs,
+}
+
+impl clap::Args for MaterialArgs {
+    fn augment_args(command: Command) -> Command {
+        TypedMaterialArgs::augment_args(command)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for MaterialArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let TypedMaterialArgs { ground_truth, predictions, reading } =
+            TypedMaterialArgs::from_arg_matches(matches)?;
+        let mut materials = Self { ground_truth: None, predictions: Vec::new(), reading };
+        materials
+            .set(ground_truth.into_iter().chain(predictions))
+            .map_err(|problem| clap::Error::raw(ErrorKind::ValueValidation, format!("{problem}\n")))?;
+        Ok(materials)
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
 impl MaterialArgs {
+    /// Takes the paths `given` for the ground truth and the predictions, with patterns expanded as a shell does.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`] as [`wildcards::expanded`].
+    pub fn set(&mut self, given: impl Iterator<Item = NamedPath>) -> Result<(), CommandError> {
+        let mut paths = wildcards::expanded(given)?.into_iter();
+        self.ground_truth = paths.next();
+        self.predictions = paths.collect();
+        Ok(())
+    }
+
     /// Refuses what is specified of files that are not read in this way.
     ///
     /// # Errors

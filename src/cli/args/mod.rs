@@ -4,6 +4,7 @@ pub mod comparison;
 pub mod floor;
 pub mod given;
 pub mod named_path;
+pub mod offered;
 pub mod photograph;
 pub mod reading;
 pub mod scenes;
@@ -13,5 +14,6 @@ pub mod wildcards;
 
 pub use comparison::{ComparisonArgs, MaterialArgs};
 pub use given::{Given, refuse};
-pub use named_path::NamedPath;
+pub use named_path::{NamedPath, is_there};
+pub use offered::offered;
 pub use trust::TrustArgs;

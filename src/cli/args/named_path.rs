@@ -46,7 +46,7 @@ impl From<OsString> for NamedPath {
 }
 
 /// Whether there is a file or folder at `path`, or files that it is the prefix of, or a folder whose name has the equals sign.
-fn is_there(path: &Path) -> bool {
+pub fn is_there(path: &Path) -> bool {
     let is_in_folder_with_sign =
         || path.parent().is_some_and(|folder| folder.to_string_lossy().contains('=') && folder.is_dir());
     path.exists() || is_in_folder_with_sign() || is_prefix(path)

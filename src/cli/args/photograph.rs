@@ -7,6 +7,7 @@ use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::{PhotographOptions, Transfer};
 use svbrdf_files::scene_file::PhotographLight;
 
+use super::offered;
 use super::values::{degrees, pair, positive, whole};
 use crate::cli::output::CommandError;
 
@@ -33,7 +34,9 @@ pub struct PhotoSceneArgs {
     #[arg(long, requires_all = ["fov", "photo"])]
     flash: bool,
 
-    /// Angle that the width of the material spans at the camera: the horizontal field of view where it fills the photograph
+    /// Angle that the width of the material spans at the camera
+    ///
+    /// The horizontal field of view where it fills the photograph.
     #[arg(long, value_name = "DEGREES", value_parser = degrees, requires = "flash", conflicts_with = "scene", allow_negative_numbers = true)]
     fov: Option<f64>,
 }
@@ -42,14 +45,14 @@ pub struct PhotoSceneArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Photograph")]
 pub struct PhotoReadingArgs {
-    /// Corners of the material in the photograph, in pixels: top left, top right, bottom right, bottom left [default: the whole
-    /// picture]
+    /// Corners of the material in pixels, clockwise from the top left [default: the whole picture]
     #[arg(long, value_name = "X,Y", value_parser = pair, num_args = 4, allow_hyphen_values = true)]
     #[arg(requires = "photo")]
     corners: Option<Vec<[f64; 2]>>,
 
     /// Transfer curve of the photograph [default: linear for floats and PNG files that declare it, srgb for other integers]
     #[arg(long, value_name = "linear|srgb|gamma2.2", requires = "photo")]
+    #[arg(value_parser = offered(str::parse::<Transfer>, ["linear", "srgb", "gamma2.2"]), hide_possible_values = true)]
     transfer: Option<Transfer>,
 
     /// Stored value from which on a pixel is clipped, where 1 is the largest integer [default: 1, none for floats]

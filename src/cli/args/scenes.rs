@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use clap::ValueEnum as _;
+
 use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes, LossOptions};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
@@ -9,6 +11,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_files::scene_file;
 
 use super::given::refuse;
+use super::offered;
 use super::values::{degrees, percent, stops, triple, whole};
 use crate::cli::output::CommandError;
 
@@ -39,6 +42,7 @@ pub struct SampledArgs {
 
     /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: sobol]
     #[arg(long, value_name = "random|sobol")]
+    #[arg(value_parser = offered(str::parse::<Sampler>, ["random", "sobol"]), hide_possible_values = true)]
     pub sampler: Option<Sampler>,
 }
 
@@ -60,6 +64,16 @@ pub struct AccuracyArgs {
     seed: SeedArgs,
 }
 
+/// The scenes of losses, or an accuracy that decides their number.
+#[derive(Debug, clap::Args)]
+pub struct QuestionArgs {
+    #[command(flatten)]
+    target_error: TargetErrorArgs,
+
+    #[command(flatten)]
+    scenes: SceneArgs,
+}
+
 /// The accuracy of a loss.
 #[derive(Debug, clap::Args)]
 pub struct TargetErrorArgs {
@@ -72,11 +86,11 @@ pub struct TargetErrorArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Scenes")]
 pub struct ListArgs {
-    /// Uses the scenes of a JSON file instead of sampled ones, or those of a MaterialGAN capture (render.json)
+    /// Scenes of a JSON file, or of a MaterialGAN capture (render.json)
     #[arg(long, value_name = "FILE", conflicts_with_all = ["lights", "fov"])]
     pub scenes: Option<PathBuf>,
 
-    /// Lights and views: sampled, or the fixed set of a publication [default: papers]
+    /// Lights and views: sampled, or the fixed set of a publication
     #[arg(long, value_name = "NAME", value_enum)]
     pub lights: Option<Lights>,
 
@@ -124,6 +138,34 @@ impl AccuracyArgs {
     pub fn options(&self) -> LossOptions {
         let (target_error, seed) = (self.target_error.target_error, self.seed.seed);
         LossOptions { target_error, seed, ..LossOptions::default() }
+    }
+}
+
+impl QuestionArgs {
+    /// # Errors
+    /// As [`SceneArgs::options`].
+    pub fn options(&self) -> Result<LossOptions, CommandError> {
+        Ok(LossOptions { target_error: self.target_error.target_error, ..self.scenes.options()? })
+    }
+
+    /// The target error, 1% where it is not specified, and the seed.
+    pub fn target_and_seed(&self) -> (f64, u64) {
+        (self.target_error.target_error.unwrap_or(ALL_SCENES_TARGET), self.scenes.seed.seed.unwrap_or(0))
+    }
+
+    /// The options of the scenes as they are typed, but for the seed.
+    pub fn words(&self) -> Vec<String> {
+        let SceneArgs { sampled: SampledArgs { near, distant, sampler }, list, .. } = &self.scenes;
+        let options = [
+            ("--near", near.map(|count| count.to_string())),
+            ("--distant", distant.map(|count| count.to_string())),
+            ("--sampler", sampler.map(|sampler| sampler.to_string())),
+            ("--scenes", list.scenes.as_ref().map(|path| path.display().to_string())),
+            ("--lights", list.lights.and_then(|one| Some(one.to_possible_value()?.get_name().to_owned()))),
+            ("--fov", list.fov.map(|angle| angle.to_string())),
+        ];
+        let given = options.into_iter().filter_map(|(option, value)| Some([option.to_owned(), value?]));
+        given.flatten().collect()
     }
 }
 

@@ -15,6 +15,7 @@ use svbrdf_files::disk::memory::Reserved;
 use svbrdf_files::disk::open::is_pipe_at;
 use svbrdf_files::read::{Assumption, Binding, MaterialPath, Read, ReadOptions};
 use svbrdf_files::samples;
+use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::{MaterialSource, Place};
 
@@ -51,7 +52,10 @@ impl MaterialJob {
                 args.refuse_of_session(given)?;
                 session.materials.iter().map(MaterialSource::of_session).collect()
             }
-            (None, Some(_)) => args.sources()?,
+            (None, Some(_)) => {
+                args.paths().try_for_each(|path| check_kind(path))?;
+                args.sources()?
+            }
             (None, None) => {
                 args.refuse_of_built_in(given)?;
                 (0..samples::COUNT).map(MaterialSource::built_in).collect()
@@ -92,7 +96,7 @@ impl MaterialJob {
     /// Those of the reader; [`CommandError::TooLarge`].
     pub fn open<T: Real>(&self) -> Result<Opened<T>, CommandError> {
         let read = self.sources.iter().map(|source| self.read(source)).collect::<Result<Vec<Read<T>>, _>>();
-        let read = read.inspect_err(|_| note_data_set(&self.paths))?;
+        let read = read.inspect_err(|_| note_paths(&self.paths))?;
         let named: Vec<_> = read
             .iter()
             .zip(&self.sources)
@@ -179,9 +183,24 @@ pub fn note_pipe(path: &Path) {
     }
 }
 
-/// Names the command for folders of materials, where `paths` are such folders.
-fn note_data_set(paths: &[PathBuf]) {
+/// Refuses a list of scenes and a table where a material is expected.
+fn check_kind(path: &Path) -> Result<(), CommandError> {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    let place = match extension.to_str() {
+        Some("json") if scene_file::is_named(path) => "a list of scenes is given as --scenes FILE",
+        Some("csv") => "a table of pairs is given as `svbrdf rank --pairs FILE`",
+        _ => return Ok(()),
+    };
+    let problem = || CommandError::Usage(format!("{} is not a material: {place}", path.display()));
+    if path.is_file() { Err(problem()) } else { Ok(()) }
+}
+
+/// Tells where `paths` that cannot be read come from, or which command takes them.
+fn note_paths(paths: &[PathBuf]) {
     let [ground_truths, others @ ..] = paths else { return };
+    if Session::is_named(ground_truths) {
+        exit::tell(&format!("note: the session {} names the materials", ground_truths.display()));
+    }
     if others.is_empty() || !paths.iter().all(|path| path.is_dir()) {
         return;
     }

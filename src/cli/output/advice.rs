@@ -1,8 +1,8 @@
 //! Advice: the options of the command line that help with an error or a note. The library names none.
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_files::read::{Assumption, Note, Reason, Subject};
-use svbrdf_files::{Error, OutputProblem};
+use svbrdf_files::read::{Assumption, Note, ReadOptions, Reason, Subject};
+use svbrdf_files::{Error, Guess, OutputProblem};
 
 use super::error::CommandError;
 
@@ -19,10 +19,7 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
     Some(match error {
         Error::Outside { .. } => "--allow-outside allows it",
         Error::Memory { .. } => "--max-memory sets it",
-        Error::Guessed { .. } => "specify it by --read, or leave out --strict",
-        Error::Core(CoreError::SizesDiffer { .. }) => {
-            "--resize-to gt, pred or a width brings materials to one size"
-        }
+        Error::Core(CoreError::SizesDiffer { .. }) => "--resize-to gt, pred or a width does",
         Error::NotFinite { .. } => "--read non-finite=replace puts other numbers in their place",
         Error::NoSuchExemplar { .. } => "--read exemplar=K chooses a material",
         Error::MissingMap { .. } => {
@@ -35,11 +32,21 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
             "--read order=LETTERS,grid=COLUMNSxROWS specifies the tiles; --read order=d reads the whole picture as diffuse"
         }
         Error::UnsupportedOutput { problem: OutputProblem::NoPreset, .. } => "leave out --like",
+        Error::UnsupportedOutput { problem: OutputProblem::Depth, .. } => "leave out --depth",
+        Error::UnsupportedOutput { problem: OutputProblem::Preview, .. } => "leave out --preview",
         Error::UnsupportedOutput { problem: OutputProblem::FolderPreset, .. } => {
             "--like materialgan or gltf, or no --like, writes a folder"
         }
         _ => return None,
     })
+}
+
+/// What was guessed, with the option that specifies it: a line.
+pub fn guess(Guess { text, key }: &Guess) -> String {
+    let Some(key) = key else { return text.clone() };
+    let examples = ReadOptions::examples();
+    let values = examples.iter().filter_map(|one| one.strip_prefix(key)?.strip_prefix('='));
+    format!("{text}: --read {key}={}", values.collect::<Vec<_>>().join("|"))
 }
 
 /// A note with the option that would change what it reports.

@@ -12,7 +12,7 @@ pub enum CommandError {
     Usage(String),
 
     /// A loss is above the limit that was given for it.
-    #[error("{name} has a loss of {loss}, above the limit of {limit}")]
+    #[error("{name} has a loss of {loss:.6}, above the limit of {limit}")]
     AboveLimit { name: String, loss: f64, limit: f64 },
 
     /// A renderer is not that of a convention.

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ErrorKind};
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::text::{line, printable};
 use svbrdf_files::Error as FilesError;
@@ -24,6 +25,14 @@ pub const INTERRUPTED: u8 = 130;
 /// Prints the error of the program, if any, and says with which code it ends.
 pub fn exit_code(result: Result<(), CommandError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
+    if let CommandError::Library(library) = &error
+        && let Some(FilesError::Guessed { path, guesses }) = library.files()
+    {
+        let path = path.display();
+        tell(&format!("error: {path} is ambiguous; specify what follows, or leave out --strict"));
+        guesses.iter().for_each(|guess| tell(&format!("  {}", advice::guess(guess))));
+        return ExitCode::from(code_of(&error));
+    }
     let advice = advice::of_error(&error).map(|advice| format!("; {advice}")).unwrap_or_default();
     tell(&format!("error: {error}{advice}"));
     for cause in unspoken_causes(&error) {
@@ -33,13 +42,22 @@ pub fn exit_code(result: Result<(), CommandError>) -> ExitCode {
 }
 
 /// Prints what the parser of the command line has to say: help, version or a misunderstanding.
-pub fn explain(unusual: &clap::Error) -> ExitCode {
+pub fn explain(unusual: clap::Error) -> ExitCode {
     if unusual.use_stderr() {
+        let unusual = with_tip(unusual);
         // There is nowhere else to say that a closed stderr is closed.
         let _ = unusual.print();
         return ExitCode::from(USAGE);
     }
     exit_code(accepted(unusual.print().and_then(|()| io::stdout().flush())).map_err(CommandError::from))
+}
+
+/// An unknown option that resembles no other is not meant as a value: the help lists those that there are.
+fn with_tip(mut unusual: clap::Error) -> clap::Error {
+    if unusual.kind() == ErrorKind::UnknownArgument && unusual.get(ContextKind::SuggestedArg).is_none() {
+        unusual.remove(ContextKind::Suggested);
+    }
+    unusual
 }
 
 /// A line on stderr, under the program's name. A closed stderr is no reason to stop.

@@ -7,6 +7,7 @@ use svbrdf_evaluate::photograph::CaptureExposure;
 
 use crate::cli::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
 use crate::cli::args::{ComparisonArgs, NamedPath};
+use crate::cli::output::CommandError;
 use crate::cli::output::report::ReportFormat;
 
 /// Compares renderings of materials with a photograph, or with all photographs of a capture
@@ -23,7 +24,6 @@ use crate::cli::output::report::ReportFormat;
 #[command(
     override_usage = "svbrdf photo [OPTIONS] <PHOTO> <MATERIAL>...\n       svbrdf photo [OPTIONS] --capture <FOLDER> <MATERIAL>..."
 )]
-#[command(after_help = "Example:\n  svbrdf photo photo.jpg a.png b.png --flash --fov 45")]
 #[command(mut_arg("ground_truth", |arg| arg.value_name("MATERIAL").required_unless_present("capture").help(
     "Material: a packed or layered image, a folder, a name prefix, or a session file of the window")))]
 #[command(mut_arg("predictions", |arg| arg.value_name("MATERIAL").help("More materials")))]
@@ -61,8 +61,9 @@ pub struct PhotoArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Photograph")]
 pub struct PhotoCaptureArgs {
-    /// Folder of a capture, or the file that lists its photographs: capture.json, or the JSON file (render.json) or
-    /// camera_pos.txt of MaterialGAN
+    /// Folder of a capture, or the file that lists its photographs
+    ///
+    /// capture.json, or the JSON file (render.json) or camera_pos.txt of MaterialGAN.
     #[arg(long, value_name = "FOLDER")]
     #[arg(conflicts_with_all = ["scene", "scene_number", "flash", "fov", "corners", "falloff"])]
     pub capture: Option<PathBuf>,
@@ -78,11 +79,14 @@ pub struct PhotoCaptureArgs {
 
 impl PhotoArgs {
     /// The first argument without an option, which is a material where there is a capture, put before the others.
-    pub fn shift_materials(&mut self) {
+    ///
+    /// # Errors
+    /// As [`MaterialArgs::set`](crate::cli::args::MaterialArgs::set).
+    pub fn shift_materials(&mut self) -> Result<(), CommandError> {
         let materials = &mut self.comparison.materials;
         let first = NamedPath::from(std::mem::take(&mut self.photo).into_os_string());
-        if let Some(second) = materials.ground_truth.replace(first) {
-            materials.predictions.insert(0, second);
-        }
+        let others =
+            materials.ground_truth.take().into_iter().chain(std::mem::take(&mut materials.predictions));
+        materials.set(std::iter::once(first).chain(others))
     }
 }

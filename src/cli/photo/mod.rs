@@ -28,7 +28,7 @@ struct PhotoJob {
 impl PhotoArgs {
     pub fn job(mut self, given: &Given) -> NewJob {
         if self.capture.capture.is_some() {
-            self.shift_materials();
+            self.shift_materials()?;
         } else {
             let reason = "the exposure of a capture and held-out photographs belong to --capture";
             given.refuse::<PhotoCaptureArgs>(reason)?;

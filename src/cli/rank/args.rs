@@ -1,17 +1,20 @@
 //! The options of `svbrdf rank`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use svbrdf_core::text::printable;
 use svbrdf_evaluate::dataset::{Pick, Shard};
 use svbrdf_evaluate::report::Report;
 use svbrdf_files::Error;
+use svbrdf_files::disk::inputs::check_output_of;
+use svbrdf_files::export::{check_place, write_text};
 use svbrdf_page::Figures;
 
 use crate::cli::args::floor::FloorArgs;
-use crate::cli::args::scenes::AccuracyArgs;
-use crate::cli::args::{ComparisonArgs, values};
-use crate::cli::output::CommandError;
+use crate::cli::args::scenes::{ListArgs, QuestionArgs, SampledArgs};
+use crate::cli::args::{ComparisonArgs, Given, offered, values};
+use crate::cli::output::stop::stoppable;
+use crate::cli::output::{CommandError, exit};
 
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
 ///
@@ -20,9 +23,8 @@ use crate::cli::output::CommandError;
 /// epoch_12/, stands for all its steps. With --dataset, GT and every PRED are folders: their materials are matched by name, and every
 /// PRED is a method. With --pairs, GT is a CSV table with the columns ground_truth, prediction and, where needed, method and material.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  svbrdf rank --dataset gt/ ours/ theirs/ --format latex")]
 pub struct RankArgs {
-    /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method
+    /// GT is a folder of ground truths, and every PRED that of a method
     #[arg(long, conflicts_with = "pairs", requires = "ground_truth")]
     pub dataset: bool,
 
@@ -42,11 +44,10 @@ pub struct RankArgs {
     pub fail_above: Option<f64>,
 
     #[command(flatten)]
-    pub accuracy: AccuracyArgs,
+    pub scenes: QuestionArgs,
 
-    /// Output format
-    #[arg(long, value_enum, default_value_t)]
-    pub format: RankFormat,
+    #[command(flatten)]
+    pub output: OutputArgs,
 
     #[command(flatten)]
     pub page: PageArgs,
@@ -61,7 +62,7 @@ pub struct RankArgs {
 /// What the ranking of a data set has beside that of predictions.
 #[derive(Debug, clap::Args)]
 pub struct DataSetArgs {
-    /// Uses the losses of a data set that are in this folder, and adds the others to it as they come
+    /// Folder of known losses of a data set, to which the others are added
     #[arg(long, value_name = "DIR")]
     pub results: Option<PathBuf>,
 
@@ -71,14 +72,19 @@ pub struct DataSetArgs {
 
     /// Which of several predictions of a material counts: the first (fixed), the mean of all, or the best
     #[arg(long, value_name = "fixed|mean|best", default_value = "fixed")]
+    #[arg(value_parser = offered(str::parse::<Pick>, ["fixed", "mean", "best"]), hide_possible_values = true)]
     pub pick: Pick,
 
-    /// Adds the metrics of the maps of a data set: RMSE, L1, angles and SSIM of each material, and their means
+    /// Adds metrics of the maps of a data set
+    ///
+    /// RMSE, L1, angles and SSIM of each material, and their means.
     #[arg(long)]
     pub metrics: bool,
 
-    /// Adds the marks of `svbrdf diagnose` to a data set: how many materials of each method have which error of exposure, alignment or
-    /// reading, and how many losses the ground truth does not resolve
+    /// Adds the marks of `svbrdf diagnose` to a data set
+    ///
+    /// How many materials of each method have which error of exposure, alignment or reading, and how many losses the ground truth
+    /// does not resolve.
     #[arg(long)]
     pub diagnose: bool,
 }
@@ -86,13 +92,63 @@ pub struct DataSetArgs {
 /// What the page of a data set has beside what is printed.
 #[derive(Debug, clap::Args)]
 pub struct PageArgs {
-    /// Output file of --format html
-    #[arg(short, long, value_name = "FILE")]
-    pub output: Option<PathBuf>,
-
     /// Writes interactive figures of materials beside the page: all, or worst:N, those of the N largest mean losses
     #[arg(long, value_name = "all|worst:N")]
     pub figures: Option<Figures>,
+}
+
+/// The format of the ranking, and the file that it is written to.
+#[derive(Clone, Debug, clap::Args)]
+pub struct OutputArgs {
+    /// Output format [default: as --output ends, or text]
+    #[arg(long, value_enum)]
+    format: Option<RankFormat>,
+
+    /// Output file [default: stdout; html needs one]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+}
+
+impl OutputArgs {
+    pub fn format(&self) -> RankFormat {
+        let extension = self.output.as_ref().and_then(|path| path.extension());
+        let of_name = extension.and_then(|extension| match extension.to_ascii_lowercase().to_str()? {
+            "json" => Some(RankFormat::Json),
+            "csv" => Some(RankFormat::Csv),
+            "tex" => Some(RankFormat::Latex),
+            "html" | "htm" => Some(RankFormat::Html),
+            _ => None,
+        });
+        self.format.or(of_name).unwrap_or_default()
+    }
+
+    /// Checks where the output goes, before anything is computed.
+    ///
+    /// # Errors
+    /// Where nothing can be written there, or one of `inputs` is there.
+    pub fn check<P: AsRef<Path>>(&self, inputs: impl IntoIterator<Item = P>) -> Result<(), Error> {
+        let Some(path) = &self.output else { return Ok(()) };
+        check_output_of(path, inputs)?;
+        check_place(path)
+    }
+
+    /// Writes `report` in its format: to the file, or to stdout. `latex` makes the table for a paper.
+    ///
+    /// # Errors
+    /// As [`Report::json`] and [`Report::csv`]; those of writing; [`Error::Internal`] for HTML, which is no text of a report.
+    pub fn put<R: Report>(&self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<(), Error> {
+        let text = match self.format() {
+            RankFormat::Text => printable(&report.text()),
+            RankFormat::Json => report.json()?,
+            RankFormat::Csv => report.csv()?,
+            RankFormat::Latex => latex(report),
+            RankFormat::Html => return Err(Error::Internal("HTML is not printed".to_owned())),
+        };
+        match &self.output {
+            Some(path) => stoppable(|progress| write_text(path, &text, progress)),
+            None => exit::put(&text),
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -107,22 +163,6 @@ pub enum RankFormat {
     Html,
 }
 
-impl RankFormat {
-    /// The report in this format; `latex` writes the table for a paper.
-    ///
-    /// # Errors
-    /// As [`Report::json`] and [`Report::csv`]; [`Error::Internal`] for HTML, which is a file.
-    pub fn write<R: Report>(self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<String, Error> {
-        match self {
-            Self::Text => Ok(printable(&report.text())),
-            Self::Json => report.json(),
-            Self::Csv => report.csv(),
-            Self::Latex => Ok(latex(report)),
-            Self::Html => Err(Error::Internal("HTML is not printed".to_owned())),
-        }
-    }
-}
-
 /// The error of losses that are above a limit, if any is.
 pub fn check_limit(
     limit: Option<f64>,
@@ -131,4 +171,11 @@ pub fn check_limit(
     let Some(limit) = limit else { return Ok(()) };
     let above = losses.into_iter().find(|(_, loss)| loss.is_nan() || *loss > limit);
     above.map_or(Ok(()), |(name, loss)| Err(CommandError::AboveLimit { name, loss, limit }))
+}
+
+/// Refuses scenes beside `--robust`.
+pub fn refuse_scenes(given: &Given) -> Result<(), CommandError> {
+    let reason = "--robust asks about other scenes itself";
+    given.refuse::<SampledArgs>(reason)?;
+    given.refuse::<ListArgs>(reason)
 }

@@ -2,8 +2,8 @@
 
 use svbrdf_evaluate::dataset::{DatasetReading, Source};
 
+use crate::cli::args::MaterialArgs;
 use crate::cli::args::reading::{PairReadingArgs, Side};
-use crate::cli::args::{MaterialArgs, wildcards};
 use crate::cli::output::CommandError;
 
 /// How the ground truths and the predictions of `methods` are read.
@@ -34,13 +34,13 @@ pub fn source(materials: &MaterialArgs, is_table: bool) -> Result<Source, Comman
             _ => Err(CommandError::usage("--pairs takes one CSV table, which names the predictions")),
         };
     }
-    let given = wildcards::expanded(&materials.predictions)?;
-    if given.is_empty() {
+    if materials.predictions.is_empty() {
         return Err(CommandError::Usage(format!(
             "--dataset: there is no method to compare with {}; give one or more folders",
             ground_truth.path.display()
         )));
     }
-    let methods = given.into_iter().map(|given| (given.name, given.path)).collect();
+    let methods =
+        materials.predictions.iter().map(|given| (given.name.clone(), given.path.clone())).collect();
     Ok(Source::folders(ground_truth.path.clone(), methods))
 }

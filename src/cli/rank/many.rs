@@ -1,17 +1,18 @@
 //! Methods over many materials.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use svbrdf_core::loss::{Question, Request, Sampling};
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
-    self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, MaterialResult, Pick, Shard,
+    self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
+    Pick, Shard,
 };
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
-use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
-use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat, check_limit};
+use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use super::cases::{reading, source};
 use super::robust::asked;
 use crate::cli::args::floor::FloorArgs;
@@ -37,7 +38,7 @@ struct ManyJob {
 /// Where the ranking goes.
 #[derive(Debug)]
 enum Output {
-    Stdout(RankFormat),
+    Text(OutputArgs),
     Page { path: PathBuf, figures: Option<Figures>, robust: bool },
 }
 
@@ -45,16 +46,20 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     let reason = "materials of a data set are not resized and have one capture each";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", reason)?;
     given.refuse::<FloorArgs>(reason)?;
+    if args.robust {
+        refuse_scenes(given)?;
+    }
     let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
     let output = output(&args, given, &cases)?;
-    let convention = args.comparison.convention.unwrap_or_default();
-    let (target_error, seed) = args.accuracy.target_and_seed();
+    let convention = args.comparison.convention.clone().unwrap_or_default();
+    let (target_error, seed) = args.scenes.target_and_seed();
+    let scenes = fixed_scenes(&args)?;
     let DataSetArgs { results, shard, pick, metrics, diagnose } = args.of_data_set;
     let settings = DatasetSettings {
         metrics,
         diagnose,
-        ..DatasetSettings::new(source, convention, target_error, seed, &cases)
+        ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };
     let given = &args.comparison.materials.reading;
     let reading = reading(given, &settings.methods)?;
@@ -63,20 +68,33 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     Ok(Box::new(job))
 }
 
-/// Where the ranking goes, before anything is computed: to a page that replaces no material and no list, or to stdout.
-fn output(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<Output, CommandError> {
-    if args.format != RankFormat::Html {
-        given.refuse::<PageArgs>("only --format html writes a file, and figures beside it")?;
-        return Ok(Output::Stdout(args.format));
+/// The scenes of all materials, where their number or a list is specified.
+fn fixed_scenes(args: &RankArgs) -> Result<Option<FixedScenes>, CommandError> {
+    let Question { request, .. } = args.scenes.options()?.question()?;
+    if let Request::Scenes(Sampling { near, distant, .. }) = request
+        && (near == 1 || distant == 1)
+    {
+        return Err(CommandError::usage(
+            "one scene of a kind has no error; give 0, or 2 or more, to --near and --distant",
+        ));
     }
-    let PageArgs { output, figures } = &args.page;
-    let missing = || CommandError::usage("--format html writes a file; give --output NAME.html");
-    let path = output.clone().ok_or_else(missing)?;
-    check_destination(&path)?;
+    Ok(FixedScenes::new(request, args.scenes.words()))
+}
+
+/// Where the ranking goes, before anything is computed: to a file that replaces no material and no list, or to stdout.
+fn output(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<Output, CommandError> {
+    let output = &args.output;
     let predictions = cases.iter().flat_map(|case| case.candidates.iter().map(|one| &one.path));
     let materials = cases.iter().map(|case| &case.ground_truth).chain(predictions);
-    check_output_of(&path, materials.chain(args.comparison.materials.paths()))?;
-    Ok(Output::Page { path, figures: *figures, robust: args.robust })
+    output.check(materials.chain(args.comparison.materials.paths()))?;
+    if output.format() != RankFormat::Html {
+        given.refuse::<PageArgs>("only --format html has figures beside it")?;
+        return Ok(Output::Text(output.clone()));
+    }
+    let missing = || CommandError::usage("--format html writes a file; give --output NAME.html");
+    let path = output.output.clone().ok_or_else(missing)?;
+    check_destination(&path)?;
+    Ok(Output::Page { path, figures: args.page.figures, robust: args.robust })
 }
 
 /// Prints the ranking, or writes the page; fails where a loss is above a limit, after that.
@@ -104,20 +122,31 @@ impl ManyJob {
         tell_reading(verbose, &output, &report);
         match output {
             Output::Page { path, figures, robust } => {
-                let DatasetReport { settings, reading, .. } = &report;
-                let robust = robust.then(|| asked(&cases, settings, reading, progress)).transpose()?;
-                let views = watched_on(progress, "rendering materials", |progress| {
-                    material_views(&report, &cases, figures, &path, progress)
-                })?;
-                write_text(&path, &ranking(&report, &views, robust.as_ref()), progress)?;
+                write_page(&path, (figures, robust), &report, &cases, progress)?;
             }
-            Output::Stdout(format) => exit::put(&format.write(&report, DatasetReport::latex)?)?,
+            Output::Text(output) => output.put(&report, DatasetReport::latex)?,
         }
         check_any(&report)?;
         target::warn_of(report.missed(), strict)?;
         let means = report.methods.into_iter().filter(|summary| summary.materials > 0);
         check_limit(fail_above, means.map(|summary| (summary.method, summary.mean)))
     }
+}
+
+/// Writes the page, with thumbnails and figures of the materials `cases`, and where asked for whether the order survives.
+fn write_page(
+    path: &Path,
+    (figures, robust): (Option<Figures>, bool),
+    report: &DatasetReport,
+    cases: &[Case],
+    progress: &Progress,
+) -> Result<(), CommandError> {
+    let DatasetReport { settings, reading, .. } = report;
+    let robust = robust.then(|| asked(cases, settings, reading, progress)).transpose()?;
+    let views = watched_on(progress, "rendering materials", |progress| {
+        material_views(report, cases, figures, path, progress)
+    })?;
+    Ok(write_text(path, &ranking(report, &views, robust.as_ref()), progress)?)
 }
 
 /// The cases of a shard, which is reported.
@@ -134,7 +163,7 @@ fn part(shard: Option<Shard>, cases: Vec<Case>) -> Vec<Case> {
 fn tell_reading(verbose: bool, output: &Output, report: &DatasetReport) {
     if verbose {
         report.remarks().for_each(|(name, remark)| exit::tell(&format!("note: {name}: {}", remark.text)));
-    } else if !matches!(output, Output::Stdout(RankFormat::Text)) {
+    } else if !matches!(output, Output::Text(output) if output.format() == RankFormat::Text) {
         report.conditions().iter().for_each(|condition| exit::tell(&format!("note: {condition}")));
     }
 }

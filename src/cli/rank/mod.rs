@@ -15,7 +15,7 @@ use super::job::NewJob;
 impl RankArgs {
     pub fn job(self, given: &Given) -> NewJob {
         match (self.dataset || self.pairs, self.robust) {
-            (true, true) if self.format != RankFormat::Html => robust::job(&self, given),
+            (true, true) if self.output.format() != RankFormat::Html => robust::job(&self, given),
             (true, _) => many::job(self, given),
             (false, _) => one::job(self, given),
         }

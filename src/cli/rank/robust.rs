@@ -4,7 +4,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{self, Case, DatasetReading, DatasetSettings};
 use svbrdf_evaluate::report::RobustReport;
 
-use super::args::{DataSetArgs, PageArgs, RankArgs, RankFormat};
+use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, refuse_scenes};
 use super::cases::{reading, source};
 use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{Given, refuse};
@@ -17,7 +17,7 @@ struct RobustJob {
     settings: DatasetSettings,
     reading: DatasetReading,
     cases: Vec<Case>,
-    format: RankFormat,
+    output: OutputArgs,
 }
 
 pub fn job(args: &RankArgs, given: &Given) -> NewJob {
@@ -27,22 +27,24 @@ pub fn job(args: &RankArgs, given: &Given) -> NewJob {
     given.refuse::<FloorArgs>(reason)?;
     refuse(args.comparison.materials.reading.both.verbose, "verbose", reason)?;
     refuse(args.fail_above.is_some(), "fail-above", reason)?;
+    refuse_scenes(given)?;
+    args.output.check(args.comparison.materials.paths())?;
     let of_files = "materials of a data set are not resized";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", of_files)?;
     let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
     let convention = args.comparison.convention.clone().unwrap_or_default();
-    let (target_error, seed) = args.accuracy.target_and_seed();
+    let (target_error, seed) = args.scenes.target_and_seed();
     let settings = DatasetSettings::new(source, convention, target_error, seed, &cases);
     let reading = reading(&args.comparison.materials.reading, &settings.methods)?;
-    Ok(Box::new(RobustJob { settings, reading, cases, format: args.format }))
+    Ok(Box::new(RobustJob { settings, reading, cases, output: args.output.clone() }))
 }
 
 impl Job for RobustJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { settings, reading, cases, format } = *self;
+        let Self { settings, reading, cases, output } = *self;
         let report = asked(&cases, &settings, &reading, &Progress::default())?;
-        Ok(exit::put(&format.write(&report, RobustReport::latex)?)?)
+        Ok(output.put(&report, RobustReport::latex)?)
     }
 }
 

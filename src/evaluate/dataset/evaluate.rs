@@ -10,7 +10,7 @@ use crate::diagnose::{Storage, diagnose, floor};
 use crate::error::Error;
 use crate::metrics::of_maps;
 use crate::rank::most_scenes;
-use svbrdf_core::loss::{Comparison, Request, check_same_size};
+use svbrdf_core::loss::{Comparison, check_same_size};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
@@ -175,13 +175,13 @@ impl<'a> Evaluation<'a> {
         // How it is read is a part of the digest.
         let material =
             |path: &Path, sha256: &str| json!({"path": path.display().to_string(), "sha256": sha256});
-        let DatasetSettings { target_error, metrics, diagnose, .. } = self.settings;
+        let DatasetSettings { target_error, scenes, metrics, diagnose, .. } = self.settings;
         let Convention { name, .. } = self.convention;
         // That of a file by its content.
         let is_named = name.parse().is_ok_and(|named: Convention| named == self.convention);
         let convention = if is_named { json!(name) } else { json!(self.convention) };
         // Another version may compute other numbers, and remark on other things.
-        let of = json!({
+        let mut of = json!({
             "format": 2,
             "software": SOFTWARE,
             "convention": convention,
@@ -195,6 +195,9 @@ impl<'a> Evaluation<'a> {
             "method": method,
             "sample": sample,
         });
+        if let Some(scenes) = scenes {
+            of["scenes"] = scenes.key();
+        }
         Some(Key { of, files: truth.files.iter().chain(&prediction.files).cloned().collect() })
     }
 
@@ -269,15 +272,17 @@ impl<'a> Evaluation<'a> {
 
     fn loss(&self, (truth, prediction): Pair<'_>, seed: u64) -> Result<KnownLoss, Error> {
         let comparison = Comparison::new(&truth.material, &[&prediction.material], self.convention)?;
-        let request = Request::Accuracy { target: self.settings.target_error, seed };
+        let request = self.settings.request(seed);
         let outcome = comparison.at_most(most_scenes(1)).run(&request, &self.progress.part())?;
         let estimate = outcome.losses.first().map(|loss| loss.estimate);
         let estimate =
             estimate.ok_or_else(|| FilesError::Internal("a comparison without a loss".to_owned()))?;
+        // Listed scenes are the question itself, and no sample.
+        let sampled = outcome.sampling;
         Ok(KnownLoss {
             loss: estimate.mean,
-            standard_error: estimate.standard_error.unwrap_or(0.0),
-            interval95: estimate.interval95.unwrap_or([estimate.mean; 2]),
+            standard_error: sampled.and(estimate.standard_error).unwrap_or(0.0),
+            interval95: sampled.and(estimate.interval95).unwrap_or([estimate.mean; 2]),
             scenes: outcome.scenes.len(),
         })
     }

@@ -121,11 +121,11 @@ fn method_name(path: &Path) -> String {
 /// without a prediction by a method is kept: that is a missing prediction.
 ///
 /// # Errors
-/// [`Error::Unreadable`], and [`Error::NotAMaterial`] where there are no materials.
+/// [`Error::Unreadable`], and [`Error::NotADataSet`] where there are no materials.
 pub fn cases_of_folders(ground_truths: &Path, methods: &[Method]) -> Result<Vec<Case>, Error> {
     let truths = entries(ground_truths)?;
     if truths.is_empty() {
-        return Err(nothing_in(ground_truths, "materials"));
+        return Err(not_a_data_set(ground_truths, "materials", "none"));
     }
     let found = methods.iter().map(Predictions::of).collect::<Result<Vec<_>, _>>()?;
     let case = |(index, (material, ground_truth)): (usize, (&String, &PathBuf))| {
@@ -251,6 +251,9 @@ fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let listed = || -> std::io::Result<Vec<PathBuf>> {
         std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect()
     };
+    if folder.is_file() {
+        return Err(not_a_data_set(folder, "a folder of materials", "a file"));
+    }
     let mut paths = listed().map_err(|source| Error::unreadable(folder, source))?;
     paths.sort();
     Ok(paths)
@@ -262,16 +265,27 @@ fn children(folder: &Path) -> Result<Vec<PathBuf>, Error> {
 /// rows of one method are samples, in their order.
 ///
 /// # Errors
-/// [`Error::Unreadable`]; [`Error::NotAMaterial`] where a column is missing or there are no rows; [`Error::Memory`].
+/// [`Error::Unreadable`]; [`Error::NotADataSet`] where a column or a cell is missing or there are no rows; [`Error::Memory`].
 pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
-    let bad = |problem: csv::Error| Error::unreadable(path, std::io::Error::other(problem));
+    let bad = |problem: csv::Error| match problem.kind() {
+        csv::ErrorKind::UnequalLengths { pos, expected_len, len } => {
+            let line = pos.as_ref().map_or(0, csv::Position::line);
+            not_a_data_set(
+                path,
+                &format!("{expected_len} cells in line {line}, as in the first"),
+                &len.to_string(),
+            )
+        }
+        _ => Error::unreadable(path, std::io::Error::other(problem)),
+    };
     let file = NamedFile::by_user(path).reader()?;
     inputs::protect(path);
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
     let heading = reader.headers().map_err(bad)?.clone();
     let column = |name: &str| heading.iter().position(|heading| heading == name);
     let (Some(truth), Some(prediction)) = (column("ground_truth"), column("prediction")) else {
-        return Err(nothing_in(path, "the columns ground_truth and prediction"));
+        let found = heading.iter().collect::<Vec<_>>().join(", ");
+        return Err(not_a_data_set(path, "the columns ground_truth and prediction", &found));
     };
     let [method, material] = [column("method"), column("material")];
     let folder = path.parent().unwrap_or(Path::new(""));
@@ -297,7 +311,7 @@ pub fn cases_of_table(path: &Path) -> Result<Vec<Case>, Error> {
         cases[at].candidates.push(CandidateFile { method, sample, path, missing: None });
     }
     if cases.is_empty() {
-        return Err(nothing_in(path, "rows"));
+        return Err(not_a_data_set(path, "rows below the titles", "none"));
     }
     check_count(path, &cases).map(|()| cases)
 }
@@ -318,11 +332,11 @@ fn check_count(path: &Path, cases: &[Case]) -> Result<(), Error> {
     memory::reserve(methods.saturating_mul(materials).saturating_mul(ENTRY), what).map(drop)
 }
 
-fn nothing_in(path: &Path, expected: &str) -> Error {
-    Error::NotAMaterial {
+fn not_a_data_set(path: &Path, expected: &str, found: &str) -> Error {
+    Error::NotADataSet {
         path: path.to_owned(),
         expected: expected.to_owned(),
-        found: "none".to_owned(),
-        remedy: "give a folder of materials, or a table with a row for each pair".to_owned(),
+        found: found.to_owned(),
+        remedy: "give folders of materials, or a CSV table with a row for each pair",
     }
 }

@@ -18,6 +18,7 @@ mod repetition;
 mod report;
 mod results;
 mod robust;
+mod scenes;
 mod summary;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
@@ -33,4 +34,5 @@ pub use record::{
 };
 pub use remark::Remark;
 pub use robust::{DatasetAnswers, robust};
+pub use scenes::FixedScenes;
 pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};

@@ -7,9 +7,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::diagnose::Finding;
-use svbrdf_core::loss::Estimate;
+use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate, Request};
 
 use super::remark::Remark;
+use super::scenes::FixedScenes;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::ReadOptions;
 
@@ -87,8 +88,11 @@ pub struct DatasetSettings {
     /// Where the materials are.
     pub source: Source,
     pub convention: ChosenConvention,
-    /// Half of the 95% interval of each loss over scenes, as a share of the loss.
-    pub target_error: f64,
+    /// Half of the 95% interval of each loss over scenes, as a share of the loss; `None` for fixed scenes.
+    pub target_error: Option<f64>,
+    /// The scenes of every material; `None`: as many as the target error needs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scenes: Option<FixedScenes>,
     /// Names the scenes, together with the name of the material.
     pub seed: u64,
     /// The materials of the whole data set, in order.
@@ -119,7 +123,37 @@ impl DatasetSettings {
             }
         }
         let materials = cases.iter().map(|case| case.material.clone()).collect();
-        Self { source, convention, target_error, seed, materials, methods, metrics: false, diagnose: false }
+        Self {
+            source,
+            convention,
+            target_error: Some(target_error),
+            scenes: None,
+            seed,
+            materials,
+            methods,
+            metrics: false,
+            diagnose: false,
+        }
+    }
+
+    /// The same settings with these scenes for every material; `None`: as many as the target error needs.
+    #[must_use]
+    pub fn in_scenes(self, scenes: Option<FixedScenes>) -> Self {
+        let target_error = self.target_error.filter(|_| scenes.is_none());
+        Self { target_error, scenes, ..self }
+    }
+
+    /// What is asked about a material whose scenes are named by `seed`.
+    pub(super) fn request(&self, seed: u64) -> Request {
+        let target = self.target_error.unwrap_or(ALL_SCENES_TARGET);
+        self.scenes.as_ref().map_or(Request::Accuracy { target, seed }, |scenes| scenes.request(seed))
+    }
+
+    /// The accuracy or the scenes of each loss, for people.
+    pub fn accuracy(&self) -> String {
+        let percent = 100.0 * self.target_error.unwrap_or(ALL_SCENES_TARGET);
+        let of_target = || format!("+-{percent}% per loss, seed {}", self.seed);
+        self.scenes.as_ref().map_or_else(of_target, |scenes| scenes.description(self.seed))
     }
 
     /// The seed of the scenes of each material, in order: by its name, and for materials of one name by their order, so that it does

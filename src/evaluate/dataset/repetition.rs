@@ -7,7 +7,7 @@ use super::record::{DatasetReading, DatasetSettings, Method, Source};
 
 /// The command line that makes the same results, quoted for a shell. Options that have their defaults are left out.
 pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick: Pick) -> String {
-    let DatasetSettings { source, convention, target_error, seed, metrics, diagnose, .. } = settings;
+    let DatasetSettings { source, convention, target_error, scenes, seed, metrics, diagnose, .. } = settings;
     let mut words = vec!["svbrdf".to_owned(), "rank".to_owned()];
     match source {
         Source::Folders { ground_truths, methods } => {
@@ -22,12 +22,13 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
     }
     let options = [
         ("--convention", convention.text(), "printed"),
-        ("--target-error", format!("{}%", 100.0 * target_error), "1%"),
+        ("--target-error", target_error.map_or("1%".into(), |target| format!("{}%", 100.0 * target)), "1%"),
         ("--seed", seed.to_string(), "0"),
         ("--pick", pick.to_string(), "fixed"),
     ];
     let specified = options.into_iter().filter(|(_, value, default)| value != default);
     words.extend(specified.flat_map(|(name, value, _)| [name.to_owned(), value]));
+    words.extend(scenes.iter().flat_map(|scenes| scenes.options.clone()));
     let switches = [("--metrics", *metrics), ("--diagnose", *diagnose), ("--strict", reading.strict)];
     words.extend(switches.into_iter().filter(|(_, is)| *is).map(|(name, _)| name.to_owned()));
     words.extend(read_options(reading));

@@ -200,12 +200,12 @@ impl DatasetReport {
 
 impl Report for DatasetReport {
     fn heading(&self) -> String {
-        let DatasetSettings { convention, target_error, seed, materials, .. } = &self.settings;
+        let DatasetSettings { convention, materials, .. } = &self.settings;
         format!(
-            "rendering loss over {} of {} materials\nconvention {convention}, +-{}% per loss, seed {seed}, pick {}\n",
+            "rendering loss over {} of {} materials\nconvention {convention}, {}, pick {}\n",
             self.results.len(),
             materials.len(),
-            100.0 * target_error,
+            self.settings.accuracy(),
             self.pick,
         )
     }
@@ -245,7 +245,7 @@ impl Report for DatasetReport {
         let of = |(result, prediction): (&MaterialResult, &PredictionResult)| {
             let known = prediction.known?;
             let name = format!("{}, {}", result.material, prediction.method);
-            missed(self.settings.target_error, &name, &known.estimate(), known.scenes)
+            missed(self.settings.target_error?, &name, &known.estimate(), known.scenes)
         };
         self.predictions().filter_map(of).collect()
     }

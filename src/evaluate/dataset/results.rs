@@ -115,6 +115,7 @@ impl ResultsFolder {
         if let Err(source) = fs::create_dir(path)
             && !path.is_dir()
         {
+            let source = if path.exists() { io::Error::other("it is a file") } else { source };
             let remedy = "name a folder; the one above it has to be there and writable";
             return Err(Error::Unwritable { path: path.to_owned(), source, remedy });
         }

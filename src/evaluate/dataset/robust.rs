@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::check_same_size;
+use svbrdf_core::loss::{ALL_SCENES_TARGET, check_same_size};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error as FilesError;
@@ -29,7 +29,7 @@ pub struct DatasetAnswers {
 /// step of `progress`.
 ///
 /// # Errors
-/// [`FilesError::NotAMaterial`] for fewer than [`FEWEST`] materials; as [`RobustInput::answers`].
+/// [`FilesError::NotADataSet`] for fewer than [`FEWEST`] materials; as [`RobustInput::answers`].
 pub fn robust(
     cases: &[Case],
     settings: &DatasetSettings,
@@ -63,11 +63,11 @@ fn enough(count: usize, settings: &DatasetSettings) -> Result<(), FilesError> {
     if count >= FEWEST {
         return Ok(());
     }
-    Err(FilesError::NotAMaterial {
+    Err(FilesError::NotADataSet {
         path: settings.source.path().to_owned(),
         expected: format!("at least {FEWEST} materials that all methods have"),
         found: count.to_string(),
-        remedy: "add materials, or ask about the predictions of one material without --dataset".to_owned(),
+        remedy: "add materials, or ask about the predictions of one material",
     })
 }
 
@@ -75,7 +75,7 @@ impl DatasetAnswers {
     /// The report of the means over the materials, with paired intervals over them.
     ///
     /// # Errors
-    /// [`FilesError::NotAMaterial`] for fewer than [`FEWEST`] materials: they have no interval.
+    /// [`FilesError::NotADataSet`] for fewer than [`FEWEST`] materials: they have no interval.
     pub fn report(self, settings: &DatasetSettings) -> Result<RobustReport, Error> {
         enough(self.materials.len(), settings)?;
         let (materials, answers): (Vec<_>, Vec<_>) = self.materials.into_iter().unzip();
@@ -136,7 +136,8 @@ fn answers(
         Ok(opened) => opened,
         Err(problem) => return Ok(Err(problem)),
     };
-    let (target_error, predictions) = (settings.target_error, predictions.iter().collect());
+    let target_error = settings.target_error.unwrap_or(ALL_SCENES_TARGET);
+    let predictions = predictions.iter().collect();
     let input = RobustInput { ground_truth: &truth, predictions, convention, target_error, seed };
     Ok(Ok(input.answers(&progress.part())?))
 }

@@ -67,6 +67,28 @@ const SPECULAR_SIMILARITY: Similarities =
 const ROUGHNESS_SIMILARITY: Similarities =
     &[("ssim11_gaussian_roughness", ssim11), ("ssim7_uniform_roughness", ssim7)];
 
+/// The names of all metrics of maps.
+pub(super) fn names() -> impl Iterator<Item = &'static str> {
+    const ANGLES: [&str; 3] =
+        ["angle_normal_mean_degrees", "angle_normal_median_degrees", "angle_normal_p95_degrees"];
+    let measures = [
+        NORMAL_UNIT,
+        NORMAL_STORED,
+        DIFFUSE_LINEAR,
+        DIFFUSE_SRGB,
+        SPECULAR_LINEAR,
+        SPECULAR_SRGB,
+        ROUGHNESS,
+        ROUGHNESS_ALPHA,
+        BASE_LINEAR,
+        BASE_SRGB,
+        METALLIC,
+    ];
+    let similarities = [NORMAL_SIMILARITY, DIFFUSE_SIMILARITY, SPECULAR_SIMILARITY, ROUGHNESS_SIMILARITY];
+    let measures = measures.into_iter().flatten().map(|(name, _)| *name);
+    ANGLES.into_iter().chain(measures).chain(similarities.into_iter().flatten().map(|(name, _)| *name))
+}
+
 /// The metrics of the maps of `prediction` against `ground_truth`, computed in f64; SSIM where a window lies inside.
 ///
 /// # Errors

@@ -4,12 +4,14 @@ mod maps;
 mod matfusion;
 mod pictures;
 mod renderings;
+mod selection;
 mod ssim;
 
 pub use maps::of_maps;
 pub use matfusion::{matfusion_renderings, of_matfusion};
 pub use pictures::{PictureMetrics, of_pictures};
 pub use renderings::{RenderedScenes, of_renderings};
+pub use selection::MetricSelection;
 
 /// A number and what it is.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -16,6 +16,18 @@ use svbrdf_core::picture::flip::mean_flip;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 
+/// The names of all metrics of renderings.
+pub(super) const NAMES: [&str; 8] = [
+    "rmse_rendering_clipped_linear",
+    "rmse_rendering_clipped_srgb",
+    "rmse_rendering_clipped_gamma2.2",
+    "psnr_rendering_clipped_linear",
+    "psnr_rendering_clipped_srgb",
+    "flip_rendering_clipped",
+    "ssim11_gaussian_rendering_clipped_srgb",
+    "ssim7_uniform_rendering_clipped_srgb",
+];
+
 /// What renderings are compared in.
 #[derive(Clone, Copy, Debug)]
 pub struct RenderedScenes<'a> {

@@ -71,8 +71,6 @@ pub trait Analysis: Report + JsonSchema + Sized + 'static {
     const ABOUT: &'static str;
     /// What its numbers mean.
     const DETAILS: &'static str;
-    /// Options of an example.
-    const EXAMPLE: &'static str = "";
     /// What it does while it runs.
     const DOING: &'static str;
     /// The options of its scenes.

@@ -10,7 +10,7 @@ use super::analysis::{Analysis, AnalysisInput, SceneOptions};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Reader, Table};
 use crate::error::Error;
-use crate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
+use crate::metrics::{Metric, MetricSelection, RenderedScenes, of_maps, of_renderings};
 use svbrdf_core::loss::Sampling;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
@@ -56,14 +56,20 @@ impl MetricsReport {
         rendered: &RenderedScenes<'_>,
         results: Vec<(String, Vec<Metric>)>,
     ) -> Self {
-        let scenes = scenes_line(sampling, rendered.scenes, compared.size);
-        let exposure = format!("renderings at {} EV, clipped to [0, 1]\n", rendered.exposure_ev);
+        let mut metrics = results.iter().flat_map(|(_, metrics)| metrics);
+        let renderings = match metrics.any(|metric| metric.name.contains("_rendering_")) {
+            true => {
+                let scenes = scenes_line(sampling, rendered.scenes, compared.size);
+                format!("{scenes}renderings at {} EV, clipped to [0, 1]\n", rendered.exposure_ev)
+            }
+            false => String::new(),
+        };
         Self {
             ground_truth: compared.ground_truth.clone(),
             convention: Some(compared.convention),
             exposure_ev: Some(rendered.exposure_ev),
             protocol: None,
-            heading: compared.heading("metrics") + &scenes + &exposure,
+            heading: compared.heading("metrics") + &renderings,
             results: entries(results),
         }
     }
@@ -126,12 +132,15 @@ fn by_name<S: Serializer>(metrics: &[Metric], serializer: S) -> Result<S::Ok, S:
 }
 
 /// The options of the metrics.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct MetricsOptions {
     /// Exposure of renderings in stops, before they are clipped
     #[schemars(extend("format" = "stops"))]
     pub exposure: f32,
+    /// The metrics to compute, by words of their names, such as psnr; empty: all
+    #[schemars(with = "Vec<String>")]
+    pub metrics: MetricSelection,
 }
 
 impl Analysis for MetricsReport {
@@ -154,8 +163,15 @@ impl Analysis for MetricsReport {
             exposure_ev: options.exposure,
         };
         let results = input.each(|prediction| {
-            let of_renderings = of_renderings(ground_truth, prediction, &rendered, progress)?;
-            Ok((prediction.name().to_owned(), [of_maps(ground_truth, prediction)?, of_renderings].concat()))
+            let mut metrics = Vec::new();
+            if options.metrics.has_maps() {
+                metrics.extend(of_maps(ground_truth, prediction)?);
+            }
+            if options.metrics.has_renderings() {
+                metrics.extend(of_renderings(ground_truth, prediction, &rendered, progress)?);
+            }
+            metrics.retain(|metric| options.metrics.has(metric.name));
+            Ok((prediction.name().to_owned(), metrics))
         })?;
         Ok(Self::new(&input.compared(), sampling.as_ref(), &rendered, results))
     }

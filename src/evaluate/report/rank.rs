@@ -11,10 +11,10 @@ use super::repetition::Repetition;
 use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
 use crate::rank::{Ranked, places};
-use svbrdf_core::loss::{Estimate, Outcome};
+use svbrdf_core::loss::{Estimate, Outcome, Request};
 
 /// The place of a prediction from 0, the prediction, and the requested accuracy.
-type Row<'a> = (usize, &'a RankedPrediction, f64);
+type Row<'a> = (usize, &'a RankedPrediction, Option<f64>);
 
 fn fields<'a>() -> [Field<Row<'a>>; 12] {
     [
@@ -30,7 +30,9 @@ fn fields<'a>() -> [Field<Row<'a>>; 12] {
             place.to_best.map_or(Cell::Missing(""), |estimate| Cell::or(estimate.interval95, "unknown"))
         }),
         ("group", "group", |(_, place, _)| place.group.into()),
-        ("target_reached", "", |(_, place, target)| (place.loss.relative_error95() <= *target).into()),
+        ("target_reached", "", |(_, place, target)| {
+            target.map(|target| place.loss.relative_error95() <= target).into()
+        }),
         ("resolvable", "", |(_, place, _)| place.resolvable.into()),
         ("to_best_resolvable", "", |(_, place, _)| place.to_best_resolvable.into()),
         ("", "not resolvable", |(_, place, _)| place.unresolvable().into()),
@@ -45,10 +47,10 @@ pub struct RankReport {
     /// The number of scenes.
     scenes: usize,
     seed: Option<u64>,
-    /// The requested accuracy of every loss: half of its 95% interval, as a share of it.
-    target_error: f64,
+    /// The requested accuracy of every loss: half of its 95% interval, as a share of it; `None` for given scenes.
+    target_error: Option<f64>,
     /// By every prediction.
-    target_reached: bool,
+    target_reached: Option<bool>,
     /// The loss that the ground truth cannot resolve; `None`: the depth of its files is not known here.
     floor: Option<f64>,
     /// The number of captures that the floor is the mean loss between; `None`: it is that of rounding.
@@ -91,8 +93,12 @@ pub struct MaterialReading {
 }
 
 impl RankReport {
-    /// The ranking of the predictions of `outcome`.
-    pub fn new(compared: Compared, target_error: f64, outcome: &Outcome) -> Self {
+    /// The ranking of the predictions of the `outcome` of `request`.
+    pub fn new(compared: Compared, request: &Request, outcome: &Outcome) -> Self {
+        let target_error = match *request {
+            Request::Accuracy { target, .. } => Some(target),
+            _ => None,
+        };
         let place = |Ranked { index, to_best, group }: Ranked| {
             let loss = &outcome.losses[index];
             let (prediction, loss) = (loss.prediction.clone(), loss.estimate);
@@ -108,13 +114,13 @@ impl RankReport {
         };
         let heading = compared.heading("rendering loss")
             + &scenes_line(outcome.sampling.as_ref(), &outcome.scenes, compared.size)
-            + &most_scenes(outcome);
+            + &target_error.map_or_else(String::new, |_| most_scenes(outcome));
         Self {
             compared,
             scenes: outcome.scenes.len(),
             seed: outcome.sampling.map(|sampling| sampling.seed),
             target_error,
-            target_reached: outcome.relative_error95() <= target_error,
+            target_reached: target_error.map(|target| outcome.relative_error95() <= target),
             floor: None,
             captures: None,
             repetition: None,
@@ -193,6 +199,6 @@ impl Report for RankReport {
 
     fn missed(&self) -> Vec<Error> {
         let losses = self.ranking.iter().map(|place| (place.prediction.as_str(), place.loss));
-        missed_by_any(self.target_error, losses, self.scenes).into_iter().collect()
+        self.target_error.and_then(|target| missed_by_any(target, losses, self.scenes)).into_iter().collect()
     }
 }

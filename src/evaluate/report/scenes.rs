@@ -123,7 +123,6 @@ impl Analysis for ScenesReport {
     const ABOUT: &'static str = "Prints the scenes with the largest losses, worst first";
     const DETAILS: &'static str = "Scenes are sorted by the mean of the losses of all predictions in them, over all texels. The JSON \
         is a scene file, too.";
-    const EXAMPLE: &'static str = " --top 5 --format json > worst.json";
     const DOING: &'static str = "rendering";
     const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
     type Options = ScenesOptions;

@@ -34,6 +34,8 @@ const LEAST_TEXELS: usize = 1 << 11;
 const LONGEST: f64 = 3.0;
 /// The same for other precisions, backends and maps, whose errors need few runs.
 const LONGEST_VARIANT: f64 = 0.7;
+/// The time of a loss in f64, in times of one in f32: roughly, for what is told beforehand.
+const F64_COST: f64 = 8.0;
 /// Most runs of those, and the seconds in which more than one has to fit.
 const VARIANT_RUNS: usize = 3;
 const VARIANT_TIME: f64 = 0.4;
@@ -66,9 +68,9 @@ impl<'a> Bench<'a> {
         Self { pair: *pair, progress, bases: Vec::new() }
     }
 
-    /// The reference. It is a piece of work of its own for the progress.
-    pub(super) fn reference(&mut self) -> Result<Reference, Error> {
-        let pair = &self.pair;
+    /// The reference.
+    pub(super) fn reference(&self) -> Result<Reference, Error> {
+        let (pair, start) = (&self.pair, Instant::now());
         let fast = kernel(pair, Family::Sobol)?;
         let sobol = |scenes, texels| {
             let choice = Choice { scenes, texels: Texels::Sampled(texels), ..Choice::default() };
@@ -77,6 +79,7 @@ impl<'a> Bench<'a> {
         let many = sobol(REFERENCE_SCENES, REFERENCE_TEXELS);
         let few = sobol(CORRECTION_SCENES, CORRECTION_TEXELS);
         let loss = fast(&many, self.progress)?;
+        let seconds = start.elapsed().as_secs_f64();
         let exact = kernel(pair, Family::F64)?(&few, &self.progress.part())?;
         let rounded = fast(&few, &self.progress.part())?;
         let [of, from] = [&exact, &rounded].map(|outcome| outcome.losses[0].per_scene.as_slice());
@@ -88,8 +91,26 @@ impl<'a> Bench<'a> {
             return Err(Error::NothingToStudy);
         }
         let errors = [estimate, correction].map(|e| e.standard_error.unwrap_or(f64::INFINITY));
+        let error = errors[0].hypot(errors[1]) / mean;
+        Ok(Reference { loss: mean, error, scenes: REFERENCE_SCENES, seconds })
+    }
+
+    /// Announces the work on all families to the progress.
+    pub(super) fn begin(&self) {
         self.progress.begin(Family::ALL.into_iter().flat_map(|family| self.plan(family)).sum());
-        Ok(Reference { loss: mean, error: errors[0].hypot(errors[1]) / mean, scenes: REFERENCE_SCENES })
+    }
+
+    /// About how long the families on the CPU take, in seconds, by the time of the reference.
+    pub(super) fn expected_seconds(&self, reference: &Reference) -> f64 {
+        let rate = reference.seconds / REFERENCE_SCENES as f64;
+        let of_choice = |choice: Choice| {
+            let factor = if choice.family() == Family::F64 { F64_COST } else { 1.0 };
+            let seconds = factor * rate * (choice.scenes * self.texels(&choice) / LEAST_TEXELS) as f64;
+            if seconds > longest(&choice) { 0.0 } else { seconds * self.runs(&choice, seconds) as f64 }
+        };
+        let families =
+            Family::ALL.into_iter().filter(|family| *family != Family::Gpu && !self.is_on_all(*family));
+        families.flat_map(Family::choices).map(of_choice).sum()
     }
 
     /// Measures the choices of a family until one would take too long. A failing adapter loses its own points only.
@@ -124,7 +145,6 @@ impl<'a> Bench<'a> {
         let kernel = kernel(&self.pair, family)?;
         let rate = self.warm(&kernel, family)?;
         let seconds = |choice: &Choice| rate * choice.scenes as f64;
-        let longest = |choice: &Choice| if *choice == choice.base() { LONGEST } else { LONGEST_VARIANT };
         let too_long = |choice: &Choice| seconds(choice) > longest(choice);
         if let Some(first) = family.choices().find(too_long) {
             let (name, scenes, least) = (family.name(), first.scenes, time(seconds(&first)));
@@ -178,6 +198,14 @@ impl<'a> Bench<'a> {
         (SEEDS_WORK / (choice.scenes * self.texels(choice))).clamp(*SEEDS.start(), *SEEDS.end())
     }
 
+    /// The number of runs of a choice that takes about `seconds`.
+    fn runs(&self, choice: &Choice, seconds: f64) -> usize {
+        match *choice == choice.base() {
+            true => self.seeds(choice),
+            false => ((VARIANT_TIME / seconds) as usize).clamp(1, VARIANT_RUNS),
+        }
+    }
+
     /// Measures a choice that takes about `seconds`; `None` where its base was not measured.
     fn point(
         &mut self,
@@ -187,10 +215,7 @@ impl<'a> Bench<'a> {
         study: &Study,
     ) -> Result<Option<Point>, Error> {
         let is_base = choice == choice.base();
-        let runs = match is_base {
-            true => self.seeds(&choice),
-            false => ((VARIANT_TIME / seconds) as usize).clamp(1, VARIANT_RUNS),
-        };
+        let runs = self.runs(&choice, seconds);
         let base = self.bases.iter().find(|(base, _)| *base == choice.base()).map(|(_, losses)| losses);
         if !is_base && base.is_none() {
             return Ok(None);
@@ -224,6 +249,11 @@ impl<'a> Bench<'a> {
         let outcome = kernel(&choice.sampling(seed), &self.progress.part())?;
         Ok((outcome.losses[0].estimate.mean, start.elapsed().as_secs_f64()))
     }
+}
+
+/// The longest loss of a choice that is measured, in seconds.
+fn longest(choice: &Choice) -> f64 {
+    if *choice == choice.base() { LONGEST } else { LONGEST_VARIANT }
 }
 
 /// The kernel of a family, on materials converted to its precision and depth.

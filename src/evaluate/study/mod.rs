@@ -43,14 +43,40 @@ use svbrdf_core::progress::Progress;
 
 use crate::error::Error;
 
+/// The reference of `pair`, before anything else is measured.
+///
+/// # Errors
+/// As [`run`].
+pub fn reference(pair: &Pair<'_>, progress: &Progress) -> Result<Reference, Error> {
+    Bench::new(pair, progress).reference()
+}
+
+/// About how long [`measure`] takes on the CPU, in seconds.
+pub fn expected_seconds(pair: &Pair<'_>, reference: &Reference) -> f64 {
+    Bench::new(pair, &Progress::default()).expected_seconds(reference)
+}
+
 /// Measures every choice for `pair`, except those whose loss would take too long; `update` sees the study after each point.
 ///
 /// # Errors
 /// Those of the loss; [`Error::NothingToStudy`] where the two materials look the same, so that no error is relative to
 /// anything; [`Cancelled`](Error::is_cancelled).
-pub fn run(pair: &Pair<'_>, progress: &Progress, mut update: impl FnMut(&Study)) -> Result<Study, Error> {
+pub fn run(pair: &Pair<'_>, progress: &Progress, update: impl FnMut(&Study)) -> Result<Study, Error> {
+    measure(pair, reference(pair, progress)?, progress, update)
+}
+
+/// As [`run`], with a reference that is known.
+///
+/// # Errors
+/// As [`run`].
+pub fn measure(
+    pair: &Pair<'_>,
+    reference: Reference,
+    progress: &Progress,
+    mut update: impl FnMut(&Study),
+) -> Result<Study, Error> {
     let mut bench = Bench::new(pair, progress);
-    let reference = bench.reference()?;
+    bench.begin();
     let mut study = Study {
         names: [pair.ground_truth, pair.prediction].map(|material| material.name().to_owned()),
         size: pair.ground_truth.size(),

@@ -19,6 +19,8 @@ pub struct Reference {
     /// Relative standard error of `loss`.
     pub error: f64,
     pub scenes: usize,
+    /// The time that it took.
+    pub seconds: f64,
 }
 
 /// A measured choice.
@@ -147,7 +149,7 @@ mod tests {
             size: [1, 1],
             convention: Convention::default(),
             threads: 1,
-            reference: Reference { loss: 1.0, error: 1e-4, scenes: 24 },
+            reference: Reference { loss: 1.0, error: 1e-4, scenes: 24, seconds: 1.0 },
             points,
             left_out: Vec::new(),
         };

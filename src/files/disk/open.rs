@@ -166,7 +166,9 @@ impl NamedFile {
     /// As [`Self::bytes`]; [`Error::Unreadable`] where it is not UTF-8.
     pub fn text(&self) -> Result<String, Error> {
         let not_utf8 = |e: std::string::FromUtf8Error| {
-            Error::unreadable(&self.path, io::Error::new(io::ErrorKind::InvalidData, e.utf8_error()))
+            let problem =
+                format!("expected a text, found other bytes after {}", e.utf8_error().valid_up_to());
+            Error::unreadable(&self.path, io::Error::new(io::ErrorKind::InvalidData, problem))
         };
         let mut text = String::from_utf8(self.bytes()?).map_err(not_utf8)?;
         if text.starts_with('\u{feff}') {

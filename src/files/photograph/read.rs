@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::text::of_json;
 
 use super::capture::{Capture, CapturedPhotograph, is_json};
 use super::listed::ListedCapture;
@@ -40,13 +41,13 @@ impl Capture {
     fn parse(path: &Path, text: &str) -> Result<Self, Error> {
         inputs::protect(path);
         let bad = |problem| Error::BadCapture { path: path.to_owned(), problem };
-        let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
+        let value: Value = serde_json::from_str(text).map_err(|e| bad(of_json(&e)))?;
         let capture = match value.get(POSITIONS).is_some() {
             true => serde_json::from_str(text)
-                .map_err(|e| e.to_string())
+                .map_err(|e| of_json(&e))
                 .and_then(|calibration| Self::of_materialgan(path, &calibration)),
             false => serde_json::from_str(text)
-                .map_err(|e| e.to_string())
+                .map_err(|e| of_json(&e))
                 .and_then(|listed| Self::of_list(path, &listed)),
         };
         let capture = capture.map_err(bad)?;
@@ -150,7 +151,7 @@ fn in_folder(folder: &Path) -> Result<Capture, Error> {
         [] if folder.join(TEXTS[0]).is_file() => return of_texts(folder),
         [] => match broken {
             Some((path, text)) => return Capture::parse(&path, &text),
-            None => "found none of them".to_owned(),
+            None => "it holds no list of photographs".to_owned(),
         },
         several => {
             let name = |(path, ..): &(PathBuf, Calibration, String)| {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use svbrdf_core::loss::FileScenes;
 use svbrdf_core::model::named_scenes::flash;
 use svbrdf_core::model::scene::{Scene, SceneFile};
+use svbrdf_core::text::of_json;
 
 use crate::disk::atomic::Destination;
 use crate::disk::inputs;
@@ -99,11 +100,16 @@ impl PhotographLight {
         let scenes = read(path)?;
         let found = scenes.get(number.unwrap_or(0)).filter(|_| number.is_some() || scenes.len() == 1);
         found.copied().ok_or_else(|| {
-            let (count, last) = (scenes.len(), scenes.len() - 1);
-            let found = number.map_or_else(String::new, |number| format!(", found number {number}"));
-            let problem = format!(
-                "it lists {count} scenes, of which a photograph has one{found}; give its number from 0 to {last}"
-            );
+            let last = scenes.len() - 1;
+            let problem = match number {
+                Some(number) => {
+                    format!("there is no scene {number}: its scenes have the numbers 0 to {last}")
+                }
+                None => format!(
+                    "a photograph has one of its {} scenes: give its number, 0 to {last}",
+                    scenes.len()
+                ),
+            };
             Error::BadScene { path: path.clone(), problem }
         })
     }
@@ -128,7 +134,7 @@ pub fn open_photograph(
 fn parse(text: &str) -> Result<Vec<Scene>, String> {
     let scenes = match serde_json::from_str::<Calibration>(text) {
         Ok(calibration) => calibration.scenes()?,
-        Err(_) => serde_json::from_str::<SceneFile>(text).map_err(|e| e.to_string())?.scenes,
+        Err(_) => serde_json::from_str::<SceneFile>(text).map_err(|e| of_json(&e))?.scenes,
     };
     if scenes.is_empty() {
         return Err("it lists no scene".to_owned());

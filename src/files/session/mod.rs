@@ -11,6 +11,7 @@ use serde_json::Value;
 
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::text::of_json;
 
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
@@ -95,15 +96,15 @@ impl Session {
         let text = NamedFile::by_user(path).text()?;
         inputs::protect(path);
         let bad = |problem: String| Error::BadSession { path: path.to_owned(), problem };
-        let value: Value = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
+        let value: Value = serde_json::from_str(&text).map_err(|e| bad(of_json(&e)))?;
         // Before its fields are judged: a newer version may have others.
         let version = value.get("svbrdf-session").and_then(Value::as_u64).unwrap_or(0);
         if version > u64::from(VERSION) {
             return Err(bad(format!(
-                "expected version {VERSION}, found version {version} of a newer program"
+                "expected version {VERSION}, found version {version} of a newer program: update this one"
             )));
         }
-        let mut session: Self = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
+        let mut session: Self = serde_json::from_str(&text).map_err(|e| bad(of_json(&e)))?;
         session.scene.check().map_err(|problem| bad(format!("the scene cannot be rendered, {problem}")))?;
         if session.materials.is_empty() {
             return Err(bad("expected at least one material, found none".to_owned()));

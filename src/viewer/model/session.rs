@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use svbrdf_core::loss::ALL_SCENES_TARGET;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
@@ -148,7 +149,7 @@ impl Model {
             methods,
             predictions,
             results: open.results.as_ref().map(absolute),
-            target_error: open.settings.target_error,
+            target_error: open.settings.target_error.unwrap_or(ALL_SCENES_TARGET),
             seed: open.settings.seed,
             diagnose: open.settings.diagnose,
             read: open.reading.ground_truths,

@@ -10,14 +10,18 @@ use svbrdf_files::Error;
 use svbrdf_files::read::{Preset, ReadOptions};
 use svbrdf_files::source::MaterialSource;
 
+use crate::cli::args::offered;
 use crate::cli::output::CommandError;
 pub use decision::{Side, StatedReading};
 use former::FormerArgs;
 pub use former::FormerSideArgs;
 use statement::Statement;
 
+/// The heading of the options of reading.
+pub const READING: &str = "Reading materials";
+
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Reading materials")]
+#[command(next_help_heading = READING)]
 pub struct PairReadingArgs {
     #[command(flatten)]
     pub both: ReadingArgs,
@@ -27,12 +31,13 @@ pub struct PairReadingArgs {
 
     /// Resizes all materials: to the size of the ground truth, of the first prediction, or to a width of N texels
     #[arg(long, value_name = "gt|pred|N", allow_negative_numbers = true)]
+    #[arg(value_parser = offered(str::parse::<ResizeTo>, ["gt", "pred"]), hide_possible_values = true)]
     pub resize_to: Option<ResizeTo>,
 }
 
 /// How materials are read. Options that are left out are inferred from the files and reported.
 #[derive(Clone, Debug, clap::Args)]
-#[command(next_help_heading = "Reading materials")]
+#[command(next_help_heading = READING)]
 pub struct ReadingArgs {
     #[command(flatten)]
     statements: StatementArgs,
@@ -48,15 +53,17 @@ pub struct ReadingArgs {
 
 /// What is specified of the files of materials.
 #[derive(Clone, Debug, clap::Args)]
-#[command(next_help_heading = "Reading materials")]
+#[command(next_help_heading = READING)]
 pub struct StatementArgs {
     /// How files are read, such as albedo=srgb,normal-y=down; after gt:, pred: or NAME: for these materials only. May be given
     /// several times
     #[arg(long, value_name = "[WHOSE:]KEY=VALUE,...", long_help = read_help())]
+    #[arg(value_parser = offered(str::parse::<Statement>, ReadOptions::examples()), hide_possible_values = true)]
     read: Vec<Statement>,
 
     /// Conventions of a source of materials, for the options that are left out; after gt:, pred: or NAME: as in --read
-    #[arg(long, value_name = "[WHOSE:]PRESET", value_parser = Statement::of_preset, long_help = preset_help())]
+    #[arg(long, value_name = "[WHOSE:]PRESET", long_help = preset_help())]
+    #[arg(value_parser = offered(Statement::of_preset, Preset::ALL), hide_possible_values = true)]
     preset: Vec<Statement>,
 
     #[command(flatten)]

@@ -12,6 +12,7 @@ use super::{
     SpecularTerms,
 };
 use crate::error::Error;
+use crate::text::of_json;
 
 /// A renderer, its loss and its scenes, with their name and source.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -178,12 +179,20 @@ impl fmt::Display for Description {
     }
 }
 
+/// The problem of a TOML text, with its line.
+fn of_toml(text: &str, problem: &toml::de::Error) -> String {
+    let before = problem.span().and_then(|span| text.get(..span.start));
+    let line =
+        before.map_or_else(String::new, |before| format!("line {}: ", 1 + before.matches('\n').count()));
+    line + &of_json(&problem.message())
+}
+
 impl FromStr for Description {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self, Error> {
-        let description: Self =
-            toml::from_str(text).map_err(|problem| Error::BadConvention { problem: problem.to_string() })?;
+        let description: Self = toml::from_str(text)
+            .map_err(|problem| Error::BadConvention { problem: of_toml(text, &problem) })?;
         description.checked()
     }
 }

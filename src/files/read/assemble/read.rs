@@ -6,7 +6,7 @@ use std::sync::Arc;
 use svbrdf_core::material::Material;
 
 use crate::disk::memory::Reserved;
-use crate::error::Error;
+use crate::error::{Error, Guess};
 use crate::read::gather::Neighbours;
 use crate::read::gather::map_report::MapContent;
 use crate::read::options::ReadOptions;
@@ -63,11 +63,13 @@ impl<T> Read<T> {
     /// # Errors
     /// [`Error::Guessed`].
     pub fn refuse_guesses(&self, path: &Path) -> Result<(), Error> {
-        let assumptions = self.assumptions.iter().filter(|a| a.is_guess()).map(ToString::to_string);
-        let ignored = self.notes.iter().filter(|note| note.changes_look()).map(ToString::to_string);
+        let guessed = self.assumptions.iter().filter(|a| a.is_guess());
+        let assumptions = guessed.map(|a| Guess { text: a.to_string(), key: a.what.key() });
+        let changing = self.notes.iter().filter(|note| note.changes_look());
+        let ignored = changing.map(|note| Guess { text: note.to_string(), key: None });
         match assumptions.chain(ignored).collect::<Vec<_>>() {
             guesses if guesses.is_empty() => Ok(()),
-            guesses => Err(Error::Guessed { path: path.to_owned(), guesses: guesses.join("; ") }),
+            guesses => Err(Error::Guessed { path: path.to_owned(), guesses }),
         }
     }
 }

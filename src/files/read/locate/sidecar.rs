@@ -8,6 +8,7 @@ use serde_json::{Map, Value};
 
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::text::of_json;
 
 use crate::disk::open::NamedFile;
 use crate::disk::{atomic, own};
@@ -64,7 +65,7 @@ impl Sidecar {
         let text = file.text()?;
         let bad =
             |problem: String| Error::BadSidecar { path: place.clone(), problem, keys: keys().join(", ") };
-        let mut all: Map<String, Value> = serde_json::from_str(&text).map_err(|e| bad(e.to_string()))?;
+        let mut all: Map<String, Value> = serde_json::from_str(&text).map_err(|e| bad(of_json(&e)))?;
         let mut sidecar = Self::default();
         let maps = all.remove(MAPS).unwrap_or_else(|| Map::new().into());
         let maps =
@@ -85,7 +86,7 @@ impl Sidecar {
             let one = Value::from(Map::from_iter([(key.clone(), value.clone())]));
             serde_json::from_value::<ReadOptions>(one).map_err(|e| bad(format!("{key}: {e}")))?;
         }
-        sidecar.options = serde_json::from_value(all.into()).map_err(|e| bad(e.to_string()))?;
+        sidecar.options = serde_json::from_value(all.into()).map_err(|e| bad(of_json(&e)))?;
         if common_place(path).is_some_and(|common| common == place) && !is_named_after_map(path) {
             // The maps of the folder are those of another material.
             sidecar.bindings.clear();

@@ -75,7 +75,7 @@ impl FromStr for Binding {
         let (Some(role), false) = (role, file.is_empty()) else {
             return Err(CoreError::unknown_name(
                 "map",
-                text,
+                if role.is_some() { text } else { name },
                 format!(
                     "{}, each as in normal=FILE, roughness=FILE:g or roughness=0.5",
                     ROLES.map(|(n, _)| n).join(", ")
@@ -84,6 +84,10 @@ impl FromStr for Binding {
         };
         if let Some(values) = constant(file).filter(|values| values.len() == 1 || is_colour(role)) {
             return Ok(Self { role, file: PathBuf::new(), part: None, constant: Some(values) });
+        }
+        if file.split(',').all(|number| number.trim().parse::<f32>().is_ok()) && !Path::new(file).exists() {
+            let known = "a number from 0 to 1; diffuse, base and specular also three: 0.2,0.1,0.1";
+            return Err(CoreError::unknown_name("constant of a map", file, known));
         }
         let (file, part) = match file.rsplit_once(':') {
             Some((file, part)) if !file.is_empty() && !part.contains(['/', '\\']) => {

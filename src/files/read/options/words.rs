@@ -6,13 +6,36 @@ use serde_json::{Map, Value};
 
 use svbrdf_core::error::Error as CoreError;
 
-use super::ReadOptions;
+use super::{
+    Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Roughness, Workflow,
+};
 use crate::error::Error;
 
 impl ReadOptions {
     /// The keys, in alphabetical order.
     pub fn keys() -> Vec<String> {
         Self::AUTO.object().into_iter().map(|(key, _)| key).collect()
+    }
+
+    /// `KEY=VALUE` for every value of the options that have few.
+    pub fn examples() -> Vec<String> {
+        fn of<T: ToString>(key: &str, all: impl IntoIterator<Item = T>) -> Vec<String> {
+            all.into_iter().map(|value| format!("{key}={}", value.to_string())).collect()
+        }
+        [
+            of("albedo", Albedo::ALL),
+            of("specular-albedo", Albedo::ALL),
+            of("normal-y", NormalY::ALL),
+            of("normal-encoding", NormalEncoding::ALL),
+            of("roughness", Roughness::ALL),
+            of("workflow", Workflow::ALL),
+            of("energy", Energy::ALL),
+            of("order", Order::ALL),
+            of("flip-v", [true, false]),
+            of("non-finite", NonFinite::ALL),
+            of("preset", Preset::ALL),
+        ]
+        .concat()
     }
 
     /// The specified options as `KEY=VALUE`, in the order of [`ReadOptions::keys`], with commas between them.
@@ -96,9 +119,6 @@ impl FromStr for ReadOptions {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{
-        Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, Roughness, Workflow,
-    };
     use super::*;
 
     /// Every option with all of its values, or some where there are many.

@@ -58,6 +58,23 @@ impl What {
     }
 }
 
+impl What {
+    /// The key of the option of reading that specifies it.
+    pub fn key(self) -> Option<&'static str> {
+        match self {
+            Self::Layout => Some("order"),
+            Self::Workflow => Some("workflow"),
+            Self::Albedo => Some("albedo"),
+            Self::Specular => Some("specular-albedo"),
+            Self::NormalY => Some("normal-y"),
+            Self::NormalEncoding => Some("normal-encoding"),
+            Self::Roughness => Some("roughness"),
+            Self::Energy => Some("energy"),
+            Self::Missing | Self::Size | Self::Values => None,
+        }
+    }
+}
+
 /// How far an assumption can be trusted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]

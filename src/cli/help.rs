@@ -1,0 +1,280 @@
+//! The help: commands in groups, examples, usual options first, and the topics of `svbrdf help`.
+
+use std::path::Path;
+
+use clap::error::{ContextKind, ContextValue};
+use clap::{Arg, Args as _, Command};
+
+use super::args::is_there;
+use super::args::reading::{PairReadingArgs, READING};
+
+/// The commands in groups, each with the question that it answers and its examples.
+const GROUPS: [(&str, &[Entry]); 4] = [
+    (
+        "Look",
+        &[
+            (
+                "view",
+                "opens materials, or methods over a data set, in the window",
+                &[
+                    "gt.png a.png b.png",
+                    "--dataset gt/ ours/ theirs/",
+                    "gt.png a.png --photo photo.jpg --flash --fov 45",
+                ],
+            ),
+            (
+                "render",
+                "renderings, maps and differences as a picture",
+                &[
+                    "gt.png a.png --light 0.4,0.5,1.2 -o pair.png",
+                    "gt.png a.png --difference=log -o error.png",
+                ],
+            ),
+            (
+                "strip",
+                "a labelled figure for a paper",
+                &[
+                    "gt.png a.png --columns normal,roughness:,rendering -o figure.png",
+                    "--dataset gt/ ours/ theirs/ -o methods.png",
+                ],
+            ),
+            (
+                "report",
+                "a page for any browser, which readers light themselves",
+                &["gt.png a.png b.png -o report.html", "gt.png a.png --figure -o figure.html"],
+            ),
+        ],
+    ),
+    (
+        "Compare",
+        &[
+            (
+                "loss",
+                "which prediction is better, and by how much",
+                &[
+                    "gt.png a.png b.png",
+                    "gt.png a.png --near 6 --distant 3 --seed 1",
+                    "gt.png run/ --format csv",
+                ],
+            ),
+            (
+                "rank",
+                "many predictions, or methods over a data set",
+                &[
+                    "gt.png 'out/*.png'",
+                    "--dataset gt/ ours/ theirs/ -o table.tex",
+                    "--dataset gt/ ours/ theirs/ --metrics -o page.html",
+                ],
+            ),
+            (
+                "metrics",
+                "RMSE, L1, angles, PSNR, SSIM and FLIP",
+                &[
+                    "gt.png a.png b.png --format csv",
+                    "gt.png a.png --metrics psnr,ssim11",
+                    "gt.png a.png --protocol matfusion",
+                ],
+            ),
+            (
+                "photo",
+                "how renderings differ from photographs",
+                &[
+                    "photo.jpg a.png b.png --flash --fov 45",
+                    "photo.jpg a.png --scene scene.json -o difference.png",
+                    "--capture card_blue/ a.png b.png",
+                ],
+            ),
+            (
+                "conform",
+                "whose renderer yours is",
+                &["--points probe.npz", "answer.npz --convention svbrdf-estimation-2022"],
+            ),
+            (
+                "study",
+                "time against error of the loss on this machine",
+                &["gt.png a.png -o study.csv --plot study.svg"],
+            ),
+        ],
+    ),
+    (
+        "Explain",
+        &[
+            ("blame", "which map the loss comes from", &["gt.png a.png"]),
+            ("diagnose", "whether exposure, alignment or reading explain the loss", &["gt.png a.png"]),
+            (
+                "scenes",
+                "in which scenes the loss is largest",
+                &["gt.png a.png", "gt.png a.png --top 5 --format json > worst.json"],
+            ),
+            ("worst", "under which light the loss is largest", &["gt.png a.png"]),
+            (
+                "map",
+                "where on the material, or from where, the loss comes",
+                &["gt.png a.png -o error.png", "gt.png a.png --over lights -o lights.png"],
+            ),
+        ],
+    ),
+    (
+        "Prepare",
+        &[
+            (
+                "info",
+                "what files hold, and what is assumed in reading them",
+                &["gt.png", "textures/ --read normal-y=down --save"],
+            ),
+            (
+                "convert",
+                "the same material as EXR, PNG, glTF, MaterialX or a folder",
+                &["textures/ brick.exr", "textures/ brick.glb", "textures/ gao.png --like gao"],
+            ),
+            ("conventions", "lists the named conventions, or prints one", &["", "svbrdf-estimation-2022"]),
+            ("schema", "the JSON Schema of a report", &["loss"]),
+            ("completions", "completions for a shell", &["bash > svbrdf.bash"]),
+            ("man", "writes the man pages", &["man1"]),
+        ],
+    ),
+];
+
+/// The name of a command, what it answers, and its examples without `svbrdf NAME`.
+type Entry = (&'static str, &'static str, &'static [&'static str]);
+
+/// Options that the short help leaves out, of a command or of all.
+#[rustfmt::skip]
+const RARE: [(&str, &[&str]); 7] = [
+    ("", &["sampler", "precision", "backend", "repeats", "renderings", "max_size"]),
+    ("loss", &["texels", "time_budget", "fov"]),
+    ("rank", &["fov", "shard", "pick", "fail_above", "figures"]),
+    ("strip", &["fov", "results", "range", "lights"]),
+    ("metrics", &["fov"]),
+    ("photo", &["exposure", "hold_out", "scene_number", "transfer", "clip", "falloff", "difference"]),
+    ("view", &["scene_number", "corners", "transfer", "clip", "falloff", "target_error", "seed", "results"]),
+];
+
+/// The options of the headings of several commands.
+#[rustfmt::skip]
+const HEADED: [(&str, &[&str]); 3] = [
+    ("Scenes", &["target_error", "time_budget", "near", "distant", "seed", "sampler", "texels", "scenes", "lights", "fov"]),
+    ("Light and view", &["view", "light", "distant", "exposure"]),
+    ("Photograph", &["capture", "exposure", "hold_out", "scene", "scene_number", "flash", "fov", "corners", "transfer", "clip", "falloff"]),
+];
+
+const MORE: &str = "All options: --help. Options of reading files: svbrdf help reading.";
+
+const OF_PROGRAM: &str = "\
+Examples:
+  svbrdf                                           opens the built-in pair
+  svbrdf loss gt.png a.png b.png                   prints the losses of two
+  svbrdf rank --dataset gt/ ours/ theirs/ -o t.tex   writes a table for a paper";
+
+const OF_ENVIRONMENT: &str = "\
+Environment:
+  RUST_LOG      messages of window and graphics libraries: warn, info, debug, or wgpu=info
+  WGPU_BACKEND  graphics interfaces that may be used: vulkan, metal, dx12, gl
+
+Exit codes:
+   0  success
+   1  invalid input, or the operation failed
+   2  no display or no graphics adapter
+  64  invalid command line
+ 130  interrupted by Ctrl+C; existing files are unchanged";
+
+/// The command line `program` with its help.
+pub fn program(program: Command) -> Command {
+    let line = |(name, answer, _): &Entry| format!("  {name:12} {answer}\n");
+    let group = |(group, entries): &(&str, &[Entry])| {
+        format!("{group}:\n{}\n", entries.iter().map(line).collect::<String>())
+    };
+    let groups: String = GROUPS.iter().map(group).collect();
+    let template = format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{groups}Options:\n{{options}}{{after-help}}"
+    );
+    // The options of the window are those of `view`.
+    let of_program = |arg: Arg| match arg.get_id().as_str() {
+        "allow_outside" | "max_memory" => arg.hide_short_help(true),
+        "licenses" | "version" => arg,
+        _ => arg.hide_short_help(true).hide_long_help(true),
+    };
+    program
+        .override_usage("svbrdf [GT] [PRED]... [OPTIONS]\n       svbrdf COMMAND ...")
+        .help_template(template)
+        .after_help(format!("{OF_PROGRAM}\n\n{MORE}"))
+        .after_long_help(format!("{OF_PROGRAM}\n\n{MORE}\n\n{OF_ENVIRONMENT}"))
+        .mut_args(of_program)
+        .mut_subcommands(with_help)
+}
+
+/// The entry of a command.
+fn entry(name: &str) -> Option<&'static Entry> {
+    GROUPS.iter().flat_map(|(_, entries)| *entries).find(|entry| entry.0 == name)
+}
+
+/// A command with its examples, GT and PRED first in its usage, and a short help without rare options.
+fn with_help(command: Command) -> Command {
+    let name = command.get_name().to_owned();
+    let Some((_, _, examples)) = entry(&name) else { return command };
+    let lines: String =
+        examples.iter().map(|rest| format!("\n  svbrdf {name} {rest}").trim_end().to_owned()).collect();
+    let examples = format!("{}:{lines}", if examples.len() > 1 { "Examples" } else { "Example" });
+    let is_pair = command.get_positionals().any(|arg| arg.get_id() == "predictions") && name != "photo";
+    let required = command.get_arguments().filter(|arg| arg.is_required_set() && arg.get_long().is_some());
+    let typed = |arg: &Arg| {
+        let value = arg.get_value_names().and_then(|names| names.first()).map_or("", |name| name.as_str());
+        format!(" --{} <{value}>", arg.get_long().unwrap_or_default())
+    };
+    let required: String = required.map(typed).collect();
+    let command = match is_pair {
+        true => command.override_usage(format!("svbrdf {name} [GT] [PRED]...{required} [OPTIONS]")),
+        false => command,
+    };
+    let is_rare = |arg: &Arg| {
+        let of_reading = arg.get_help_heading() == Some(READING);
+        let is_one_of = |(of, ids): &(&str, &[&str])| {
+            (*of == name || of.is_empty()) && ids.iter().any(|id| arg.get_id() == id)
+        };
+        of_reading || RARE.iter().any(is_one_of)
+    };
+    // The heading of a group of options is also that of what is declared after the group.
+    let is_below = |arg: &Arg| {
+        let of = HEADED.iter().find(|(heading, _)| arg.get_help_heading() == Some(heading));
+        arg.is_positional() || of.is_some_and(|(_, ids)| ids.iter().all(|id| arg.get_id() != id))
+    };
+    command
+        .mut_args(|arg| if is_rare(&arg) { arg.hide_short_help(true) } else { arg })
+        .mut_args(|arg| if is_below(&arg) { arg.help_heading(None::<&str>) } else { arg })
+        .after_help(format!("{examples}\n\n{MORE}"))
+        .after_long_help(examples)
+}
+
+/// The help on a topic that is no command: `svbrdf help TOPIC`.
+pub fn topic(name: &str) -> Option<String> {
+    let about = "Options of reading, of every command that reads materials\n\nWhat files hold is inferred from their names and \
+        pixels, and reported. These options override it. docs/formats.md describes the forms.";
+    let reading = || {
+        PairReadingArgs::augment_args(Command::new("reading"))
+            .help_template("{about}\n\n{all-args}\n")
+            .disable_help_flag(true)
+            .long_about(about)
+    };
+    (name == "reading").then(|| reading().render_long_help().to_string())
+}
+
+/// What is wrong with a first argument that is neither a command nor there as a file or folder, where it looks like a command.
+pub fn mistyped(word: &str) -> Option<String> {
+    let is_word = |c: char| c.is_ascii_alphabetic() || c == '-';
+    let is_known = word == "help" || entry(word).is_some();
+    if word.starts_with('-') || !word.chars().all(is_word) || is_known || is_there(Path::new(word)) {
+        return None;
+    }
+    let names = GROUPS.iter().flat_map(|(_, entries)| *entries).map(|(name, ..)| Command::new(*name));
+    let parsed = Command::new("svbrdf").subcommands(names).try_get_matches_from(["svbrdf", word]);
+    let similar = match parsed.err()?.get(ContextKind::SuggestedSubcommand) {
+        Some(ContextValue::Strings(names)) => names.first().cloned(),
+        Some(ContextValue::String(name)) => Some(name.clone()),
+        _ => None,
+    };
+    let similar = similar.filter(|name| name.chars().next() == word.chars().next());
+    Some(match similar {
+        Some(name) => format!("no file or command `{word}`; did you mean `{name}`?"),
+        None => format!("no file or command `{word}`; `svbrdf -h` lists the commands"),
+    })
+}
