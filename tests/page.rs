@@ -19,7 +19,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::read::Read;
 use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_files::source::MaterialSource;
-use svbrdf_page::{Report, View};
+use svbrdf_page::{About, Report, View};
 
 #[cfg(target_os = "linux")]
 #[test]
@@ -77,6 +77,7 @@ fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report
         findings: None,
         readings: Vec::new(),
         repetition: None,
+        about: About::default(),
         max_bytes: 10_000_000,
     }
 }

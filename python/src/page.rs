@@ -10,7 +10,7 @@ use svbrdf_evaluate::Error;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::session::window::SessionDisplay;
-use svbrdf_page::{Findings, Repetition, Report, View, check_destination, exposure};
+use svbrdf_page::{About, Findings, Repetition, Report, View, check_destination, exposure};
 
 use crate::asked::Asked;
 use crate::errors::exception;
@@ -100,6 +100,7 @@ impl PageAsked {
             findings,
             readings: self.readings,
             repetition: self.call.map(|command| Repetition { command, session: None }),
+            about: About::default(),
             max_bytes: self.max_bytes,
         };
         let page = report.page(progress)?;

@@ -7,46 +7,54 @@ use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::export::PngDestination;
-use svbrdf_files::export::strip::{Column, Crop, Strip};
+use svbrdf_files::export::figure::FigureDestination;
+use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 
 use crate::cli::args::scenes::{Lights, ListArgs, RenderingArgs};
-use crate::cli::args::values::Range;
+use crate::cli::args::values::{self, Range};
 use crate::cli::args::{ComparisonArgs, Given, refuse};
 use crate::cli::job::{ComparisonJob, Job, MaterialJob, NewJob, SessionSettings};
 use crate::cli::output::stop::stoppable;
 use crate::cli::output::{CommandError, watched};
 use crate::cli::render::difference_of;
-use crate::cli::strip_methods;
+use crate::cli::strip_methods::{self, Look};
 
 /// Writes a labelled figure: a row per material, a column per map, rendering or difference
 ///
-/// Every cell has the pixels that `svbrdf render` writes, one per texel, but for the frames of crops. The row of GT has the
-/// scale bars of differences.
+/// PDF and SVG have real text at --text-pt and a width of --width-mm; a PNG has the same layout. Every cell of a PNG has the pixels
+/// that `svbrdf render` writes, one or a square per texel, but for the frames of crops. The row of GT has the scale bars of differences.
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("scenes", |arg| arg.conflicts_with_all(["view", "light", "distant"]).help(
     "Scene file; renderings and their differences have a column for each of its scenes")))]
 #[command(mut_arg("lights", |arg| arg.conflicts_with_all(["view", "light", "distant"]).help(
     "Lights and views of a publication: flash, flash-9 or hemisphere; renderings and their differences have a column for each")))]
-#[command(
-    after_help = "Example:\n  svbrdf strip gt.png a.png --columns normal,roughness:,rendering -o figure.png"
-)]
+#[command(after_help = "Examples:
+  svbrdf strip gt.png a.png --columns normal,roughness:,rendering -o figure.pdf
+  svbrdf strip gt.png a.png --width-mm 88 --text-pt 7 --crop 40,60,32,32 -o figure.svg
+  svbrdf strip --dataset gt/ ours/ theirs/ --results losses/ -o methods.pdf")]
 pub struct StripArgs {
-    /// Output file, .png
+    /// Output file, .pdf, .svg or .png
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
     /// GT is a folder of ground truths, and every PRED a folder of the predictions of a method: a row for each material, a column for each
     /// method, all of one of --columns
-    #[arg(long, requires = "ground_truth")]
+    #[arg(long, conflicts_with = "pairs", requires = "ground_truth")]
     dataset: bool,
+
+    /// GT is a CSV table of pairs, as of `svbrdf rank`: a row for each material, a column for each method
+    #[arg(long, requires = "ground_truth")]
+    pairs: bool,
+
+    #[command(flatten)]
+    paper: PaperArgs,
 
     #[command(flatten)]
     of_data_set: OfDataSetArgs,
 
     /// Columns: rendering, normal, diffuse, specular, roughness; with a colon and a kind, or a colon alone, differences:
     /// rendering:log, normal:; of a session, the difference that was chosen in its window
-    /// [default: normal,diffuse,roughness,specular,rendering,rendering:; with --dataset: rendering]
+    /// [default: normal,diffuse,roughness,specular,rendering,rendering:; of a data set: rendering]
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     columns: Vec<String>,
 
@@ -62,7 +70,7 @@ pub struct StripArgs {
     range: Option<Range>,
 
     /// Rectangle of texels that is framed in every cell and magnified beside it: left, top, width, height; may be given
-    /// several times
+    /// several times. Cells of a data set are averaged to their size, unless there are crops
     #[arg(long = "crop", value_name = "X,Y,W,H")]
     crops: Vec<Crop>,
 
@@ -78,43 +86,56 @@ const OF_MATERIALS: [&str; 6] = ["normal", "diffuse", "roughness", "specular", "
 #[derive(Debug, clap::Args)]
 struct OfDataSetArgs {
     /// Writes the loss of each prediction of a data set below its cell: those in this folder, to which the others are added
-    #[arg(long, value_name = "DIR", requires = "dataset")]
+    #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
+}
+
+/// The size of a figure.
+#[derive(Debug, clap::Args)]
+struct PaperArgs {
+    /// Width of the figure in millimetres [default: 88 for up to three cells in a row, else 180]
+    #[arg(long, value_name = "MM", value_parser = values::millimetres)]
+    width_mm: Option<f64>,
+
+    /// Size of its text in points
+    #[arg(long, value_name = "PT", value_parser = values::points, default_value_t = Paper::default().text_pt)]
+    text_pt: f64,
 }
 
 #[derive(Debug)]
 struct StripJob {
     materials: MaterialJob,
     output: PathBuf,
-    destination: PngDestination,
+    destination: FigureDestination,
     strip: Strip,
 }
 
 impl StripArgs {
     pub fn job(mut self, given: &Given) -> NewJob {
-        let destination = PngDestination::new(&self.output)?;
+        let destination = FigureDestination::new(&self.output)?;
+        let paper = Paper { width_mm: self.paper.width_mm, text_pt: self.paper.text_pt };
+        let is_data_set = self.dataset || self.pairs;
         if self.columns.is_empty() {
-            let columns: &[&str] = if self.dataset { &OF_DATA_SET } else { &OF_MATERIALS };
+            let columns: &[&str] = if is_data_set { &OF_DATA_SET } else { &OF_MATERIALS };
             self.columns = columns.iter().map(|column| (*column).to_owned()).collect();
         }
-        if self.dataset {
-            refuse(
-                !self.crops.is_empty(),
-                "crop",
-                "materials of a data set have unlike sizes, and no crops",
-            )?;
+        if is_data_set {
             let columns = columns(&self, None)?;
             self.refuse_unused(&columns, given)?;
-            let (exposure, results) = (self.rendering.exposure, self.of_data_set.results);
-            return strip_methods::job(&self.comparison, &columns, exposure, results, self.output);
+            let look = Look { columns, exposure_ev: self.rendering.exposure, crops: self.crops, paper };
+            let results = self.of_data_set.results;
+            return strip_methods::job(&self.comparison, self.pairs, look, results, self.output);
         }
+        let reason = "losses below cells are those of --dataset or --pairs";
+        refuse(self.of_data_set.results.is_some(), "results", reason)?;
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         let session = comparison.session.as_ref();
         let columns = columns(&self, session)?;
         self.refuse_unused(&columns, given)?;
         let saved = session.map(|session| session.exposure_ev);
         let exposure_ev = self.rendering.exposure.or(saved).unwrap_or(0.0);
-        let strip = Strip { columns, convention: comparison.convention, exposure_ev, crops: self.crops };
+        let crops = self.crops;
+        let strip = Strip { columns, convention: comparison.convention, exposure_ev, crops, paper };
         Ok(Box::new(StripJob { materials: comparison.materials, output: self.output, destination, strip }))
     }
 
@@ -144,8 +165,8 @@ impl Job for StripJob {
         }
         let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
         let all: Vec<&Material<f32>> = materials.iter().collect();
-        let picture = watched("rendering", |progress| strip.picture(&all, &names, progress))?;
-        Ok(stoppable(|progress| destination.write(&picture, &strip.entries(&names), progress))?)
+        let figure = watched("rendering", |progress| strip.figure(&all, &names, progress))?;
+        Ok(stoppable(|progress| destination.write(&figure, &strip.entries(&names), progress))?)
     }
 }
 

@@ -9,8 +9,8 @@ use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetResults, DatasetSettings, MaterialResult, Pick, counted_loss,
 };
 use svbrdf_files::disk::inputs::check_output_of;
-use svbrdf_files::export::PngDestination;
-use svbrdf_files::export::strip::{Column, MethodRow, MethodStrip};
+use svbrdf_files::export::figure::FigureDestination;
+use svbrdf_files::export::strip::{Column, Crop, MethodRow, MethodStrip, Paper};
 use svbrdf_files::read::{self, ReadOptions};
 
 use crate::cli::args::{ComparisonArgs, refuse};
@@ -19,8 +19,8 @@ use crate::cli::output::stop::stoppable;
 use crate::cli::output::{CommandError, exit, watched_on};
 use crate::cli::rank::cases;
 
-/// Longest side of a cell, in pixels.
-const SIDE: usize = 192;
+/// Pixels of an inch in a cell: as printed.
+const DPI: f64 = 300.0;
 /// Half of the 95% interval of each loss below a cell, as a share of it: that of `svbrdf rank`.
 const TARGET_ERROR: f64 = 0.01;
 
@@ -31,31 +31,41 @@ pub struct MethodsJob {
     cases: Vec<Case>,
     results: Option<PathBuf>,
     output: PathBuf,
-    destination: PngDestination,
+    destination: FigureDestination,
     strip: MethodStrip,
 }
 
-/// The job of the figure of a data set, which shows one column in each cell.
+/// How the figure looks.
+#[derive(Debug)]
+pub struct Look {
+    pub columns: Vec<Column>,
+    pub exposure_ev: Option<f32>,
+    pub crops: Vec<Crop>,
+    pub paper: Paper,
+}
+
+/// The job of the figure of a data set, which shows one column in each cell; GT may be a table of pairs.
 pub fn job(
     comparison: &ComparisonArgs,
-    columns: &[Column],
-    exposure_ev: Option<f32>,
+    is_table: bool,
+    look: Look,
     results: Option<PathBuf>,
     output: PathBuf,
 ) -> NewJob {
-    let destination = PngDestination::new(&output)?;
+    let destination = FigureDestination::new(&output)?;
     let given = &comparison.materials.reading;
     let reason =
         "a figure tells what cannot be read, and `svbrdf rank --dataset --verbose` all that is noticed";
     refuse(given.both.verbose, "verbose", reason)?;
     let reason = "materials of a data set are averaged to one size";
     refuse(given.resize_to.is_some(), "resize-to", reason)?;
-    let [column] = columns else {
+    let Look { columns, exposure_ev, crops, paper } = look;
+    let [column] = columns.as_slice() else {
         return Err(CommandError::usage(
             "a figure of methods shows one thing in one scene; give one of --columns, such as rendering or rendering:log",
         ));
     };
-    let source = cases::source(&comparison.materials, false)?;
+    let source = cases::source(&comparison.materials, is_table)?;
     let cases = source.cases()?;
     let chosen = comparison.convention.clone().unwrap_or_default();
     let convention = chosen.convention;
@@ -65,7 +75,8 @@ pub fn job(
     if let Some(difference) = &mut content.difference {
         difference.range = Some(difference.range.unwrap_or_else(|| difference.kind.default_range()));
     }
-    let strip = MethodStrip { content, scene: column.scene, convention, exposure_ev, side: SIDE };
+    let scene = column.scene;
+    let strip = MethodStrip { content, scene, convention, exposure_ev, crops, paper, dpi: DPI };
     Ok(Box::new(MethodsJob { settings, reading, cases, results, output, destination, strip }))
 }
 
@@ -94,9 +105,9 @@ impl MethodsJob {
         };
         let (methods, materials) = (&settings.methods, &settings.materials);
         let row = |index: usize| self.row(&cases[index], losses.get(index));
-        let picture =
-            watched_on(progress, "rendering", |progress| strip.picture(methods, materials, row, progress))?;
-        Ok(destination.write(&picture, &strip.entries(methods, materials), progress)?)
+        let figure =
+            watched_on(progress, "rendering", |progress| strip.figure(methods, materials, row, progress))?;
+        Ok(destination.write(&figure, &strip.entries(methods, materials), progress)?)
     }
 
     /// A row; what cannot be read is told, and missing in the figure.

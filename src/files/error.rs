@@ -66,6 +66,22 @@ pub enum Error {
         size: [usize; 2],
     },
 
+    /// The columns of a figure have no room beside the names of its rows.
+    #[error(
+        "{columns} columns with texts of {text_pt} pt do not fit into {width_mm} mm: expected at least {least:.0} mm; make the \
+        figure wider, its text smaller or its names shorter"
+    )]
+    FigureTooNarrow { width_mm: f64, columns: usize, text_pt: f64, least: f64 },
+
+    /// Texts of a report that are none.
+    #[error("{}: {problem}; expected texts for title, authors, caption, bibtex or image, such as title = \"Worn tiles\"", path.display())]
+    BadAbout { path: PathBuf, problem: String },
+
+    /// A page that programs refuse to open.
+    #[error("a PDF page of {:.0} x {:.0} mm is too large: expected at most {most:.0} mm; show fewer materials or methods, or \
+        write SVG or PNG", millimetres[0], millimetres[1])]
+    PageTooLarge { millimetres: [f64; 2], most: f64 },
+
     /// Maps of one material have different shapes.
     #[error("sizes differ: {first} is {} x {}, {second} is {} x {}; resize them so that the maps of a material have \
         one shape", first_size[0], first_size[1], second_size[0], second_size[1])]

@@ -30,6 +30,7 @@ pub(super) struct LinkedScene {
 }
 
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct Data<'a> {
     materials: &'a [EncodedMaterial],
     convention: &'a str,
@@ -43,6 +44,9 @@ struct Data<'a> {
     colours: BTreeMap<&'a str, Vec<String>>,
     start: Start<'a>,
     scenes: &'a [LinkedScene],
+    /// Stops by which each material is brightened beside the first.
+    offsets: &'a [f32],
+    ground_truth: bool,
     shaders: BTreeMap<&'a str, Value>,
 }
 
@@ -90,6 +94,7 @@ pub(super) fn json(
     materials: &[EncodedMaterial],
     report: &Report<'_>,
     scenes: &[LinkedScene],
+    offsets: &[f32],
 ) -> Result<String, Error> {
     let Report { convention, .. } = report;
     let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
@@ -116,6 +121,8 @@ pub(super) fn json(
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
         start: start(report, materials),
         scenes,
+        offsets,
+        ground_truth: !report.about.no_ground_truth,
         shaders,
     };
     serde_json::to_string(&data).map_err(failed)

@@ -11,7 +11,7 @@
  *   pan: [number, number], framing: Framing | null, wipe: number, drag: string, peek: boolean, tiled: boolean, falseColour: boolean, clipping: boolean}} State
  * @typedef {{materials: StoredMaterial[], model: Record<string, number>, words: string[], rays: Rays | null, epsilon: number, convention: string,
  *   kinds: Record<string, Kind[]>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
- *   start: Partial<State>, scenes: {scene: Scene, exposure: number}[]}} Data
+ *   start: Partial<State>, scenes: {scene: Scene, exposure: number}[], offsets: number[], groundTruth: boolean}} Data
  */
 
 const LAYOUTS = ["side-by-side", "wipe", "single"];
@@ -79,9 +79,15 @@ class Figure {
     return { scene, quantity, model: this.data.model, rays: this.data.rays, epsilon: this.data.epsilon };
   }
 
-  /** @returns {Shown} */
-  shown() {
-    const { exposure, clipping, tiled, falseColour, ranges } = this.state;
+  /** The stops by which a pane is brightened beside the first one. @param {Pane} pane */
+  offset({ material, wipe }) {
+    return wipe === null && this.state.quantity === "rendering" ? this.data.offsets[material] : 0;
+  }
+
+  /** @param {Pane} pane @returns {Shown} */
+  shown(pane) {
+    const { clipping, tiled, falseColour, ranges } = this.state;
+    const exposure = this.state.exposure + this.offset(pane);
     return { exposure, clipping, tiled, falseColour, range: ranges[this.kind().key] };
   }
 
@@ -113,6 +119,8 @@ class Figure {
     let best = { columns: 1, width: 0, height: 0 };
     for (let columns = 1; columns <= count; columns++) {
       if (columns > 1 && width / columns < NARROWEST) break;
+      // No row of many above a row of one.
+      if (columns > 2 && count % columns === 1) continue;
       const rows = Math.ceil(count / columns);
       const height = Math.min(width / columns / aspect, highest / rows);
       // Of equal ones the one with fewer rows.
@@ -166,7 +174,7 @@ class Figure {
       const lower = Math.round((box.y + box.height) * scale) - gap;
       const pixels = { x, y: h - lower, width: right - x, height: lower - y };
       if (pixels.width < 1 || pixels.height < 1) continue;
-      this.shading.pane(pane, how, this.camera(box.width, box.height), pixels, this.shown());
+      this.shading.pane(pane, how, this.camera(box.width, box.height), pixels, this.shown(pane));
     }
     for (const watcher of this.watchers) watcher();
   }
@@ -178,7 +186,8 @@ class Figure {
     [canvas.width, canvas.height] = [width, height];
     const box = { x: 0, y: 0, width, height };
     const camera = zoomed(flatCamera(this.grid, width / height), MARGIN, [0, 0]);
-    this.shading.pane({ material, difference, wipe: null }, this.how(), camera, box, this.shown());
+    const pane = { material, difference, wipe: null };
+    this.shading.pane(pane, this.how(), camera, box, this.shown(pane));
     const pixels = this.shading.pixels(box);
     const rgb = new Uint8Array(3 * width * height);
     for (let i = 0; i < width * height; i++) {

@@ -10,6 +10,7 @@ use svbrdf_evaluate::report::{Reader, Report as _, parts, scenes_line};
 use svbrdf_evaluate::why::{Attribution, Hemisphere};
 use svbrdf_files::Error;
 
+use super::about::About;
 use super::content::{Findings, Repetition, Report};
 use super::data::LinkedScene;
 use super::exposure::exposure;
@@ -34,7 +35,7 @@ pub(super) fn sections(
     let mut html = String::new();
     let mut linked = Vec::new();
     if let Some(findings) = &report.findings {
-        html += &losses(findings);
+        html += &losses(findings, &report.about);
         html += &findings.robust.as_ref().map_or(String::new(), robust::section);
         html += &shares(&findings.attributions);
         let (scenes, of_scenes) = worst_scenes(report, findings, small, progress)?;
@@ -42,20 +43,30 @@ pub(super) fn sections(
         linked = of_scenes;
         html += &lights(findings);
     }
+    html += &report.about.citation();
     html += &readings(report);
     html += &repetition(report);
     Ok((html, linked))
 }
 
 /// The losses in one line, or the least of many.
-pub(super) fn summary(findings: &Findings) -> String {
+pub(super) fn summary(findings: &Findings, about: &About) -> String {
+    let loss = &findings.loss;
+    if let (true, [only]) = (about.no_ground_truth, loss.outcome.losses.as_slice()) {
+        let [first, second] = [&loss.ground_truth, &only.prediction].map(|name| escaped(name));
+        let value = number(only.estimate.mean);
+        return format!(
+            "Rendering loss between {first} and {second}, convention {}: {value}.",
+            loss.convention
+        );
+    }
     let one = |loss: &Loss| format!("{} {}", escaped(&loss.prediction), number(loss.estimate.mean));
     let all = &findings.loss.outcome.losses;
     let texts = match least(all).filter(|_| all.len() > MOST_NAMES) {
         Some(best) => format!("{}, the least of {}", one(&all[best]), all.len()),
         None => all.iter().map(one).collect::<Vec<_>>().join(", "),
     };
-    format!("<p>Rendering loss, convention {}: {texts}.</p>", findings.loss.convention)
+    format!("Rendering loss, convention {}: {texts}.", findings.loss.convention)
 }
 
 /// The prediction with the least loss.
@@ -63,15 +74,18 @@ fn least(all: &[Loss]) -> Option<usize> {
     (0..all.len()).min_by(|a, b| all[*a].estimate.mean.total_cmp(&all[*b].estimate.mean))
 }
 
-fn losses(findings: &Findings) -> String {
+fn losses(findings: &Findings, about: &About) -> String {
     let loss = &findings.loss;
     let all = &loss.outcome.losses;
     let axis = plots::axis(all.iter().map(|loss| &loss.estimate));
-    let mut table = HtmlTable::of(loss.table(Reader::Person), "name", false).titled();
+    let mut table = loss.table(Reader::Person);
+    table.columns[0] = about.prediction().to_owned();
+    let mut table = HtmlTable::of(table, "name", false).titled();
     table.insert(3, "", all.iter().map(|loss| plots::bar(&loss.estimate, axis)));
-    let verdicts = verdicts(&loss.outcome);
+    let verdicts = verdicts(&loss.outcome, &about.reference(&loss.ground_truth));
+    let [first, second] = if about.no_ground_truth { ["1", "2"] } else { ["gt", "pred"] };
     format!(
-        r#"<section aria-labelledby="losses"><h2 id="losses">Rendering loss</h2>{}{verdicts}<p class="weak">Mean over scenes, texels and RGB of |ln(R<sub>gt</sub> + {}) &minus; ln(R<sub>pred</sub> + {})| against {}, {} &times; {} texels. {}</p></section>"#,
+        r#"<section aria-labelledby="losses"><h2 id="losses">Rendering loss</h2>{}{verdicts}<p class="weak">Mean over scenes, texels and RGB of |ln(R<sub>{first}</sub> + {}) &minus; ln(R<sub>{second}</sub> + {})| against {}, {} &times; {} texels. {}</p></section>"#,
         table.html(),
         loss.epsilon,
         loss.epsilon,
@@ -88,15 +102,15 @@ fn interval(interval: Option<[f64; 2]>) -> [String; 2] {
 }
 
 /// The prediction with the least loss against every other one, on the same scenes.
-fn verdicts(outcome: &Outcome) -> String {
+fn verdicts(outcome: &Outcome, reference: &str) -> String {
     let all = &outcome.losses;
     let Some(best) = least(all).filter(|_| all.len() > 1) else { return String::new() };
     let mut items = String::new();
     for other in (0..all.len()).filter(|other| *other != best) {
         let difference = outcome.difference(other, best);
         let is_clear = difference.interval95.is_some_and(|[low, _]| low > 0.0);
-        let verdict =
-            if is_clear { "is closer to the ground truth than" } else { "no significant difference from" };
+        let closer = format!("is closer to {reference} than");
+        let verdict = if is_clear { closer.as_str() } else { "no significant difference from" };
         let [low, high] = interval(difference.interval95);
         let colon = if is_clear { "" } else { ":" };
         let _ = write!(
@@ -147,14 +161,16 @@ fn worst_scenes(
         let (light, view) = (place(scene.light), place(scene.view));
         let _ = write!(
             items,
-            r#"<li><button type="button" data-scene="{}" disabled><img src="{picture}" alt="Renderings of the ground truth and the predictions"><span>Loss: {}</span><span class="weak">{kind}, light {light}, view {view}</span></button></li>"#,
+            r#"<li><button type="button" data-scene="{}" disabled><img src="{picture}" alt="Renderings of the materials"><span>Loss: {}</span><span class="weak">{kind}, light {light}, view {view}</span></button></li>"#,
             linked.len(),
             losses.join("; "),
         );
         linked.push(LinkedScene { scene, exposure });
     }
+    let reference = report.about.reference(&findings.loss.ground_truth);
+    let others = format!("{}s", report.about.prediction());
     let html = format!(
-        r#"<section aria-labelledby="worst"><h2 id="worst">Worst scenes</h2><p>The scenes of the loss with the largest mean loss of all predictions, on all texels; the ground truth first, each exposed to its brightest 1%. A click puts light and view of the figure there.</p><ol class="scenes">{items}</ol></section>"#
+        r#"<section aria-labelledby="worst"><h2 id="worst">Worst scenes</h2><p>The scenes of the loss with the largest mean loss of all {others}, on all texels; {reference} first, each exposed to its brightest 1%. A click puts light and view of the figure there.</p><ol class="scenes">{items}</ol></section>"#
     );
     Ok((html, linked))
 }

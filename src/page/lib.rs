@@ -3,6 +3,7 @@
 //! Its script and style are files of this folder, admitted by their hashes in a content security policy that admits nothing else.
 //! Names of files and materials are data of the script, or escaped text.
 
+mod about;
 mod content;
 mod data;
 mod encode;
@@ -25,6 +26,7 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
+pub use about::About;
 pub use content::{Findings, Repetition, Report, View};
 use encode::EncodedMaterial;
 pub use exposure::exposure;
@@ -96,25 +98,38 @@ impl Report<'_> {
         let small: Vec<&Material<f32>> = small.iter().collect();
         let content = self.content();
         let view = &self.view;
-        let still = pictures::still(&small, content, &view.scene, &self.convention, view.exposure_ev, STILL)?;
+        let offsets = exposure::offsets(&small, &view.scene, &self.convention);
+        let exposures: Vec<f32> = offsets.iter().map(|offset| view.exposure_ev + offset).collect();
+        let still = pictures::still(&small, content, &view.scene, &self.convention, &exposures, STILL)?;
         let (sections, scenes) = findings::sections(self, &small, progress)?;
         let frame = Document::bytes_without_body(STYLE, SCRIPT);
         let fixed = frame + PAGE.len() + still.len() + sections.len() + 64 * 1024;
         let (materials, reduced_to) = self.encoded(self.max_bytes.saturating_sub(fixed), progress)?;
-        let data = data::json(&materials, self, &scenes)?;
+        let data = data::json(&materials, self, &scenes, &offsets)?;
+        let title = self.title();
+        let first = self.materials.first().map_or("", |first| first.name());
+        let reference = self.about.reference(first);
+        let first = if self.about.no_ground_truth { escaped(first) } else { "Ground truth".to_owned() };
         let body = filled(
             PAGE,
             &[
                 ("header", &self.header(reduced_to)),
                 ("still", &still),
-                ("still-alt", &format!("Still picture: {}", self.title())),
-                ("caption", &self.caption()),
+                ("still-alt", &format!("Still picture: {title}")),
+                ("caption", &self.caption(&offsets)),
+                ("about", &self.about.caption()),
+                ("reference", &reference),
+                ("first", &first),
+                ("prediction", self.about.prediction()),
                 ("findings", &sections),
                 ("data", &markup::embedded(&data)),
             ],
         );
-        let html = Document { title: &self.title(), style: STYLE, script: SCRIPT, body: &body }.html();
-        Ok(Page { html, reduced_to })
+        let description = self.description();
+        let image = self.about.image.as_deref();
+        let (title, description) = (title.as_str(), description.as_str());
+        let document = Document { title, description, image, style: STYLE, script: SCRIPT, body: &body };
+        Ok(Page { html: document.html(), reduced_to })
     }
 
     /// What the still picture displays.
@@ -128,10 +143,16 @@ impl Report<'_> {
         PictureContent { quantity: display.quantity, difference: is_difference.then_some(difference) }
     }
 
-    /// The names of the materials, or the number of many.
+    /// The title of its authors, or the names of the materials, or the number of many.
     fn title(&self) -> String {
+        if let Some(title) = &self.about.title {
+            return escaped(title);
+        }
         let names: Vec<String> = self.materials.iter().map(|material| escaped(material.name())).collect();
         match names.as_slice() {
+            [others @ .., last] if self.about.no_ground_truth && !others.is_empty() => {
+                format!("{} and {last}", others.join(", "))
+            }
             [ground_truth, predictions @ ..] if predictions.len() > MOST_NAMES => {
                 format!("{} predictions against {ground_truth}", predictions.len())
             }
@@ -142,9 +163,21 @@ impl Report<'_> {
         }
     }
 
+    /// What the page is, in a line.
+    fn description(&self) -> String {
+        let losses = self.findings.as_ref().map(|findings| findings::summary(findings, &self.about));
+        let made = || losses.unwrap_or_else(|| format!("{}.", self.title()));
+        let text = self.about.caption.as_deref().map_or_else(made, escaped);
+        format!("{text} An interactive figure: drag the light.")
+    }
+
     /// What the still picture has.
-    fn caption(&self) -> String {
-        let names: Vec<String> = self.materials.iter().map(|material| escaped(material.name())).collect();
+    fn caption(&self, offsets: &[f32]) -> String {
+        let name = |(material, offset): (&&Material<f32>, &f32)| match offset {
+            0.0 => escaped(material.name()),
+            offset => format!("{} at {}", escaped(material.name()), exposure::stops(*offset)),
+        };
+        let names: Vec<String> = self.materials.iter().zip(offsets).map(name).collect();
         let epsilon = self.convention.epsilon;
         format!("In reading order: {}. Shown: {}.", names.join(", "), escaped(&self.content().text(epsilon)))
     }
@@ -158,8 +191,11 @@ impl Report<'_> {
         if self.findings.is_none() && self.repetition.is_none() {
             return note;
         }
-        let summary = self.findings.as_ref().map_or(String::new(), findings::summary);
-        format!("<header><h1>{}</h1>{summary}{note}</header>", self.title())
+        let summary = self.findings.as_ref().map(|findings| findings::summary(findings, &self.about));
+        let summary = summary.map_or(String::new(), |text| format!("<p>{text}</p>"));
+        let authors = self.about.authors.as_ref();
+        let authors = authors.map_or(String::new(), |line| format!("<p>{}</p>", escaped(line)));
+        format!("<header><h1>{}</h1>{authors}{summary}{note}</header>", self.title())
     }
 
     /// The maps in at most `bytes` bytes, halved as often as that takes, and their size where they are.

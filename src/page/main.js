@@ -26,7 +26,7 @@ async function start() {
   const showCanvas = (/** @type {boolean} */ live) => {
     canvas.hidden = element("panes").hidden = !live;
     still.hidden = live;
-    element("controls").hidden = element("numbers").hidden = !live;
+    element("controls").hidden = element("hint").hidden = element("numbers").hidden = !live;
     document.body.classList.toggle("live", live);
   };
   showCanvas(true);

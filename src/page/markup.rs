@@ -16,6 +16,10 @@ pub(super) const MOST_NAMES: usize = 4;
 pub(super) struct Document<'a> {
     /// As HTML.
     pub title: &'a str,
+    /// For search engines and previews of links, as HTML.
+    pub description: &'a str,
+    /// Address of a picture for previews of links.
+    pub image: Option<&'a str>,
     pub style: &'a str,
     pub script: &'a str,
     /// As HTML.
@@ -29,6 +33,8 @@ impl Document<'_> {
             FRAME,
             &[
                 ("title", self.title),
+                ("description", self.description),
+                ("image", &self.image.map_or(String::new(), preview)),
                 ("software", SOFTWARE),
                 ("script-hash", &policy_source(self.script)),
                 ("style-hash", &policy_source(self.style)),
@@ -43,6 +49,11 @@ impl Document<'_> {
     pub(super) fn bytes_without_body(style: &str, script: &str) -> usize {
         FRAME.len() + style.len() + script.len()
     }
+}
+
+/// The element that names the picture of a preview.
+fn preview(address: &str) -> String {
+    format!("<meta property=\"og:image\" content=\"{}\">\n", escaped(address))
 }
 
 /// The text with the characters that HTML reads as markup escaped: for elements and quoted attributes. What steers the direction of
@@ -72,7 +83,7 @@ fn policy_source(text: &str) -> String {
     format!("sha256-{}", BASE64_STANDARD.encode(Sha256::digest(text)))
 }
 
-/// The template with each `{{key}}` replaced once; what is put in is not searched for keys.
+/// The template with each `{{key}}` replaced; what is put in is not searched for keys.
 pub(super) fn filled(template: &str, values: &[(&str, &str)]) -> String {
     let mut parts = template.split("{{");
     let mut html = parts.next().unwrap_or_default().to_owned();

@@ -55,12 +55,16 @@ class Overlay {
   }
 
   /** @param {Pane} pane */
-  title({ material, difference, wipe }) {
-    const { materials, state } = this.figure;
+  title(pane) {
+    const { material, difference, wipe } = pane;
+    const { materials, state, data } = this.figure;
     const name = materials[material].name;
     if (wipe !== null) return `${materials[0].name} | ${name}${difference ? `, ${this.figure.kind().name}` : ""}`;
     if (difference) return `${name}, ${this.figure.kind().name}`;
-    return material === 0 && materials.length > 1 ? `${name} (ground truth)` : `${name}${state.quantity === "rendering" ? "" : `, ${state.quantity}`}`;
+    const stops = this.figure.offset(pane);
+    const brighter = stops === 0 ? "" : `, ${stops > 0 ? "+" : "\u2212"}${Math.abs(stops)} EV`;
+    if (material === 0 && materials.length > 1 && data.groundTruth) return `${name} (ground truth)`;
+    return `${name}${brighter}${state.quantity === "rendering" ? "" : `, ${state.quantity}`}`;
   }
 
   /** @param {Pane} pane @param {Seen} seen */

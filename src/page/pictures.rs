@@ -61,16 +61,17 @@ pub(super) fn thumbnail(
     data_uri(&in_rows(&pictures, rows.columns))
 }
 
-/// The content of every material, in rows; of differences the value of the ground truth first.
+/// The content of every material at its exposure, in rows; of differences the value of the ground truth first.
 pub(super) fn still(
     materials: &[&Material<f32>],
     content: PictureContent,
     scene: &Scene,
     convention: &Convention,
-    exposure_ev: f32,
+    exposures: &[f32],
     rows: Rows,
 ) -> Result<String, Error> {
     let progress = Progress::default();
+    let exposure_ev = exposures.first().copied().unwrap_or_default();
     let value = PictureContent { difference: None, ..content };
     let shown = content.pictures(materials, scene, convention, exposure_ev, &progress)?;
     let mut pictures = Vec::new();
@@ -80,7 +81,9 @@ pub(super) fn still(
             .extend(ground_truth.images.iter().map(|image| coloured(image, value, exposure_ev, rows.width)));
     }
     let content = shown.content;
-    pictures.extend(shown.images.iter().map(|image| coloured(image, content, exposure_ev, rows.width)));
+    let own = exposures.iter().skip(materials.len() - shown.images.len());
+    pictures
+        .extend(shown.images.iter().zip(own).map(|(image, ev)| coloured(image, content, *ev, rows.width)));
     data_uri(&in_rows(&pictures, rows.columns))
 }
 

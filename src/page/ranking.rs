@@ -1,13 +1,14 @@
 //! The ranking of a data set as one HTML file: methods, materials, thumbnails, and links to figures.
 
-use std::collections::BTreeSet;
-
 use svbrdf_core::loss::Estimate;
 
 use super::markup::{Document, escaped, filled, number};
 use super::tables::{HtmlTable, cell, row_heading};
 use super::{plots, robust};
-use svbrdf_evaluate::dataset::{DatasetReport, MaterialResult, MethodSummary, counted_loss, marks_table};
+use svbrdf_evaluate::dataset::{
+    DatasetReport, FEWEST, MaterialResult, MethodSummary, Pick, best_by_metric, counted_loss,
+    is_better_larger, marks_table,
+};
 use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
 
 const PAGE: &str = include_str!("ranking.html");
@@ -19,8 +20,8 @@ const BAR: usize = 5;
 /// What a ranking shows of a material beside its losses.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MaterialView {
-    /// Renderings of the ground truth and of the methods as a data URI; `None` where they cannot be read.
-    pub(super) thumbnails: Option<String>,
+    /// Renderings of the ground truth and of the methods of the report, in their order, as data URIs; `None` where one cannot be read.
+    pub(super) pictures: Vec<Option<String>>,
     /// The address of its figure, relative to the page.
     pub(super) figure: Option<String>,
 }
@@ -28,24 +29,64 @@ pub struct MaterialView {
 /// The ranking as HTML; `views` are those of the results, in their order, or none; `robust` tells whether the order survives.
 pub fn ranking(report: &DatasetReport, views: &[MaterialView], robust: Option<&RobustReport>) -> String {
     let settings = &report.settings;
-    let title =
-        format!("Rendering loss over {} of {} materials", report.results.len(), settings.materials.len());
+    let (count, all) = (report.results.len(), settings.materials.len());
+    let of = if count == all { String::new() } else { format!(" of {all}") };
+    let title = format!("Rendering loss over {count}{of} materials");
+    let verdict = overall(report);
     let robust = robust.map_or(String::new(), robust::section);
-    let sections = methods(report) + &robust + &metrics(report) + &marks(report) + &materials(report, views);
-    let body = filled(PAGE, &[("title", &title), ("settings", &heading(report)), ("sections", &sections)]);
-    Document { title: &title, style: STYLE, script: SCRIPT, body: &body }.html()
+    let sections = methods(report) + &robust + &materials(report, views) + &metrics(report) + &marks(report);
+    let settings = heading(report);
+    let parts = [("title", &title), ("verdict", &verdict), ("settings", &settings), ("sections", &sections)];
+    let body = filled(PAGE, &parts.map(|(key, text)| (key, text.as_str())));
+    let (title, description) = (title.as_str(), verdict.as_str());
+    Document { title, description, image: None, style: STYLE, script: SCRIPT, body: &body }.html()
 }
 
 /// Everything that the numbers depend on.
 fn heading(report: &DatasetReport) -> String {
     let settings = &report.settings;
     let accuracy = escaped(&settings.accuracy()).replace("+-", "&plusmn;");
-    let (convention, pick) = (escaped(settings.convention.convention.name), &report.pick);
+    let convention = escaped(settings.convention.convention.name);
+    let pick = match report.pick {
+        Pick::Fixed => String::new(),
+        pick => format!(", of several predictions of a material the {pick}"),
+    };
     format!(
-        "Convention {convention}, {accuracy}, pick {pick}. {}. Repeat with <code>{}</code>",
+        "Convention {convention}, {accuracy}{pick}. {}. Repeat with <code>{}</code>",
         report.repetition.software,
         escaped(&report.repetition.command)
     )
+}
+
+/// The verdict in a sentence: the best method, which are worse, and which cannot be told from it.
+fn overall(report: &DatasetReport) -> String {
+    let Some(best) = report.best() else { return "No methods are compared.".to_owned() };
+    let one = |summary: &MethodSummary| format!("{} ({})", escaped(&summary.method), number(summary.mean));
+    let compared = || report.methods.iter().skip(1).filter(|summary| summary.compared);
+    let (ties, worse): (Vec<_>, Vec<_>) = compared().partition(|summary| summary.ties_with_best);
+    let [ties, worse] = [ties, worse].map(|of| of.into_iter().map(one).collect::<Vec<_>>()).map(listed);
+    let count = report.compared_materials.len();
+    let name = one(best);
+    if worse.is_empty() && ties.is_empty() {
+        return format!("{name} has losses of {count} materials; no other method is compared.");
+    }
+    let least = format!("{name} has the least mean loss over {count} materials");
+    if count < FEWEST {
+        return format!(
+            "{least}, before {ties}; fewer than {FEWEST} materials tell of no significant difference."
+        );
+    }
+    match (worse.is_empty(), ties.is_empty()) {
+        (true, _) => format!("{least}, with no significant difference from {ties}."),
+        (_, true) => format!("{least}, significantly less than {worse}."),
+        _ => format!("{least}, significantly less than {worse}, with no significant difference from {ties}."),
+    }
+}
+
+/// The parts of a list in a sentence.
+fn listed(mut parts: Vec<String>) -> String {
+    let last = parts.pop().unwrap_or_default();
+    if parts.is_empty() { last } else { format!("{} and {last}", parts.join(", ")) }
 }
 
 fn methods(report: &DatasetReport) -> String {
@@ -93,28 +134,32 @@ fn verdict(summary: &MethodSummary) -> &'static str {
 
 /// The metrics of the maps, where there are any: a row for each, a column for each method.
 fn metrics(report: &DatasetReport) -> String {
-    let names: BTreeSet<&String> = report.methods.iter().flat_map(|summary| summary.metrics.keys()).collect();
-    if names.is_empty() {
+    let all = best_by_metric(report);
+    if all.is_empty() {
         return String::new();
     }
-    let row = |name: &String| {
-        let cells = report.methods.iter().map(|summary| {
+    let row = |(name, best): (&String, &Vec<bool>)| {
+        let compared = report.methods.iter().zip(best).filter(|(summary, _)| summary.compared);
+        let differ = compared.into_iter().any(|(_, best)| !best);
+        let cells = report.methods.iter().zip(best).map(|(summary, best)| {
             let metric = summary.metrics.get(name);
             let interval = metric.and_then(|metric| metric.interval95_materials);
-            with_interval(metric.map(|metric| metric.mean), interval)
+            let class = if *best && differ { "best" } else { "" };
+            with_interval(metric.map(|metric| metric.mean), interval, class, "")
         });
-        [row_heading("", &escaped(name))].into_iter().chain(cells).collect()
+        let arrow = if is_better_larger(name) { "\u{2191}" } else { "\u{2193}" };
+        [row_heading("", &format!("{} {arrow}", escaped(name)))].into_iter().chain(cells).collect()
     };
-    let table = by_method(report, "Metric", names.into_iter().map(row));
+    let table = by_method(report, &["Metric"], all.iter().map(row));
     format!(
-        r#"<section aria-labelledby="metrics"><h2 id="metrics">Metrics of the maps</h2>{table}<p class="weak">Means over materials, with their 95% intervals over materials.</p></section>"#
+        r#"<section aria-labelledby="metrics"><h2 id="metrics">Metrics of the maps</h2>{table}<p class="weak">Means over materials, with their 95% intervals over materials. &uarr;: larger is better; &darr;: smaller is better. Bold: the best, and what has no significant difference from it, where any has one.</p></section>"#
     )
 }
 
 /// A table with a column for each method.
-fn by_method(report: &DatasetReport, first: &str, rows: impl IntoIterator<Item = Vec<String>>) -> String {
+fn by_method(report: &DatasetReport, first: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
     let methods = report.methods.iter().map(|summary| summary.method.as_str());
-    HtmlTable::new([first].into_iter().chain(methods), rows).html()
+    HtmlTable::new(first.iter().copied().chain(methods), rows).html()
 }
 
 /// The marks of diagnoses, where there are any.
@@ -126,52 +171,70 @@ fn marks(report: &DatasetReport) -> String {
     )
 }
 
+/// The materials as a gallery: a row for each, with a picture above each loss.
 fn materials(report: &DatasetReport, views: &[MaterialView]) -> String {
     let none = MaterialView::default();
+    let has_pictures = views.iter().any(|view| !view.pictures.is_empty());
     let row = |(place, result): (usize, &MaterialResult)| {
-        let name = material(&result.material, views.get(place).unwrap_or(&none));
-        let losses = report.methods.iter().map(|summary| loss(report, result, &summary.method));
-        [row_heading("material", &name)].into_iter().chain(losses).collect()
+        let view = views.get(place).unwrap_or(&none);
+        let name = linked(escaped(&result.material), view);
+        let of = |column: usize, what: &str| picture(view, column, what, &result.material);
+        let truth = has_pictures.then(|| format!("<td>{}</td>", of(0, "ground truth")));
+        let losses = (1..)
+            .zip(&report.methods)
+            .map(|(column, summary)| loss(report, result, &summary.method, &of(column, &summary.method)));
+        [row_heading("material", &name)].into_iter().chain(truth).chain(losses).collect()
     };
-    let table = by_method(report, "Material", report.results.iter().enumerate().map(row));
+    let columns: &[&str] = if has_pictures { &["Material", "Ground truth"] } else { &["Material"] };
+    let table = by_method(report, columns, report.results.iter().enumerate().map(row));
+    let pictures = if has_pictures {
+        " All pictures have one light; those of a material have the exposure of its ground truth."
+    } else {
+        ""
+    };
     let links = if views.iter().any(|view| view.figure.is_some()) {
-        " A name with a link opens the interactive figure of the material, a file beside this one."
+        " A link opens the interactive figure of the material, in which the light is dragged: a file beside this one."
     } else {
         ""
     };
     format!(
-        r#"<section aria-labelledby="materials"><h2 id="materials">Materials</h2>{table}<p class="weak">Loss, and its 95% interval over scenes. Renderings from left to right: ground truth, then the methods with a loss, in the order of the columns.{links}</p></section>"#
+        r#"<section aria-labelledby="materials" class="gallery"><h2 id="materials">Materials</h2>{table}<p class="weak">Loss, and its 95% interval over scenes.{pictures}{links}</p></section>"#
     )
 }
 
-/// The name of a material, its thumbnails and the link to its figure.
-fn material(name: &str, view: &MaterialView) -> String {
-    let name = escaped(name);
-    let picture = view
-        .thumbnails
-        .as_ref()
-        .map_or(String::new(), |data| format!(r#"<img class="thumbnails" src="{data}" alt="">"#));
+/// HTML with a link to the figure of a material, where it has one.
+fn linked(html: String, view: &MaterialView) -> String {
     match &view.figure {
-        Some(figure) => format!(r#"<a href="{}">{picture}{name}</a>"#, escaped(figure)),
-        None => picture + &name,
+        Some(figure) => format!(r#"<a href="{}">{html}</a>"#, escaped(figure)),
+        None => html,
     }
+}
+
+/// The picture of a column, which leads to the figure.
+fn picture(view: &MaterialView, column: usize, what: &str, material: &str) -> String {
+    let Some(data) = view.pictures.get(column).and_then(Option::as_ref) else { return String::new() };
+    let alt = format!("{}, {}", escaped(material), escaped(what));
+    linked(format!(r#"<img src="{data}" alt="{alt}">"#), view)
 }
 
 /// The cell of the loss of a material by a method: the one that counts, or why there is none.
-fn loss(report: &DatasetReport, result: &MaterialResult, method: &str) -> String {
+fn loss(report: &DatasetReport, result: &MaterialResult, method: &str, picture: &str) -> String {
     if let Some(known) = counted_loss(result, method, report.pick) {
-        return with_interval(Some(known.loss), Some(known.interval95));
+        return with_interval(Some(known.loss), Some(known.interval95), "", picture);
     }
     let mut of_method = result.predictions.iter().filter(|prediction| prediction.method == method);
     let problem = of_method.find_map(|prediction| prediction.error.as_deref()).unwrap_or("no prediction");
-    format!(r#"<td class="problem" data-sort="">{}</td>"#, escaped(problem))
+    format!(r#"<td class="problem" data-sort="">{picture}{}</td>"#, escaped(problem))
 }
 
-/// A cell of a number above its interval, sorted by the number.
-fn with_interval(value: Option<f64>, interval: Option<[f64; 2]>) -> String {
-    let (Some(value), Some([low, high])) = (value, interval) else {
-        return cell(&value.filter(|value| value.is_finite()).into(), true);
-    };
-    let [text, low, high] = [value, low, high].map(number);
-    format!(r#"<td data-sort="{value}">{text}<small>{low} to {high}</small></td>"#)
+/// A cell of a number above its interval and below a picture, sorted by the number.
+fn with_interval(value: Option<f64>, interval: Option<[f64; 2]>, class: &str, picture: &str) -> String {
+    let Some(value) = value.filter(|value| value.is_finite()) else { return cell(&None::<f64>.into(), true) };
+    let text = number(value);
+    let interval = interval.map_or(String::new(), |ends| {
+        let [low, high] = ends.map(number);
+        format!("<small>{low} to {high}</small>")
+    });
+    let class = if class.is_empty() { String::new() } else { format!(r#" class="{class}""#) };
+    format!(r#"<td data-sort="{value}"{class}>{picture}<span>{text}</span>{interval}</td>"#)
 }

@@ -1,4 +1,4 @@
-//! Views of the materials of a ranking: thumbnails of all, and figures of some, in files beside the page.
+//! Views of the materials of a ranking: pictures of all, and figures of some, in files beside the page.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write as _;
@@ -15,6 +15,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
+use super::about::About;
 use super::content::{Report, View};
 use super::exposure::exposure;
 use super::pictures;
@@ -26,12 +27,14 @@ use svbrdf_files::disk::paths::plain;
 use svbrdf_files::read::{self, ReadOptions};
 use svbrdf_files::session::window::SessionDisplay;
 
-/// Light and view of thumbnails and figures.
+/// Light and view of pictures and figures.
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
-/// Thumbnails of the ground truth and of all methods.
-const THUMBNAILS: pictures::Rows = pictures::Rows { width: 72, columns: usize::MAX };
+/// Width of a picture, in pixels: of two for one of the page, and where there are many.
+const PICTURE: [u32; 2] = [320, 160];
+/// Most pictures of the larger width: a page has some 15 kB for each.
+const LARGE: usize = 600;
 /// Longest side of the maps that they are rendered from.
-const RENDERED: usize = 256;
+const RENDERED: usize = 512;
 /// What is written as `%..` in an address.
 const ENCODED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_').remove(b'.');
 /// Most bytes of a figure.
@@ -62,7 +65,7 @@ impl FromStr for Figures {
     }
 }
 
-/// Reads the materials of `cases` again, renders thumbnails and writes the figures of `figures` into a folder beside the `page`,
+/// Reads the materials of `cases` again, renders pictures and writes the figures of `figures` into a folder beside the `page`,
 /// which is named after it. A material that cannot be read any more has neither. A material is one step of `progress`.
 ///
 /// # Errors
@@ -82,11 +85,13 @@ pub fn material_views(
     }
     let cases: BTreeMap<usize, &Case> = cases.iter().map(|case| (case.index, case)).collect();
     progress.begin(report.results.len() as u64);
+    let count = report.results.len() * (1 + report.methods.len());
+    let width = PICTURE[usize::from(count > LARGE)];
     let one = |result: &MaterialResult| {
         let materials = cases.get(&result.index).and_then(|case| opened(report, result, case));
         let view = materials.map_or(Ok(MaterialView::default()), |materials| {
             let figure = chosen.contains(&result.index).then(|| folder.join(file_name(result)));
-            view(&materials, &convention, figure, progress)
+            view(&materials, &convention, width, figure, progress)
         })?;
         progress.step()?;
         Ok(view)
@@ -123,36 +128,45 @@ fn chosen(report: &DatasetReport, figures: Figures) -> BTreeSet<usize> {
     known.into_iter().take(count).map(|(_, index)| index).collect()
 }
 
-/// The ground truth, then the prediction of each method that has one, under the name of the method; `None` where one cannot be
-/// read.
-fn opened(report: &DatasetReport, result: &MaterialResult, case: &Case) -> Option<Vec<Material<f32>>> {
+/// The ground truth, then for each method the prediction that counts, under the name of the method, where it can be read; `None` where
+/// the ground truth cannot be read.
+fn opened(
+    report: &DatasetReport,
+    result: &MaterialResult,
+    case: &Case,
+) -> Option<Vec<Option<Material<f32>>>> {
     let open = |path: &Path, options: &ReadOptions, name: &str| -> Option<Material<f32>> {
         Some(read::read(path, options, &Progress::default()).ok()?.material.renamed(name))
     };
     let ground_truth = open(&case.ground_truth, &report.reading.ground_truths, &result.material)?;
-    let mut materials = vec![ground_truth];
-    for summary in &report.methods {
-        let Some(sample) = counted_sample(result, &summary.method, report.pick) else { continue };
-        let mut candidates = case.candidates.iter();
-        let candidate = candidates.find(|one| one.method == summary.method && one.sample == sample)?;
-        materials.push(open(&candidate.path, report.reading.of_method(&summary.method), &summary.method)?);
-    }
-    Some(materials)
+    let size = ground_truth.size();
+    let prediction = |method: &String| {
+        let sample = counted_sample(result, method, report.pick)?;
+        let candidate = case.candidates.iter().find(|one| one.method == *method && one.sample == sample)?;
+        open(&candidate.path, report.reading.of_method(method), method).filter(|one| one.size() == size)
+    };
+    let predictions = report.methods.iter().map(|summary| prediction(&summary.method));
+    Some(std::iter::once(Some(ground_truth)).chain(predictions).collect())
 }
 
-/// The thumbnails of materials; their figure is written to the file `figure`.
+/// The pictures of a material; its figure is written to the file `figure`.
 fn view(
-    materials: &[Material<f32>],
+    all: &[Option<Material<f32>>],
     convention: &Convention,
+    width: u32,
     figure: Option<PathBuf>,
     progress: &Progress,
 ) -> Result<MaterialView, Error> {
-    let materials: Vec<&Material<f32>> = materials.iter().collect();
+    let materials: Vec<&Material<f32>> = all.iter().flatten().collect();
     let small = pictures::reduced(&materials, RENDERED)?;
-    let small: Vec<&Material<f32>> = small.iter().collect();
-    let exposure_ev = exposure(small[0], &SCENE, convention);
-    let thumbnails =
-        pictures::thumbnail(&small, &SCENE, convention, exposure_ev, THUMBNAILS, &progress.part())?;
+    let exposure_ev = exposure(&small[0], &SCENE, convention);
+    let rows = pictures::Rows { width, columns: 1 };
+    let mut small = small.iter();
+    let picture = |one: &Option<Material<f32>>| {
+        let Some(small) = one.as_ref().and_then(|_| small.next()) else { return Ok(None) };
+        pictures::thumbnail(&[small], &SCENE, convention, exposure_ev, rows, &progress.part()).map(Some)
+    };
+    let pictures = all.iter().map(picture).collect::<Result<Vec<_>, Error>>()?;
     let figure = figure.map(|path| {
         let report = Report {
             materials: &materials,
@@ -161,12 +175,13 @@ fn view(
             findings: None,
             readings: Vec::new(),
             repetition: None,
+            about: About::default(),
             max_bytes: FIGURE,
         };
         let page = report.page(&progress.part())?;
         replace_own(&path, progress, |file| file.write_all(page.html.as_bytes())).map(|()| address(&path))
     });
-    Ok(MaterialView { thumbnails: Some(thumbnails), figure: figure.transpose()? })
+    Ok(MaterialView { pictures, figure: figure.transpose()? })
 }
 
 /// The address of a figure, relative to the page beside its folder.

@@ -11,10 +11,9 @@ use svbrdf_core::picture::tone::to_display;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 use svbrdf_files::export::GAP;
-use svbrdf_files::export::strip::HEADER;
 use svbrdf_files::samples;
 
-use super::{assert_has, assert_holds, assert_refused, data_set, folder, succeed};
+use super::{assert_has, assert_holds, assert_refused, data_set, folder, succeed, text_of};
 use crate::support::losses::losses;
 
 /// The built-in materials as `render` shows them: side by side.
@@ -163,8 +162,8 @@ fn a_strip_has_the_pixels_that_render_writes() {
     let open = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgb8();
     let strip = open("strip.png");
     let side = 256;
-    let left = strip.width() as usize - 7 * (side + GAP);
     let scene = "--view 0.2,-0.3,2 --light -1,0.5,0.8 --exposure 0.5";
+    let mut places = Vec::new();
     for (column, options, first) in [
         (0, "--show normal".to_owned(), 0),
         (1, "--show diffuse".to_owned(), 0),
@@ -177,38 +176,110 @@ fn a_strip_has_the_pixels_that_render_writes() {
         succeed(folder.path(), &format!("render -o one.png {options}"));
         let one = open("one.png");
         for row in first..3 {
-            let cell = crop(&strip, [left + column * (side + GAP), HEADER + row * (side + GAP)], side);
             let pane = crop(&one, [(row - first) * (side + GAP), 0], side);
-            assert!(cell == pane, "column {column}, row {row}");
             // The normals of the prediction with wrong roughness are right.
-            let is_empty = cell.iter().all(|pixel| *pixel == cell[0]);
+            let is_empty = pane.iter().all(|pixel| *pixel == pane[0]);
             assert_eq!(is_empty, (column, row) == (6, 2), "column {column}, row {row}");
+            // Equal ones, such as the diffuse maps, are found in their order.
+            let is_free = |place: &[usize; 2]| !places.contains(&(*place, (column, row)));
+            let found = placed(&strip, &pane, side).into_iter().filter(is_free);
+            let found: Vec<[usize; 2]> = found.collect();
+            assert!(!found.is_empty(), "column {column}, row {row}");
+            places.extend(found.into_iter().map(|place| (place, (column, row))));
         }
     }
-    let label = image::imageops::crop_imm(&strip, 0, HEADER as u32, left as u32 - 1, side as u32).to_image();
+    // A column is at one place, and so is a row.
+    let rendering = |row: usize| places.iter().find(|(_, cell)| *cell == (4, row)).unwrap().0;
+    let [first, second, third] = [0, 1, 2].map(rendering);
+    assert!(first[0] == second[0] && second[0] == third[0] && first[1] + side < second[1]);
+    let difference = places.iter().find(|(_, cell)| *cell == (5, 1)).unwrap().0;
+    assert!(difference[1] == second[1] && difference[0] > second[0] + side);
+    let label = image::imageops::crop_imm(&strip, 0, first[1] as u32, 60, side as u32).to_image();
     assert!(label.pixels().any(|pixel| pixel.0[0] < 100), "the rows have names");
+}
+
+/// The places of a square of pixels in a picture.
+fn placed(picture: &image::RgbImage, square: &[[u8; 3]], side: usize) -> Vec<[usize; 2]> {
+    let at = |x: usize, y: usize| picture.get_pixel(x as u32, y as u32).0;
+    let [right, lower] = [picture.width() as usize - side, picture.height() as usize - side];
+    let is_at = |[x, y]: &[usize; 2]| {
+        let probes = [0, side / 2, side - 1].into_iter().flat_map(|i| [[i, i], [i, side - 1 - i]]);
+        probes.into_iter().all(|[dx, dy]| at(x + dx, y + dy) == square[dy * side + dx])
+            && crop(picture, [*x, *y], side) == square
+    };
+    let all = (0..=lower).flat_map(|y| (0..=right).map(move |x| [x, y]));
+    all.filter(is_at).collect()
 }
 
 #[test]
 fn a_strip_frames_crops_and_shows_them_magnified_beside_their_cells() {
     let folder = folder();
-    let [plain, strip] = ["", "--crop 40,60,32,20 --crop 0,200,30,56"].map(|crops| {
-        succeed(folder.path(), &format!("strip -o strip.png --columns diffuse,rendering: {crops}"));
-        image::open(folder.path().join("strip.png")).unwrap().into_rgb8()
-    });
-    let at = |picture: &image::RgbImage, x: usize, y: usize| picture.get_pixel(x as u32, y as u32).0;
-    let (side, line, orange) = (256, 2, [230, 159, 0]);
-    let left = plain.width() as usize - 2 * (side + GAP);
-    // The first crop of the last row, which is 6 times as large beside its cell.
-    let top = HEADER + 2 * (side + GAP);
-    let inset = left + side + GAP;
-    assert_eq!([at(&strip, left + 72, top + 60), at(&strip, inset, top)], [orange; 2]);
-    for [x, y] in [[0, 0], [100, 50], [191, 119]] {
-        let magnified = at(&strip, inset + line + x, top + line + y);
-        assert_eq!(magnified, at(&plain, left + 40 + x / 6, top + 60 + y / 6), "{x}, {y}");
-    }
-    assert_eq!(at(&strip, left + 200, top + 30), at(&plain, left + 200, top + 30));
+    succeed(
+        folder.path(),
+        "strip -o strip.png --columns diffuse,rendering: --crop 40,60,32,20 --crop 0,200,30,56",
+    );
+    succeed(folder.path(), "render -o one.png --show diffuse");
+    let open = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgb8();
+    let [strip, one] = ["strip.png", "one.png"].map(open);
+    let (times, orange) = (6, image::Rgb([230, 159, 0]));
+    let inset = image::imageops::crop_imm(&one, 40, 60, 32, 20).to_image();
+    let [width, height] = [32 * times, 20 * times];
+    let inset = image::imageops::resize(&inset, width, height, image::imageops::FilterType::Nearest);
+    let is_at = |x: u32, y: u32| {
+        [[0, 0], [100, 50], [191, 119]]
+            .into_iter()
+            .all(|[dx, dy]| strip.get_pixel(x + dx, y + dy) == inset.get_pixel(dx, dy))
+            && *image::imageops::crop_imm(&strip, x, y, width, height).to_image() == *inset
+    };
+    let all = (0..strip.height() - height).flat_map(|y| (0..strip.width() - width).map(move |x| (x, y)));
+    let (x, y) = all.into_iter().find(|(x, y)| is_at(*x, *y)).expect("the inset of the ground truth");
+    assert_eq!(*strip.get_pixel(x - 1, y - 1), orange, "its frame");
+    let is_orange = |y: u32| (0..x - 10).any(|x| *strip.get_pixel(x, y) == orange);
+    assert!(is_orange(y + 60), "the frame in the cell to its left");
     assert_holds(folder.path(), "strip.png", &["40,60,32,20 | 0,200,30,56"]);
+}
+
+/// The number after a word in a text.
+fn number_after(text: &str, word: &str) -> f64 {
+    let rest = text.split(word).nth(1).unwrap_or_else(|| panic!("no {word}")).trim_start();
+    let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+    rest[..end].parse().unwrap()
+}
+
+#[test]
+fn a_figure_of_a_paper_has_its_width_and_its_text_in_points() {
+    let folder = folder();
+    let args = "strip gt.png a.png --columns normal,rendering: --text-pt 6.5";
+    for millimetres in [88.0, 180.0] {
+        for name in ["figure.svg", "figure.pdf"] {
+            succeed(folder.path(), &format!("{args} --width-mm {millimetres} -o {name}"));
+        }
+        let svg = text_of(folder.path(), "figure.svg");
+        assert_eq!(number_after(&svg, "width=\""), millimetres);
+        let texts: Vec<&str> = svg.lines().filter(|line| line.starts_with("<text ")).collect();
+        let text =
+            |words: &str| *texts.iter().find(|line| line.contains(&format!(">{words}</text>"))).unwrap();
+        assert_eq!(number_after(text("normal"), "font-size=\""), 6.5);
+        let points = 72.0 / 25.4 * millimetres;
+        for line in &texts {
+            let end = number_after(line, " x=\"") + number_after(line, "textLength=\"");
+            assert!(line.contains("middle") || line.contains("end\"") || end <= points + 0.01, "{line}");
+        }
+        let pdf = std::fs::read(folder.path().join("figure.pdf")).unwrap();
+        let pdf: String = pdf.into_iter().map(char::from).collect();
+        assert!(pdf.starts_with("%PDF-1.7") && pdf.contains("/BaseFont /SVBRDF+Ubuntu-Light"));
+        assert!(pdf.contains("/F 6.5 Tf") && pdf.contains("/FontFile2") && pdf.contains("/ToUnicode"));
+        let width: f64 =
+            pdf.split("/MediaBox [0 0 ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        assert!((width - points).abs() < 0.01, "{width}");
+    }
+    let narrow = "strip gt.png a.png --width-mm 30 -o narrow.pdf";
+    let many = "strip gt.png a.png --columns normal,rendering --width-mm 4900 -o large.pdf";
+    let small = "strip gt.png a.png --text-pt 0 -o small.pdf";
+    assert_refused(
+        folder.path(),
+        &[(narrow, 1, "30 mm"), (many, 1, "too large"), (small, 64, "points like 7")],
+    );
 }
 
 #[test]
@@ -221,11 +292,10 @@ fn a_strip_has_a_column_for_each_scene_and_says_what_it_shows() {
     std::fs::write(folder.path().join("scenes.json"), scenes).unwrap();
     succeed(folder.path(), "strip gt.png a.png -o two.png --columns normal,rendering --scenes scenes.json");
     succeed(folder.path(), "strip gt.png a.png -o one.png --columns normal,rendering");
-    let width = |name: &str| image::open(folder.path().join(name)).unwrap().width() as usize;
-    let side = image::open(folder.path().join("gt.png")).unwrap().height() as usize;
-    // A column of a small material is as wide as its texts.
-    assert!(width("two.png") >= width("one.png") + side + GAP);
-    assert_holds(folder.path(), "two.png", &["distant light 0.500, 0.500, 0.700", "svbrdf:columns"]);
+    let height = |name: &str| image::open(folder.path().join(name)).unwrap().height();
+    // Scenes stand above their columns where they differ.
+    assert!(height("two.png") != height("one.png"));
+    assert_holds(folder.path(), "two.png", &["distant light 0.5, 0.5, 0.7", "svbrdf:columns"]);
     let outside = "columns 0 to 7 and rows 0 to 7";
     let strip = |options: &str| format!("strip gt.png a.png -o strip.png {options}");
     for (args, code, words) in [
@@ -248,10 +318,10 @@ fn a_figure_of_a_data_set_has_a_row_a_material_and_a_column_a_method_with_the_lo
     succeed(at, &format!("strip --dataset gt ours theirs {reading} -o plain.png"));
     let size = |name: &str| image::image_dimensions(at.join(name)).unwrap();
     let plain = size("plain.png");
-    assert!(plain.0 > 3 * 192 && plain.1 > 3 * 192, "{plain:?}");
+    assert_eq!(plain.0, 1040, "88 mm at 300 pixels an inch");
     succeed(at, &format!("strip --dataset gt ours theirs {reading} --results kept -o losses.png"));
     let picture = |name: &str| image::open(at.join(name)).unwrap().to_rgb8();
-    assert!(size("losses.png") == plain && picture("losses.png") != picture("plain.png"), "no losses");
+    assert!(size("losses.png").1 > plain.1 && picture("losses.png") != picture("plain.png"), "no losses");
     // They are in the folder under the keys of rank: it computes none.
     let files = || std::fs::read_dir(at.join("kept")).unwrap().count();
     assert_eq!(files(), 5);
@@ -265,7 +335,7 @@ fn a_figure_of_a_data_set_has_a_row_a_material_and_a_column_a_method_with_the_lo
         at,
         &[
             ("strip --dataset gt ours -o x.png --columns normal,diffuse", 64, "one of --columns"),
-            ("strip --dataset gt ours -o x.png --crop 1,1,2,2", 64, "leave out --crop"),
+            ("strip --dataset gt ours -o x.png --crop 1,1,90,2", 1, "1,1,90,2"),
             ("strip gt/m0.png ours/m0.png -o x.png --results kept", 64, "--dataset"),
         ],
     );

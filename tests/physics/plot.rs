@@ -35,7 +35,8 @@ pub fn svg(panels: &[Panel]) -> String {
         }
         area.present().unwrap();
     }
-    text
+    // As wide as a page of a paper.
+    text.replacen(r#"width="1000" height="800""#, r#"width="180mm" height="144mm""#, 1)
 }
 
 fn draw(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, panel: &Panel) {
@@ -48,6 +49,12 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, plotters::coord::Shift>, panel: &Pane
         .unwrap();
     chart
         .configure_mesh()
+        .disable_mesh()
+        .x_labels(7)
+        .x_label_formatter(&|angle| format!("{angle:.0}"))
+        .y_labels(5)
+        .label_style(("sans-serif", 14))
+        .axis_desc_style(("sans-serif", 15))
         .x_desc("angle between view and normal (degrees)")
         .y_desc("directional albedo")
         .draw()

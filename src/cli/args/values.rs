@@ -49,6 +49,21 @@ pub fn loss(text: &str) -> Result<f64, &'static str> {
     loss.ok_or("expected a loss, a number of 0 or more, as in 0.25")
 }
 
+/// The width of a figure.
+pub fn millimetres(text: &str) -> Result<f64, String> {
+    among(text, [10.0, 5000.0], "millimetres like 88")
+}
+
+/// The size of text.
+pub fn points(text: &str) -> Result<f64, String> {
+    among(text, [2.0, 100.0], "points like 7")
+}
+
+fn among(text: &str, [least, most]: [f64; 2], what: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|number| (least..=most).contains(number));
+    number.ok_or_else(|| format!("expected {least} to {most} {what}, found `{text}`"))
+}
+
 /// Greatest exposure either way, in stops, as in the window.
 const MOST_STOPS: f32 = 20.0;
 

@@ -73,7 +73,7 @@ pub(super) fn summarize_metrics(
 }
 
 /// Whether larger values of a metric are better ones: similarities and signal-to-noise ratios.
-fn is_better_larger(metric: &str) -> bool {
+pub fn is_better_larger(metric: &str) -> bool {
     Scale::of(metric) != Scale::Error
 }
 

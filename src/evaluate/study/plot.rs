@@ -63,7 +63,16 @@ pub fn write(study: &Study, destination: &Destination<PlotFormat>, progress: &Pr
 fn svg(study: &Study) -> io::Result<String> {
     let mut text = String::new();
     draw(SVGBackend::with_string(&mut text, SIZE), study)?;
-    Ok(text)
+    Ok(printed(&text))
+}
+
+/// The picture as wide as a page of a paper, where its texts have 7 points: `plotters` knows pixels alone.
+fn printed(svg: &str) -> String {
+    const MILLIMETRES: f64 = 180.0;
+    let (width, height) = SIZE;
+    let high = MILLIMETRES * f64::from(height) / f64::from(width);
+    let pixels = format!(r#"width="{width}" height="{height}""#);
+    svg.replacen(&pixels, &format!(r#"width="{MILLIMETRES}mm" height="{high}mm""#), 1)
 }
 
 /// Rows of 8-bit RGB.

@@ -1,11 +1,11 @@
 //! Renderings as files: floats into EXR, display values into PNG, both with their provenance.
 
 mod exr;
+pub mod figure;
 mod npy;
 mod png;
 mod provenance;
 pub mod strip;
-mod text;
 
 use std::path::Path;
 

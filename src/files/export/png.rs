@@ -27,3 +27,20 @@ pub(super) fn write(file: impl Write, image: &Image<u8>, entries: &Entries) -> i
 fn side(length: usize) -> io::Result<u32> {
     u32::try_from(length).map_err(io::Error::other)
 }
+
+/// The compressed data of a PNG: what its `IDAT` chunks hold.
+pub(super) fn compressed(file: &[u8]) -> Vec<u8> {
+    const SIGNATURE: usize = 8;
+    let mut data = Vec::new();
+    let mut rest = file.get(SIGNATURE..).unwrap_or_default();
+    while let Some(([a, b, c, d], after)) = rest.split_first_chunk() {
+        let length = u32::from_be_bytes([*a, *b, *c, *d]) as usize;
+        let (Some(name), Some(content)) = (after.get(..4), after.get(4..4 + length)) else { break };
+        if name == b"IDAT" {
+            data.extend_from_slice(content);
+        }
+        // A checksum of 4 bytes ends a chunk.
+        rest = after.get(8 + length..).unwrap_or_default();
+    }
+    data
+}

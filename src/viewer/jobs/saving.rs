@@ -11,7 +11,8 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::report::{Cell, Compared, Json as _, ScenesReport, Table};
 use svbrdf_files::disk::atomic::{self, Destination};
-use svbrdf_files::export::strip::{Column, Crop, MethodRow, MethodStrip, Strip};
+use svbrdf_files::export::figure::FigureDestination;
+use svbrdf_files::export::strip::{Column, Crop, MethodRow, MethodStrip, Paper, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::read::Read;
 use svbrdf_files::scene_file;
@@ -70,8 +71,8 @@ pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     })
 }
 
-/// Longest side of a cell of a contact sheet that is saved, in pixels.
-const CELL: usize = 192;
+/// Pixels of an inch in a contact sheet that is saved.
+const DPI: f64 = 200.0;
 
 /// Starts to write the contact sheet of the materials of a data set in these places to `path`, under the view of now.
 pub fn sheet(displayed: Displayed<'_>, cases: Vec<usize>, path: PathBuf) -> Job<PathBuf> {
@@ -88,7 +89,9 @@ pub fn sheet(displayed: Displayed<'_>, cases: Vec<usize>, path: PathBuf) -> Job<
         scene: view.scene,
         convention: view.convention(),
         exposure_ev: Some(view.exposure_ev),
-        side: CELL,
+        crops: Vec::new(),
+        paper: Paper::default(),
+        dpi: DPI,
     };
     let text = |case: usize, method: usize| {
         let known = losses.row(case).and_then(|row| row.by_method.get(method).copied().flatten());
@@ -104,7 +107,7 @@ pub fn sheet(displayed: Displayed<'_>, cases: Vec<usize>, path: PathBuf) -> Job<
         .collect();
     let names: Vec<String> = cases.iter().map(|case| open.name(*case).to_owned()).collect();
     Job::start(&displayed.jobs.waker, move |progress| {
-        let destination = PngDestination::new(&path)?;
+        let destination = FigureDestination::new(&path)?;
         let read = |case: usize, column: usize| {
             let read: Read<f32> = open.source(case, column).ok()?.read(&progress.part()).ok()?;
             Some(read.material)
@@ -113,8 +116,8 @@ pub fn sheet(displayed: Displayed<'_>, cases: Vec<usize>, path: PathBuf) -> Job<
             let materials = (0..=methods.len()).map(|column| read(cases[index], column)).collect();
             MethodRow { materials, texts: texts[index].clone() }
         };
-        let picture = strip.picture(&methods, &names, row, progress)?;
-        destination.write(&picture, &strip.entries(&methods, &names), progress)?;
+        let figure = strip.figure(&methods, &names, row, progress)?;
+        destination.write(&figure, &strip.entries(&methods, &names), progress)?;
         Ok(path)
     })
 }
@@ -164,12 +167,13 @@ pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let size = displayed.materials().first().map(|ground_truth| ground_truth.material().size());
     let parts = region.zip(size).into_iter().flat_map(|(region, size)| region.parts(size));
     let crops = parts.map(crop).collect();
-    let strip = Strip { columns, convention: state.convention(), exposure_ev: state.exposure_ev, crops };
+    let (convention, exposure_ev) = (state.convention(), state.exposure_ev);
+    let strip = Strip { columns, convention, exposure_ev, crops, paper: Paper::default() };
     Job::start(&displayed.jobs.waker, move |progress| {
-        let destination = PngDestination::new(&path)?;
+        let destination = FigureDestination::new(&path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
-        let picture = strip.picture(&all, &names, progress)?;
-        destination.write(&picture, &strip.entries(&names), progress)?;
+        let figure = strip.figure(&all, &names, progress)?;
+        destination.write(&figure, &strip.entries(&names), progress)?;
         Ok(path)
     })
 }

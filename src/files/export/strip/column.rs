@@ -4,12 +4,6 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
 
-/// Heights of text, in pixels.
-pub(super) const NAME: u32 = 17;
-pub(super) const SMALL: u32 = 13;
-pub(super) const INK: [u8; 3] = [32; 3];
-const WEAK: [u8; 3] = [96; 3];
-
 /// A column: what it shows, and under which light and view.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
@@ -20,36 +14,45 @@ pub struct Column {
 impl Column {
     /// What it shows, for metadata.
     pub(super) fn text(&self, epsilon: f64) -> String {
-        match self.content.quantity {
-            Quantity::Rendering => {
-                format!("{}, {}", self.content.text(epsilon), endpoints(&self.scene).join(", "))
-            }
-            _ => self.content.text(epsilon),
+        match self.scene() {
+            Some(scene) => format!("{}, {}", self.content.text(epsilon), scene_text(scene)),
+            None => self.content.text(epsilon),
         }
     }
 
-    /// Its name, and what it is of: lines of text with their heights and inks.
-    pub(super) fn header(&self) -> Vec<(String, u32, [u8; 3])> {
-        let quantity = self.content.quantity;
-        let name = match self.content.difference {
-            Some(difference) => format!("{}, {}", quantity.name(), difference.kind.name()),
-            None => quantity.name().to_owned(),
-        };
-        let mut lines = vec![(name, NAME, INK)];
-        if quantity == Quantity::Rendering {
-            let [light, view] = endpoints(&self.scene);
-            lines.extend([(light, SMALL, WEAK), (view, SMALL, WEAK)]);
-        }
-        lines
+    /// Its name.
+    pub(super) fn name(&self) -> String {
+        content_name(&self.content)
+    }
+
+    /// The scene of a rendering.
+    pub(super) fn scene(&self) -> Option<&Scene> {
+        (self.content.quantity == Quantity::Rendering).then_some(&self.scene)
+    }
+}
+
+/// What is shown, as a label.
+pub(super) fn content_name(content: &PictureContent) -> String {
+    let quantity = content.quantity.name();
+    match content.difference {
+        Some(difference) if content.quantity == Quantity::Rendering => difference.kind.name().to_owned(),
+        Some(difference) => format!("{quantity}, {}", difference.kind.name()),
+        None => quantity.to_owned(),
     }
 }
 
 /// Light and view.
-fn endpoints(scene: &Scene) -> [String; 2] {
+pub(super) fn scene_text(scene: &Scene) -> String {
     let kind = match scene.kind {
-        Kind::Near => "",
-        Kind::Distant => "distant ",
+        Kind::Near => "light",
+        Kind::Distant => "distant light",
     };
-    let point = |[x, y, z]: [f64; 3]| format!("{x:.3}, {y:.3}, {z:.3}");
-    [format!("{kind}light {}", point(scene.light)), format!("view {}", point(scene.view))]
+    let number = |x: f64| (1000.0 * x).round() / 1000.0 + 0.0;
+    let point = |p: [f64; 3]| p.map(|x| number(x).to_string()).join(", ");
+    format!("{kind} {}; view {}", point(scene.light), point(scene.view))
+}
+
+/// Stops as text.
+pub(super) fn stops(ev: f32) -> String {
+    format!("exposure {}{ev} EV", if ev > 0.0 { "+" } else { "" })
 }

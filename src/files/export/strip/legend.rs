@@ -4,63 +4,84 @@ use svbrdf_core::image::Image;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::quantity::Quantity;
 
-use super::column::{INK, SMALL};
-use super::sheet::put;
-use crate::error::Error;
-use crate::export::text::{self, Anchor};
+use super::sheet::{INK, SMALL, style};
+use crate::export::figure::{Anchor, Figure};
 
-/// Pixels of a tick below the bar, and from the bar to its numbers and its unit.
-const TICK: usize = 4;
-const TO_NUMBERS: usize = 12;
-const TO_UNIT: usize = 10;
-/// Widths of a bar that has room for a number between its ends, and for three.
-const WITH_MIDDLE: usize = 120;
-const WITH_QUARTERS: usize = 240;
+/// Colours of the bar.
+const COLOURS: usize = 256;
+/// Height of the bar and of its ticks, and width of a tick, in ems.
+const BAR: f64 = 0.9;
+const TICK: [f64; 2] = [0.06, 0.25];
+/// Height of a line of its texts, in ems.
+const LINE: f64 = 1.2 * SMALL;
+/// From the middle of a number to that of the next one, in ems, at least.
+const APART: f64 = 3.0;
 
-/// Draws the scale bar in the middle of a cell.
+/// The height of a scale bar with its texts, in ems.
+pub(super) const HEIGHT: f64 = 2.0 * LINE + BAR + TICK[1] + 0.3;
+
+/// Draws a scale bar of a width in points, below `top`, for texts of `em` points.
 pub(super) fn draw(
-    picture: &mut Image<u8>,
-    [left, top]: [usize; 2],
-    [width, height]: [usize; 2],
+    figure: &mut Figure,
+    [left, top]: [f64; 2],
+    width: f64,
+    em: f64,
     difference: ColouredDifference,
-) -> Result<(), Error> {
+) {
     let range = difference.range.unwrap_or_else(|| difference.kind.default_range());
     let lowest = if difference.kind.is_signed() { -range } else { 0.0 };
     let content = PictureContent { quantity: Quantity::Rendering, difference: Some(difference) };
-    let bar = [(width * 4 / 5).max(1), (height / 12).clamp(1, 16)];
-    let colour = |x: usize| {
-        let amount = lowest + (range - lowest) * (x as f64 + 0.5) / bar[0] as f64;
+    let colour = |place: usize| {
+        let amount = lowest + (range - lowest) * (place as f64 + 0.5) / COLOURS as f64;
         content.colour([amount as f32; 3], 0.0)
     };
-    let [x, y] = [left + width / 10, top + height / 2];
-    let pixels = (0..bar[1]).flat_map(|_| (0..bar[0]).map(colour)).collect();
-    put(picture, [x, y], &Image { width: bar[0], height: bar[1], pixels });
-    let parts = match bar[0] {
-        WITH_QUARTERS.. => 4,
-        WITH_MIDDLE.. => 2,
-        _ => 1,
-    };
-    for part in 0..=parts {
-        let at = x + (bar[0] - 1) * part / parts;
-        let tick = Image { width: 1, height: TICK, pixels: vec![INK; TICK] };
-        put(picture, [at, y + bar[1]], &tick);
-        let value = lowest + (range - lowest) * part as f64 / parts as f64;
-        let anchor = match part {
-            0 => Anchor::Left,
-            _ if part == parts => Anchor::Right,
+    let unit = difference.kind.unit().replace(" - ", " \u{2212} ");
+    figure.text([left, top], f64::INFINITY, &unit, style(SMALL * em, Anchor::Left));
+    let top = top + (LINE + 0.15) * em;
+    let bar = Image { width: COLOURS, height: 1, pixels: (0..COLOURS).map(colour).collect() };
+    figure.picture([left, top], [width, BAR * em], bar);
+    let [wide, high] = TICK.map(|side| side * em);
+    let below = top + BAR * em;
+    for value in ticks(lowest, range, (width / (APART * em)) as usize) {
+        let share = (value - lowest) / (range - lowest);
+        let x = left + share * width;
+        let tick = Image { width: 1, height: 1, pixels: vec![INK] };
+        figure.picture([left + share * (width - wide), below], [wide, high], tick);
+        let anchor = match share {
+            0.0 => Anchor::Left,
+            1.0 => Anchor::Right,
             _ => Anchor::Middle,
         };
-        text::draw(picture, &number(value, range), [at, y + bar[1] + TO_NUMBERS], SMALL, INK, anchor)?;
+        let number = number(value);
+        figure.text([x, below + high], f64::INFINITY, &number, style(SMALL * em, anchor));
     }
-    text::draw(picture, difference.kind.unit(), [x, y.saturating_sub(TO_UNIT)], SMALL, INK, Anchor::Left)
 }
 
-/// A value of a scale up to `range`, in three digits of that, without zeros at the end.
-fn number(value: f64, range: f64) -> String {
-    let decimals = (2.0 - range.log10().floor()).clamp(0.0, 9.0) as usize;
+/// The numbers below a bar from `lowest` to `highest`, with at most `most` intervals between them: round ones and both ends.
+fn ticks(lowest: f64, highest: f64, most: usize) -> Vec<f64> {
+    let length = highest - lowest;
+    let is_round = |step: f64| {
+        let digit = step / 10f64.powi(step.log10().floor() as i32 - 1);
+        (digit - digit.round()).abs() < 1e-9
+    };
+    let parts = if lowest < 0.0 { [4, 2].as_slice() } else { &[4, 5, 3, 2] };
+    let equal = parts.iter().copied().find(|parts| *parts <= most && is_round(length / *parts as f64));
+    if let Some(parts) = equal {
+        return (0..=parts).map(|part| lowest + length * part as f64 / parts as f64).collect();
+    }
+    let middle = Some(0.0).filter(|_| lowest < 0.0 && most >= 2);
+    [Some(lowest), middle, Some(highest)].into_iter().flatten().collect()
+}
+
+/// A number of a scale in three significant digits, without zeros at the end.
+fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 9.0) as usize;
     let text = format!("{value:.decimals$}");
     let short = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if short == "-0" { "0".to_owned() } else { short.replace('-', "\u{2212}") }
+    short.replace('-', "\u{2212}")
 }
 
 #[cfg(test)]
@@ -68,20 +89,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_have_three_digits_of_the_range() {
-        let cases = [
-            (2.0, 2.0, "2"),
-            (0.5, 2.0, "0.5"),
-            (0.0, 2.0, "0"),
-            (-1.0, 1.0, "\u{2212}1"),
-            (0.995_37, 0.995_37, "0.995"),
-            (0.012_345, 0.012_345, "0.0123"),
-            (33.75, 45.0, "33.8"),
-            (1234.5, 1234.5, "1234"),
-            (-0.0, 1.0, "0"),
-        ];
-        for (value, range, expected) in cases {
-            assert_eq!(number(value, range), expected, "{value} of {range}");
-        }
+    fn ticks_are_round_and_at_both_ends() {
+        let texts =
+            |lowest, highest, most| ticks(lowest, highest, most).into_iter().map(number).collect::<Vec<_>>();
+        assert_eq!(texts(0.0, 45.0, 4), ["0", "15", "30", "45"]);
+        assert_eq!(texts(0.0, 2.0, 4), ["0", "0.5", "1", "1.5", "2"]);
+        assert_eq!(texts(0.0, 1.0, 4), ["0", "0.25", "0.5", "0.75", "1"]);
+        assert_eq!(texts(0.0, 1.0, 2), ["0", "0.5", "1"]);
+        assert_eq!(texts(0.0, 2.0, 1), ["0", "2"]);
+        assert_eq!(texts(-2.0, 2.0, 4), ["\u{2212}2", "\u{2212}1", "0", "1", "2"]);
+        assert_eq!(texts(0.0, 0.995_37, 4), ["0", "0.995"]);
+        assert_eq!(texts(-0.995_37, 0.995_37, 4), ["\u{2212}0.995", "0", "0.995"]);
+        assert_eq!(texts(0.0, 0.012_345, 4), ["0", "0.0123"]);
+        assert_eq!(texts(0.0, 1234.5, 4), ["0", "1234"]);
     }
 }

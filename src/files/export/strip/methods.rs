@@ -8,22 +8,21 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::difference::DifferenceParams;
 use svbrdf_core::picture::exposure;
+use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 
-use super::column::{INK, NAME, SMALL};
+use super::column::{content_name, scene_text, stops};
+use super::crop::Crop;
 use super::legend;
-use super::sheet::{GAP, MARGIN, put};
+use super::sheet::{Division, GAP, Paper, SMALL, Sheet, style};
 use crate::disk::memory;
 use crate::error::Error;
-use crate::export::text::{self, Anchor};
+use crate::export::figure::{Anchor, Figure};
 
-/// Pixels above the first row, for the names of methods; below a cell, for its text; and below the last row, for the scale bar.
-const HEAD: usize = 28;
-const BELOW: usize = 20;
-const LEGEND: usize = 56;
-const BACKGROUND: [u8; 3] = [255; 3];
 /// The place of a prediction that is not there.
 const MISSING: [u8; 3] = [224; 3];
+/// Points of an inch.
+const INCH: f64 = 72.0;
 
 /// What every cell shows, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,8 +33,11 @@ pub struct MethodStrip {
     pub convention: Convention,
     /// Stops by which renderings are brightened. `None`: for each row so that the brightest 1% of its ground truth just clip.
     pub exposure_ev: Option<f32>,
-    /// Longest side of a cell, in pixels: larger materials are averaged to it.
-    pub side: usize,
+    /// Rectangles of texels that are framed in every cell and magnified beside it.
+    pub crops: Vec<Crop>,
+    pub paper: Paper,
+    /// Pixels of an inch: larger materials are averaged to their cell, unless there are crops.
+    pub dpi: f64,
 }
 
 /// What a row has of a material.
@@ -52,58 +54,92 @@ impl MethodStrip {
     /// truth shows its value where predictions show a difference from it.
     ///
     /// # Errors
-    /// Those of [`PictureContent::pictures`], and of [`Material::resized`]; [`Error::Memory`]; [`Error::Internal`] where text cannot be
-    /// drawn.
-    pub fn picture(
+    /// Those of [`PictureContent::pictures`], and of [`Material::resized`]; [`Error::Memory`]; [`Error::FigureTooNarrow`];
+    /// [`Error::CropOutside`].
+    pub fn figure(
         &self,
         methods: &[String],
         materials: &[String],
         row: impl Fn(usize) -> MethodRow,
         progress: &Progress,
-    ) -> Result<Image<u8>, Error> {
+    ) -> Result<Figure, Error> {
         progress.begin(materials.len() as u64);
-        let heads: Vec<&str> =
-            std::iter::once("ground truth").chain(methods.iter().map(String::as_str)).collect();
-        let names = materials.iter().map(|name| text::width(name, NAME)).max().unwrap_or(0) + 2 * MARGIN;
-        let wide =
-            heads.iter().map(|head| text::width(head, NAME) + MARGIN).max().unwrap_or(0).max(self.side);
-        let high = self.side + BELOW + GAP;
-        let has_legend = self.content.difference.is_some();
-        let width = names + heads.len() * (wide + GAP);
-        let height = HEAD + materials.len() * high + if has_legend { LEGEND } else { 0 };
-        let what = || format!("a figure of {width} x {height} pixels");
-        let _reserved = memory::reserve((3 * width * height) as u64, what)?;
-        let mut picture = Image { width, height, pixels: vec![BACKGROUND; width * height] };
-        let left = |column: usize| names + column * (wide + GAP);
-        for (column, head) in heads.iter().enumerate() {
-            text::draw(&mut picture, head, [left(column), HEAD / 2], NAME, INK, Anchor::Left)?;
-        }
+        let heads: Vec<Vec<(String, f64)>> = std::iter::once("ground truth")
+            .chain(methods.iter().map(String::as_str))
+            .map(|head| vec![(head.to_owned(), 1.0)])
+            .collect();
+        let sheet = Sheet::new(self.paper, heads.len(), materials, !self.crops.is_empty())?;
+        let side = self.side(&sheet);
+        let what = || format!("a figure of {} x {} cells of {side} pixels", materials.len(), heads.len());
+        let _reserved = memory::reserve((3 * side * side * heads.len() * materials.len()) as u64, what)?;
+        let mut figure = Figure::new([sheet.width, 0.0], self.dpi / INCH);
+        let mut top = sheet.headings(&mut figure, &heads);
         for (index, name) in materials.iter().enumerate() {
-            let (top, row) = (HEAD + index * high, row(index));
-            text::draw(&mut picture, name, [MARGIN, top + self.side / 2], NAME, INK, Anchor::Left)?;
-            for (column, cell) in self.cells(&row, progress)?.into_iter().enumerate() {
-                put(&mut picture, [left(column), top], &cell);
-                if let Some(text) = row.texts.get(column) {
-                    let at = [left(column), top + self.side + BELOW / 2];
-                    text::draw(&mut picture, text, at, SMALL, INK, Anchor::Left)?;
-                }
-            }
+            top = self.draw_row(&mut figure, &sheet, top, (name, &row(index)), progress)?;
             progress.step()?;
         }
         if let Some(difference) = self.content.difference {
-            let at = [left(1), height - LEGEND];
-            legend::draw(&mut picture, at, [wide.max(2 * MARGIN), LEGEND], difference)?;
+            legend::draw(
+                &mut figure,
+                [sheet.left(1), top],
+                sheet.column.max(8.0 * sheet.em),
+                sheet.em,
+                difference,
+            );
+            top += (legend::HEIGHT + GAP) * sheet.em;
         }
-        Ok(picture)
+        figure.size[1] = sheet.note(&mut figure, top, &self.note());
+        Ok(figure)
+    }
+
+    /// Pixels of a cell without insets.
+    fn side(&self, sheet: &Sheet) -> usize {
+        (sheet.column * self.dpi / INCH).round().max(1.0) as usize
+    }
+
+    /// What all cells show.
+    fn note(&self) -> String {
+        let shown = content_name(&self.content);
+        if self.content.quantity != Quantity::Rendering {
+            return shown;
+        }
+        let each = || "each row exposed to the brightest 1% of its ground truth".to_owned();
+        format!("{shown}; {}; {}", scene_text(&self.scene), self.exposure_ev.map_or_else(each, stops))
+    }
+
+    /// Draws a row below `top`; returns the top of the next one.
+    fn draw_row(
+        &self,
+        figure: &mut Figure,
+        sheet: &Sheet,
+        top: f64,
+        (name, row): (&str, &MethodRow),
+        progress: &Progress,
+    ) -> Result<f64, Error> {
+        let side = self.side(sheet);
+        let cells = self.cells(row, side, progress)?;
+        let size = cells.first().map_or([side; 2], |cell| [cell.width, cell.height]);
+        let division = Division::new(size, &self.crops, sheet.column)?;
+        sheet.name(figure, top, size[1] as f64 * division.texel, name);
+        for (column, cell) in cells.into_iter().enumerate() {
+            division.put(figure, [sheet.left(column), top], cell);
+        }
+        let below = top + division.height;
+        for (column, text) in row.texts.iter().enumerate() {
+            let size = SMALL * sheet.em;
+            figure.text([sheet.left(column), below], sheet.column, text, style(size, Anchor::Left));
+        }
+        let texts = if row.texts.is_empty() { 0.0 } else { 1.2 * SMALL * sheet.em };
+        Ok(below + texts + GAP * sheet.em)
     }
 
     /// The pictures of a row.
-    fn cells(&self, row: &MethodRow, progress: &Progress) -> Result<Vec<Image<u8>>, Error> {
+    fn cells(&self, row: &MethodRow, side: usize, progress: &Progress) -> Result<Vec<Image<u8>>, Error> {
         let size = row.materials.first().and_then(Option::as_ref).map(Material::size);
         // A prediction of another size cannot be compared.
         let is_of_size = |one: &&Material<f32>| Some(one.size()) == size;
         let reduced = |one: &Option<Material<f32>>| {
-            one.as_ref().filter(is_of_size).map(|one| self.reduced(one.clone())).transpose()
+            one.as_ref().filter(is_of_size).map(|one| self.reduced(one.clone(), side)).transpose()
         };
         let materials: Vec<Option<Material<f32>>> =
             row.materials.iter().map(reduced).collect::<Result<_, CoreError>>()?;
@@ -121,7 +157,7 @@ impl MethodStrip {
             let pair = one.as_ref().zip(of_truth.as_ref());
             let Some((one, truth)) = pair else {
                 let [width, height] =
-                    of_truth.as_ref().map_or([self.side; 2], |truth| [truth.width, truth.height]);
+                    of_truth.as_ref().map_or([side; 2], |truth| [truth.width, truth.height]);
                 cells.push(Image { width, height, pixels: vec![MISSING; width * height] });
                 continue;
             };
@@ -139,13 +175,14 @@ impl MethodStrip {
         Ok(cells)
     }
 
-    fn reduced(&self, material: Material<f32>) -> Result<Material<f32>, CoreError> {
+    /// The material with sides of at most `side`; with crops the material.
+    fn reduced(&self, material: Material<f32>, side: usize) -> Result<Material<f32>, CoreError> {
         let size = material.size();
         let longest = size[0].max(size[1]);
-        if longest <= self.side {
+        if longest <= side || !self.crops.is_empty() {
             return Ok(material);
         }
-        material.resized(size.map(|length| (length * self.side / longest).max(1)))
+        material.resized(size.map(|length| (length * side / longest).max(1)))
     }
 
     /// Where the figure comes from, as (keyword, text).
@@ -184,38 +221,45 @@ mod tests {
     }
 
     /// The figure of those rows.
-    fn picture(strip: &MethodStrip, rows: &[MethodRow]) -> Image<u8> {
+    fn figure_of(strip: &MethodStrip, rows: &[MethodRow]) -> Figure {
         let [methods, names] =
             [["blurred", "rough"], ["tiles", "lacking"]].map(|names| names.map(str::to_owned));
-        strip.picture(&methods, &names, |row| rows[row].clone(), &Progress::default()).unwrap()
+        strip.figure(&methods, &names, |row| rows[row].clone(), &Progress::default()).unwrap()
     }
 
     fn strip(difference: Option<ColouredDifference>) -> MethodStrip {
         let content = PictureContent { quantity: Quantity::Rendering, difference };
         let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
-        MethodStrip { content, scene, convention: Convention::default(), exposure_ev: Some(0.5), side: 128 }
+        let (paper, crops) = (Paper::default(), Vec::new());
+        let (convention, exposure_ev) = (Convention::default(), Some(0.5));
+        MethodStrip { content, scene, convention, exposure_ev, crops, paper, dpi: 144.0 }
     }
 
     #[test]
     fn each_cell_is_the_rendering_of_its_material_and_a_missing_one_is_gray() {
         let (rows, strip) = (rows(), strip(None));
-        let picture = picture(&strip, &rows);
-        let names = text::width("lacking", NAME) + 2 * MARGIN;
-        let wide = text::width("ground truth", NAME).max(128 - MARGIN) + MARGIN;
-        let cell = |row: usize, column: usize| -> Vec<[u8; 3]> {
-            let [left, top] = [names + column * (wide + GAP), HEAD + row * (128 + BELOW + GAP)];
-            let lines = picture.pixels.chunks(picture.width).skip(top).take(128);
-            lines.flat_map(|line| line[left..left + 128].to_vec()).collect()
-        };
-        for (row, column) in [(0, 0), (0, 1), (0, 2), (1, 0), (1, 1)] {
-            let material = rows[row].materials[column].clone().unwrap().resized([128, 128]).unwrap();
+        let figure = figure_of(&strip, &rows);
+        let cells: Vec<_> = figure.pictures().collect();
+        assert_eq!(cells.len(), 6);
+        for (place, (at, size, cell)) in cells.iter().enumerate() {
+            let (row, column) = (place / 3, place % 3);
+            let Some(material) = rows[row].materials[column].clone() else {
+                assert!(cell.pixels.iter().all(|pixel| *pixel == MISSING));
+                continue;
+            };
+            let material = material.resized([cell.width, cell.height]).unwrap();
             let part = Progress::default();
             let image = Quantity::Rendering.image(&material, &strip.scene, &strip.convention, &part).unwrap();
             let expected: Vec<_> = image.pixels.iter().map(|rgb| strip.content.colour(*rgb, 0.5)).collect();
-            assert!(cell(row, column) == expected, "row {row}, column {column}");
+            assert!(cell.pixels == expected, "row {row}, column {column}");
+            assert!((size[0] * figure.scale - cell.width as f64).abs() < 0.5, "a pixel for a pixel");
+            let next = cells.get(place + 1).map_or(f64::MAX, |(next, ..)| next[0]);
+            assert!(column == 2 || at[0] + size[0] < next, "row {row}, column {column}");
         }
-        assert!(cell(0, 1) != cell(0, 2), "a planted fault: columns that changed places");
-        assert!(cell(1, 2).iter().all(|pixel| *pixel == MISSING));
+        assert!(cells[1].2 != cells[2].2, "a planted fault: columns that changed places");
+        let crops = vec!["10,10,40,30".parse().unwrap()];
+        let with_insets = figure_of(&MethodStrip { crops, ..strip }, &rows);
+        assert_eq!(with_insets.pictures().count(), 12);
     }
 
     #[test]
@@ -223,12 +267,10 @@ mod tests {
         let rows = rows();
         let difference = ColouredDifference { kind: Difference::Log, range: Some(2.0) };
         let [value, difference] =
-            [None, Some(difference)].map(|difference| picture(&strip(difference), &rows));
-        assert_eq!(difference.height, value.height + LEGEND);
-        let names = text::width("lacking", NAME) + 2 * MARGIN;
-        let at = |picture: &Image<u8>, x: usize| picture.pixels[(HEAD + 40) * picture.width + x];
-        assert_eq!(at(&value, names + 40), at(&difference, names + 40), "the ground truth");
-        let wide = text::width("ground truth", NAME).max(128 - MARGIN) + MARGIN + GAP;
-        assert_ne!(at(&value, names + wide + 40), at(&difference, names + wide + 40));
+            [None, Some(difference)].map(|difference| figure_of(&strip(difference), &rows));
+        assert!(difference.size[1] > value.size[1] + 7.0);
+        let cell = |figure: &Figure, place: usize| figure.pictures().nth(place).unwrap().2.clone();
+        assert_eq!(cell(&value, 0), cell(&difference, 0), "the ground truth");
+        assert_ne!(cell(&value, 1), cell(&difference, 1));
     }
 }

@@ -7,11 +7,11 @@ use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::report::{Compared, RobustReport};
 use svbrdf_evaluate::robust::RobustInput;
 
-use super::work::context::JobContext;
-use super::work::job::Job;
-use super::work::latest::Latest;
-use super::work::waker::Waker;
 use crate::error::Error;
+use crate::jobs::work::context::JobContext;
+use crate::jobs::work::job::Job;
+use crate::jobs::work::latest::Latest;
+use crate::jobs::work::waker::Waker;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
 

@@ -4,11 +4,11 @@ use eframe::egui::{self, RichText};
 
 use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
 
-use super::why;
-use super::widgets::theme;
 use crate::jobs::order::OrderJob;
 use crate::model::command::{Command, LossCommand};
 use crate::model::material::loaded::drawable;
+use crate::ui::why;
+use crate::ui::widgets::theme;
 
 /// The fold, which is unfolded where `asks`; the command of a click on its title.
 pub fn fold<K: Clone + PartialEq>(ui: &mut egui::Ui, asks: bool, job: &OrderJob<K>) -> Option<Command> {
