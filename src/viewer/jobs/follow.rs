@@ -113,6 +113,7 @@ impl Jobs {
     fn follow_panes(&mut self, model: &Model, parts: &DisplayedParts, findings: &mut JobFindings) {
         let (settings, view) = (&model.settings, &model.view);
         let has_photograph = Displayed::of(model, self).photograph().is_some();
+        let computed = Displayed::of(model, self).computed_maps().cloned();
         let differences = view.display.difference || parts.extra_pane;
         let averages = differences && view.is_error_map();
         let Self { waker, gpu, panes, photograph, .. } = self;
@@ -122,7 +123,7 @@ impl Jobs {
         let of_ground_truth = differences && !averages && !has_photograph;
         let errors = [
             panes.histograms.follow(&work, settings.histograms && !view.display.difference),
-            panes.region.follow(&work, model.inspection.region),
+            panes.region.follow(&work, model.inspection.region, computed.as_ref()),
             error,
             panes.difference.follow(&work, of_ground_truth),
             panes.error_map.follow(&work, averages, settings.loss.listed_scenes()),

@@ -1,5 +1,7 @@
 //! Statistics of the rectangle.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use svbrdf_core::material::Material;
@@ -11,6 +13,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_core::render::render_texel;
 
+use super::computed_maps::ComputedMaps;
 use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
@@ -26,8 +29,10 @@ pub struct RegionKey {
     ids: Vec<MaterialId>,
     pub region: Region,
     pub quantity: Quantity,
-    /// The difference that the panes show; `None` for values, and for the maps that are not of single texels.
+    /// The difference that the panes show; `None` for values.
     difference: Option<Difference>,
+    /// Which maps hold it, where it is not of single texels of one scene.
+    computed: Option<usize>,
     scene: Scene,
     convention: Convention,
 }
@@ -49,16 +54,21 @@ pub struct RegionJob(Latest<RegionKey, Vec<RegionNumbers>>);
 
 impl RegionJob {
     /// Takes over a result, and computes what is needed now.
-    pub fn follow(&mut self, work: &JobContext<'_>, region: Option<Region>) -> Option<Error> {
+    pub fn follow(
+        &mut self,
+        work: &JobContext<'_>,
+        region: Option<Region>,
+        computed: Option<&Arc<ComputedMaps>>,
+    ) -> Option<Error> {
         let region = region.filter(|_| !work.materials.is_empty());
-        let wanted = region.map(|region| key(region, work.materials, work.view));
+        let wanted = region.map(|region| key(region, work.materials, work.view, computed));
         let convention = work.view.convention();
         self.0.follow(wanted, |key| {
             let materials = work.materials();
-            let key = key.clone();
+            let (key, computed) = (key.clone(), computed.cloned());
             Job::start(work.waker, move |_| {
                 let materials = materials.iter().map(|loaded| loaded.material());
-                Ok(numbers(materials, &key, &convention))
+                Ok(numbers(materials, &key, &convention, computed.as_deref()))
             })
         })
     }
@@ -69,21 +79,30 @@ impl RegionJob {
         region: Region,
         materials: &[LoadedMaterial],
         state: &ViewState,
+        computed: Option<&Arc<ComputedMaps>>,
     ) -> Option<(&[RegionNumbers], bool)> {
         let (of, numbers) = self.0.get()?;
-        let now = key(region, materials, state);
-        (of.ids == now.ids && of.quantity == now.quantity && of.difference == now.difference)
-            .then_some((numbers.as_slice(), *of == now))
+        let now = key(region, materials, state, computed);
+        let shown = |key: &RegionKey| (key.quantity, key.difference, key.computed.is_some());
+        (of.ids == now.ids && shown(of) == shown(&now)).then_some((numbers.as_slice(), *of == now))
     }
 }
 
-fn key(region: Region, materials: &[LoadedMaterial], state: &ViewState) -> RegionKey {
-    let shows_difference = state.display.difference && !state.is_computed() && materials.len() > 1;
+fn key(
+    region: Region,
+    materials: &[LoadedMaterial],
+    state: &ViewState,
+    computed: Option<&Arc<ComputedMaps>>,
+) -> RegionKey {
+    // Until the maps are there, of the values.
+    let is_there = !state.is_computed() || computed.is_some();
+    let shows_difference = state.display.difference && is_there && materials.len() > 1;
     RegionKey {
         ids: materials.iter().map(LoadedMaterial::id).collect(),
         region,
         quantity: state.display.quantity,
         difference: shows_difference.then(|| state.difference_kind()),
+        computed: computed.filter(|_| shows_difference).map(|maps| Arc::as_ptr(maps).addr()),
         scene: state.scene,
         convention: state.convention(),
     }
@@ -93,6 +112,7 @@ fn numbers<'a>(
     materials: impl Iterator<Item = &'a Material<f32>>,
     RegionKey { region, quantity, difference, scene, .. }: &RegionKey,
     convention: &Convention,
+    computed: Option<&ComputedMaps>,
 ) -> Vec<RegionNumbers> {
     let mut materials = materials.peekable();
     let size = materials.peek().map_or([0; 2], |material| material.size());
@@ -101,7 +121,7 @@ fn numbers<'a>(
     // Renderings and values of the ground truth.
     let mut ground_truth: Option<[Vec<[f32; 3]>; 2]> = None;
     let mut all = Vec::new();
-    for material in materials {
+    for (index, material) in materials.enumerate() {
         let render = |at: &[usize; 2]| render_texel(material, &model, &rays, at[0], at[1]);
         let renderings: Vec<[f32; 3]> = texels.par_iter().map(render).collect();
         let values: Vec<[f32; 3]> = match quantity {
@@ -111,8 +131,11 @@ fn numbers<'a>(
         let channel = |c: usize| Statistics::of(&values.iter().map(|v| v[c]).collect::<Vec<f32>>());
         let of_difference = |kind: &Difference, expected: &[[f32; 3]]| {
             let pairs = expected.iter().zip(&values);
-            let terms = pairs.map(|(g, p)| kind.of_texel(*g, *p, convention.epsilon) as f32);
-            Statistics::of(&terms.collect::<Vec<f32>>())
+            let terms: Vec<f32> = match computed {
+                Some(maps) => texels.iter().map(|at| maps.at(index, *at) as f32).collect(),
+                None => pairs.map(|(g, p)| kind.of_texel(*g, *p, convention.epsilon) as f32).collect(),
+            };
+            Statistics::of(&terms)
         };
         let of_values =
             || channels(*quantity).iter().enumerate().map(|(c, name)| (*name, channel(c))).collect();
@@ -179,10 +202,11 @@ mod tests {
                 region,
                 quantity: Quantity::Roughness,
                 difference,
+                computed: None,
                 scene,
                 convention: PRINTED,
             };
-            let found = numbers(materials.iter(), &key(None), &PRINTED);
+            let found = numbers(materials.iter(), &key(None), &PRINTED, None);
             assert!(found[0].loss.is_none());
             assert!((found[1].loss.unwrap() - of(region)).abs() < 1e-5, "{found:?}, expected {}", of(region));
             let rough: Vec<f32> =
@@ -193,7 +217,7 @@ mod tests {
                 .map(|[c, r]| r * 256 + c)
                 .map(|i| materials[1].texel(i).roughness - materials[0].texel(i).roughness)
                 .collect();
-            let found = numbers(materials.iter(), &key(Some(Difference::Signed)), &PRINTED);
+            let found = numbers(materials.iter(), &key(Some(Difference::Signed)), &PRINTED, None);
             let [(_, Some(found))] = found[1].rows[..] else { panic!("{found:?}") };
             let expected = Statistics::of(&signed).unwrap();
             assert!((found.mean - expected.mean).abs() < 1e-6, "{found:?}, expected {expected:?}");

@@ -48,7 +48,8 @@ impl<'a> Drawer<'a> {
     pub fn new(displayed: Displayed<'a>) -> Self {
         let (inspection, view) = (&displayed.model.inspection, &displayed.model.view);
         let materials = displayed.materials();
-        let numbers = |region| displayed.jobs.panes.region.get(region, materials, view);
+        let computed = displayed.computed_maps();
+        let numbers = |region| displayed.jobs.panes.region.get(region, materials, view, computed);
         Self { inspection, materials, state: view, region: inspection.region.and_then(numbers) }
     }
 
