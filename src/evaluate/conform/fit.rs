@@ -147,7 +147,11 @@ impl Problem {
     /// What a renderer is expected to give out at a point.
     fn expected(&self, metallic: bool, i: usize, predicted: [f64; 3], scale: &Scale) -> [f64; 3] {
         let diffuse = self.points(metallic)[i].diffuse_of(metallic);
-        [0, 1, 2].map(|c| scale.factor[c] * predicted[c] + scale.ambient * diffuse[c])
+        let mut expected = [0.0; 3];
+        for c in 0..3 {
+            expected[c] = scale.factor[c] * predicted[c] + scale.ambient * diffuse[c];
+        }
+        expected
     }
 
     /// The residual at a point and channel in units of its limit; `None` where there is no value.

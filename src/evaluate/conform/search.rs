@@ -15,6 +15,9 @@ use super::observed::Bound;
 const FARTHEST: f64 = 1.0;
 /// Improvement of the score that a further number has to make.
 pub const WORTH: f64 = 14.0;
+/// The share of the score that a further change has to improve: one that is needed improves more, and what is no member goes on for
+/// long by less.
+const LITTLE: f64 = 0.005;
 /// Most changes of one term after the other.
 const MOST_STEPS: usize = 16;
 
@@ -26,17 +29,17 @@ pub struct Candidate {
     pub off: f64,
 }
 
-/// The points that no usual floor reaches: their logarithms, and their weights by precision.
+/// The points that no usual floor reaches.
 struct Plain {
     metallic: bool,
     points: Vec<Point>,
-    logs: Vec<[f64; 3]>,
-    weights: Vec<[f64; 3]>,
+    /// For each channel the points with a value, its logarithm, and its weight by precision.
+    values: [Vec<(usize, f64, f64)>; 3],
 }
 
 impl Plain {
     fn new(problem: &Problem, metallic: bool) -> Self {
-        let mut plain = Self { metallic, points: Vec::new(), logs: Vec::new(), weights: Vec::new() };
+        let mut plain = Self { metallic, points: Vec::new(), values: Default::default() };
         let ambient = problem.fit(&RendererTerms::BASE, metallic).ambient;
         for (point, readings) in problem.points(metallic).iter().zip(&problem.observed.readings) {
             // Either direction of y.
@@ -55,20 +58,15 @@ impl Plain {
             if !(is_plain && is_rough && is_unit && is_in_range) {
                 continue;
             }
-            let value = |c: usize| {
+            for (c, reading) in readings.iter().enumerate() {
                 let diffuse = if metallic { point.base_color } else { point.diffuse };
-                let value = readings[c].value - ambient * diffuse[c];
-                let is_used = readings[c].bound == Bound::Value && value > 2.0 * readings[c].half;
-                if is_used {
-                    (value.ln(), 1.0 / (1.0 + 100.0 * readings[c].half / value))
-                } else {
-                    (0.0, 0.0)
+                let value = reading.value - ambient * diffuse[c];
+                if reading.bound == Bound::Value && value > 2.0 * reading.half {
+                    let weight = 1.0 / (1.0 + 100.0 * reading.half / value);
+                    plain.values[c].push((plain.points.len(), value.ln(), weight));
                 }
-            };
-            let values = [0, 1, 2].map(value);
+            }
             plain.points.push(*point);
-            plain.logs.push(values.map(|(log, _)| log));
-            plain.weights.push(values.map(|(_, weight)| weight));
         }
         plain
     }
@@ -77,13 +75,14 @@ impl Plain {
         self.points.iter().map(|point| terms.radiance(point, true)).collect()
     }
 
-    /// The mean absolute log ratio to radiances, with the best factor for each channel.
-    fn off(&self, of: impl Fn(usize, usize) -> f64) -> f64 {
+    /// The mean absolute log ratio to radiances of these logarithms, with the best factor for each channel; at every n-th value.
+    fn off(&self, every: usize, log_of: impl Fn(usize, usize) -> f64) -> f64 {
         let (mut sum, mut weights) = (0.0, 1e-9);
-        for c in 0..3 {
-            let used = (0..self.points.len()).filter(|i| self.weights[*i][c] > 0.0);
-            let ratios: Vec<(f64, f64)> =
-                used.map(|i| (self.logs[i][c] - of(i, c).max(1e-12).ln(), self.weights[i][c])).collect();
+        for (c, values) in self.values.iter().enumerate() {
+            let mut ratios = Vec::with_capacity(values.len());
+            for (i, log, weight) in values.iter().step_by(every) {
+                ratios.push((log - log_of(*i, c), *weight));
+            }
             let Some(middle) = median(ratios.iter().map(|(log, _)| *log).collect()) else { continue };
             for (log, weight) in ratios {
                 sum += weight * (log - middle).abs().min(FARTHEST);
@@ -94,28 +93,50 @@ impl Plain {
     }
 }
 
-/// What is decided first: whose maps, the frame and the light.
-fn frames(metallic: bool) -> Vec<RendererTerms> {
-    let maps = if metallic { [Maps::Metallic, Maps::Dielectric] } else { [Maps::Diffuse, Maps::Dielectric] };
-    let mut frames = Vec::new();
-    for material in maps {
+/// The logarithm of a radiance.
+fn log(radiance: f64) -> f64 {
+    radiance.max(1e-12).ln()
+}
+
+/// What is decided first: whose maps, the frame and the light, each with its log ratio. The light is a factor of all that is seen.
+fn frames(plain: &Plain) -> Vec<(f64, RendererTerms)> {
+    let maps = if plain.metallic { Maps::Metallic } else { Maps::Diffuse };
+    let mut geometries = Vec::new();
+    for material in [maps, Maps::Dielectric] {
         for normal_y in NormalY::ALL {
             for collocated in [false, true] {
-                for falloff in Falloff::ALL {
-                    let lights = SPOTS.iter().map(|spot| (None, *spot)).chain([(Some(0.0), 0.0)]);
-                    for (lz, spot) in lights {
-                        let mut terms = RendererTerms::BASE;
-                        (terms.material.material, terms.material.normal_y) = (material, normal_y);
-                        terms.diffuse.diffuse = alternatives::weights(material)[0];
-                        (terms.light.collocated, terms.light.falloff) = (collocated, falloff);
-                        (terms.light.lz, terms.light.spot) = (lz, spot);
-                        frames.push(terms);
-                    }
-                }
+                let mut terms = RendererTerms::BASE;
+                (terms.material.material, terms.material.normal_y) = (material, normal_y);
+                terms.diffuse.diffuse = alternatives::weights(material)[0];
+                terms.light.collocated = collocated;
+                geometries.push(terms);
             }
         }
     }
-    frames
+    let of = |geometry: RendererTerms| {
+        let lobes: Vec<Vec<[f64; 3]>> = coarse(&geometry)
+            .iter()
+            .map(|terms| plain.radiances(terms).iter().map(|rgb| rgb.map(log)).collect())
+            .collect();
+        let mut found = Vec::new();
+        for falloff in Falloff::ALL {
+            for (lz, spot) in SPOTS.iter().map(|spot| (None, *spot)).chain([(Some(0.0), 0.0)]) {
+                let factor = |point: &Point| {
+                    let light = glam::DVec3::from(point.light);
+                    let z = (light.z / light.length()).ln();
+                    let squared = if falloff == Falloff::Square { light.length_squared().ln() } else { 0.0 };
+                    spot * z - squared - if lz.is_some() { z } else { 0.0 }
+                };
+                let factors: Vec<f64> = plain.points.iter().map(factor).collect();
+                let off = lobes.iter().map(|logs| plain.off(1, |i, c| logs[i][c] + factors[i]));
+                let mut terms = geometry;
+                (terms.light.falloff, terms.light.lz, terms.light.spot) = (falloff, lz, spot);
+                found.push((off.fold(f64::INFINITY, f64::min), terms));
+            }
+        }
+        found
+    };
+    geometries.into_par_iter().flat_map_iter(of).collect()
 }
 
 /// The frame with some lobes of each kind.
@@ -178,22 +199,32 @@ fn members(plain: &Plain, frame: &RendererTerms) -> Vec<Candidate> {
             (f, weight, plain.radiances(&terms))
         })
         .collect();
+    /// One in so many values is looked at first, and one in so many members is likely by them.
+    const FIRST: usize = 5;
     let of_lobe = |lobe: RendererTerms| {
-        let mut found = Vec::new();
-        for f in Fresnel::ALL {
+        Fresnel::ALL.map(|f| {
             let mut specular = with(&lobe, f);
             specular.diffuse.diffuse = Weight::Zero;
-            let specular = plain.radiances(&specular);
-            for (_, weight, diffuse) in diffuse.iter().filter(|(of, _, _)| *of == f) {
-                let mut terms = with(&lobe, f);
-                terms.diffuse.diffuse = *weight;
-                let off = plain.off(|i, c| specular[i][c] + diffuse[i][c]);
-                found.push(Candidate { terms, metallic: plain.metallic, off });
-            }
-        }
-        found
+            (lobe, f, plain.radiances(&specular))
+        })
     };
-    lobes(frame).into_par_iter().flat_map_iter(of_lobe).collect()
+    let specular: Vec<_> = lobes(frame).into_par_iter().flat_map_iter(of_lobe).collect();
+    let of = |every: usize, (lobe, weight): (usize, usize)| {
+        let (specular, diffuse) = (&specular[lobe].2, &diffuse[weight].2);
+        plain.off(every, |i, c| log(specular[i][c] + diffuse[i][c]))
+    };
+    let pairs = (0..specular.len()).flat_map(|lobe| (0..diffuse.len()).map(move |diffuse| (lobe, diffuse)));
+    let pairs: Vec<_> = pairs.filter(|(lobe, weight)| specular[*lobe].1 == diffuse[*weight].0).collect();
+    let mut likely: Vec<_> = pairs.into_par_iter().map(|pair| (of(FIRST, pair), pair)).collect();
+    likely.sort_by(|a, b| a.0.total_cmp(&b.0));
+    likely.truncate(likely.len().div_ceil(FIRST));
+    let candidate = |(_, pair): (f64, (usize, usize))| {
+        let ((lobe, f, _), (_, weight, _)) = (&specular[pair.0], &diffuse[pair.1]);
+        let mut terms = with(lobe, *f);
+        terms.diffuse.diffuse = *weight;
+        Candidate { terms, metallic: plain.metallic, off: of(1, pair) }
+    };
+    likely.into_par_iter().map(candidate).collect()
 }
 
 /// The most likely structures, the best first; none where the frames alone are worse than three times `best_frame`, which becomes
@@ -205,14 +236,7 @@ pub fn structures(problem: &Problem, workflows: &[bool], best_frame: &mut f64) -
     let plain: Vec<Plain> = workflows.iter().map(|metallic| Plain::new(problem, *metallic)).collect();
     let mut scored: Vec<(f64, RendererTerms, usize)> = Vec::new();
     for (which, plain) in plain.iter().enumerate() {
-        let of = |frame: RendererTerms| {
-            let off = coarse(&frame).into_iter().map(|terms| {
-                let radiances = plain.radiances(&terms);
-                plain.off(|i, c| radiances[i][c])
-            });
-            (off.fold(f64::INFINITY, f64::min), frame, which)
-        };
-        scored.par_extend(frames(plain.metallic).into_par_iter().map(of));
+        scored.extend(frames(plain).into_iter().map(|(off, frame)| (off, frame, which)));
     }
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     // Of each kind of maps, since the coarse lobes may favour the wrong one.
@@ -271,7 +295,7 @@ pub fn refined(problem: &Problem, start: &Candidate) -> Fit {
         }
         // Noise is explained by any number, a little.
         let worth = if problem.noise > 0.0 { WORTH } else { 1.0 };
-        if next.score > best.score - worth {
+        if next.score > best.score - worth.max(LITTLE * best.score) {
             break;
         }
         best = next;

@@ -189,12 +189,12 @@ impl RendererTerms {
         let cosine = x.nl.max(light.cos_min).min(light.cos_max.unwrap_or(s.dot_max));
         let mut sum = [0.0; 3];
         for c in 0..3 {
-            let mut terms = [diffuse[c] * cosine, lobe[c] * if s.spec_cosine { cosine } else { 1.0 }]
-                .map(|x| x * irradiance[c]);
+            let mut first = diffuse[c] * cosine * irradiance[c];
+            let mut second = lobe[c] * if s.spec_cosine { cosine } else { 1.0 } * irradiance[c];
             if let Some([low, high]) = self.output.clip_terms {
-                terms = terms.map(|term| term.max(low).min(high));
+                (first, second) = (first.max(low).min(high), second.max(low).min(high));
             }
-            sum[c] = terms[0] + terms[1] + light.ambient * surface.diffuse[c];
+            sum[c] = first + second + light.ambient * surface.diffuse[c];
         }
         self.encoded(sum)
     }
@@ -265,8 +265,11 @@ impl RendererTerms {
             Weight::DielectricMetallic => (1.0 - dielectric) * (1.0 - surface.metallic),
             Weight::Zero => 0.0,
         };
-        let diffuse = [0, 1, 2].map(|c| surface.diffuse[c] * share(c) / PI);
-        (diffuse, fresnel.map(|fresnel| fresnel * lobe))
+        let (mut diffuse, mut specular) = ([0.0; 3], [0.0; 3]);
+        for c in 0..3 {
+            (diffuse[c], specular[c]) = (surface.diffuse[c] * share(c) / PI, fresnel[c] * lobe);
+        }
+        (diffuse, specular)
     }
 
     /// The light that arrives, without the cosine.
@@ -288,19 +291,20 @@ impl RendererTerms {
     }
 
     /// A radiance as the code gives it out.
-    fn encoded(&self, radiance: [f64; 3]) -> [f64; 3] {
+    fn encoded(&self, mut radiance: [f64; 3]) -> [f64; 3] {
         let output = &self.output;
         let clipped = |x: f64, range: Option<[f64; 2]>| range.map_or(x, |[low, high]| x.max(low).min(high));
-        radiance.map(|x| {
-            let x = clipped(x, output.clip) + output.pre_add;
+        for value in &mut radiance {
+            let x = clipped(*value, output.clip) + output.pre_add;
             let x = match output.transfer {
                 Transfer::Linear => x,
                 Transfer::Gamma => x.powf(1.0 / 2.2),
                 Transfer::Srgb if x <= 0.003_130_8 => 12.92 * x,
                 Transfer::Srgb => 1.055 * x.powf(1.0 / 2.4) - 0.055,
             };
-            clipped(x, output.clip_after)
-        })
+            *value = clipped(x, output.clip_after);
+        }
+        radiance
     }
 }
 
