@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 _R = TypeVar("_R", bound="Report")
 
+
 class Record(Mapping[str, Any]):
     """An object of a report's JSON, read-only: its keys are attributes, too. Lists are tuples."""
 
@@ -81,7 +82,9 @@ class Report(Record):
 
     def __init__(self, views: "_core.Views", **arrays: Any) -> None:
         super().__init__(json.loads(views["json"]))
-        self.__dict__.update(text=views["text"], _columns=views["columns"], _rows=views["rows"], _shown=views["shown"], **arrays)
+        self.__dict__.update(
+            text=views["text"], _columns=views["columns"], _rows=views["rows"], _shown=views["shown"], **arrays
+        )
 
     def to_pandas(self) -> "pd.DataFrame":
         """The command line's CSV as a data frame of pandas; unknown values are NaN or None.
