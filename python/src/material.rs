@@ -116,6 +116,12 @@ impl CoreMaterial {
         }
     }
 
+    /// A picture of it in small, as the address of an image: a rendering, then its maps.
+    fn overview(&self, py: Python<'_>) -> PyResult<String> {
+        let material = self.single();
+        work::at_once(py, || svbrdf_page::overview(&material))
+    }
+
     /// The values of a map, channels interleaved.
     fn map<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyByteArray>> {
         match &self.values {

@@ -12,6 +12,8 @@ pub struct Views {
     text: String,
     columns: Vec<String>,
     rows: Vec<Vec<CellItem>>,
+    /// The text above the table for people, the table, and the text below it.
+    shown: (String, Vec<String>, Vec<Vec<String>>, String),
     /// What is known less well than requested.
     warnings: Vec<String>,
 }
@@ -35,9 +37,16 @@ impl Views {
     /// # Errors
     /// As [`Report::json`].
     pub fn without_rows(report: &(impl Report + ?Sized)) -> PyResult<Self> {
+        let (text, table) = (report.text(), report.table(Reader::Person));
+        let (above, below) = match text.split_once(&table.text()) {
+            Some((above, below)) => (above.trim_end().to_owned(), below.trim().to_owned()),
+            None => (String::new(), text.clone()),
+        };
+        let rows = table.rows.iter().map(|row| row.iter().map(Cell::text).collect()).collect();
         Ok(Self {
             json: report.json().map_err(exception)?,
-            text: report.text(),
+            text,
+            shown: (above, table.columns, rows, below),
             columns: Vec::new(),
             rows: Vec::new(),
             warnings: report.missed().iter().map(ToString::to_string).collect(),

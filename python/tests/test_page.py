@@ -1,9 +1,11 @@
 """The report, the figure, and what a notebook shows."""
 
+import base64
 import html
 import json
 import re
 import shutil
+import struct
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -67,16 +69,38 @@ def test_a_figure_is_the_figure_alone_in_a_sandbox() -> None:
 def test_a_table_has_the_numbers_and_escaped_names() -> None:
     report = svbrdf.loss(*pair(), near=2)
     table = report._repr_html_()
-    assert f"<td>{report.results[0].loss:.6g}</td>" in table
+    assert f"<td>{report.results[0].loss:.6f}</td>" in table
     assert "<script" not in table
     assert table.count("</table>") == 1
     assert html.escape("</table><script>alert(1)</script>") + "\\u{202e}&amp;&quot;" in table
 
 
-def test_a_table_of_many_rows_is_shown_as_text() -> None:
-    shown = [svbrdf.scenes(*pair(), near=61, distant=0, top=top)._repr_html_() for top in (60, 61)]
-    assert [text.count("<tr>") for text in shown] == [61, 0]
-    assert shown[1].startswith("<pre>losses of scenes against truth")
+def test_a_table_has_every_word_of_the_text() -> None:
+    ground_truth, *predictions = [svbrdf.Material(**maps(24, 24, seed), name=name) for seed, name in enumerate("tab")]
+    loss = svbrdf.loss(ground_truth, predictions)
+    assert "b - a, same scenes" in loss.text
+    for report in (
+        loss,
+        svbrdf.rank(ground_truth, predictions),
+        svbrdf.scenes(ground_truth, predictions, near=61, distant=0, top=61),
+        svbrdf.blame(ground_truth, predictions),
+        svbrdf.diagnose(ground_truth, predictions),
+        svbrdf.metrics(ground_truth, predictions, metrics=["roughness"]),
+    ):
+        shown = html.unescape(re.sub(r"<[^>]*>", " ", report._repr_html_()))
+        missing = [word for word in report.text.split() if word not in shown]
+        assert not missing, missing
+
+
+def test_a_material_shows_its_maps() -> None:
+    for precision in ("f32", "f64"):
+        shown = svbrdf.built_in(precision=precision)[0]._repr_html_()
+        picture = shown[shown.index("base64,") + 7 : shown.index('" alt')]
+        # A JPEG of five pictures of 128 pixels, with two between them.
+        jpeg = base64.b64decode(picture)
+        frame = jpeg.index(b"\xff\xc0") + 5
+        assert struct.unpack(">HH", jpeg[frame : frame + 4]) == (128, 5 * 128 + 4 * 2)
+        assert "worn tiles, 256 &times; 256 texels" in shown
 
 
 NOTEBOOK = """

@@ -255,7 +255,7 @@ def test_a_photograph_has_differences_as_arrays_and_a_scene(materials: Materials
     path.write_text(json.dumps({"scenes": listed}))
     by_file = svbrdf.photo(photo, materials[0], scene=path, scene_number=0)
     assert by_file.results[0] == report.results[0]
-    with pytest.raises(ValueError, match="lists 2 scenes, of which a photograph has one; give its number from 0 to 1"):
+    with pytest.raises(ValueError, match="a photograph has one of its 2 scenes: give its number, 0 to 1"):
         svbrdf.photo(photo, materials[0], scene=path)
     with pytest.raises(ValueError, match="expected either scene, or flash with fov"):
         svbrdf.photo(photo, materials[0])

@@ -95,6 +95,7 @@ fn measured(opened: &Opened<f32>, convention: Convention) -> Result<Study, Comma
     let pair = Pair { ground_truth, prediction, convention, gpu };
     let reference = watched("computing the reference", |progress| study::reference(&pair, progress))?;
     let expected = time(study::expected_seconds(&pair, &reference));
-    exit::tell(&format!("note: about {expected} to go, without the GPU"));
+    let others = if pair.gpu.is_some() { ", and some for the GPU" } else { "" };
+    exit::tell(&format!("note: about {expected} to go{others}"));
     Ok(watched("measuring", |progress| study::measure(&pair, reference, progress, |_| ()))?)
 }

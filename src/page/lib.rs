@@ -33,7 +33,7 @@ pub use exposure::exposure;
 use markup::{Document, MOST_NAMES, escaped, filled};
 use pictures::Rows;
 pub use ranking::{MaterialView, ranking};
-pub use ranking_views::{Figures, material_views};
+pub use ranking_views::{Figures, material_views, overview};
 use svbrdf_files::disk::atomic::check_place;
 
 const PAGE: &str = include_str!("page.html");

@@ -61,6 +61,23 @@ pub(super) fn thumbnail(
     data_uri(&in_rows(&pictures, rows.columns))
 }
 
+/// The rendering of a material, then its maps, in a row.
+pub(super) fn quantities(
+    material: &Material<f32>,
+    scene: &Scene,
+    convention: &Convention,
+    exposure_ev: f32,
+) -> Result<String, Error> {
+    /// Of each, in pixels.
+    const WIDTH: u32 = 128;
+    let one = |quantity: Quantity| -> Result<RgbImage, Error> {
+        let image = quantity.image(material, scene, convention, &Progress::default())?;
+        Ok(coloured(&image, PictureContent { quantity, difference: None }, exposure_ev, WIDTH))
+    };
+    let pictures = Quantity::ALL.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    data_uri(&in_rows(&pictures, pictures.len()))
+}
+
 /// The content of every material at its exposure, in rows; of differences the value of the ground truth first.
 pub(super) fn still(
     materials: &[&Material<f32>],

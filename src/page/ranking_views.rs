@@ -184,6 +184,16 @@ fn view(
     Ok(MaterialView { pictures, figure: figure.transpose()? })
 }
 
+/// A material in small: a rendering, then its normal, diffuse, specular and roughness maps side by side, as the address of an image.
+///
+/// # Errors
+/// [`Cancelled`](Error::is_cancelled), which it is not.
+pub fn overview(material: &Material<f32>) -> Result<String, Error> {
+    let (small, convention) = (pictures::reduced(&[material], RENDERED)?, Convention::default());
+    let exposure_ev = exposure(&small[0], &SCENE, &convention);
+    pictures::quantities(&small[0], &SCENE, &convention, exposure_ev)
+}
+
 /// The address of a figure, relative to the page beside its folder.
 fn address(path: &Path) -> String {
     let part = |name: Option<&std::ffi::OsStr>| {

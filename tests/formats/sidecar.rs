@@ -150,7 +150,7 @@ fn what_is_kept_wrongly_is_refused_with_its_place() {
         (r#"{"dielectric-f0": 4}"#, "dielectric-f0: unknown reflectance `4`"),
         (r#"{"grid": "4"}"#, "grid: unknown grid of tiles `4`"),
         (r#"{"maps": 3}"#, "expected an object after maps, found 3"),
-        (r#"{"maps": {"bumps": "a.png"}}"#, "unknown map `bumps=a.png`"),
+        (r#"{"maps": {"bumps": "a.png"}}"#, "unknown map `bumps`"),
         (r#"{"maps": {"normal": 3}}"#, "normal: expected FILE or FILE:PART, found 3"),
     ] {
         std::fs::write(&place, text).unwrap();

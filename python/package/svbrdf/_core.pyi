@@ -25,6 +25,7 @@ class CoreMaterial:
     @property
     def precision(self) -> Precision: ...
     def map(self, name: str) -> bytearray: ...
+    def overview(self) -> str: ...
 
 class Found(TypedDict):
     material: CoreMaterial
@@ -55,6 +56,7 @@ class Views(TypedDict):
     text: str
     columns: list[str]
     rows: list[list[str | int | float | bool | None]]
+    shown: tuple[str, list[str], list[list[str]], str]
     warnings: list[str]
 
 class MapItems(TypedDict):

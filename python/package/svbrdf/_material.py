@@ -11,6 +11,7 @@ from ._arrays import Precision, as_array, from_bytes
 from ._assumptions import Assumption, warn_unsure
 from ._normals import NormalEncoding, as_normals, looks_unsigned
 from ._progress import Report, reported
+from ._text import escaped
 
 Source = str | os.PathLike[str]
 
@@ -161,6 +162,13 @@ class Material:
     def __repr__(self) -> str:
         width, height = self.size
         return f"<svbrdf.Material {self.name!r}, {width} x {height} texels, {self.precision}>"
+
+    def _repr_html_(self) -> str:
+        width, height = self.size
+        name = escaped(self.name)
+        caption = f"{name}, {width} &times; {height} texels: rendering, normal, diffuse, specular, roughness"
+        picture = f'<img src="{self._core.overview()}" alt="{name}" style="max-width: 100%">'
+        return f'<figure style="margin: 0">{picture}<figcaption>{caption}</figcaption></figure>'
 
 
 def read(

@@ -34,8 +34,10 @@ const LEAST_TEXELS: usize = 1 << 11;
 const LONGEST: f64 = 3.0;
 /// The same for other precisions, backends and maps, whose errors need few runs.
 const LONGEST_VARIANT: f64 = 0.7;
-/// The time of a loss in f64, in times of one in f32: roughly, for what is told beforehand.
-const F64_COST: f64 = 8.0;
+/// The time of a loss in f64, in times of one in f32, and that of a texel of a random subset, in times of one of a whole map: roughly,
+/// for what is told beforehand.
+const F64_COST: f64 = 40.0;
+const WHOLE: f64 = 14.0;
 /// Most runs of those, and the seconds in which more than one has to fit.
 const VARIANT_RUNS: usize = 3;
 const VARIANT_TIME: f64 = 0.4;
@@ -102,10 +104,15 @@ impl<'a> Bench<'a> {
 
     /// About how long the families on the CPU take, in seconds, by the time of the reference.
     pub(super) fn expected_seconds(&self, reference: &Reference) -> f64 {
-        let rate = reference.seconds / REFERENCE_SCENES as f64;
+        let all = self.pair.ground_truth.width() * self.pair.ground_truth.height();
+        let cost = |texels| match texels {
+            Texels::Sampled(count) if count < all => count as f64,
+            _ => all as f64 / WHOLE,
+        };
+        let rate = reference.seconds / REFERENCE_SCENES as f64 / cost(Texels::Sampled(REFERENCE_TEXELS));
         let of_choice = |choice: Choice| {
             let factor = if choice.family() == Family::F64 { F64_COST } else { 1.0 };
-            let seconds = factor * rate * (choice.scenes * self.texels(&choice) / LEAST_TEXELS) as f64;
+            let seconds = factor * rate * choice.scenes as f64 * cost(choice.texels);
             if seconds > longest(&choice) { 0.0 } else { seconds * self.runs(&choice, seconds) as f64 }
         };
         let families =
