@@ -58,12 +58,23 @@ def test_a_figure_is_the_figure_alone_in_a_sandbox() -> None:
     assert values["start"]["scene"]["light"] == [0.5, 0, 1]
     assert [material["name"] for material in values["materials"]] == ["truth", HOSTILE.replace("\u202e", r"\u{202e}")]
     shown = figure._repr_html_()
-    assert shown.startswith('<iframe sandbox="allow-scripts"')
-    assert html.unescape(shown[shown.index('srcdoc="') + 8 : -len('"></iframe>')]) == figure.html
+    assert '<iframe sandbox="allow-scripts"' in shown
+    assert html.unescape(shown[shown.index('srcdoc="') + 8 : -len('"></iframe></div>')]) == figure.html
     assert "<h2" not in figure.html
     assert len(data(svbrdf.figure(pair()[0]).html)["materials"]) == 1
     with pytest.warns(UserWarning, match="reduced to 16 x 16"):
         svbrdf.figure(*(svbrdf.Material(**maps(32, 32, seed)) for seed in (0, 1)), max_size=1000)
+
+
+def test_the_frame_of_a_figure_is_as_high_as_its_pictures() -> None:
+    ground_truth, *predictions = (svbrdf.Material(**maps(16, 24, seed), name=str(seed)) for seed in range(6))
+    for count, layout, share in [(0, "wipe", 2 / 3), (1, "side-by-side", 1 / 3), (2, "side-by-side", 2 / 3)]:
+        figure = svbrdf.figure(ground_truth, predictions[:count], layout=layout, height=720)  # type: ignore[arg-type]
+        assert figure.share == pytest.approx(0.95 * share)
+        high = f"height: min(720px, calc({95 * share:.1f}cqw + 250px))"
+        assert high in figure._repr_html_()
+    # Two rows of three are larger than one of six.
+    assert svbrdf.figure(ground_truth, predictions).share == pytest.approx(0.95 * 2 / 3 / 1.5)
 
 
 def test_a_table_has_the_numbers_and_escaped_names() -> None:
@@ -128,7 +139,7 @@ def outputs() -> list[str]:
 def test_a_notebook_shows_the_table_and_the_figure(outputs: list[str]) -> None:
     table, figure = outputs
     assert "wrong roughness</td>" in table
-    assert figure.startswith("<iframe")
+    assert "<iframe sandbox" in figure
 
 
 @pytest.mark.filterwarnings("ignore")

@@ -17,6 +17,8 @@ from ._scenes import Scene
 from ._show import HEADLIGHT
 
 Layout = Literal["side-by-side", "wipe", "single"]
+CONTROLS = 250
+"""The height of what a figure has beside its pictures, in CSS pixels: it takes two or three rows of controls."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -26,13 +28,17 @@ class Figure:
     html: str
     """The page: a file of this text opens in any browser, and in an `<iframe>` of a page."""
     height: int
-    """Its height in a notebook, in CSS pixels."""
+    """Its largest height in a notebook, in CSS pixels."""
+    share: float = 1.0
+    """The height of the pictures, as a share of the width of the figure."""
 
     def _repr_html_(self) -> str:
         # The frame runs the scripts of the page alone, named by their hashes, and reaches nothing of the notebook.
         page = self.html.replace("&", "&amp;").replace('"', "&quot;")
-        style = f"width: 100%; height: {self.height}px; border: 0"
-        return f'<iframe sandbox="allow-scripts" title="svbrdf figure" style="{style}" srcdoc="{page}"></iframe>'
+        high = f"min({self.height}px, calc({100 * self.share:.1f}cqw + {CONTROLS}px))"
+        style = f"width: 100%; height: {self.height}px; height: {high}; border: 0"
+        frame = f'<iframe sandbox="allow-scripts" title="svbrdf figure" style="{style}" srcdoc="{page}"></iframe>'
+        return f'<div style="container-type: inline-size">{frame}</div>'
 
     def __repr__(self) -> str:
         return f"<svbrdf.Figure, {len(self.html.encode()):,} bytes of HTML>"
@@ -65,7 +71,7 @@ def figure(
         exposure: In stops, from -16 to 16; None: the brightest 1% of the ground truth just clip.
         layout: The layout that it begins with.
         convention: A name of `svbrdf.CONVENTIONS`.
-        height: Its height in a notebook, in CSS pixels.
+        height: Its largest height in a notebook, in CSS pixels: it is as high as its pictures and controls take.
         max_size: Most bytes: its maps are halved until it has as many, with a warning.
         progress: True for a bar of tqdm, or a function of (steps done, steps in all).
 
@@ -78,7 +84,8 @@ def figure(
         raise ValueError(f"height: expected CSS pixels from 50 to 10000, found {height}")
     asked = Asked(ground_truth, predictions, convention=convention, alone=True)
     options = _options(scene, exposure, max_size, layout=layout)
-    return Figure(_page(asked, options, progress), height)
+    count = 1 + len(asked.predictions) if layout == "side-by-side" else 1
+    return Figure(_page(asked, options, progress), height, _share(asked.ground_truth.size, count, height))
 
 
 def report(
@@ -124,6 +131,15 @@ def report(
     options["readings"] = [_reading(material) for material in materials]
     options["path"] = Path(path)
     _page(asked, options, progress)
+
+
+def _share(size: tuple[int, int], count: int, height: int) -> float:
+    """The height of `count` panes of a figure as a share of its width, where it is as wide as in most notebooks."""
+    width, aspect = 1000.0, min(max(size[0] / size[1], 0.4), 2.5)
+    rows = {columns: -(-count // columns) for columns in range(1, count + 1)}
+    heights = {columns: min(width / columns / aspect, 0.68 * height / rows[columns]) for columns in rows}
+    best = max(rows, key=lambda columns: (round(heights[columns]), columns))
+    return 0.95 * rows[best] / best / aspect
 
 
 def _options(scene: Scene, exposure: float | None, max_size: int, *, layout: str) -> dict[str, Any]:
