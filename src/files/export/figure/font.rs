@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use ab_glyph::{Font as _, FontRef, GlyphId};
 use epaint_default_fonts::UBUNTU_LIGHT;
+use harfrust::{Feature, GlyphInfo, GlyphPosition, ShapeOptions, ShaperData, Tag, UnicodeBuffer};
 
 /// The file of the font.
 pub(super) const FILE: &[u8] = UBUNTU_LIGHT;
@@ -11,31 +12,46 @@ pub(super) const FILE: &[u8] = UBUNTU_LIGHT;
 pub(super) static FONT: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(FILE).ok());
 
+/// The same font for shaping, with its kerning and marks.
+static SHAPING: LazyLock<Option<(harfrust::FontRef<'static>, ShaperData)>> = LazyLock::new(|| {
+    let font = harfrust::FontRef::from_index(FILE, 0).ok()?;
+    Some((font.clone(), ShaperData::new(&font)))
+});
+
 /// A glyph of a text.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
+pub(super) struct Placed<'a> {
     pub id: GlyphId,
-    pub character: char,
+    /// The characters that it shows: none where another glyph shows them.
+    pub characters: &'a str,
     /// From the beginning of the text, in ems.
     pub x: f32,
     /// Of the glyph alone, without kerning, in ems.
     pub advance: f32,
 }
 
-/// The glyphs of a text, with kerning.
-pub(super) fn glyphs(text: &str) -> Vec<Placed> {
-    let Some(font) = &*FONT else { return Vec::new() };
+/// The glyphs of a text, kerned; each letter has its own.
+pub(super) fn glyphs(text: &str) -> Vec<Placed<'_>> {
+    let Some((font, (shaping, data))) = FONT.as_ref().zip(SHAPING.as_ref()) else { return Vec::new() };
+    let mut buffer = UnicodeBuffer::new();
+    buffer.push_str(text);
+    buffer.guess_segment_properties();
+    let no_ligatures = [*b"liga", *b"clig"].map(|tag| Feature::new(Tag::new(&tag), 0, ..));
+    let shaped = data.shaper(shaping).build().shape(buffer, ShapeOptions::new().features(&no_ligatures));
     let em = font.units_per_em().unwrap_or(1000.0);
+    let mut starts: Vec<usize> = shaped.glyph_infos().iter().map(|info| info.cluster as usize).collect();
+    starts.sort_unstable();
     let (mut x, mut last) = (0.0, None);
-    let place = |character| {
-        let id = font.glyph_id(character);
-        x += last.map_or(0.0, |last| font.kern_unscaled(last, id)) / em;
-        last = Some(id);
-        let advance = font.h_advance_unscaled(id) / em;
-        x += advance;
-        Placed { id, character, x: x - advance, advance }
+    let place = |(info, position): (&GlyphInfo, &GlyphPosition)| {
+        let id = GlyphId(info.glyph_id as u16);
+        let start = info.cluster as usize;
+        let end = starts.iter().copied().find(|other| *other > start).unwrap_or(text.len());
+        let characters = if last.replace(start) == Some(start) { "" } else { &text[start..end] };
+        let at = x + position.x_offset as f32 / em;
+        x += position.x_advance as f32 / em;
+        Placed { id, characters, x: at, advance: font.h_advance_unscaled(id) / em }
     };
-    text.chars().map(place).collect()
+    shaped.glyph_infos().iter().zip(shaped.glyph_positions()).map(place).collect()
 }
 
 /// The width of a text of this size, in its unit.
@@ -70,7 +86,9 @@ mod tests {
     #[test]
     fn glyphs_follow_one_another_and_pairs_are_kerned() {
         let placed = glyphs("AVAV");
-        assert_eq!(placed.len(), 4);
+        let characters: Vec<&str> = placed.iter().map(|glyph| glyph.characters).collect();
+        assert_eq!(characters, ["A", "V", "A", "V"]);
+        assert_eq!(glyphs("office").len(), 6, "no ligatures");
         assert!(placed.windows(2).all(|pair| pair[0].x < pair[1].x), "{placed:?}");
         let apart: f32 = placed.iter().map(|glyph| glyph.advance).sum();
         assert!(width("AVAV", 1.0) < f64::from(apart) - 0.05, "{placed:?}");

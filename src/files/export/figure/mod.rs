@@ -102,7 +102,7 @@ mod tests {
 
     fn figure() -> Figure {
         let mut figure = Figure::new([100.0, 50.0], 4.0);
-        figure.picture([60.0, 5.0], [2.5, 1.5], picture());
+        figure.picture([80.0, 5.0], [2.5, 1.5], picture());
         for (line, text) in (0..).zip(TEXTS) {
             let style = TextStyle { size: 7.0, ink: [10, 20, 30], anchor: Anchor::Left };
             figure.text([2.0, 10.0 * f64::from(line)], 95.0, text, style);
@@ -211,13 +211,13 @@ mod tests {
         assert_eq!([image.width, image.height], [400, 200]);
         let at = |x: usize, y: usize| image.pixels[y * image.width + x];
         for (i, pixel) in picture().pixels.iter().enumerate() {
-            assert_eq!(at(240 + i % 10, 20 + i / 10), *pixel, "{i}");
+            assert_eq!(at(320 + i % 10, 20 + i / 10), *pixel, "{i}");
         }
         let ink = |left: usize, right: usize| {
             (0..image.height).any(|y| (left..right).any(|x| at(x, y) != [255; 3]))
         };
         let end = (4.0 * (2.0 + Figure::text_width(TEXTS[0], 7.0))).ceil() as usize;
-        assert!(ink(8, 20) && ink(end - 20, end) && !ink(0, 7) && !ink(end + 1, 240), "{end}");
+        assert!(ink(8, 20) && ink(end - 20, end) && !ink(0, 7) && !ink(end + 1, 320), "{end}");
         // Glyphs stand between pixels: a shift by half a pixel is another picture, and by a whole one the same.
         let shifted = |x: f64| {
             let mut figure = Figure::new([40.0, 12.0], 4.0);
