@@ -4,9 +4,8 @@ use eframe::egui::{self, RichText};
 
 use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
 
-use super::why;
-use super::widgets::theme;
-use crate::jobs::order::OrderJob;
+use super::{report_table, theme};
+use crate::jobs::work::order::OrderJob;
 use crate::model::command::{Command, LossCommand};
 use crate::model::material::loaded::drawable;
 
@@ -40,5 +39,5 @@ fn answer(ui: &mut egui::Ui, report: &RobustReport) {
     if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
         ui.copy_text(report.text());
     }
-    why::tables::grid(ui, &report.table(Reader::Person));
+    report_table::grid(ui, &report.table(Reader::Person));
 }
