@@ -49,7 +49,6 @@ fn the_losses_are_those_of_the_file_and_change_with_its_content() {
     open(&mut window, &path);
     assert_eq!(window.state().names().len(), 3, "the materials stay");
     assert_losses(&mut window, &first);
-    see(&mut window, "mine.toml");
     // Of the same name, and another one.
     write(&path, 8.0);
     let second = chosen(&path);
@@ -83,7 +82,9 @@ fn a_session_and_the_command_line_open_it() {
     assert_eq!(session.convention, path.to_str().unwrap());
     let mut window = window(ViewerOptions { session: Some(session.clone()), ..ViewerOptions::default() });
     assert_eq!(window.state().parts.model.view.convention, chosen(&path));
-    see(&mut window, "mine.toml");
+    choose(&mut window, "Convention", "printed");
+    choose(&mut window, "Convention", "mine.toml");
+    assert_eq!(window.state().parts.model.view.convention, chosen(&path));
     // Gone since: told, and not taken for another.
     std::fs::remove_file(&path).unwrap();
     let mut window = self::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });

@@ -4,8 +4,9 @@ use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{self, DatasetReading, Source};
 use svbrdf_evaluate::report::{Report as _, RobustReport};
 use svbrdf_evaluate::robust::RobustInput;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_viewer::OpenDataset;
-use svbrdf_viewer::model::command::LossCommand;
+use svbrdf_viewer::model::command::{LossCommand, SceneCommand};
 
 use super::materials::write_packed;
 use super::*;
@@ -46,7 +47,8 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
     coarse(&mut window);
     assert!(report(window.state()).is_none(), "not asked yet");
     for convention in ["printed", "svbrdf-estimation-2022"] {
-        choose(&mut window, "Convention", convention);
+        let chosen = ChosenConvention::read(convention).unwrap();
+        apply(&mut window, SceneCommand::SetConvention(chosen));
         if convention == "printed" {
             click(&mut window, TITLE);
         }
@@ -74,7 +76,7 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
     }
     // Folded, nothing is asked.
     click(&mut window, TITLE);
-    choose(&mut window, "Convention", "guided-2020");
+    apply(&mut window, SceneCommand::SetConvention(ChosenConvention::read("guided-2020").unwrap()));
     rest(&mut window, 5);
     assert!(window.state().parts.jobs.order.state().is_ok(), "no job");
 }

@@ -142,11 +142,13 @@ fn frames(plain: &Plain) -> Vec<(f64, RendererTerms)> {
 /// The frame with some lobes of each kind.
 fn coarse(frame: &RendererTerms) -> Vec<RendererTerms> {
     let mut all = Vec::new();
-    for alpha in Alpha::ALL {
-        for g in [Shadowing::Schlick, Shadowing::Smith, Shadowing::None] {
-            let mut terms = *frame;
-            (terms.material.alpha, terms.specular.g) = (alpha, g);
-            all.push(terms);
+    for d in Distribution::ALL {
+        for alpha in Alpha::ALL {
+            for g in [Shadowing::Schlick, Shadowing::Smith, Shadowing::None] {
+                let mut terms = *frame;
+                (terms.specular.d, terms.material.alpha, terms.specular.g) = (d, alpha, g);
+                all.push(terms);
+            }
         }
     }
     all

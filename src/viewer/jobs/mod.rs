@@ -8,7 +8,6 @@ pub mod dataset;
 pub mod displayed;
 pub mod follow;
 pub mod loss;
-pub mod order;
 pub mod panes;
 pub mod photograph;
 pub mod reading;
@@ -33,7 +32,6 @@ use dataset::DatasetJobs;
 use loss::LossJob;
 use loss::scene::SceneLossJob;
 use loss::study::StudyJob;
-use order::{OrderJob, OrderKey};
 use panes::PaneJobs;
 use panes::difference::DifferenceJob;
 use panes::error_map::ErrorMapJob;
@@ -46,6 +44,7 @@ use reading::watch::FileWatch;
 use training::TrainingJobs;
 use why::WhyJobs;
 use work::job::Job;
+use work::order::{OrderJob, OrderKey};
 use work::waker::Waker;
 
 /// All background work of the window.

@@ -9,7 +9,6 @@ pub mod input;
 pub mod legend;
 pub mod loss;
 pub mod materials;
-pub mod order;
 pub mod pane;
 pub mod panels;
 pub mod photograph;

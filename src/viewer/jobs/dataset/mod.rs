@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use svbrdf_gpu::Gpu;
 
-use super::order::OrderJob;
 use super::work::job::Job;
+use super::work::order::OrderJob;
 use super::work::waker::Waker;
 use crate::error::Error;
 use crate::model::Model;

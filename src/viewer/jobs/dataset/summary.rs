@@ -8,9 +8,9 @@ use svbrdf_files::convention::ChosenConvention;
 
 use super::losses::{DatasetLosses, PICK};
 use crate::error::Error;
-use crate::jobs::order::OrderJob;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
+use crate::jobs::work::order::OrderJob;
 use crate::jobs::work::priority;
 use crate::jobs::work::waker::Waker;
 use crate::model::dataset::OpenDataset;

@@ -4,6 +4,7 @@
 pub mod context;
 pub mod job;
 pub mod latest;
+pub mod order;
 pub mod panics;
 pub mod picture;
 pub mod priority;

@@ -14,8 +14,8 @@ use crate::jobs::displayed::Displayed;
 use crate::model::command::{Command, DatasetCommand};
 use crate::model::dataset::OpenDataset;
 use crate::model::material::loaded::drawable;
-use crate::ui::order;
 use crate::ui::widgets::numbers::digits;
+use crate::ui::widgets::order;
 use crate::ui::widgets::plot::still_plot;
 use crate::ui::widgets::theme;
 

@@ -6,10 +6,12 @@ pub mod hemisphere;
 pub mod hint;
 pub mod names;
 pub mod numbers;
+pub mod order;
 pub mod plot;
 pub mod read_options;
 pub mod readout;
 pub mod remedy;
+pub mod report_table;
 pub mod texture;
 pub mod theme;
 

@@ -4,11 +4,10 @@ use eframe::egui::{self, RichText};
 
 use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
 
-use crate::jobs::order::OrderJob;
+use super::{report_table, theme};
+use crate::jobs::work::order::OrderJob;
 use crate::model::command::{Command, LossCommand};
 use crate::model::material::loaded::drawable;
-use crate::ui::why;
-use crate::ui::widgets::theme;
 
 /// The fold, which is unfolded where `asks`; the command of a click on its title.
 pub fn fold<K: Clone + PartialEq>(ui: &mut egui::Ui, asks: bool, job: &OrderJob<K>) -> Option<Command> {
@@ -40,5 +39,5 @@ fn answer(ui: &mut egui::Ui, report: &RobustReport) {
     if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
         ui.copy_text(report.text());
     }
-    why::tables::grid(ui, &report.table(Reader::Person));
+    report_table::grid(ui, &report.table(Reader::Person));
 }

@@ -7,11 +7,11 @@ use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::report::{Compared, RobustReport};
 use svbrdf_evaluate::robust::RobustInput;
 
+use super::context::JobContext;
+use super::job::Job;
+use super::latest::Latest;
+use super::waker::Waker;
 use crate::error::Error;
-use crate::jobs::work::context::JobContext;
-use crate::jobs::work::job::Job;
-use crate::jobs::work::latest::Latest;
-use crate::jobs::work::waker::Waker;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
 
@@ -91,7 +91,9 @@ impl OrderJob<OrderKey> {
                 let input =
                     RobustInput { ground_truth, predictions: all.collect(), convention, target_error, seed };
                 let names: Vec<&str> = key.names[1..].iter().map(String::as_str).collect();
-                let compared = Compared::new(ground_truth, &convention);
+                let ground_truth_name = key.names[0].clone();
+                let compared =
+                    Compared { ground_truth: ground_truth_name, ..Compared::new(ground_truth, &convention) };
                 Ok(RobustReport::of_answers(compared, &names, &input.answers(progress)?))
             }
         })
