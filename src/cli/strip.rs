@@ -28,9 +28,6 @@ use crate::cli::strip_methods;
     "Scene file; renderings and their differences have a column for each of its scenes")))]
 #[command(mut_arg("lights", |arg| arg.conflicts_with_all(["view", "light", "distant"]).help(
     "Lights and views of a publication: flash, flash-9 or hemisphere; renderings and their differences have a column for each")))]
-#[command(
-    after_help = "Example:\n  svbrdf strip gt.png a.png --columns normal,roughness:,rendering -o figure.png"
-)]
 pub struct StripArgs {
     /// Output file, .png
     #[arg(short, long, value_name = "FILE")]

@@ -249,7 +249,7 @@ fn captures_that_cannot_be_used_are_refused_with_their_reason() {
     for (capture, words) in [
         (json!({"photographs": []}), "expected 1 to 10000 photographs, found 0"),
         (json!({"photographs": [one, one]}), "it lists a.png twice"),
-        (json!({"photographs": [one], "fallof": true}), "unknown field `fallof`"),
+        (json!({"photographs": [one], "fallof": true}), "unknown key `fallof`"),
         (json!({"photographs": [{"file": "a.png"}]}), "missing field `scene`"),
         (json!({"photographs": [one], "clip": -1}), "photograph 0: expected a clip above 0, found -1"),
         (
