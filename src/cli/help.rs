@@ -34,14 +34,19 @@ const GROUPS: [(&str, &[Entry]); 4] = [
                 "strip",
                 "a labelled figure for a paper",
                 &[
-                    "gt.png a.png --columns normal,roughness:,rendering -o figure.png",
-                    "--dataset gt/ ours/ theirs/ -o methods.png",
+                    "gt.png a.png --columns normal,roughness:,rendering -o figure.pdf",
+                    "gt.png a.png --width-mm 88 --text-pt 7 --crop 40,60,32,32 -o figure.svg",
+                    "--dataset gt/ ours/ theirs/ --results losses/ -o methods.pdf",
                 ],
             ),
             (
                 "report",
                 "a page for any browser, which readers light themselves",
-                &["gt.png a.png b.png -o report.html", "gt.png a.png --figure -o figure.html"],
+                &[
+                    "gt.png a.png b.png -o report.html",
+                    "gt.png a.png --about about.toml -o report.html",
+                    "--no-ground-truth first.png second.png -o report.html",
+                ],
             ),
         ],
     ),

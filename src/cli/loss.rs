@@ -37,6 +37,7 @@ pub struct LossArgs {
     /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
     /// [default: 32; with --near or --distant all]
     #[arg(help_heading = "Scenes", long, value_name = "all|N", allow_negative_numbers = true)]
+    #[arg(value_parser = offered(str::parse::<Texels>, ["all"]), hide_possible_values = true)]
     texels: Option<Texels>,
 
     /// Samples as many scenes as this relative error needs at 95% confidence, such as 1%

@@ -14,7 +14,7 @@ use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, 
 
 use super::args::scenes::SceneArgs;
 use super::args::values::{self, Range};
-use super::args::{ComparisonArgs, Given, refuse};
+use super::args::{ComparisonArgs, Given, offered, refuse};
 use super::job::{ComparisonJob, Job, NewJob};
 use super::output::stop::stoppable;
 use super::output::{CommandError, exit, watched};
@@ -36,6 +36,7 @@ pub struct MapArgs {
 
     /// The loss with the last colour of a .png: a number, or auto for the 99th percentile of the largest map [default: auto]
     #[arg(long, value_name = "LOSS|auto", allow_negative_numbers = true)]
+    #[arg(value_parser = offered(str::parse::<Range>, ["auto"]), hide_possible_values = true)]
     range: Option<Range>,
 
     #[command(flatten)]

@@ -29,10 +29,6 @@ use super::output::{CommandError, command_line, exit, target, watched};
 #[command(mut_arg("seed", |arg| arg.help("Seed of the sampled scenes [default: 0, or as in the session]")))]
 #[command(mut_arg("exposure", |arg| arg.help(
     "Exposure of the figure in stops [default: the brightest 1% of the ground truth just clip, or as in the session]")))]
-#[command(after_help = "Examples:
-  svbrdf report gt.png a.png b.png -o report.html
-  svbrdf report gt.png a.png --about about.toml -o report.html
-  svbrdf report --no-ground-truth first.png second.png -o report.html")]
 pub struct ReportArgs {
     /// Output file, .html
     #[arg(short, long, value_name = "FILE")]

@@ -28,10 +28,6 @@ use crate::cli::strip_methods::{self, Look};
     "Scene file; renderings and their differences have a column for each of its scenes")))]
 #[command(mut_arg("lights", |arg| arg.conflicts_with_all(["view", "light", "distant"]).help(
     "Lights and views of a publication: flash, flash-9 or hemisphere; renderings and their differences have a column for each")))]
-#[command(after_help = "Examples:
-  svbrdf strip gt.png a.png --columns normal,roughness:,rendering -o figure.pdf
-  svbrdf strip gt.png a.png --width-mm 88 --text-pt 7 --crop 40,60,32,32 -o figure.svg
-  svbrdf strip --dataset gt/ ours/ theirs/ --results losses/ -o methods.pdf")]
 pub struct StripArgs {
     /// Output file, .pdf, .svg or .png
     #[arg(short, long, value_name = "FILE")]

@@ -20,7 +20,8 @@ pub fn percent(share: f64) -> String {
 
 /// The problem of a JSON text that does not have the expected form, in words for users.
 pub fn of_json(problem: &impl std::fmt::Display) -> String {
-    const WORDS: [(&str, &str); 6] = [
+    const WORDS: [(&str, &str); 7] = [
+        ("expected f64", "expected a number"),
         ("EOF while parsing ", "the text ends within "),
         ("unknown variant ", "unknown value "),
         ("unknown field ", "unknown key "),
@@ -104,6 +105,13 @@ mod tests {
         assert_eq!(line("two\nlines \u{202e}x"), "two\\u{a}lines \\u{202e}x");
         assert_eq!(printable("a\u{2028}b\u{e0041}\n"), "a\\u{2028}b\\u{e0041}\n");
         assert_eq!(line("a\u{2029}b\u{e007f}\u{85}"), "a\\u{2029}b\\u{e007f}\\u{85}");
+    }
+
+    #[test]
+    fn problems_of_json_are_in_words_for_users() {
+        assert_eq!(of_json(&"missing field `x` at line 1"), "no key `x` at line 1");
+        assert_eq!(of_json(&"invalid type: map, expected f64"), "found map, expected a number");
+        assert_eq!(of_json(&"EOF while parsing a list"), "the text ends within a list");
     }
 
     #[test]

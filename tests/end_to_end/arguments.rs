@@ -36,5 +36,5 @@ fn a_scene_file_is_no_material_and_a_broken_one_is_refused_as_by_loss() {
     write("a.svbrdf-session.json", "{}");
     let (code, errors) = run(folder.path(), &["a.svbrdf-session.json", "good.json"]);
     assert_eq!(code, Some(1));
-    assert!(errors.contains("missing field `svbrdf-session`"), "{errors}");
+    assert!(errors.contains("no key `svbrdf-session`"), "{errors}");
 }

@@ -249,8 +249,8 @@ fn captures_that_cannot_be_used_are_refused_with_their_reason() {
     for (capture, words) in [
         (json!({"photographs": []}), "expected 1 to 10000 photographs, found 0"),
         (json!({"photographs": [one, one]}), "it lists a.png twice"),
-        (json!({"photographs": [one], "fallof": true}), "unknown field `fallof`"),
-        (json!({"photographs": [{"file": "a.png"}]}), "missing field `scene`"),
+        (json!({"photographs": [one], "fallof": true}), "unknown key `fallof`"),
+        (json!({"photographs": [{"file": "a.png"}]}), "no key `scene`"),
         (json!({"photographs": [one], "clip": -1}), "photograph 0: expected a clip above 0, found -1"),
         (
             json!({"photographs": [{"file": "a.png", "scene": distant}], "falloff": true}),
@@ -261,8 +261,8 @@ fn captures_that_cannot_be_used_are_refused_with_their_reason() {
             "scene 0",
         ),
         (json!({"photographs": [{"file": absolute, "scene": scene}]}), "by an absolute path"),
-        (json!({"photographs": [one], "transfer": "gamma"}), "unknown variant `gamma`"),
-        (json!({"camera_pos": []}), "missing field"),
+        (json!({"photographs": [one], "transfer": "gamma"}), "unknown value `gamma`"),
+        (json!({"camera_pos": []}), "no key"),
         (json!({"camera_pos": [[0, 0, 2]], "light_pos": [[0, 0, 2]], "im_size": 2}), "its target_dir"),
         (
             json!({"camera_pos": [[0, 0, 2]], "light_pos": [[0, 0, 2]], "im_size": 2, "target_dir": "t", "light_pow": [1, -1, 1]}),
@@ -274,7 +274,7 @@ fn captures_that_cannot_be_used_are_refused_with_their_reason() {
     }
     let empty = tempdir().unwrap();
     let error = Capture::read(empty.path()).unwrap_err().to_string();
-    assert!(error.contains("found none of them"), "{error}");
+    assert!(error.contains("it holds no list of photographs"), "{error}");
     let [truth, ..] = small();
     let folder = materialgan(&truth, [150.0; 3]);
     let text = fs::read_to_string(folder.path().join("render.json")).unwrap();

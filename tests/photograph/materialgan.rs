@@ -114,5 +114,8 @@ fn a_calibration_with_a_mistake_is_named_and_not_overlooked() {
     assert_ne!(quoted, text);
     fs::write(&path, quoted).unwrap();
     let error = Capture::read(folder.path()).unwrap_err().to_string();
-    assert!(error.contains("render.json") && error.contains("invalid type: string"), "{error}");
+    assert!(
+        error.contains("render.json") && error.contains("found string \"6.848\", expected a number"),
+        "{error}"
+    );
 }

@@ -114,7 +114,7 @@ fn a_session_keeps_the_capture_and_a_broken_one_is_refused() {
     let photograph = SessionPhotograph { path, capture: None, ..photograph.clone() };
     apply(&mut window, PhotographCommand::Open { photograph, light: None });
     let messages = window.state().messages();
-    assert!(messages.iter().any(|message| message.contains("unknown field `sene`")), "{messages:?}");
+    assert!(messages.iter().any(|message| message.contains("unknown key `sene`")), "{messages:?}");
 }
 
 #[needs(adapter)]

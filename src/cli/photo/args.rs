@@ -6,7 +6,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_evaluate::photograph::CaptureExposure;
 
 use crate::cli::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
-use crate::cli::args::{ComparisonArgs, NamedPath};
+use crate::cli::args::{ComparisonArgs, NamedPath, offered};
 use crate::cli::output::CommandError;
 use crate::cli::output::report::ReportFormat;
 
@@ -47,6 +47,7 @@ pub struct PhotoArgs {
 
     /// The difference that is written: log, absolute or relative
     #[arg(long, value_name = "KIND", default_value = "log", requires = "output", conflicts_with = "capture")]
+    #[arg(value_parser = offered(str::parse::<Difference>, ["log", "absolute", "relative"]), hide_possible_values = true)]
     pub difference: Difference,
 
     /// Output format
@@ -70,6 +71,7 @@ pub struct PhotoCaptureArgs {
 
     /// What one factor is fitted to: capture (all photographs) or photograph (each)
     #[arg(long, value_name = "WHAT", default_value = "capture")]
+    #[arg(value_parser = offered(str::parse::<CaptureExposure>, ["capture", "photograph"]), hide_possible_values = true)]
     pub exposure: CaptureExposure,
 
     /// Photographs to which the exposure is not fitted; the others and these have means of their own

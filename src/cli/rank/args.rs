@@ -94,6 +94,7 @@ pub struct DataSetArgs {
 pub struct PageArgs {
     /// Writes interactive figures of materials beside the page: all, or worst:N, those of the N largest mean losses
     #[arg(long, value_name = "all|worst:N")]
+    #[arg(value_parser = offered(str::parse::<Figures>, ["all", "worst:20"]), hide_possible_values = true)]
     pub figures: Option<Figures>,
 }
 

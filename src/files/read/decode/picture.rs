@@ -67,7 +67,7 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             Err(match known::name(head).map(|(name, remedy)| (name.to_owned(), remedy)).or(other) {
                 Some((found, remedy)) => place.bad(format!("expected {FORMATS}, found {found}"), remedy),
                 None if head.is_empty() => {
-                    place.bad("expected an image, found an empty file".to_owned(), "copy or write it again")
+                    place.bad("expected an image, found an empty file", "copy or write it again")
                 }
                 None => {
                     place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file")
