@@ -66,7 +66,7 @@ fn perspective(
     let pixels = decoded(&page.evaluate(&format!(
         "(() => {{ const f = window.svbrdf.figure, box = {{ x: 0, y: 0, width: {PANE}, height: {PANE} }}; \
          f.canvas.width = f.canvas.height = {PANE}; Object.assign(f.state, {{ projection: 'perspective', zoom: {zoom} }}); \
-         f.shading.pane({{ material: {index}, difference: null, wipe: null }}, f.how(), f.camera(1, 1), box, f.shown()); \
+         f.shading.pane({{ material: {index}, difference: null, wipe: null }}, f.how(), f.camera(1, 1), box, f.shown({{ material: {index}, wipe: null }})); \
          let text = ''; for (const byte of f.shading.pixels(box)) text += String.fromCharCode(byte); \
          Object.assign(f.state, {{ projection: 'flat', zoom: 1 }}); return btoa(text); }})()"
     )));
