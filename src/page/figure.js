@@ -23,6 +23,8 @@ const START = {
 const NARROWEST = 150;
 /** Least side of a pane, in CSS pixels: where all are smaller, one prediction is beside the ground truth. */
 const SMALLEST = 100;
+/** Heights of panes that differ by less are as good. */
+const NEARLY = 0.85;
 /** Largest share of the height of the window that the figure takes: there is always room beside it to scroll the page. */
 const TALLEST = 0.68;
 
@@ -116,16 +118,18 @@ class Figure {
     const width = this.canvas.clientWidth;
     const aspect = clamp(this.grid.width / this.grid.height, 0.4, 2.5);
     const highest = Math.max(innerHeight * TALLEST, 200);
-    let best = { columns: 1, width: 0, height: 0 };
+    const all = [];
     for (let columns = 1; columns <= count; columns++) {
       if (columns > 1 && width / columns < NARROWEST) break;
       // No row of many above a row of one.
       if (columns > 2 && count % columns === 1) continue;
       const rows = Math.ceil(count / columns);
       const height = Math.min(width / columns / aspect, highest / rows);
-      // Of equal ones the one with fewer rows.
-      if (height >= best.height - 1) best = { columns, width: width / columns, height };
+      all.push({ columns, width: width / columns, height });
     }
+    // Of those with nearly the largest panes, the one with the fewest rows.
+    const largest = Math.max(...all.map(({ height }) => height));
+    const best = all.filter(({ height }) => height >= NEARLY * largest).at(-1) ?? all[0];
     return { ...best, rows: Math.ceil(count / best.columns) };
   }
 

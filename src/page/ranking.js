@@ -21,7 +21,9 @@ function compareKeys(a, b, sign) {
 /** @param {HTMLTableElement} table */
 function makeSortable(table) {
   const body = table.tBodies[0];
-  const headings = [...(table.tHead?.rows[0].cells ?? [])].filter((cell) => cell.matches("th"));
+  // A column of pictures has nothing to sort by.
+  const hasTexts = (/** @type {number} */ column) => [...body.rows].some((row) => row.cells[column].textContent !== "");
+  const headings = [...(table.tHead?.rows[0].cells ?? [])].filter((cell) => cell.matches("th") && hasTexts(cell.cellIndex));
   for (const heading of headings) {
     const button = Object.assign(document.createElement("button"), { type: "button" });
     button.append(...heading.childNodes);

@@ -274,7 +274,7 @@ fn a_figure_of_a_paper_has_its_width_and_its_text_in_points() {
         assert!((width - points).abs() < 0.01, "{width}");
     }
     let narrow = "strip gt.png a.png --width-mm 30 -o narrow.pdf";
-    let many = "strip gt.png a.png --columns normal,rendering --width-mm 4900 -o large.pdf";
+    let many = "strip gt.png a.png --columns normal --width-mm 4900 -o large.pdf";
     let small = "strip gt.png a.png --text-pt 0 -o small.pdf";
     assert_refused(
         folder.path(),
