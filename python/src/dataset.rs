@@ -8,7 +8,7 @@ use svbrdf_evaluate::dataset::{
     self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Method, Pick, Source,
 };
 
-use svbrdf_files::convention;
+use svbrdf_files::convention::ChosenConvention;
 
 use crate::errors::exception;
 use crate::material::read_options;
@@ -44,7 +44,7 @@ pub fn rank_dataset(
     asked: DatasetAsked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let convention = convention::of_loss(&asked.convention).map_err(exception)?;
+    let convention = ChosenConvention::read(&asked.convention).map_err(exception)?;
     let pick: Pick = asked.pick.parse().map_err(exception)?;
     let reading = DatasetReading {
         ground_truths: read_options(&asked.read[0])?,
@@ -62,7 +62,7 @@ pub fn rank_dataset(
     let settings = DatasetSettings {
         metrics: asked.metrics,
         diagnose: asked.diagnose,
-        ..DatasetSettings::new(source, convention.name, asked.target_error, asked.seed, &cases)
+        ..DatasetSettings::new(source, convention, asked.target_error, asked.seed, &cases)
     };
     let folder = asked.results.as_deref();
     let DatasetResults { results, notes } =

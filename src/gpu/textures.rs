@@ -125,7 +125,8 @@ fn coded(
     };
     let specular_codes = |index: usize| colour(specular, &planes.specular, index);
     for index in (0..count).step_by((count / SAMPLE).max(1)).map(source) {
-        (normal_and_codes(index)?, specular_codes(index)?);
+        normal_and_codes(index)?;
+        specular_codes(index)?;
     }
     let has_failed = AtomicBool::new(false);
     let failed = || has_failed.store(true, Ordering::Relaxed);

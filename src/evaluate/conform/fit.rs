@@ -105,11 +105,11 @@ impl Problem {
         };
         for (i, predicted) in predicted.iter().enumerate() {
             let expected = self.expected(metallic, i, *predicted, &scale);
-            for c in 0..3 {
-                fit.residuals[i][c] = self.residual([i, c], expected[c], scale.errors[i]).unwrap_or(0.0);
+            for (c, expected) in expected.into_iter().enumerate() {
+                fit.residuals[i][c] = self.residual([i, c], expected, scale.errors[i]).unwrap_or(0.0);
                 let reading = self.observed.readings[i][c];
-                if reading.bound == Bound::Value && expected[c] > 0.0 {
-                    fit.relative[i][c] = (reading.value - expected[c]) / expected[c];
+                if reading.bound == Bound::Value && expected > 0.0 {
+                    fit.relative[i][c] = (reading.value - expected) / expected;
                 }
             }
             fit.expected.push(expected);
