@@ -77,16 +77,18 @@ fn every_heading_of_every_help_page_is_a_known_one() {
 fn the_example_of_every_subcommand_is_a_command_line_of_it() {
     const USAGE: i32 = 64;
     for (path, page) in pages().iter().filter(|(path, _)| !path.is_empty()) {
-        let after = page.lines().skip_while(|line| *line != "Example:").skip(1);
+        let after = page.lines().skip_while(|line| !["Example:", "Examples:"].contains(line)).skip(1);
         let lines: Vec<_> = after.take_while(|line| line.starts_with("  svbrdf ")).collect();
-        assert_eq!(lines.len(), 1, "{path:?}: {page}");
-        let line = lines[0].split(" > ").next().unwrap_or_default();
-        let mut words = line.split_whitespace().skip(1);
-        assert_eq!(words.next(), Some(path[0].as_str()), "{line}");
-        // Without its files it fails, but not as a command line.
-        let folder = tempfile::tempdir().unwrap();
-        let output = super::run_in(folder.path(), &line.replacen("  svbrdf ", "", 1));
-        assert!(output.status.code().is_some_and(|code| code != USAGE), "{line}: {output:?}");
+        assert!((1..=3).contains(&lines.len()), "{path:?}: {page}");
+        for line in lines {
+            let line = line.split(" > ").next().unwrap_or_default();
+            let mut words = line.split_whitespace().skip(1);
+            assert_eq!(words.next(), Some(path[0].as_str()), "{line}");
+            // Without its files it fails, but not as a command line.
+            let folder = tempfile::tempdir().unwrap();
+            let output = super::run_in(folder.path(), &line.replacen("  svbrdf ", "", 1));
+            assert!(output.status.code().is_some_and(|code| code != USAGE), "{line}: {output:?}");
+        }
     }
 }
 
