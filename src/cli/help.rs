@@ -35,7 +35,7 @@ const GROUPS: [(&str, &[Entry]); 4] = [
                 "a labelled figure for a paper",
                 &[
                     "gt.png a.png --columns normal,roughness:,rendering -o figure.pdf",
-                    "gt.png a.png --width-mm 88 --text-pt 7 --crop 40,60,32,32 -o figure.svg",
+                    "gt.png a.png --width-mm 88 --crop 40,60,32,32 -o figure.svg",
                     "--dataset gt/ ours/ theirs/ --results losses/ -o methods.pdf",
                 ],
             ),
@@ -145,11 +145,12 @@ type Entry = (&'static str, &'static str, &'static [&'static str]);
 
 /// Options that the short help leaves out, of a command or of all.
 #[rustfmt::skip]
-const RARE: [(&str, &[&str]); 7] = [
+const RARE: [(&str, &[&str]); 8] = [
     ("", &["sampler", "precision", "backend", "repeats", "renderings", "max_size"]),
     ("loss", &["texels", "time_budget", "fov"]),
     ("rank", &["fov", "shard", "pick", "fail_above", "figures"]),
-    ("strip", &["fov", "results", "range", "lights"]),
+    ("strip", &["fov", "results", "range", "lights", "pairs", "convention", "scenes"]),
+    ("report", &["robust", "layout"]),
     ("metrics", &["fov"]),
     ("photo", &["exposure", "hold_out", "scene_number", "transfer", "clip", "falloff", "difference"]),
     ("view", &["scene_number", "corners", "transfer", "clip", "falloff", "target_error", "seed", "results"]),

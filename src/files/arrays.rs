@@ -188,7 +188,7 @@ mod tests {
 
     #[test]
     fn what_is_no_archive_of_numbers_is_an_error() {
-        assert!(parse(b"PK no archive").unwrap_err().contains("no npz"));
+        assert!(parse(b"PK no archive").unwrap_err().contains("found no archive"));
         let array = Array::new(&[4], vec![1.0; 4]);
         let whole = bytes(&Arrays::from([("a".to_owned(), array)])).unwrap();
         assert!(parse(&whole[..whole.len() / 2]).is_err());

@@ -173,7 +173,7 @@ mod tests {
             (CAPTURE.replace("\"im_size\": 4", "\"im_size\": 0"), "not a width"),
             (CAPTURE.replace("[0, 3, 16], [3, 2, 8]", "[3, 2, 8]"), "3 camera_pos and 2 light_pos"),
             (CAPTURE.replace("[3, 2, 8]", "[3, 2, -8]"), "scene 0"),
-            ("{}".to_owned(), "missing field `scenes`"),
+            ("{}".to_owned(), "no key `scenes`"),
         ] {
             let refusal = parse(&wrong).unwrap_err();
             assert!(refusal.contains(problem), "{refusal}");

@@ -252,7 +252,7 @@ mod tests {
             (good.replace("0.7", "-0.7"), "cannot be rendered"),
             (good.replace("\"path\"", "\"way\""), "expected a path"),
             (good.replace("\"materials\"", "\"things\""), "materials"),
-            ("[".to_owned(), "EOF"),
+            ("[".to_owned(), "the text ends within a list"),
             (r#"{"svbrdf-session": 9, "materials": 3}"#.to_owned(), "newer program"),
             (good.replacen('{', r#"{"window": {"loss": {"ask": "Acuracy"}},"#, 1), "window.loss.ask"),
         ];
