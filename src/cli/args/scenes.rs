@@ -131,7 +131,6 @@ impl SampledArgs {
 
 impl AccuracyArgs {
     /// The target error, 1% where it is not specified, and the seed.
-    #[cfg(feature = "viewer")]
     pub fn target_and_seed(&self) -> (f64, u64) {
         (self.target_error.target_error.unwrap_or(ALL_SCENES_TARGET), self.seed.seed.unwrap_or(0))
     }
