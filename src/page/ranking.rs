@@ -35,7 +35,7 @@ pub fn ranking(report: &DatasetReport, views: &[MaterialView], robust: Option<&R
     let verdict = overall(report);
     let robust = robust.map_or(String::new(), robust::section);
     let sections = methods(report) + &robust + &materials(report, views) + &metrics(report) + &marks(report);
-    let settings = heading(report);
+    let settings = heading(report, !robust.is_empty());
     let parts = [("title", &title), ("verdict", &verdict), ("settings", &settings), ("sections", &sections)];
     let body = filled(PAGE, &parts.map(|(key, text)| (key, text.as_str())));
     let (title, description) = (title.as_str(), verdict.as_str());
@@ -43,7 +43,7 @@ pub fn ranking(report: &DatasetReport, views: &[MaterialView], robust: Option<&R
 }
 
 /// Everything that the numbers depend on.
-fn heading(report: &DatasetReport) -> String {
+fn heading(report: &DatasetReport, is_robust: bool) -> String {
     let settings = &report.settings;
     let accuracy = escaped(&settings.accuracy()).replace("+-", "&plusmn;");
     let convention = escaped(settings.convention.convention.name);
@@ -54,7 +54,7 @@ fn heading(report: &DatasetReport) -> String {
     format!(
         "Convention {convention}, {accuracy}{pick}. {}. Repeat with <code>{}</code>",
         report.repetition.software,
-        escaped(&report.repetition.command)
+        escaped(&report.repetition.command) + if is_robust { " --robust" } else { "" }
     )
 }
 

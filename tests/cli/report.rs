@@ -174,3 +174,45 @@ fn a_report_is_html_and_replaces_no_input() {
     ];
     assert_refused(folder.path(), &refused);
 }
+
+#[test]
+fn a_report_has_the_words_of_its_authors_escaped_and_a_wrong_key_is_told() {
+    let folder = folder();
+    let about = "title = 'Tiles <b>'\nauthors = 'A. Author'\ncaption = 'Figure 5. Two tiles.'\n\
+                 bibtex = '@article{a, title={B}}'\nimage = 'https://example.org/a.png'\n";
+    fs::write(folder.path().join("about.toml"), about).unwrap();
+    succeed(folder.path(), "report gt.png a.png --target-error 30% --about about.toml -o r.html");
+    let page = text_of(folder.path(), "r.html");
+    let words = [
+        "<h1>Tiles &lt;b&gt;</h1>",
+        "<p>A. Author</p>",
+        "Figure 5. Two tiles.",
+        "<code>@article{a, title={B}}</code>",
+        r#"property="og:image" content="https://example.org/a.png""#,
+        "Drag the light",
+    ];
+    assert_has(&page, &words);
+    succeed(folder.path(), "report gt.png a.png --target-error 30% -o r.html");
+    let plain = text_of(folder.path(), "r.html");
+    assert!(!plain.contains("A. Author") && !plain.contains("Citation") && !plain.contains("og:image"));
+    fs::write(folder.path().join("about.toml"), "titel = 'Tiles'\n").unwrap();
+    let refusal = fail(folder.path(), "report gt.png a.png --about about.toml -o s.html", 1);
+    assert_has(&refusal, &["about.toml", "titel", "title"]);
+    assert!(!folder.path().join("s.html").exists());
+}
+
+#[test]
+fn a_report_without_a_ground_truth_calls_no_material_so() {
+    let folder = folder();
+    let page = |option: &str| {
+        succeed(folder.path(), &format!("report gt.png a.png --target-error 30% {option} -o r.html"));
+        let page = text_of(folder.path(), "r.html");
+        // What is seen, without tags and the script.
+        let body = &page[page.find("<body").unwrap()..page.find("<script").unwrap()];
+        let texts = body.split('<').filter_map(|part| Some(part.split_once('>')?.1));
+        texts.collect::<Vec<_>>().join(" ").to_lowercase()
+    };
+    assert!(page("").contains("ground truth"));
+    let without = page("--no-ground-truth");
+    assert!(!without.contains("ground truth") && !without.contains("prediction"), "{without}");
+}

@@ -1,6 +1,6 @@
 //! Title above a pane.
 
-use eframe::egui::{self, Align2, FontId, Rect, Sense, vec2};
+use eframe::egui::{self, FontId, Rect, Sense, vec2};
 
 use svbrdf_gpu::DisplayMode;
 
@@ -43,32 +43,28 @@ pub fn title_bar(
     } else {
         ui.visuals().text_color()
     };
-    let loss = prediction.and_then(|index| scenery.losses?.get(index)).filter(|_| !replaced);
-    let loss =
-        loss.filter(|_| rect.width() >= LEAST).map(|loss| format!("loss {}", significant(&loss.estimate)[0]));
+    let loss = prediction.filter(|_| !replaced).and_then(|index| loss_of(scenery, index, rect));
     let swatch = prediction.map(|index| theme::series(index, ui.visuals().dark_mode));
     let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
     if let Some(colour) = swatch {
         let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
         painter.rect_filled(Rect::from_center_size(middle, vec2(8.0, 8.0)), 0.0, colour);
     }
-    let loss = loss.map(|loss| {
-        let right = rect.right_center() - vec2(8.0, 0.0);
-        painter.text(
-            right,
-            Align2::RIGHT_CENTER,
-            loss,
-            FontId::monospace(12.0),
-            ui.visuals().weak_text_color(),
-        )
-    });
-    let room = if has_button { BACK } else { loss.map_or(0.0, |loss| loss.width() + 8.0) };
-    let width = (rect.width() - left - 8.0 - room).max(0.0);
+    let weak = ui.visuals().weak_text_color();
+    let loss = loss.map(|loss| painter.layout_no_wrap(loss, FontId::monospace(12.0), weak));
+    let button = if has_button { BACK } else { 0.0 };
+    let room_of = |loss: f32| (rect.width() - left - 8.0 - button.max(loss)).max(0.0);
     let font = FontId::proportional(13.5);
-    // Names lose what they have in common, and then their middles; where that is not enough, the quantity goes, which the legend has.
-    let short = fitted(ui, &font, width, |most| self::text(scenery, content, most, true))
-        .or_else(|| fitted(ui, &font, width, |most| self::text(scenery, content, most, false)))
-        .unwrap_or_else(|| self::text(scenery, content, FEWEST, false));
+    let width = room_of(loss.as_ref().map_or(0.0, |loss| loss.size().x + 8.0));
+    let with_loss = short_in(ui, scenery, content, &font, width);
+    // Where a name does not fit beside it, the loss goes, which the panel has.
+    let (width, loss) = if with_loss.is_some() { (width, loss) } else { (room_of(0.0), None) };
+    let short = with_loss.or_else(|| short_in(ui, scenery, content, &font, width));
+    let short = short.unwrap_or_else(|| self::text(scenery, content, FEWEST, false));
+    if let Some(loss) = loss {
+        let at = rect.right_center() - vec2(8.0 + loss.size().x, 0.5 * loss.size().y);
+        painter.galley(at, loss, weak);
+    }
     let galley = egui::WidgetText::from(egui::RichText::new(&short).font(font.clone()).color(colour))
         .into_galley(ui, Some(egui::TextWrapMode::Truncate), width, font);
     let elided = galley.elided || short != text;
@@ -87,6 +83,26 @@ pub fn title_bar(
     }
     let response = if elided { response.on_hover_text(text) } else { response };
     prediction.filter(|_| response.clicked()).map(|index| DisplayCommand::ChoosePrediction(index).into())
+}
+
+/// The names and the quantity in this width: names lose what they have in common, and then their middles; where that is not enough,
+/// the quantity goes, which the legend has.
+fn short_in(
+    ui: &egui::Ui,
+    scenery: &Scenery<'_>,
+    content: PaneContent,
+    font: &FontId,
+    width: f32,
+) -> Option<String> {
+    let with =
+        |has_quantity: bool| fitted(ui, font, width, |most| text(scenery, content, most, has_quantity));
+    with(true).or_else(|| with(false))
+}
+
+/// The loss of a prediction, where there may be room for it.
+fn loss_of(scenery: &Scenery<'_>, prediction: usize, title: Rect) -> Option<String> {
+    let loss = scenery.losses?.get(prediction).filter(|_| title.width() >= LEAST)?;
+    Some(format!("loss {}", significant(&loss.estimate)[0]))
 }
 
 /// The names, of at most `most` characters each, and the quantity of differences where there is room for it.
