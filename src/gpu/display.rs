@@ -84,7 +84,10 @@ impl DisplayPass {
             BindingResource::TextureView(&reference.view),
         ];
         let group = bind(&gpu.device, &self.pipelines.layout, &resources);
-        let nearest = params.nearest || is_magnified(params, shaded, place.size);
+        // Where every pixel covers one texel at most along either axis, it shows the nearest one.
+        let is_magnified =
+            || footprint(params, shaded, place.size).is_some_and(|texels| texels.cmple(Vec2::ONE).all());
+        let nearest = params.nearest || is_magnified();
         Pane { pipeline: self.pipelines.with(&gpu.device, constants(params, nearest)), group }
     }
 }
@@ -98,12 +101,17 @@ impl Pane {
     }
 }
 
-/// Whether every pixel of a pane covers one texel at most along either axis: then it shows the nearest one. Known of parallel rays
-/// only, whose pixels cover as much everywhere.
-fn is_magnified(params: &DisplayParams, shaded: &Shaded, [across, down]: [u32; 2]) -> bool {
+/// How many of the shaded texels a pixel of a pane of `size` covers. Known of parallel rays only, whose pixels cover as much
+/// everywhere.
+pub fn texels_a_pixel(params: &DisplayParams, shaded: &Shaded, size: [u32; 2]) -> Option<f32> {
+    footprint(params, shaded, size).map(Vec2::element_product)
+}
+
+/// How many texels a pixel covers along both axes, as [`texels_a_pixel`].
+fn footprint(params: &DisplayParams, shaded: &Shaded, [across, down]: [u32; 2]) -> Option<Vec2> {
     let Camera { origin_right, origin_up, direction, direction_right, direction_up, .. } = params.camera;
     if direction_right != Vec3::ZERO || direction_up != Vec3::ZERO {
-        return false;
+        return None;
     }
     let on_plane = |step: Vec3| (step - direction * (step.z / direction.z)).truncate().abs();
     let extent = on_plane(origin_right * (2.0 / across as f32)) + on_plane(origin_up * (2.0 / down as f32));
@@ -111,7 +119,7 @@ fn is_magnified(params: &DisplayParams, shaded: &Shaded, [across, down]: [u32; 2
     let [half_width, half_height] = Grid { width, height }.half_extent();
     let texel = 2.0 * Vec2::new(half_width / width as f32, half_height / height as f32);
     let repeats = if params.tiling == Tiling::Once { 1.0 } else { 2.0 };
-    (extent * repeats / shaded.stride() as f32).cmple(texel).all()
+    Some(extent * repeats / shaded.stride() as f32 / texel)
 }
 
 /// The constants of the pipeline that shows pictures in this way.

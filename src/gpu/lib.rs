@@ -29,7 +29,7 @@ pub mod uniforms;
 
 pub use adapter::AdapterReport;
 pub use context::Gpu;
-pub use display::{DisplayPass, Pane, PanePlace};
+pub use display::{DisplayPass, Pane, PanePlace, texels_a_pixel};
 pub use loss::GpuLosses;
 pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams, Tiling};
 pub use read_back::read_rgba;

@@ -44,25 +44,25 @@ struct Passes {
 
 impl Passes {
     /// With these shaders, and these bindings of the maps.
-    fn new(gpu: &Gpu, [shade, reduce]: [&'static Shader; 2], maps: [BindingType; 3]) -> Self {
+    fn new(gpu: &Gpu, [shade, reduce]: [&'static Shader; 2], maps: &[BindingType]) -> Self {
         let shading = pipelines(gpu, shade, maps, constants(Quantity::Rendering, false));
         Self { shading, grammar: OnceLock::new(), reduction: pipelines(gpu, reduce, maps, reduced(0)) }
     }
 
     /// Those for [`Maps::Floats`].
     fn of_floats(gpu: &Gpu) -> Self {
-        Self::new(gpu, [&shaders::SHADE, &shaders::REDUCE], FLOATS)
+        Self::new(gpu, [&shaders::SHADE, &shaders::REDUCE], &FLOATS)
     }
 
     /// Those for [`Maps::Coded`].
     fn of_codes(gpu: &Gpu) -> Self {
-        Self::new(gpu, [&shaders::CODED_SHADE, &shaders::CODED_REDUCE], CODES)
+        Self::new(gpu, [&shaders::CODED_SHADE, &shaders::CODED_REDUCE], &CODES)
     }
 }
 
 /// The bindings of maps as floats, and as codes.
 const FLOATS: [BindingType; 3] = [texture_type(); 3];
-const CODES: [BindingType; 3] = [codes_type(), codes_type(), buffer_type(BufferBindingType::Uniform)];
+const CODES: [BindingType; 2] = [codes_type(), buffer_type(BufferBindingType::Uniform)];
 
 /// What pass 1 writes: linear floats, a texel each, row 0 on top.
 #[derive(Debug)]
@@ -86,11 +86,11 @@ impl Shaded {
             let texture = gpu.device.create_texture(&descriptor("picture", extent));
             write(gpu, &texture, |index| {
                 let [r, g, b] = image.pixels[index];
-                [r, g, b, 0.0]
-            });
+                [r, g, b, 0.0].map(f32::to_bits)
+            })?;
             let view = texture.create_view(&Default::default());
-            Self { texture, view, size, stride: 1, repeated: false }
-        })
+            Ok(Self { texture, view, size, stride: 1, repeated: false })
+        })?
     }
 
     /// (width, height) of the material in texels.
@@ -216,9 +216,9 @@ impl Shading {
             Some(member) if params.quantity == Quantity::Rendering => {
                 let uniforms = GrammarShading::new(&member.terms, &params.scene, largest, stride, size);
                 let grammar = passes.grammar.get_or_init(|| {
-                    let (shader, types) = match textures.maps {
-                        Maps::Floats(_) => (&shaders::GRAMMAR, FLOATS),
-                        Maps::Coded(..) => (&shaders::CODED_GRAMMAR, CODES),
+                    let (shader, types): (_, &[BindingType]) = match textures.maps {
+                        Maps::Floats(_) => (&shaders::GRAMMAR, &FLOATS),
+                        Maps::Coded(..) => (&shaders::CODED_GRAMMAR, &CODES),
                     };
                     pipelines(gpu, shader, types, constants(Quantity::Rendering, false))
                 });
@@ -245,26 +245,21 @@ impl Shading {
 }
 
 /// The pipelines of a shader that reads these maps; those with the `first` constants are compiled at once.
-fn pipelines(
-    gpu: &Gpu,
-    shader: &'static Shader,
-    [a, b, c]: [BindingType; 3],
-    first: Constants,
-) -> Fullscreen {
-    let types = [buffer_type(BufferBindingType::Uniform), a, b, c];
+fn pipelines(gpu: &Gpu, shader: &'static Shader, maps: &[BindingType], first: Constants) -> Fullscreen {
+    let types = [&[buffer_type(BufferBindingType::Uniform)], maps].concat();
     Fullscreen::new(&gpu.device, shader, &types, gpu.report.shading_format, first)
 }
 
 /// The group of uniforms and maps.
 fn bind_maps(gpu: &Gpu, pipelines: &Fullscreen, uniforms: &Buffer, textures: &MaterialTextures) -> BindGroup {
-    let [a, b, c] = match &textures.maps {
-        Maps::Floats(views) => views.each_ref().map(BindingResource::TextureView),
-        Maps::Coded([first, specular], values) => {
-            let [first, specular] = [first, specular].map(BindingResource::TextureView);
-            [first, specular, values.as_entire_binding()]
+    let mut resources = vec![uniforms.as_entire_binding()];
+    match &textures.maps {
+        Maps::Floats(views) => resources.extend(views.iter().map(BindingResource::TextureView)),
+        Maps::Coded(codes, values) => {
+            resources.extend([BindingResource::TextureView(codes), values.as_entire_binding()]);
         }
-    };
-    bind(&gpu.device, &pipelines.layout, &[uniforms.as_entire_binding(), a, b, c])
+    }
+    bind(&gpu.device, &pipelines.layout, &resources)
 }
 
 /// A target for every `stride`-th of `count` = [columns, rows] texels or cells of a material of `size`.
@@ -306,4 +301,63 @@ fn constants(quantity: Quantity, repeated: bool) -> Constants {
         Quantity::Roughness => 4,
     };
     vec![("QUANTITY", number), ("REPEATED", repeated.into())]
+}
+
+#[cfg(test)]
+mod tests {
+    use svbrdf_core::material::{Material, Planes};
+
+    use super::*;
+
+    /// Unit vectors in all directions, some of them with components that are 0 or alike, and those of 8-bit files.
+    fn unit_vectors(count: usize) -> [Vec<f32>; 3] {
+        let vector = |index: usize| {
+            let at = |step: f64| (index as f64 * step).fract();
+            let [u, v, w] = [at(0.754_877_666), at(0.569_840_291), at(0.381_966_011)];
+            match index % 4 {
+                0 => [u - 0.5, v - 0.5, w - 0.5],
+                1 => [u, v, w].map(|one| (one * 5.0).floor() - 2.0 + 1e-9),
+                2 => [0.01 * (u - 0.5), -0.0, if v < 0.5 { 1.0 } else { -1.0 }],
+                _ => [u, v, 0.5 + 0.5 * w].map(|one| 2.0 * (one * 255.0).round() / 255.0 - 1.0),
+            }
+        };
+        let mut planes = [0; 3].map(|_| Vec::with_capacity(count));
+        (0..count).for_each(|index| {
+            planes.iter_mut().zip(vector(index)).for_each(|(plane, one)| plane.push(one as f32));
+        });
+        planes
+    }
+
+    /// The normals as the shader reads them: of this material, uploaded.
+    fn normals_of(gpu: &Gpu, material: &Material<f32>) -> Vec<[f32; 3]> {
+        let size = material.size();
+        let uploaded = MaterialTextures::upload(gpu, material).unwrap();
+        assert_eq!(uploaded.texel_bytes(), 16);
+        let textures = Shading::new(gpu).unwrap().reduced_textures(gpu, &uploaded, size, 1).unwrap();
+        let Maps::Floats([view, ..]) = textures.maps else { panic!("floats") };
+        let texture = view.texture().clone();
+        Shaded { texture, view, size, stride: 1, repeated: false }.read_back(gpu).unwrap().pixels
+    }
+
+    #[test]
+    fn packed_normals_are_those_of_the_core_bit_for_bit() {
+        let gpu = match Gpu::headless() {
+            Ok(gpu) if gpu.report.shading_format == TextureFormat::Rgba32Float => gpu,
+            other => return eprintln!("NOT TESTED: {other:?}"),
+        };
+        let size = [640, 512];
+        let count = size[0] * size[1];
+        let [diffuse, specular] = [0.25, 0.04].map(|value| [0; 3].map(|_| vec![value; count]));
+        let planes = Planes { normal: unit_vectors(count), diffuse, specular, roughness: vec![0.5; count] };
+        let material = Material::new("unit vectors", size[0], size[1], planes).unwrap();
+        let [x, y, z] = &material.planes().normal;
+        let found = normals_of(&gpu, &material);
+        let bits = |one: [f32; 3]| one.map(f32::to_bits);
+        let differ = |index: &usize| bits(found[*index]) != bits([x[*index], y[*index], z[*index]]);
+        assert_eq!((0..count).find(differ), None);
+        // The largest component is each of the three, of both signs.
+        for component in [x, y, z] {
+            assert!(component.iter().any(|one| *one > 0.9) && component.iter().any(|one| *one < -0.9));
+        }
+    }
 }

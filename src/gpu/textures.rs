@@ -1,9 +1,9 @@
 //! A material on the device: the core's f32 numbers, exactly.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
 
-use bytemuck::Pod;
-use rayon::prelude::*;
 use wgpu::util::StagingBelt;
 use wgpu::{
     Buffer, BufferSize, COPY_BYTES_PER_ROW_ALIGNMENT, Extent3d, Origin3d, PollType, SubmissionIndex,
@@ -15,14 +15,16 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 
 use super::Gpu;
-use super::codes::{Codes, VALUES};
+use super::codes::{Codes, VALUES, packed_normal};
 use super::fault::scoped;
 use super::pipeline::uniform_buffer;
 
-/// About how many bytes are sent at once: bounds the memory that an upload takes beside the textures.
-const BAND_BYTES: usize = 4 << 20;
-/// Bytes that are a multiple of those of every texel.
-const ALIGNMENT: u64 = 16;
+/// About how many bytes are sent at once.
+const BAND_BYTES: usize = 1 << 20;
+/// Bytes of a texel of a texture.
+const TEXEL_BYTES: usize = 16;
+/// Most threads that fill bands: bounds the memory that an upload takes beside the textures.
+const MOST_THREADS: usize = 8;
 /// Texels that are looked at first, to find maps of many values soon.
 const SAMPLE: usize = 4096;
 
@@ -37,9 +39,9 @@ pub struct MaterialTextures {
 pub(super) enum Maps {
     /// Normal with roughness, diffuse, specular: four f32 a texel each.
     Floats([TextureView; 3]),
-    /// The f32 of the normal with the codes of roughness and diffuse, the codes of specular, and the values of the codes: where
-    /// roughness, diffuse and specular have at most 256 values each, as those of 8-bit files.
-    Coded([TextureView; 2], Buffer),
+    /// The [`packed_normal`] with the codes of diffuse, roughness and specular, and the values of the codes: where these have at
+    /// most 256 values each, as those of 8-bit files.
+    Coded(TextureView, Buffer),
 }
 
 impl MaterialTextures {
@@ -74,8 +76,8 @@ impl MaterialTextures {
         let extent = extent(gpu, size)?;
         let planes = material.planes();
         let maps = scoped(&gpu.device, "uploading a material", || {
-            coded(gpu, planes, extent, &source).unwrap_or_else(|| floats(gpu, planes, extent, &source))
-        })?;
+            coded(gpu, planes, extent, &source)?.map_or_else(|| floats(gpu, planes, extent, &source), Ok)
+        })??;
         Ok(Self { maps })
     }
 
@@ -83,7 +85,7 @@ impl MaterialTextures {
     pub fn texel_bytes(&self) -> usize {
         match self.maps {
             Maps::Floats(_) => 48,
-            Maps::Coded(..) => 20,
+            Maps::Coded(..) => 16,
         }
     }
 }
@@ -94,14 +96,14 @@ fn floats(
     planes: &Planes<f32>,
     extent: Extent3d,
     source: &(impl Fn(usize) -> usize + Sync),
-) -> Maps {
+) -> Result<Maps, Error> {
     let of = |label, texel: fn(&Planes<f32>, usize) -> [f32; 4]| {
         let texture = gpu.device.create_texture(&descriptor(label, extent));
-        write(gpu, &texture, |index| texel(planes, source(index)));
-        texture.create_view(&Default::default())
+        write(gpu, &texture, |index| texel(planes, source(index)).map(f32::to_bits))?;
+        Ok(texture.create_view(&Default::default()))
     };
-    let [a, b] = [of("normal and roughness", normal_roughness), of("diffuse", diffuse)];
-    Maps::Floats([a, b, of("specular", specular)])
+    let [a, b] = [of("normal and roughness", normal_roughness)?, of("diffuse", diffuse)?];
+    Ok(Maps::Floats([a, b, of("specular", specular)?]))
 }
 
 /// The maps as codes; `None` where they have too many values.
@@ -110,55 +112,40 @@ fn coded(
     planes: &Planes<f32>,
     extent: Extent3d,
     source: &(impl Fn(usize) -> usize + Sync),
-) -> Option<Maps> {
+) -> Result<Option<Maps>, Error> {
     let codes: [Codes; 3] = std::array::from_fn(|_| Codes::new());
     let [roughness, diffuse, specular] = &codes;
     let count = extent.width as usize * extent.height as usize;
-    let colour = |codes: &Codes, planes: &[Vec<f32>; 3], index: usize| -> Option<u32> {
+    let word = |high: u32, codes: &Codes, planes: &[Vec<f32>; 3], index: usize| -> Option<u32> {
         let [r, g, b] = planes.each_ref().map(|plane| codes.code(plane[index]));
-        Some(r? << 16 | g? << 8 | b?)
+        Some(high << 24 | r? << 16 | g? << 8 | b?)
     };
-    let normal_and_codes = |index: usize| -> Option<[u32; 4]> {
-        let [x, y, z] = planes.normal.each_ref().map(|plane| plane[index].to_bits());
-        let first = roughness.code(planes.roughness[index])?;
-        Some([x, y, z, first << 24 | colour(diffuse, &planes.diffuse, index)?])
+    let texel = |index: usize| -> Option<[u32; 4]> {
+        let [first, second, hint] = packed_normal(planes.normal.each_ref().map(|plane| plane[index]))?;
+        let diffuse = word(hint, diffuse, &planes.diffuse, index)?;
+        let high = roughness.code(planes.roughness[index])?;
+        Some([first, second, diffuse, word(high, specular, &planes.specular, index)?])
     };
-    let specular_codes = |index: usize| colour(specular, &planes.specular, index);
-    for index in (0..count).step_by((count / SAMPLE).max(1)).map(source) {
-        normal_and_codes(index)?;
-        specular_codes(index)?;
+    if (0..count).step_by((count / SAMPLE).max(1)).any(|index| texel(source(index)).is_none()) {
+        return Ok(None);
     }
     let has_failed = AtomicBool::new(false);
-    let failed = || has_failed.store(true, Ordering::Relaxed);
-    let create =
-        |label, format| gpu.device.create_texture(&TextureDescriptor { format, ..descriptor(label, extent) });
-    let textures = [
-        create("normal and codes", TextureFormat::Rgba32Uint),
-        create("codes of specular", TextureFormat::R32Uint),
-    ];
-    write(gpu, &textures[0], |index| {
-        normal_and_codes(source(index)).unwrap_or_else(|| {
-            failed();
+    let format = TextureFormat::Rgba32Uint;
+    let texture = gpu.device.create_texture(&TextureDescriptor { format, ..descriptor("codes", extent) });
+    write(gpu, &texture, |index| {
+        texel(source(index)).unwrap_or_else(|| {
+            has_failed.store(true, Ordering::Relaxed);
             [0; 4]
         })
-    });
-    if !has_failed.load(Ordering::Relaxed) {
-        write(gpu, &textures[1], |index| {
-            specular_codes(source(index)).unwrap_or_else(|| {
-                failed();
-                0
-            })
-        });
-    }
+    })?;
     if has_failed.load(Ordering::Relaxed) {
-        return None;
+        return Ok(None);
     }
-    let mut values = [[0.0_f32; 4]; VALUES];
-    for (channel, codes) in codes.iter().enumerate() {
-        values.iter_mut().zip(codes.values()).for_each(|(row, value)| row[channel] = value);
-    }
+    let [roughness, diffuse, specular] = codes.each_ref().map(Codes::values);
+    let values: [[f32; 4]; VALUES] =
+        std::array::from_fn(|code| [roughness[code], diffuse[code], specular[code], 0.0]);
     let values = uniform_buffer(&gpu.device, bytemuck::cast_slice(&values));
-    Some(Maps::Coded(textures.map(|texture| texture.create_view(&Default::default())), values))
+    Ok(Some(Maps::Coded(texture.create_view(&Default::default()), values)))
 }
 
 /// `size` as wgpu wants it, if the device can hold it.
@@ -190,52 +177,75 @@ pub(super) fn descriptor(label: &'static str, size: Extent3d) -> TextureDescript
     }
 }
 
-/// Sends the texels band by band, through buffers that are used again: clearing fresh memory takes longer than the copy.
-pub(super) fn write<T: Pod + Send>(gpu: &Gpu, texture: &Texture, texel: impl Fn(usize) -> T + Sync) {
+/// Sends the bits of the texels band by band, on several threads. Each fills buffers that are used again: clearing fresh memory takes
+/// longer than the copy.
+pub(super) fn write(
+    gpu: &Gpu,
+    texture: &Texture,
+    texel: impl Fn(usize) -> [u32; 4] + Sync,
+) -> Result<(), Error> {
     let [width, height] = [texture.width() as usize, texture.height() as usize];
-    let bytes = size_of::<T>();
-    let pitch = width.next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT as usize / bytes);
-    let rows_per_band = (BAND_BYTES / (pitch * bytes)).clamp(1, height);
-    let mut texels = vec![T::zeroed(); rows_per_band * pitch];
-    let mut belt = StagingBelt::new(gpu.device.clone(), size_of_val(texels.as_slice()) as u64);
-    let mut last = None;
-    for top in (0..height).step_by(rows_per_band) {
-        let band = &mut texels[..rows_per_band.min(height - top) * pitch];
-        band.par_chunks_mut(pitch).enumerate().for_each(|(row, values)| {
-            let first = (top + row) * width;
-            values[..width].iter_mut().zip(first..).for_each(|(value, index)| *value = texel(index));
-        });
-        // Where the adapter has no buffer for it, it has reported a fault.
-        let rows = bytemuck::cast_slice(band);
-        let bytes_per_row = (pitch * bytes) as u32;
-        let Some(submission) = send_band(gpu, &mut belt, texture, top, (rows, bytes_per_row)) else { return };
-        // The buffer of the band before is free again when its copy has ended. A lost device is reported where it draws.
-        let copied = |submission_index| PollType::Wait { submission_index, timeout: None };
-        last.replace(submission).map(|last| gpu.device.poll(copied(Some(last))));
-    }
+    let rows = (BAND_BYTES / (pitch(width) * TEXEL_BYTES)).clamp(1, height);
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut belt = StagingBelt::new(gpu.device.clone(), (rows * pitch(width) * TEXEL_BYTES) as u64);
+        let mut last = None;
+        loop {
+            let top = next.fetch_add(rows, Ordering::Relaxed);
+            if top >= height {
+                return;
+            }
+            // Where the adapter has no buffer for it, it has reported a fault.
+            let band = [top, rows.min(height - top)];
+            let Some(submission) = send_band(gpu, &mut belt, texture, band, &texel) else { return };
+            // The buffer of the band before is free again when its copy has ended. A lost device is reported where it draws.
+            let copied = |submission_index| PollType::Wait { submission_index, timeout: None };
+            last.replace(submission).map(|last| gpu.device.poll(copied(Some(last))));
+        }
+    };
+    let threads = rayon::current_num_threads().min(MOST_THREADS).min(height.div_ceil(rows));
+    thread::scope(|scope| {
+        let other = |_| scope.spawn(|| scoped(&gpu.device, "sending texels", work));
+        let others: Vec<_> = (1..threads).map(other).collect();
+        work();
+        others.into_iter().try_for_each(|other| other.join().unwrap_or_else(|panic| resume_unwind(panic)))
+    })
 }
 
-/// Sends rows of texels, whose bytes are `rows`, from row `top` on.
+/// Texels of a row in a buffer.
+fn pitch(width: usize) -> usize {
+    width.next_multiple_of(COPY_BYTES_PER_ROW_ALIGNMENT as usize / TEXEL_BYTES)
+}
+
+/// Sends `rows` of texels from row `top` on.
 fn send_band(
     gpu: &Gpu,
     belt: &mut StagingBelt,
     texture: &Texture,
-    top: usize,
-    (rows, bytes_per_row): (&[u8], u32),
+    [top, rows]: [usize; 2],
+    texel: &(impl Fn(usize) -> [u32; 4] + Sync),
 ) -> Option<SubmissionIndex> {
-    let width = texture.width();
-    let slice = belt.allocate(BufferSize::new(rows.len() as u64)?, BufferSize::new(ALIGNMENT)?);
-    slice.get_mapped_range_mut().ok()?.copy_from_slice(rows);
+    let (width, row_bytes) = (texture.width() as usize, pitch(texture.width() as usize) * TEXEL_BYTES);
+    let slice =
+        belt.allocate(BufferSize::new((rows * row_bytes) as u64)?, BufferSize::new(TEXEL_BYTES as u64)?);
+    let mut bytes = slice.get_mapped_range_mut().ok()?;
+    for row in 0..rows {
+        let start = row * row_bytes;
+        let (texels, _) = bytes.slice(start..start + width * TEXEL_BYTES).into_chunks::<TEXEL_BYTES>();
+        let first = (top + row) * width;
+        texels.write_iter((first..first + width).map(|index| bytemuck::cast(texel(index))));
+    }
+    drop(bytes);
     let layout = TexelCopyBufferLayout {
         offset: slice.offset(),
-        bytes_per_row: Some(bytes_per_row),
+        bytes_per_row: Some(row_bytes as u32),
         rows_per_image: None,
     };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.copy_buffer_to_texture(
         TexelCopyBufferInfo { buffer: slice.buffer(), layout },
         TexelCopyTextureInfo { origin: Origin3d { x: 0, y: top as u32, z: 0 }, ..texture.as_image_copy() },
-        Extent3d { width, height: rows.len() as u32 / bytes_per_row, depth_or_array_layers: 1 },
+        Extent3d { width: width as u32, height: rows as u32, depth_or_array_layers: 1 },
     );
     belt.finish();
     let submission = gpu.queue.submit([encoder.finish()]);

@@ -20,6 +20,18 @@ use svbrdf_core::render::render;
 use svbrdf_gpu::{Encoding, Gpu, GpuLosses, MaterialTextures, ShadeParams, Shaded, Shading};
 
 const SIDES: [usize; 3] = [256, 1024, 2048];
+/// Materials of a side, as floats or as codes.
+const MATERIALS: [(usize, Held); 6] = {
+    let [a, b, c] = SIDES;
+    [
+        (a, Held::Floats),
+        (b, Held::Floats),
+        (c, Held::Floats),
+        (a, Held::Codes),
+        (b, Held::Codes),
+        (c, Held::Codes),
+    ]
+};
 /// Most that a mean over a picture or a loss may be off the CPU's in f32, relative.
 const TOLERANCE: f64 = 1e-5;
 /// Lit from a corner, seen from above.
@@ -35,6 +47,13 @@ fn main() {
     }
 }
 
+/// How an adapter holds a material: its values are many, or as few as those of 8-bit files.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Held {
+    Floats,
+    Codes,
+}
+
 /// A material on the adapter and what it is shaded into.
 struct Picture {
     gpu: &'static Gpu,
@@ -44,11 +63,13 @@ struct Picture {
 }
 
 impl Picture {
-    fn new(side: usize) -> Self {
+    fn new(side: usize, held: Held) -> Self {
         let gpu = support::gpu();
         let shading = Shading::new(gpu).expect("compiled");
         let target = shading.target(gpu, [side; 2]).expect("created");
-        Self { gpu, material: support::bumpy(side, side), shading, target }
+        let bumpy = support::bumpy(side, side);
+        let material = if held == Held::Codes { support::of_8_bits(&bumpy) } else { bumpy };
+        Self { gpu, material, shading, target }
     }
 
     fn upload(&self) -> MaterialTextures {
@@ -81,17 +102,17 @@ fn assert_close(got: f64, want: f64) {
     assert!((got - want).abs() <= TOLERANCE * want, "{got}, not {want}");
 }
 
-#[divan::bench(args = SIDES, sample_count = 10)]
-fn upload(bencher: divan::Bencher<'_, '_>, side: usize) {
-    let picture = Picture::new(side);
+#[divan::bench(args = MATERIALS, sample_count = 10)]
+fn upload(bencher: divan::Bencher<'_, '_>, (side, held): (usize, Held)) {
+    let picture = Picture::new(side, held);
     bencher.counter(ItemsCount::new(side * side)).bench_local(|| picture.upload());
     picture.shade(&picture.upload());
     picture.assert_shaded();
 }
 
-#[divan::bench(args = SIDES, sample_count = 20)]
-fn shade(bencher: divan::Bencher<'_, '_>, side: usize) {
-    let picture = Picture::new(side);
+#[divan::bench(args = MATERIALS, sample_count = 20)]
+fn shade(bencher: divan::Bencher<'_, '_>, (side, held): (usize, Held)) {
+    let picture = Picture::new(side, held);
     let textures = picture.upload();
     bencher.counter(ItemsCount::new(side * side)).bench_local(|| picture.shade(&textures));
     picture.assert_shaded();
@@ -99,7 +120,7 @@ fn shade(bencher: divan::Bencher<'_, '_>, side: usize) {
 
 #[divan::bench(args = SIDES, sample_count = 20)]
 fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
-    let picture = Picture::new(side);
+    let picture = Picture::new(side, Held::Floats);
     picture.shade(&picture.upload());
     let (gpu, shaded) = (picture.gpu, &picture.target);
     let params = support::from_above([1.0; 2], Encoding::Radiance);

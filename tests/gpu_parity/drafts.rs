@@ -1,13 +1,13 @@
 //! Every n-th texel of a material, shaded while a light moves on a slow adapter.
 
-use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{MaterialTextures, ShadeParams, Shading};
 use svbrdf_needs::needs;
 
-use crate::support::gpu::{bumpy, gpu, gpu_f32};
+use crate::support::gpu::{bumpy, gpu, gpu_f32, of_8_bits};
 
 /// A draft shades the texels in the middle of squares, each as it is shaded in full: from the whole material, from its reduced
 /// textures, which are all that is read while a light moves, and from those that are sent before the rest.
@@ -15,23 +15,9 @@ use crate::support::gpu::{bumpy, gpu, gpu_f32};
 #[test]
 fn a_draft_shades_every_nth_texel_as_it_is_shaded_in_full() {
     // As floats, and as codes.
-    [(bumpy(23, 14), 48), (of_8_bits(&bumpy(23, 14)), 20)]
+    [(bumpy(23, 14), 48), (of_8_bits(&bumpy(23, 14)), 16)]
         .into_iter()
         .for_each(|(material, bytes)| drafts_of(&material, bytes));
-}
-
-/// The material whose files have 8 bits.
-fn of_8_bits(material: &Material<f32>) -> Material<f32> {
-    let rounded = |plane: &Vec<f32>| plane.iter().map(|value| (value * 255.0).round() / 255.0).collect();
-    let Planes { normal, diffuse, specular, roughness } = material.planes();
-    let planes = Planes {
-        normal: normal.clone(),
-        diffuse: diffuse.each_ref().map(rounded),
-        specular: specular.each_ref().map(rounded),
-        roughness: rounded(roughness),
-    };
-    let [width, height] = material.size();
-    Material::new("8 bits", width, height, planes).unwrap()
 }
 
 /// Maps of few values are sent as codes, and are the numbers of the core, bit for bit, in whole and reduced textures.
@@ -42,7 +28,7 @@ fn coded_maps_are_the_numbers_of_the_core_bit_for_bit() {
     let material = of_8_bits(&bumpy(70, 61));
     let planes = material.planes();
     let textures = MaterialTextures::upload(gpu, &material).unwrap();
-    assert_eq!(textures.texel_bytes(), 20);
+    assert_eq!(textures.texel_bytes(), 16);
     let shading = Shading::new(gpu).unwrap();
     let scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 1.5], light: [-0.6, 0.5, 1.0] };
     let values = |quantity: Quantity, stride: usize| {

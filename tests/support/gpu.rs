@@ -55,6 +55,20 @@ pub fn bumpy(width: usize, height: usize) -> Material<f32> {
     Material::new("bumpy", width, height, planes).expect("a valid material")
 }
 
+/// The material whose files have 8 bits.
+pub fn of_8_bits(material: &Material<f32>) -> Material<f32> {
+    let rounded = |plane: &Vec<f32>| plane.iter().map(|value| (value * 255.0).round() / 255.0).collect();
+    let Planes { normal, diffuse, specular, roughness } = material.planes();
+    let planes = Planes {
+        normal: normal.clone(),
+        diffuse: diffuse.each_ref().map(rounded),
+        specular: specular.each_ref().map(rounded),
+        roughness: rounded(roughness),
+    };
+    let [width, height] = material.size();
+    Material::new("8 bits", width, height, planes).expect("a valid material")
+}
+
 /// The colour beside the material.
 pub const BACKGROUND: [f32; 3] = [0.2, 0.4, 0.6];
 

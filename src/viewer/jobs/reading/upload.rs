@@ -16,7 +16,7 @@ use crate::jobs::work::waker::Waker;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::{MaterialId, ReadMaterial};
 
-/// Texels that a slow adapter sends or shades within a frame.
+/// Texels that a slow adapter sends and shades within a frame.
 pub const BAND: usize = 1 << 19;
 
 /// Strides that are tried in turn where the adapter cannot hold all texels.

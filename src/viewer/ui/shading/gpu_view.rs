@@ -6,7 +6,9 @@ use std::sync::Arc;
 use eframe::{egui, egui_wgpu, wgpu};
 
 use svbrdf_core::error::Error;
-use svbrdf_gpu::{Blit, DisplayParams, DisplayPass, Gpu, Pane, PanePlace, Shaded, Shading, Still};
+use svbrdf_gpu::{
+    Blit, DisplayParams, DisplayPass, Gpu, Pane, PanePlace, Shaded, Shading, Still, texels_a_pixel,
+};
 
 use super::shaded::{ShadedMaterial, ShadedPart, ShadingDevice, ShadingRequest};
 use crate::jobs::reading::upload::{Uploaded, Uploads};
@@ -16,8 +18,14 @@ use crate::model::material::read::MaterialId;
 /// What a pane shows where a draft of a material will not do, until all of it is there.
 const SENDING: &str = "Sending the material to the graphics adapter...";
 
+/// Texels of all materials that are sharpened in a frame.
+const SHARPENED: usize = 1 << 21;
+
 /// Greatest stride for lack of memory of the adapter.
 const MOST_REDUCED: usize = 32;
+
+/// From how many texels a pixel on the pixels of a pane are kept from its first frame on.
+const MANY: f32 = 16.0;
 
 /// Why materials are not shaded, as a text for the pane.
 enum ShadingError {
@@ -168,7 +176,8 @@ impl GpuView {
                 (None, _) => return Err(ShadingError::NotThere(SENDING.to_owned())),
             };
             let Self { gpu, shading, versions, .. } = self;
-            let mut device = ShadingDevice { gpu, shading, textures, are_reduced, versions };
+            let band = SHARPENED / materials.len();
+            let mut device = ShadingDevice { gpu, shading, textures, are_reduced, band, versions };
             let shaded = self.shaded.entry(material.id()).or_default();
             let size = material.material().size();
             let shaded = shaded.shade(&mut device, size, part_request);
@@ -215,7 +224,8 @@ impl GpuView {
     /// Draws the first of `texels` into `rect`, with the second where the mode compares; both must have been shaded or given.
     ///
     /// Where pane `number` shows what it showed in the frame before, its pixels are kept and copied from then on. A pane that
-    /// changes is drawn into the window at once: its pixels would be copied only once.
+    /// changes is drawn into the window at once, since its pixels would be copied only once; one of many texels a pixel, each of
+    /// which is averaged, is kept from its first frame on.
     pub fn paint(
         &mut self,
         painter: &egui::Painter,
@@ -236,7 +246,9 @@ impl GpuView {
             Some(SavedPane { of, still: Some(still) }) if of == key => {
                 (Some(still.clone()), PaneDrawing::Copied(self.blit.clone(), still))
             }
-            Some(SavedPane { of, still: None }) if of == key => {
+            last if last.as_ref().is_some_and(|last| last.of == key)
+                || texels_a_pixel(&params, displayed.0, place.size).is_some_and(|texels| texels > MANY) =>
+            {
                 let still = Arc::new(self.blit.still(&self.gpu, place.size));
                 still.draw(&self.gpu, &pane(PanePlace { corner: [0; 2], ..place }));
                 (Some(still.clone()), PaneDrawing::Copied(self.blit.clone(), still))

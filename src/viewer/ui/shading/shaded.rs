@@ -5,7 +5,7 @@ use svbrdf_files::Error;
 use svbrdf_files::disk::memory::Reserved;
 use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 
-use crate::jobs::reading::upload::{BAND, reserve_for};
+use crate::jobs::reading::upload::reserve_for;
 use crate::model::inspection::Region;
 
 /// Bytes of a shaded texel.
@@ -42,6 +42,8 @@ pub struct ShadingDevice<'a> {
     pub textures: &'a MaterialTextures,
     /// Whether the textures are reduced to what is shaded.
     pub are_reduced: bool,
+    /// Texels of a material that are sharpened in a frame.
+    pub band: usize,
     /// The number of the latest version of any texels.
     pub versions: &'a mut u64,
 }
@@ -125,7 +127,7 @@ impl ShadedMaterial {
             // Its texels are a mixture from now on.
             full.drawn = None;
         }
-        let rows = (BAND / width).max(1).min(height - top);
+        let rows = (device.band / width).max(1).min(height - top);
         let band = [0, top, width, rows].map(|side| side as u32);
         device.shading.draw_part(device.gpu, device.textures, &params, &full.shaded, Some(band));
         self.sharpened = Some((params, top + rows));
@@ -205,15 +207,15 @@ mod tests {
     use svbrdf_needs::needs;
 
     use super::*;
-    use crate::jobs::reading::upload::BAND;
     use crate::model::view::state::ViewState;
     use svbrdf_core::material::Material;
     use svbrdf_core::model::convention::PRINTED;
     use svbrdf_core::picture::quantity::Quantity;
     use svbrdf_files::samples;
 
-    /// More than two bands.
     const SIZE: [usize; 2] = [1024, 1030];
+    /// Less than half of it.
+    const BAND: usize = 1 << 19;
 
     struct ShadingBench {
         gpu: Gpu,
@@ -234,7 +236,8 @@ mod tests {
         /// One frame with the light at `x`; the number of the version that is versions.
         fn frame(&mut self, texels: &mut ShadedMaterial, x: f64, part: ShadedPart) -> u64 {
             let Self { gpu, shading, textures, versions } = self;
-            let mut device = ShadingDevice { gpu, shading, textures, are_reduced: false, versions };
+            let mut device =
+                ShadingDevice { gpu, shading, textures, are_reduced: false, band: BAND, versions };
             let sharpens = part != ShadedPart::Whole;
             let wanted = ShadingRequest { params: params(x), part, sharpens, waits: false, exact: false };
             texels.shade(&mut device, SIZE, wanted).unwrap();
