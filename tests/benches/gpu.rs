@@ -11,7 +11,7 @@ mod support;
 use divan::counter::ItemsCount;
 
 use svbrdf_core::loss::{Comparison, Request, Sampling};
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::quantity::Quantity;
@@ -136,6 +136,27 @@ fn display(bencher: divan::Bencher<'_, '_>, side: usize) {
         let got = shown.at(column, row).map(f32::from);
         assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() <= 1.0), "{got:?}, not {want:?}");
     }
+}
+
+/// As [`display`], of eight texels a pixel along both axes.
+#[divan::bench(args = SIDES, sample_count = 20)]
+fn display_reduced(bencher: divan::Bencher<'_, '_>, side: usize) {
+    let picture = Picture::new(side, Held::Floats);
+    picture.shade(&picture.upload());
+    let (gpu, shaded) = (picture.gpu, &picture.target);
+    let params = support::from_above(Grid { width: side, height: side }.half_extent(), Encoding::Radiance);
+    let screen = support::Screen::new(gpu, [side as u32 / 8; 2], shaded, shaded, &params);
+    bencher.counter(ItemsCount::new(side * side)).bench_local(|| {
+        screen.draw(gpu);
+        picture.wait();
+    });
+    let shown = screen.read(gpu);
+    let radiances = shaded.read_back(gpu).expect("read back").pixels;
+    let texels = (0..64).map(|index| radiances[index / 8 * side + index % 8]);
+    let mean = texels.fold([0.0; 3], |sum, texel| [0, 1, 2].map(|c| sum[c] + texel[c] / 64.0));
+    let want = mean.map(|x| 255.0 * svbrdf_core::picture::tone::srgb_encode(x));
+    let got = shown.at(0, 0).map(f32::from);
+    assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() <= 1.0), "{got:?}, not {want:?}");
 }
 
 #[divan::bench(args = SIDES, sample_count = 10)]
