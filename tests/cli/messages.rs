@@ -35,7 +35,7 @@ const MISTAKES: [(&str, i32, &str); 41] = [
     (
         "photo gt.png a.png --scene one.json --scene-number 5",
         1,
-        "there is no scene 5: its scenes have the numbers 0 to 0",
+        "there is no scene 5: it has one scene, number 0",
     ),
     // Data sets.
     (
