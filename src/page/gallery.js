@@ -123,8 +123,10 @@ class Gallery {
 
   /** Draws the pictures in the window that are not drawn yet. */
   draw() {
+    // All places before any change, so that the page is laid out once.
+    const boxes = this.pictures.map((picture) => this.box(picture));
     this.pictures.forEach((picture, index) => {
-      const { width, height, top, bottom } = this.box(picture);
+      const { width, height, top, bottom } = boxes[index];
       if (!this.isLive || bottom < 0 || top > innerHeight) return;
       if (picture.maps === null) this.decode(picture, index);
       const [w, h] = [width, height].map((side) => Math.max(Math.round(side * devicePixelRatio), 1));
@@ -144,7 +146,7 @@ class Gallery {
     const shown = { exposure, range: 1, clipping: false, tiled: false, falseColour: false };
     const pane = { material: index, difference: null, wipe: null };
     this.shading.pane(pane, { scene, quantity: "rendering", model, rays, epsilon }, camera, { x: 0, y: 0, width, height }, shown);
-    [canvas.width, canvas.height] = [width, height];
+    if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     [picture.image.hidden, canvas.hidden] = [true, false];
     const context = canvas.getContext("2d");
     context?.drawImage(gl, 0, gl.height - height, width, height, 0, 0, width, height);
