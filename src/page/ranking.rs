@@ -239,8 +239,9 @@ fn relighting(views: &[MaterialView]) -> (String, String) {
     let link = " A link opens the interactive figure of the material: a file beside this one.".to_owned();
     if views.iter().all(|view| view.relit.is_empty()) {
         let most = gallery::MOST_BYTES / 1_000_000;
-        let still =
-            format!(" The light of the pictures is fixed, since their maps would take more than {most} MB.");
+        let still = format!(
+            " The light of the pictures is fixed: their maps would take more than {most} MB. With fewer figures (--figures worst:N) it moves."
+        );
         return (String::new(), link + &still);
     }
     let which = if views.iter().all(|view| has_figure(&view)) { "pictures" } else { "pictures with a link" };
