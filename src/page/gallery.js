@@ -38,7 +38,8 @@ class Gallery {
     for (const kind of /** @type {const} */ (["pointerup", "pointercancel"])) root.addEventListener(kind, () => { this.press = null; });
     // The link below a picture is followed by a click, and not dragged.
     root.addEventListener("dragstart", (event) => { if (this.at(event.target)) event.preventDefault(); });
-    root.addEventListener("click", (event) => { if (this.dragged) event.preventDefault(); }, true);
+    // A click by a key has no detail.
+    root.addEventListener("click", (event) => { if (this.dragged && event.detail > 0) event.preventDefault(); }, true);
     root.addEventListener("keydown", (event) => this.key(event));
     // Other rows come into the window: scrolled, or sorted.
     for (const kind of ["scroll", "resize", "click"]) addEventListener(kind, () => this.changed(), { passive: true });
@@ -77,7 +78,7 @@ class Gallery {
   key(event) {
     const steps = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] });
     const step = steps[event.key];
-    if (!step || !this.at(event.target)) return;
+    if (!step || event.altKey || event.ctrlKey || event.metaKey || !this.at(event.target)) return;
     event.preventDefault();
     const [x, y] = overPlane(this.scene, "light");
     this.relight([x + ARROW * step[0], y + ARROW * step[1]]);

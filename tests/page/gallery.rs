@@ -115,6 +115,9 @@ fn a_click_follows_the_link_a_drag_does_not_and_the_first_light_comes_back() {
     page.drag("left", 0, at, [at[0] + 30.0, at[1]]);
     assert_ne!(page.evaluate("svbrdf.gallery.scene"), first);
     assert_eq!(page.evaluate("window.followed"), json!(false));
+    page.evaluate("document.querySelector('[data-picture]').closest('a').focus()");
+    page.press("Enter", 0);
+    assert_eq!(page.evaluate("window.followed"), json!(true), "a key follows the link after a drag");
     let wait = "new Promise(done => setTimeout(done, 500))";
     page.evaluate(wait);
     assert_eq!(page.after_frame(shown), json!(vec![[true, false]; 4]));
@@ -122,6 +125,8 @@ fn a_click_follows_the_link_a_drag_does_not_and_the_first_light_comes_back() {
     assert_eq!(page.after_frame(shown), json!(vec![[false, true]; 4]));
     assert_eq!(page.evaluate("svbrdf.gallery.scene"), first);
     page.evaluate("document.querySelector('[data-picture]').closest('a').focus()");
+    page.press("ArrowLeft", 4);
+    assert_eq!(page.evaluate("svbrdf.gallery.scene"), first, "a key of the browser");
     page.press("ArrowLeft", 0);
     let moved = page.evaluate("svbrdf.gallery.scene.light[0]").as_f64().unwrap();
     assert!((moved - (first["light"][0].as_f64().unwrap() - 0.1)).abs() < 1e-9, "{moved}");
