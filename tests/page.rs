@@ -4,6 +4,7 @@ mod browser;
 mod controls;
 mod example;
 mod framing;
+mod gallery;
 mod hostile;
 mod numbers;
 mod pixels;

@@ -11,6 +11,15 @@ use svbrdf_files::convention;
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
 
+/// The options of a question, which are JSON.
+///
+/// # Errors
+/// Where a word is none of the known ones.
+pub fn options(question: &str) -> PyResult<LossOptions> {
+    let options = serde_json::from_str::<Value>(question).and_then(serde_json::from_value);
+    options.map_err(|problem| Error::new_err(problem.to_string()))
+}
+
 /// Names, convention and question.
 #[derive(Debug, FromPyObject)]
 #[pyo3(from_item_all)]
@@ -37,10 +46,9 @@ impl Asked {
     /// The options of the question.
     ///
     /// # Errors
-    /// Where a word is none of the known ones.
+    /// As [`options`].
     pub fn options(&self) -> PyResult<LossOptions> {
-        let options = serde_json::from_str::<Value>(&self.question).and_then(serde_json::from_value);
-        options.map_err(|problem| Error::new_err(problem.to_string()))
+        options(&self.question)
     }
 
     /// The seed of the question.

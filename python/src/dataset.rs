@@ -4,12 +4,14 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use svbrdf_core::loss::ALL_SCENES_TARGET;
 use svbrdf_evaluate::dataset::{
-    self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, Method, Pick, Source,
+    self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, Method, Pick, Source,
 };
 
 use svbrdf_files::convention::ChosenConvention;
 
+use crate::asked::options;
 use crate::errors::exception;
 use crate::material::read_options;
 use crate::report::Views;
@@ -23,8 +25,10 @@ pub struct DatasetAsked {
     ground_truths: PathBuf,
     /// Name and folder of each method.
     methods: Vec<(String, PathBuf)>,
-    target_error: f64,
-    seed: u64,
+    /// [`LossOptions`] as JSON.
+    question: String,
+    /// The options of the command line for the same scenes.
+    scenes: Vec<String>,
     convention: String,
     pick: String,
     strict: bool,
@@ -59,10 +63,14 @@ pub fn rank_dataset(
     let methods = asked.methods.into_iter().map(|(name, path)| Method { name, path }).collect();
     let source = Source::Folders { ground_truths: asked.ground_truths, methods };
     let cases = source.cases().map_err(exception)?;
+    let options = options(&asked.question)?;
+    let request = options.question().map_err(exception)?.request;
+    let scenes = FixedScenes::new(request, asked.scenes).map_err(exception)?;
+    let (target_error, seed) = (options.target_error.unwrap_or(ALL_SCENES_TARGET), options.seed.unwrap_or(0));
     let settings = DatasetSettings {
         metrics: asked.metrics,
         diagnose: asked.diagnose,
-        ..DatasetSettings::new(source, convention, asked.target_error, asked.seed, &cases)
+        ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };
     let folder = asked.results.as_deref();
     let DatasetResults { results, notes } =

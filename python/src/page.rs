@@ -3,17 +3,17 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
+use serde_json::Value;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::Error;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_page::{About, Findings, Repetition, Report, View, check_destination, exposure};
 
 use crate::asked::Asked;
-use crate::errors::exception;
+use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
 use crate::model::SceneTuple;
 use crate::work;
@@ -29,6 +29,8 @@ pub struct PageAsked {
     max_bytes: usize,
     /// Of each material the assumptions and notes of reading it.
     readings: Vec<Vec<String>>,
+    /// The texts of its authors as JSON, or the path of a TOML file with them; neither: [`About::default`].
+    about: (Option<String>, Option<PathBuf>),
     /// The call that makes the report; `None`: the figure alone.
     call: Option<String>,
     /// The file that is written; `None`: the text is returned.
@@ -57,7 +59,7 @@ pub fn page(
     if let Some(path) = &of_page.path {
         check_destination(path).map_err(exception)?;
     }
-    let view = of_page.view()?;
+    let (view, about) = (of_page.view()?, of_page.about()?);
     let request = of_page.call.is_some().then(|| asked.request()).transpose()?;
     let convention = asked.convention()?;
     let materials = asked.singles(ground_truth, &predictions);
@@ -69,7 +71,7 @@ pub fn page(
             }
             _ => None,
         };
-        of_page.items(&materials.iter().collect::<Vec<_>>(), convention, view, findings, progress)
+        of_page.items(&materials.iter().collect::<Vec<_>>(), convention, (view, about), findings, progress)
     })
 }
 
@@ -82,14 +84,24 @@ impl PageAsked {
         Ok(View { scene, exposure_ev: 0.0, display })
     }
 
+    fn about(&self) -> PyResult<About> {
+        match &self.about {
+            (Some(texts), _) => serde_json::from_str::<Value>(texts)
+                .and_then(serde_json::from_value)
+                .map_err(|problem| Error::new_err(format!("about: {problem}"))),
+            (None, Some(path)) => About::read(path).map_err(exception),
+            (None, None) => Ok(About::default()),
+        }
+    }
+
     fn items(
         self,
         materials: &[&Material<f32>],
         convention: Convention,
-        view: View,
+        (view, about): (View, About),
         findings: Option<Findings>,
         progress: &Progress,
-    ) -> Result<PageItems, Error> {
+    ) -> Result<PageItems, svbrdf_evaluate::Error> {
         let exposure_ev = self.exposure.unwrap_or_else(|| exposure(materials[0], &view.scene, &convention));
         let missed = findings.iter().flat_map(|findings| findings.loss.missed());
         let mut warnings: Vec<String> = missed.map(|missed| missed.to_string()).collect();
@@ -100,7 +112,7 @@ impl PageAsked {
             findings,
             readings: self.readings,
             repetition: self.call.map(|command| Repetition { command, session: None }),
-            about: About::default(),
+            about,
             max_bytes: self.max_bytes,
         };
         let page = report.page(progress)?;

@@ -1,6 +1,7 @@
 """Methods over data sets: the numbers of the command line."""
 
 import json
+import shlex
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -73,6 +74,55 @@ def test_a_data_set_has_the_numbers_of_the_command_line(
     # The good method lacks a material: it is not compared.
     assert [(summary.method, summary.compared) for summary in report.methods] == [("bad", True), ("good", False)]
     assert list(report.to_pandas()["loss"].dropna()) == [p["loss"] for p in expected if "loss" in p]
+
+
+def test_a_data_set_in_scenes_has_the_numbers_of_the_command_line(
+    program: str, dataset: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(dataset)
+    scenes = [svbrdf.Scene("near", (0, 0, 2), (0.1 * i, 0, 1)) for i in range(3)]
+    own = json.dumps({"scenes": [scene._asdict() for scene in scenes]})
+    Path("SCENES.json").write_text(own)
+    for options, given in [
+        ("--near 6 --distant 3 --sampler sobol --seed 2", {"near": 6, "distant": 3, "sampler": "sobol", "seed": 2}),
+        ("--distant 2", {"distant": 2}),
+        ("--lights flash-9", {"scenes": svbrdf.named_scenes("flash-9")}),
+        ("--scenes SCENES.json", {"scenes": "SCENES.json"}),
+        ("--scenes SCENES.json", {"scenes": scenes}),
+    ]:
+        command = [program, "rank", "--dataset", "gt", "good", "bad", "--format", "json", *options.split()]
+        found = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        report = svbrdf.rank_dataset("gt", ["good", "bad"], **given)  # type: ignore[arg-type]
+        assert report.to_dict() == json.loads(found), options
+        # The command of the ranking makes it again.
+        repeated = [program, *shlex.split(report.repetition.command)[1:], "--format", "json"]
+        again = subprocess.run(repeated, check=True, capture_output=True, text=True).stdout
+        assert again == found, repeated
+    fewer = svbrdf.rank_dataset("gt", ["good", "bad"], scenes=scenes[:2])
+    assert predictions(fewer)[0].loss != predictions(report)[0].loss
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"near": 6, "target_error": 0.02}, "leave out near"),
+        ({"scenes": svbrdf.named_scenes("flash"), "seed": 3}, "leave out seed"),
+        ({"scenes": svbrdf.named_scenes("flash"), "distant": 3}, "leave out distant"),
+        ({"sampler": "random"}, "sampler random"),
+        ({"near": -1}, "near: expected a whole number"),
+    ],
+)
+def test_scenes_that_exclude_each_other_are_refused(dataset: Path, given: dict[str, Any], words: str) -> None:
+    with pytest.raises(ValueError, match=words):
+        svbrdf.rank_dataset(dataset / "gt", dataset / "bad", **given)
+    with pytest.raises(ValueError, match=words):
+        svbrdf.rank(*svbrdf.built_in()[:2], **given)
+
+
+def test_one_scene_of_a_kind_is_no_data_set(dataset: Path) -> None:
+    for given in ({"near": 1, "distant": 3}, {"near": 2, "distant": 1}):
+        with pytest.raises(svbrdf.Error, match="one scene of a kind has no error"):
+            svbrdf.rank_dataset(dataset / "gt", dataset / "bad", **given)  # type: ignore[arg-type]
 
 
 def test_a_broken_file_is_a_result_that_says_why(dataset: Path) -> None:

@@ -51,6 +51,48 @@ def test_a_report_has_the_losses_the_call_and_the_readings(tmp_path: Path) -> No
         svbrdf.report(ground_truth, read, path, exposure=float("nan"))
 
 
+ABOUT = {
+    "title": 'Tiles & "more"',
+    "authors": "A. Author, B. Author",
+    "caption": "Two <predictions>.",
+    "bibtex": "@article{key,\n  title = {Tiles},\n}",
+    "image": "https://example.org/p.jpg",
+}
+
+
+def test_the_texts_of_the_authors_are_those_of_the_command_line(program: str, tmp_path: Path) -> None:
+    paths = [tmp_path / "truth.exr", tmp_path / "ours.exr"]
+    for path, material in zip(paths, pair(), strict=True):
+        svbrdf.write(material, path, depth="float")
+    toml, page = tmp_path / "about.toml", tmp_path / "of_program.html"
+    toml.write_text("".join(f"{key} = {json.dumps(text)}\n" for key, text in ABOUT.items()))
+    command = [program, "report", *map(str, paths), "--target-error", "10%", "--about", str(toml), "-o", str(page)]
+    subprocess.run(command, check=True, capture_output=True)
+
+    def of_python(about: dict[str, str] | Path) -> str:
+        svbrdf.report(paths[0], paths[1], tmp_path / "of_python.html", target_error=0.1, about=about)
+        return without_call((tmp_path / "of_python.html").read_text())
+
+    def without_call(text: str) -> str:
+        found = re.split(r"<pre><code>svbrdf.*?</code></pre>", text, flags=re.DOTALL)
+        assert len(found) == 2
+        return "".join(found)
+
+    expected = without_call(page.read_text())
+    assert expected.count("A. Author, B. Author") == 1
+    assert of_python(ABOUT) == expected
+    assert of_python(toml) == expected
+    assert of_python({**ABOUT, "caption": "Another."}) != expected
+    call = html.unescape((tmp_path / "of_python.html").read_text())
+    assert "about={'title': 'Tiles & \"more\"', 'authors'" in call
+    with pytest.raises(svbrdf.Error, match=r"about: unknown field `titel`, expected one of `title`"):
+        of_python({"titel": "Tiles"})
+    with pytest.raises(svbrdf.Error, match="about: invalid type"):
+        of_python({"title": 3})  # type: ignore[dict-item]
+    with pytest.raises(FileNotFoundError, match=r"none\.toml"):
+        of_python(tmp_path / "none.toml")
+
+
 def test_a_figure_is_the_figure_alone_in_a_sandbox() -> None:
     scene = svbrdf.Scene("distant", (0, 0.1, 1), (0.5, 0, 1))
     figure = svbrdf.figure(*pair(), scene=scene, height=300)

@@ -33,6 +33,14 @@ CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
     "loss to an accuracy": (["--target-error", "5%"], lambda gt, p: svbrdf.loss(gt, p, target_error=0.05)),
     "blame": (["--target-error", "5%"], lambda gt, p: svbrdf.blame(gt, p, target_error=0.05)),
     "rank": (["--target-error", "5%"], lambda gt, p: svbrdf.rank(gt, p, target_error=0.05)),
+    "rank in few scenes": (
+        ["--near", "6", "--distant", "3", "--sampler", "sobol", "--seed", "2"],
+        lambda gt, p: svbrdf.rank(gt, p, near=6, distant=3, sampler="sobol", seed=2),
+    ),
+    "rank in named scenes": (
+        ["--lights", "flash-9"],
+        lambda gt, p: svbrdf.rank(gt, p, scenes=svbrdf.named_scenes("flash-9")),
+    ),
     "diagnose": (["--seed", "1"], lambda gt, p: svbrdf.diagnose(gt, p, seed=1)),
     "worst": (["--seed", "1"], lambda gt, p: svbrdf.worst(gt, p, seed=1)),
     "scenes": (

@@ -463,12 +463,19 @@ def test_the_loss_is_the_same_on_a_cuda_device() -> None:
     assert on_device == pytest.approx(loss(a, b).item(), rel=1e-12)
 
 
-def test_the_training_loop_of_the_page_trains(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_training_loop_of_the_page_trains(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     page = Path(__file__).parents[2] / "docs/training.md"
-    loop = page.read_text(encoding="utf-8").split("```python\n")[1].split("```")[0]
+    loop, save = [block.split("```")[0] for block in page.read_text(encoding="utf-8").split("```python\n")[1:]]
     truth = sv.Maps(*(map[None] for map in random_maps(1, dtype=torch.float32)))
     network, photographs = torch.nn.Conv2d(3, 10, 1), torch.rand(1, 3, 6, 8)
     held_out, before = SimpleNamespace(photographs=photographs, truth=truth), network.weight.detach().clone()
     exec(loop, {"network": network, "batches": 3 * [(photographs, truth)], "held_out": held_out})
     assert float(capsys.readouterr().out.split()[1]) > 0
     assert not torch.equal(network.weight, before), "the gradient reaches the network"
+    scope: dict[str, Any] = {}
+    exec(save, scope)
+    prediction = converted(random_maps(2), torch.float32)
+    scope["save"](prediction, tmp_path / "wood_step000100.png")
+    written = svbrdf.read(tmp_path / "wood_step000100.png")
+    assert np.abs(prediction.roughness[0].numpy() - written.roughness).max() <= 0.51 / 255
+    assert np.abs(prediction.diffuse.permute(1, 2, 0).numpy() - written.diffuse).max() <= 0.51 / 255

@@ -35,6 +35,13 @@ pub enum Error {
         go by the interval, or set a larger target", percent(*reached), percent(*target))]
     Inaccurate { prediction: String, reached: f64, target: f64, scenes: usize },
 
+    /// A ranking in one scene of a kind.
+    #[error("{option}: one scene of a kind has no error; give 0, or 2 or more")]
+    OneScene {
+        /// `near` or `distant`.
+        option: &'static str,
+    },
+
     /// Of a file, or of a computation.
     #[error(transparent)]
     Files(#[from] FilesError),

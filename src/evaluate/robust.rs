@@ -1,4 +1,4 @@
-//! Whether the order of predictions survives other questions: conventions, epsilon, exposure, resolution, scenes and measures.
+//! Robustness of the order of predictions to other conventions, epsilons, exposures, resolutions, scenes and measures.
 
 use svbrdf_core::loss::{Comparison, Outcome, Request, Sampling, Texels};
 use svbrdf_core::material::Material;

@@ -1,4 +1,4 @@
-//! What the authors of a report say about it: a small TOML file.
+//! Texts of a report by its authors, from a small TOML file.
 
 use std::path::Path;
 

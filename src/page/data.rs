@@ -33,13 +33,9 @@ pub(super) struct LinkedScene {
 #[serde(rename_all = "camelCase")]
 struct Data<'a> {
     materials: &'a [EncodedMaterial],
-    convention: &'a str,
-    model: BTreeMap<&'a str, f64>,
-    /// The members of `model` that hold whole numbers.
-    words: Vec<&'a str>,
-    /// `Rays` of near-field and of distant scenes, but for light and view, where the shader is that of the grammar.
-    rays: Option<BTreeMap<&'a str, ShaderRays>>,
-    epsilon: f64,
+    #[serde(flatten)]
+    renderer: Renderer,
+    rays: Option<Rays>,
     kinds: BTreeMap<&'a str, Vec<Kind>>,
     colours: BTreeMap<&'a str, Vec<String>>,
     start: Start<'a>,
@@ -47,7 +43,45 @@ struct Data<'a> {
     /// Stops by which each material is brightened beside the first.
     offsets: &'a [f32],
     ground_truth: bool,
-    shaders: BTreeMap<&'a str, Value>,
+}
+
+/// `Rays` of near-field and of distant scenes, but for light and view, where the shader is that of the grammar.
+pub(super) type Rays = BTreeMap<&'static str, ShaderRays>;
+
+/// The renderer of a convention: the shaders and their uniforms.
+#[derive(Serialize)]
+pub(super) struct Renderer {
+    convention: &'static str,
+    model: BTreeMap<&'static str, f64>,
+    /// The members of `model` that hold whole numbers.
+    words: Vec<&'static str>,
+    epsilon: f64,
+    shaders: BTreeMap<&'static str, Value>,
+}
+
+impl Renderer {
+    /// # Errors
+    /// [`Error::Internal`], which the shaders never give.
+    pub(super) fn new(convention: &Convention) -> Result<Self, Error> {
+        let mut shaders: BTreeMap<&str, Value> = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
+        let grammar = shaders.remove("grammar");
+        if let (Some(_), Some(shader)) = (convention.member, grammar) {
+            shaders.insert("shade", shader);
+        }
+        let (model, words) = model(convention);
+        Ok(Self { convention: convention.name, model, words, epsilon: convention.epsilon, shaders })
+    }
+}
+
+/// The rays of materials of this size.
+pub(super) fn rays(convention: &Convention, size: [usize; 2]) -> Option<Rays> {
+    let terms = convention.member?.terms;
+    let of = |(kind, is_near)| (kind, shader::rays(&terms, is_near, size));
+    Some([("near", true), ("distant", false)].map(of).into())
+}
+
+pub(super) fn failed(problem: serde_json::Error) -> Error {
+    Error::Internal(format!("a page cannot be made: {problem}"))
 }
 
 #[derive(Serialize)]
@@ -97,33 +131,17 @@ pub(super) fn json(
     offsets: &[f32],
 ) -> Result<String, Error> {
     let Report { convention, .. } = report;
-    let failed = |problem: serde_json::Error| Error::Internal(format!("a report cannot be made: {problem}"));
-    let mut shaders: BTreeMap<&str, Value> = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
-    let grammar = shaders.remove("grammar");
-    if let (Some(_), Some(shader)) = (convention.member, grammar) {
-        shaders.insert("shade", shader);
-    }
-    let (model, words) = model(convention);
     let size = materials.first().map_or([1; 2], EncodedMaterial::size);
-    let rays = convention.member.map(|member| {
-        [("near", true), ("distant", false)]
-            .map(|(kind, is_near)| (kind, shader::rays(&member.terms, is_near, size)))
-            .into()
-    });
     let data = Data {
         materials,
-        convention: convention.name,
-        model,
-        words,
-        rays,
-        epsilon: convention.epsilon,
+        renderer: Renderer::new(convention)?,
+        rays: rays(convention, size),
         kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
         start: start(report, materials),
         scenes,
         offsets,
         ground_truth: !report.about.no_ground_truth,
-        shaders,
     };
     serde_json::to_string(&data).map_err(failed)
 }

@@ -9,6 +9,7 @@ mod data;
 mod encode;
 mod exposure;
 mod findings;
+mod gallery;
 mod markup;
 mod pictures;
 mod plots;

@@ -1,4 +1,4 @@
-//! Whether the order survives other questions, as a section of a page.
+//! Section of a page on the robustness of an order: whether it survives other questions.
 
 use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
 

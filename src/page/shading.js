@@ -42,9 +42,6 @@ class Shading {
     this.format = whole ? gl.RGBA32F : gl.RGBA16F;
     this.largest = whole ? 3.4028234663852886e38 : 65504;
     this.programs = Object.fromEntries(Object.entries(shaders).map(([name, text]) => [name, this.program(text)]));
-    const side = gl.getParameter(gl.MAX_TEXTURE_SIZE);
-    const { width, height } = materials[0];
-    if (Math.max(width, height) > side) throw new Error(`this graphics adapter has textures of at most ${side} texels`);
     this.uploaded = materials.map((material) => this.upload(material));
   }
 
@@ -83,8 +80,16 @@ class Shading {
   /** @param {Maps} material @returns {Uploaded} */
   upload({ width, height, normalRoughness, diffuse, specular }) {
     const gl = this.gl;
+    const side = gl.getParameter(gl.MAX_TEXTURE_SIZE);
+    if (Math.max(width, height) > side) throw new Error(`this graphics adapter has textures of at most ${side} texels`);
     const maps = [normalRoughness, diffuse, specular].map((numbers) => this.texture(gl.RGBA32F, width, height, numbers));
     return { maps, once: this.targets([width, height]), plane: null };
+  }
+
+  /** Takes in a further material. @param {number} index @param {Maps} material */
+  add(index, material) {
+    this.materials[index] = material;
+    this.uploaded[index] = this.upload(material);
   }
 
   /** @param {number} format @param {number} width @param {number} height @param {Float32Array | null} numbers */
@@ -214,7 +219,8 @@ class Shading {
   pane(pane, how, camera, box, shown) {
     const { width, height } = this.materials[pane.material];
     const repeated = shown.tiled && isLitAsPlane(how);
-    const [material, reference] = [pane.material, 0].map((index) => this.shade(index, how, repeated));
+    const material = this.shade(pane.material, how, repeated);
+    const reference = pane.wipe === null && pane.difference === null ? material : this.shade(0, how, repeated);
     const page = {
       mode: pane.wipe === null ? 0 : 1, difference: DIFFERENCES[pane.difference ?? "none"], encoding: ENCODINGS[how.quantity],
       show_clipping: shown.clipping ? 1 : 0, tiling: repeated ? 2 : Number(shown.tiled),

@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use super::{fail, folder};
 
 /// Mistakes, with the exit code and the words that tell what was expected, what was found, or what to do.
-const MISTAKES: [(&str, i32, &str); 41] = [
+const MISTAKES: [(&str, i32, &str); 43] = [
     // A file of another kind, or of none.
     ("loss empty.png a.png", 1, "expected an image, found an empty file; copy or write it again"),
     ("loss one.json a.png", 64, "one.json is not a material: a list of scenes is given as --scenes FILE"),
@@ -35,8 +35,10 @@ const MISTAKES: [(&str, i32, &str); 41] = [
     (
         "photo gt.png a.png --scene one.json --scene-number 5",
         1,
-        "there is no scene 5: its scenes have the numbers 0 to 0",
+        "there is no scene 5: it has one scene, number 0",
     ),
+    ("convert gt.png none/x/", 1, "cannot write none/x/: its folder does not exist; create the folder first"),
+    ("convert gt.png none/x.png", 1, "its folder does not exist; create the folder first, or name another"),
     // Data sets.
     (
         "rank --dataset gt.png set",

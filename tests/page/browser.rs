@@ -10,6 +10,7 @@ use std::sync::{LazyLock, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use base64::Engine as _;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
@@ -238,6 +239,15 @@ impl Page {
         let mut params = json!({ "type": kind, "x": x, "y": y, "clickCount": 1 });
         params.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
         self.send("Input.dispatchMouseEvent", params);
+    }
+
+    /// Writes a picture of the window, after a pause: the status of a figure comes late.
+    pub fn save_jpeg(&mut self, path: &Path) {
+        self.send("Emulation.setScrollbarsHidden", json!({ "hidden": true }));
+        self.evaluate("new Promise(done => setTimeout(done, 1000))");
+        let picture = self.send("Page.captureScreenshot", json!({ "format": "jpeg", "quality": 80 }));
+        let bytes = base64::prelude::BASE64_STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
+        std::fs::write(path, bytes).unwrap();
     }
 
     /// A drag of the mouse in three moves.

@@ -3,8 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use base64::Engine as _;
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use super::browser::Page;
 
@@ -67,10 +66,5 @@ fn write_the_picture_of_the_report() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
     let html = fs::read_to_string(docs.join("example-report.html")).unwrap();
     let mut page = Page::open(&html, [1366, 1180]);
-    page.send("Emulation.setScrollbarsHidden", json!({ "hidden": true }));
-    // The status below the figure comes after a pause.
-    page.evaluate("new Promise(done => setTimeout(done, 1000))");
-    let picture = page.send("Page.captureScreenshot", json!({ "format": "jpeg", "quality": 80 }));
-    let bytes = base64::prelude::BASE64_STANDARD.decode(picture["data"].as_str().unwrap()).unwrap();
-    fs::write(docs.join("assets/report.jpg"), bytes).unwrap();
+    page.save_jpeg(&docs.join("assets/report.jpg"));
 }

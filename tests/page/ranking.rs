@@ -74,7 +74,7 @@ pub fn page() -> String {
     };
     let reading = DatasetReading::default();
     let report = DatasetReport::new(settings, reading, results.collect(), Pick::Fixed);
-    ranking(&report, &[], Some(&robust()))
+    ranking(&report, &[], Some(&robust())).unwrap()
 }
 
 /// A pair of methods that changes sides.

@@ -113,6 +113,9 @@ fn long_names_fit_a_phone_and_every_target_a_fingertip() {
     for mut page in pages([&long, &long], [360, 640]) {
         let found = page.evaluate(&format!("new Promise(done => setTimeout(() => done({MISPLACED}), 400))"));
         assert_eq!(found, json!([]));
+        let first = "(() => { const of = (id) => document.getElementById(id)?.getBoundingClientRect(); \
+                     return !of('hint') || of('hint').bottom <= of('canvas').top; })()";
+        assert_eq!(page.evaluate(first), json!(true), "a reader sees what to do before the figure");
         // A button that is too small and a text that is too wide are found.
         page.evaluate("document.body.insertAdjacentHTML('beforeend', '<button>x</button><pre></pre>')");
         page.evaluate("Object.assign(document.querySelector('body > button').style, { minHeight: '10px', height: '10px' })");

@@ -218,7 +218,7 @@ fn the_dialog_opens_a_photograph_with_its_light_and_says_what_is_wrong() {
         light: Some(PhotographLight::File { path: scenes.clone(), number: Some(number) }),
     };
     apply(&mut window, of(1));
-    window.get_by_label_contains("there is no scene 1: its scenes have the numbers 0 to 0");
+    window.get_by_label_contains("there is no scene 1: it has one scene, number 0");
     apply(&mut window, of(0));
     wait_for_it(&mut window);
     assert_eq!(window.state().parts.model.view.scene.light, [1.0, 0.0, 2.0]);

@@ -46,8 +46,8 @@ const GENERATED: [Generated; 12] = [
     },
     Generated {
         name: "report-picture",
-        files: "docs/assets/report.jpg",
-        script: "cargo test --test main write_the_picture_of_the_report -- --ignored",
+        files: "docs/assets/{report,ranking}.jpg",
+        script: "cargo test --test main write_the_picture_of_the -- --ignored",
     },
     Generated {
         name: "pictures",

@@ -35,7 +35,7 @@ class Asked:
         **options: Any,
     ) -> None:
         """`alone`: a ground truth without predictions is enough. `options`: of the question; None is left open."""
-        question = _question(**options)
+        asked = question(**options)
         self.ground_truth = opened(ground_truth, precision)
         is_none = alone and isinstance(predictions, tuple | list) and not predictions
         given = () if is_none else listed(predictions, "predictions")
@@ -48,7 +48,7 @@ class Asked:
             "paths": [material.path for material in materials],
             "convention": convention,
             "precision": precision,
-            "question": json.dumps(question),
+            "question": asked,
         }
 
     @property
@@ -57,8 +57,8 @@ class Asked:
         return self.ground_truth._core, [prediction._core for prediction in self.predictions], self._options
 
 
-def _question(scenes: Scenes | None = None, **options: Any) -> dict[str, Any]:
-    """The options of a question that are specified, for the core.
+def question(scenes: Scenes | None = None, **options: Any) -> str:
+    """The options of a question that are specified, as JSON for the core.
 
     Raises:
         TypeError, ValueError: One has a wrong type or makes no sense.
@@ -73,7 +73,7 @@ def _question(scenes: Scenes | None = None, **options: Any) -> dict[str, Any]:
     if scenes is not None:
         listed = read_scenes(scenes) if isinstance(scenes, str | os.PathLike) else scenes
         given["file"] = {"scenes": [_scene(*scene) for scene in listed]}
-    return given
+    return json.dumps(given)
 
 
 def _scene(kind: str, view: Sequence[float], light: Sequence[float]) -> dict[str, Any]:

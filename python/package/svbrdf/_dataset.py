@@ -7,21 +7,25 @@ from pathlib import Path
 from typing import Any, Literal
 
 from . import _core
-from ._asked import check_goals
+from ._asked import Scenes, question
 from ._material import Source
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import report_of
 from ._reports import DatasetReport
-from ._scenes import check_whole
+from ._scenes import SETS, named_scenes
 
 
 def rank_dataset(
     ground_truths: Source,
     methods: Source | Sequence[Source] | Mapping[str, Source],
     *,
-    target_error: float = 0.01,
-    seed: int = 0,
+    target_error: float | None = None,
+    near: int | None = None,
+    distant: int | None = None,
+    seed: int | None = None,
+    sampler: Literal["random", "sobol"] | None = None,
+    scenes: Scenes | None = None,
     convention: str = "printed",
     pick: Literal["fixed", "mean", "best"] = "fixed",
     strict: bool = False,
@@ -43,8 +47,14 @@ def rank_dataset(
         ground_truths: The folder of the ground truths.
         methods: The folder of each method, or folders by the name of the method. A path with `{}` is a pattern, in
             which `{}` stands for the name of a material: "out/{}_pred.png".
-        target_error: As many scenes for each material as this relative error of every loss needs at 95% confidence.
-        seed: Names the sampled scenes, together with the name of the material.
+        target_error: As many scenes for each material as this relative error of every loss needs at 95% confidence;
+            0.01 where nothing else decides the scenes.
+        near: The number of near-field scenes of each material, as in `svbrdf.loss`.
+        distant: The number of distant scenes of each material.
+        seed: Names the sampled scenes, together with the name of the material; 0 where not given.
+        sampler: "random", the default with `near` or `distant`, or "sobol".
+        scenes: These scenes for all materials, or those of a scene file. For a list the command that repeats the
+            ranking says `--scenes SCENES.json`, unless `svbrdf.named_scenes` makes it without a `fov`.
         convention: A name of `svbrdf.CONVENTIONS`.
         pick: Which of several predictions counts: the first, the mean of their losses, or the best.
         strict: Whether guesses in reading are errors.
@@ -65,15 +75,15 @@ def rank_dataset(
 
     Raises:
         OSError: A folder cannot be read, or the folder of results cannot be written.
-        svbrdf.Error: A folder has no materials, or an option has no such value.
+        svbrdf.Error: A folder has no materials, or an option has no such value or is not used.
+        TypeError, ValueError: An argument has a wrong type or makes no sense.
     """
-    check_goals(target_error=target_error)
-    check_whole("seed", seed)
+    sampled = {"near": near, "distant": distant, "sampler": sampler}
     asked = {
         "ground_truths": ground_truths,
         "methods": _named(methods),
-        "target_error": target_error,
-        "seed": seed,
+        "question": question(scenes, target_error=target_error, seed=seed, **sampled),
+        "scenes": [*_words(sampled), *_source(scenes)],
         "convention": convention,
         "pick": pick,
         "strict": strict,
@@ -99,6 +109,20 @@ def _named(methods: Source | Sequence[Source] | Mapping[str, Source]) -> list[tu
     if not named:
         raise ValueError("methods: expected at least one folder, found none")
     return named
+
+
+def _words(sampled: Mapping[str, object]) -> list[str]:
+    return [word for name, value in sampled.items() if value is not None for word in (f"--{name}", str(value))]
+
+
+def _source(scenes: Scenes | None) -> list[str]:
+    """The options of the command line for scenes."""
+    if scenes is None:
+        return []
+    if isinstance(scenes, str | os.PathLike):
+        return ["--scenes", os.fspath(scenes)]
+    named = (name for name in SETS if named_scenes(name) == list(scenes))
+    return next((["--lights", name] for name in named), ["--scenes", "SCENES.json"])
 
 
 def _options(given: Mapping[str, Any] | None) -> str:

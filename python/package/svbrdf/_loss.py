@@ -89,8 +89,12 @@ def rank(
     ground_truth: Material | Source,
     predictions: Predictions,
     *,
-    target_error: float = 0.01,
-    seed: int = 0,
+    target_error: float | None = None,
+    near: int | None = None,
+    distant: int | None = None,
+    seed: int | None = None,
+    sampler: Literal["random", "sobol"] | None = None,
+    scenes: Scenes | None = None,
     repeats: Material | Source | Sequence[Material | Source] = (),
     convention: str = "printed",
     progress: bool | Progress = False,
@@ -102,8 +106,18 @@ def rank(
     >>> [(place.prediction, place.group) for place in svbrdf.rank(ground_truth, predictions).ranking]
     [('wrong roughness', 1), ('blurred normals', 2)]
 
-    Args and errors are those of `svbrdf.loss`, `repeats` those of `svbrdf.diagnose`. At most 786,432 /
-    (predictions + 1) scenes are sampled.
+    Args and errors are those of `svbrdf.loss`, `repeats` those of `svbrdf.diagnose`. Where nothing decides the scenes,
+    `target_error` is 0.01. At most 786,432 / (predictions + 1) scenes are sampled.
     """
-    asked = Asked(ground_truth, predictions, convention=convention, seed=seed, target_error=target_error)
+    asked = Asked(
+        ground_truth,
+        predictions,
+        convention=convention,
+        target_error=target_error,
+        near=near,
+        distant=distant,
+        seed=seed,
+        sampler=sampler,
+        scenes=scenes,
+    )
     return answered(RankReport, _core.rank, asked, "rendering", progress, repeated(repeats))

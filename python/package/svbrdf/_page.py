@@ -3,7 +3,7 @@
 import json
 import os
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
@@ -100,6 +100,7 @@ def report(
     layout: Layout = "side-by-side",
     convention: str = "printed",
     max_size: int = 10_000_000,
+    about: Mapping[str, str] | Source | None = None,
     progress: bool | Progress = False,
 ) -> None:
     """Writes the report of `svbrdf report`: one HTML file with the interactive figure and the findings.
@@ -115,11 +116,14 @@ def report(
         layout: The layout that the figure begins with.
         convention: A name of `svbrdf.CONVENTIONS`.
         max_size: Most bytes of the file: the maps of the figure are halved until it has as many, with a warning.
+        about: Texts of the page, or the path of a TOML file with them: `title`, `authors`, `caption`, `bibtex`, and
+            `image`, the address of a picture for previews of links.
         progress: True for a bar of tqdm, or a function of (steps done, steps in all).
 
     Raises:
         OSError: A file cannot be read or written.
         svbrdf.Error: A material or the scene cannot be used, the sizes differ, or `path` is not named like HTML.
+            `about` has other keys, or values that are no texts.
         ValueError: `target_error` is no share, or `exposure` or `max_size` is out of its range.
     """
     asked = Asked(ground_truth, predictions, convention=convention, seed=seed, target_error=target_error)
@@ -127,6 +131,10 @@ def report(
     named = f"{target_error=}, {seed=}, {exposure=}, {layout=}, {convention=}, {max_size=}, scene=svbrdf.{scene!r}"
     texts = [_call(material) for material in materials]
     options = _options(scene, exposure, max_size, layout=layout)
+    if about is not None:
+        about = dict(about) if isinstance(about, Mapping) else os.fspath(about)
+        named += f", {about=}"
+        options["about"] = (json.dumps(about), None) if isinstance(about, dict) else (None, about)
     options["call"] = f"svbrdf.report({texts[0]}, [{', '.join(texts[1:])}], {os.fspath(path)!r}, {named})"
     options["readings"] = [_reading(material) for material in materials]
     options["path"] = Path(path)
@@ -153,6 +161,7 @@ def _options(scene: Scene, exposure: float | None, max_size: int, *, layout: str
         "layout": layout,
         "max_bytes": max_size,
         "readings": [],
+        "about": (None, None),
         "call": None,
         "path": None,
     }

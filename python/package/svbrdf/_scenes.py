@@ -3,13 +3,16 @@
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, SupportsIndex
+from typing import Any, Literal, NamedTuple, SupportsIndex, get_args
 
 from numpy.typing import NDArray
 
 from . import _core
 from ._arrays import from_bytes
 from ._material import Material, Source, opened
+
+SetName = Literal["flash", "flash-9", "hemisphere"]
+SETS: tuple[SetName, ...] = get_args(SetName)
 
 
 class Scene(NamedTuple):
@@ -136,7 +139,7 @@ def sample_scenes(
     return scenes_of(_core.sample_scenes(near, distant, seed, sampler, convention))
 
 
-def named_scenes(name: Literal["flash", "flash-9", "hemisphere"], *, fov: float | None = None) -> list[Scene]:
+def named_scenes(name: SetName, *, fov: float | None = None) -> list[Scene]:
     """The scenes of a set with a name, for every argument `scenes`.
 
     "flash" is one flash at the camera, straight above the centre; "flash-9" the nine flashes at the camera of

@@ -1,4 +1,4 @@
-//! How far files are trusted: what they may name, and how much memory they may take.
+//! Limits of trust in files: what they may name, and how much memory they may take.
 
 use svbrdf_files::disk::{memory, open};
 

@@ -56,6 +56,7 @@ pub enum CommandError {
 impl From<Error> for CommandError {
     fn from(error: Error) -> Self {
         match error.core() {
+            _ if matches!(error, Error::OneScene { .. }) => Self::Usage(format!("--{error}")),
             Some(CoreError::UnusedOption { option, reason }) => {
                 Self::Usage(format!("{reason}; leave out --{}", option.replace('_', "-")))
             }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::loss::{Question, Request, Sampling};
+use svbrdf_core::loss::Question;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
@@ -71,14 +71,7 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
 /// The scenes of all materials, where their number or a list is specified.
 fn fixed_scenes(args: &RankArgs) -> Result<Option<FixedScenes>, CommandError> {
     let Question { request, .. } = args.scenes.options()?.question()?;
-    if let Request::Scenes(Sampling { near, distant, .. }) = request
-        && (near == 1 || distant == 1)
-    {
-        return Err(CommandError::usage(
-            "one scene of a kind has no error; give 0, or 2 or more, to --near and --distant",
-        ));
-    }
-    Ok(FixedScenes::new(request, args.scenes.words()))
+    Ok(FixedScenes::new(request, args.scenes.words())?)
 }
 
 /// Where the ranking goes, before anything is computed: to a file that replaces no material and no list, or to stdout.
@@ -146,7 +139,7 @@ fn write_page(
     let views = watched_on(progress, "rendering materials", |progress| {
         material_views(report, cases, figures, path, progress)
     })?;
-    Ok(write_text(path, &ranking(report, &views, robust.as_ref()), progress)?)
+    Ok(write_text(path, &ranking(report, &views, robust.as_ref())?, progress)?)
 }
 
 /// The cases of a shard, which is reported.

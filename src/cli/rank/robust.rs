@@ -1,4 +1,4 @@
-//! Whether the order of methods over many materials survives other questions.
+//! Ranking of methods over many materials under other questions.
 
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{self, Case, DatasetReading, DatasetSettings};

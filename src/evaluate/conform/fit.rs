@@ -1,4 +1,4 @@
-//! How well a renderer of the grammar explains what was observed.
+//! Fit of a renderer of the grammar to what was observed.
 
 use std::sync::OnceLock;
 

@@ -1,4 +1,4 @@
-//! Whether the order of methods over a data set survives other questions.
+//! Robustness of the order of methods over a data set.
 
 use rayon::prelude::*;
 

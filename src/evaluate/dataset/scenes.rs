@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use svbrdf_core::loss::{Request, Sampling};
 use svbrdf_core::model::sampler::Sampler;
 
+use crate::error::Error;
 use crate::report::scenes_line;
 
 /// Scenes that every material is compared in, in place of as many as an accuracy needs.
@@ -19,8 +20,16 @@ pub struct FixedScenes {
 
 impl FixedScenes {
     /// Those of `request`, which `options` of the command line ask for; `None` where an accuracy or a time decides them.
-    pub fn new(request: Request, options: Vec<String>) -> Option<Self> {
-        matches!(request, Request::Scenes(_) | Request::Listed(_)).then_some(Self { options, request })
+    ///
+    /// # Errors
+    /// [`Error::OneScene`].
+    pub fn new(request: Request, options: Vec<String>) -> Result<Option<Self>, Error> {
+        match &request {
+            Request::Scenes(Sampling { near: 1, .. }) => Err(Error::OneScene { option: "near" }),
+            Request::Scenes(Sampling { distant: 1, .. }) => Err(Error::OneScene { option: "distant" }),
+            Request::Scenes(_) | Request::Listed(_) => Ok(Some(Self { options, request })),
+            Request::Accuracy { .. } | Request::Time { .. } => Ok(None),
+        }
     }
 
     /// The request of a material whose scenes are named by `seed`.

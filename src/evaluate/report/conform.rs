@@ -1,4 +1,4 @@
-//! Whether a renderer conforms to a convention, and in which terms it differs.
+//! Conformance of a renderer to a convention, and the terms in which it differs.
 
 use std::collections::BTreeMap;
 

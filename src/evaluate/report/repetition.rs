@@ -1,4 +1,4 @@
-//! How to repeat a result.
+//! Repetition of a result: the command that makes it again, and the version of the program.
 
 use std::fmt;
 

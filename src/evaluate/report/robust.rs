@@ -1,4 +1,4 @@
-//! Whether the order of predictions survives other questions.
+//! Report on the robustness of the order of predictions.
 
 use schemars::JsonSchema;
 use serde::Serialize;

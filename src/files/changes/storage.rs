@@ -1,4 +1,4 @@
-//! How the maps of a material are stored, as far as a diagnosis uses it.
+//! Storage of the maps of a material, as far as a diagnosis uses it.
 
 use serde::{Deserialize, Serialize};
 

@@ -93,15 +93,24 @@ pub fn check(progress: &Progress) -> io::Result<()> {
 /// # Errors
 /// [`Error::Unwritable`] where its folder is missing or it is itself a folder.
 pub fn check_place(path: &Path) -> Result<(), Error> {
-    if !folder_of(path).is_dir() {
-        let source = io::Error::new(io::ErrorKind::NotFound, "its folder does not exist");
-        return Err(unwritable(path, source, "create the folder first, or name another"));
-    }
+    check_folder(path)?;
     if path.is_dir() {
         let source = io::Error::new(io::ErrorKind::IsADirectory, "it is a folder");
         return Err(unwritable(path, source, "name a file"));
     }
     Ok(())
+}
+
+/// Checks that the folder is there in which a file or a folder will be.
+///
+/// # Errors
+/// [`Error::Unwritable`] where it is missing.
+pub fn check_folder(path: &Path) -> Result<(), Error> {
+    if folder_of(path).is_dir() {
+        return Ok(());
+    }
+    let source = io::Error::new(io::ErrorKind::NotFound, "its folder does not exist");
+    Err(unwritable(path, source, "create the folder first, or name another"))
 }
 
 /// [`replace`] by a text.

@@ -102,6 +102,9 @@ impl PhotographLight {
         found.copied().ok_or_else(|| {
             let last = scenes.len() - 1;
             let problem = match number {
+                Some(number) if last == 0 => {
+                    format!("there is no scene {number}: it has one scene, number 0")
+                }
                 Some(number) => {
                     format!("there is no scene {number}: its scenes have the numbers 0 to {last}")
                 }

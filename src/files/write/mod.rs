@@ -122,6 +122,7 @@ pub fn write_watched(
     kind: FileKind,
     progress: &Progress,
 ) -> Result<Option<Surface>, Error> {
+    atomic::check_folder(path)?;
     let folder = |files: &[png::FolderPicture<'_>], sixteen| {
         let remedy = "name a folder that is not there yet, in one that is writable";
         let written = png::folder(path, material, files, sixteen, progress);

@@ -1,4 +1,4 @@
-//! What a figure has, and where: texts and pictures at places in points, from which each format is written.
+//! Layout of a figure: texts and pictures at places in points, from which each format is written.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! How a material that was read is stored, for its diagnosis.
+//! Storage of a material that was read, for its diagnosis.
 
 use crate::changes::{Storage, StoredEncoding};
 

@@ -1,4 +1,4 @@
-//! Whether the order of predictions, or of the methods of a data set, survives other questions.
+//! Job on the robustness of the order of predictions, or of the methods of a data set.
 
 use std::sync::Arc;
 

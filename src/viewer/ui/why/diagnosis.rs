@@ -1,4 +1,4 @@
-//! Whether an error of exposure, alignment or reading explains the loss of each prediction.
+//! Section of the diagnosis: whether an error of exposure, alignment or reading explains the loss of each prediction.
 
 use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, FontId, RichText, pos2, vec2};

@@ -1,4 +1,4 @@
-//! Whether the order of predictions, or of methods, survives other questions: a fold below them.
+//! Fold on the robustness of the order of predictions, or of methods, below them.
 
 use eframe::egui::{self, RichText};
 
