@@ -43,13 +43,17 @@ pub(super) fn fits(ground_truth: &Material<f32>, prediction: &Material<f32>, see
         span(reach[1]).flat_map(|down| span(reach[0]).map(move |right| [right, down])).collect();
     let pairs = ground_truth.planes().all().zip(prediction.planes().all());
     let pairs: Vec<_> = pairs.filter_map(|(a, b)| normalized(a).zip(normalized(b))).collect();
-    let fit = |&shift: &[i32; 2]| {
-        let by = i64::from(shift[1]) * size[0] as i64 + i64::from(shift[0]);
-        let of_planes: Vec<f64> = pairs.iter().map(|(a, b)| correlation(a, b, &runs, by)).collect();
-        let absolute = of_planes.iter().map(|fit| fit.abs()).sum();
-        Fit { shift, signed: of_planes.iter().sum(), absolute }
+    let by = |&[right, down]: &[i32; 2]| i64::from(down) * size[0] as i64 + i64::from(right);
+    // Plane by plane: one fits into the cache.
+    let of_plane = |(a, b): &(Vec<f32>, Vec<f32>)| -> Vec<f64> {
+        all.par_iter().map(|shift| correlation(a, b, &runs, by(shift))).collect()
     };
-    all.par_iter().map(fit).collect()
+    let of_planes: Vec<_> = pairs.iter().map(of_plane).collect();
+    let fit = |(index, &shift)| {
+        let fits = || of_planes.iter().map(|plane| plane[index]);
+        Fit { shift, signed: fits().sum(), absolute: fits().map(f64::abs).sum() }
+    };
+    all.iter().enumerate().map(fit).collect()
 }
 
 /// The two displacements other than none with the best fits, and the two with the best fits by absolute values.
@@ -80,7 +84,10 @@ fn runs([width, height]: [usize; 2], reach: [usize; 2], seed: u64) -> Vec<[usize
     let length = LENGTH.min(columns);
     let random =
         |_| run(generator.random_range(0..=columns - length), generator.random_range(0..rows), length);
-    (0..RUNS).map(random).collect()
+    let mut runs: Vec<_> = (0..RUNS).map(random).collect();
+    // In the order of memory.
+    runs.sort_unstable();
+    runs
 }
 
 /// The plane with mean 0 and standard deviation 1; `None` where it is constant.
