@@ -12,7 +12,7 @@ fn codes_of(word: u32) -> vec4u {
     return vec4u(word >> 24u, (word >> 16u) & 255u, (word >> 8u) & 255u, word & 255u);
 }
 
-// The twin of packed_normal in src/gpu/codes.rs.
+// The twin of packed_normal in src/gpu/packing.rs.
 fn unpacked_normal(first: u32, second: u32, hint: u32) -> vec3f {
     let others = bitcast<vec2f>(vec2u(first, second));
     let computed = bitcast<u32>(sqrt(max(1.0 - dot(others, others), 0.0)));

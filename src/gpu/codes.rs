@@ -1,4 +1,4 @@
-//! A material in few bytes, exactly: codes for values that are few, and of a unit vector two components and a hint at the third.
+//! Codes of the values of a map: where a map holds at most 256 different numbers, as one of an 8-bit file does, a byte names each.
 
 use std::sync::atomic::{AtomicU16, AtomicU32, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -82,30 +82,6 @@ fn first_place(value: f32) -> usize {
     ((1.0 + value).to_bits() >> (f32::MANTISSA_DIGITS - 1 - 12)) as usize % PLACES
 }
 
-/// Bits of the largest component that the hint holds.
-const LOW_BITS: u32 = 5;
-/// How many units in the last place the largest component may be away from what the two others say, computed here. From what the
-/// adapter computes it may be 16 away: its square root is correct to 5 (WGSL).
-const MOST_ULPS: i32 = 10;
-
-/// The two smaller components of a unit vector, and a byte that says which component the largest is, its sign and its last bits:
-/// the shader computes it from the others, and takes the nearest number that ends in these bits. `None` where the length is too
-/// far from 1 for that.
-pub(super) fn packed_normal([x, y, z]: [f32; 3]) -> Option<[u32; 3]> {
-    let [a, b, c] = [x, y, z].map(f32::abs);
-    let (which, largest, others) = match (c >= a && c >= b, b >= a) {
-        (true, _) => (2, z, [x, y]),
-        (false, true) => (1, y, [x, z]),
-        (false, false) => (0, x, [y, z]),
-    };
-    let computed = (1.0 - others[0] * others[0] - others[1] * others[1]).max(0.0).sqrt();
-    let distance = largest.abs().to_bits() as i32 - computed.to_bits() as i32;
-    let (sign, low) = (largest.to_bits() >> 31, largest.to_bits() & ((1 << LOW_BITS) - 1));
-    let hint = which << (LOW_BITS + 1) | sign << LOW_BITS | low;
-    let [first, second] = others.map(f32::to_bits);
-    (distance.abs() <= MOST_ULPS).then_some([first, second, hint])
-}
-
 #[cfg(test)]
 mod tests {
     use rayon::prelude::*;
@@ -126,15 +102,5 @@ mod tests {
         // 0 and -0 are two values.
         assert_eq!(codes.code(0.0), None);
         assert!(codes.code(-0.0).is_some());
-    }
-
-    #[test]
-    fn what_is_no_unit_vector_is_not_packed() {
-        assert!(packed_normal([0.6, 0.0, 0.8]).is_some());
-        // The last bit that the length may be off, and more.
-        assert!(packed_normal([0.6, 0.0, 0.800_000_5]).is_some());
-        for vector in [[0.6, 0.0, 0.80001], [0.0; 3], [0.6, 0.7, 0.8], [f32::NAN, 0.0, 1.0]] {
-            assert_eq!(packed_normal(vector), None, "{vector:?}");
-        }
     }
 }

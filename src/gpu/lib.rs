@@ -17,6 +17,7 @@ mod context;
 mod display;
 mod fault;
 mod loss;
+mod packing;
 mod params;
 mod pipeline;
 mod probe;

@@ -84,9 +84,10 @@ impl Shaded {
         let extent = extent(gpu, size)?;
         scoped(&gpu.device, "uploading a picture", || {
             let texture = gpu.device.create_texture(&descriptor("picture", extent));
-            write(gpu, &texture, |index| {
-                let [r, g, b] = image.pixels[index];
-                [r, g, b, 0.0].map(f32::to_bits)
+            write(gpu, &texture, |first, texels| {
+                texels.iter_mut().zip(&image.pixels[first..]).for_each(|(texel, &[r, g, b])| {
+                    *texel = [r, g, b, 0.0].map(f32::to_bits);
+                });
             })?;
             let view = texture.create_view(&Default::default());
             Ok(Self { texture, view, size, stride: 1, repeated: false })

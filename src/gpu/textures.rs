@@ -15,14 +15,16 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 
 use super::Gpu;
-use super::codes::{Codes, VALUES, packed_normal};
 use super::fault::scoped;
+use super::packing::Packing;
 use super::pipeline::uniform_buffer;
 
 /// About how many bytes are sent at once.
 const BAND_BYTES: usize = 1 << 20;
 /// Bytes of a texel of a texture.
 const TEXEL_BYTES: usize = 16;
+/// Texels that are filled at once, and stay in the nearest cache.
+const FEW: usize = 512;
 /// Most threads that fill bands: bounds the memory that an upload takes beside the textures.
 const MOST_THREADS: usize = 8;
 /// Texels that are looked at first, to find maps of many values soon.
@@ -39,7 +41,7 @@ pub struct MaterialTextures {
 pub(super) enum Maps {
     /// Normal with roughness, diffuse, specular: four f32 a texel each.
     Floats([TextureView; 3]),
-    /// The [`packed_normal`] with the codes of diffuse, roughness and specular, and the values of the codes: where these have at
+    /// Packed normals with the codes of diffuse, roughness and specular, and the values of the codes: where these have at
     /// most 256 values each, as those of 8-bit files.
     Coded(TextureView, Buffer),
 }
@@ -99,7 +101,11 @@ fn floats(
 ) -> Result<Maps, Error> {
     let of = |label, texel: fn(&Planes<f32>, usize) -> [f32; 4]| {
         let texture = gpu.device.create_texture(&descriptor(label, extent));
-        write(gpu, &texture, |index| texel(planes, source(index)).map(f32::to_bits))?;
+        write(gpu, &texture, |first, texels| {
+            (first..).zip(texels).for_each(|(index, bits)| {
+                *bits = texel(planes, source(index)).map(f32::to_bits);
+            });
+        })?;
         Ok(texture.create_view(&Default::default()))
     };
     let [a, b] = [of("normal and roughness", normal_roughness)?, of("diffuse", diffuse)?];
@@ -113,37 +119,24 @@ fn coded(
     extent: Extent3d,
     source: &(impl Fn(usize) -> usize + Sync),
 ) -> Result<Option<Maps>, Error> {
-    let codes: [Codes; 3] = std::array::from_fn(|_| Codes::new());
-    let [roughness, diffuse, specular] = &codes;
+    let packing = Packing::new(planes);
     let count = extent.width as usize * extent.height as usize;
-    let word = |high: u32, codes: &Codes, planes: &[Vec<f32>; 3], index: usize| -> Option<u32> {
-        let [r, g, b] = planes.each_ref().map(|plane| codes.code(plane[index]));
-        Some(high << 24 | r? << 16 | g? << 8 | b?)
-    };
-    let texel = |index: usize| -> Option<[u32; 4]> {
-        let [first, second, hint] = packed_normal(planes.normal.each_ref().map(|plane| plane[index]))?;
-        let diffuse = word(hint, diffuse, &planes.diffuse, index)?;
-        let high = roughness.code(planes.roughness[index])?;
-        Some([first, second, diffuse, word(high, specular, &planes.specular, index)?])
-    };
-    if (0..count).step_by((count / SAMPLE).max(1)).any(|index| texel(source(index)).is_none()) {
+    let mut is_packed = |index: usize| packing.pack(&mut [[0; 4]], |_| source(index));
+    if !(0..count).step_by((count / SAMPLE).max(1)).all(&mut is_packed) {
         return Ok(None);
     }
     let has_failed = AtomicBool::new(false);
     let format = TextureFormat::Rgba32Uint;
     let texture = gpu.device.create_texture(&TextureDescriptor { format, ..descriptor("codes", extent) });
-    write(gpu, &texture, |index| {
-        texel(source(index)).unwrap_or_else(|| {
+    write(gpu, &texture, |first, texels| {
+        if !packing.pack(texels, |number| source(first + number)) {
             has_failed.store(true, Ordering::Relaxed);
-            [0; 4]
-        })
+        }
     })?;
     if has_failed.load(Ordering::Relaxed) {
         return Ok(None);
     }
-    let [roughness, diffuse, specular] = codes.each_ref().map(Codes::values);
-    let values: [[f32; 4]; VALUES] =
-        std::array::from_fn(|code| [roughness[code], diffuse[code], specular[code], 0.0]);
+    let values = packing.values();
     let values = uniform_buffer(&gpu.device, bytemuck::cast_slice(&values));
     Ok(Some(Maps::Coded(texture.create_view(&Default::default()), values)))
 }
@@ -177,12 +170,12 @@ pub(super) fn descriptor(label: &'static str, size: Extent3d) -> TextureDescript
     }
 }
 
-/// Sends the bits of the texels band by band, on several threads. Each fills buffers that are used again: clearing fresh memory takes
-/// longer than the copy.
+/// Sends texels band by band, on several threads. Each fills buffers that are used again: clearing fresh memory takes longer than the
+/// copy. `fill` puts the bits of the texels of a part of a row in their place, from the given index on.
 pub(super) fn write(
     gpu: &Gpu,
     texture: &Texture,
-    texel: impl Fn(usize) -> [u32; 4] + Sync,
+    fill: impl Fn(usize, &mut [[u32; 4]]) + Sync,
 ) -> Result<(), Error> {
     let [width, height] = [texture.width() as usize, texture.height() as usize];
     let rows = (BAND_BYTES / (pitch(width) * TEXEL_BYTES)).clamp(1, height);
@@ -197,7 +190,7 @@ pub(super) fn write(
             }
             // Where the adapter has no buffer for it, it has reported a fault.
             let band = [top, rows.min(height - top)];
-            let Some(submission) = send_band(gpu, &mut belt, texture, band, &texel) else { return };
+            let Some(submission) = send_band(gpu, &mut belt, texture, band, &fill) else { return };
             // The buffer of the band before is free again when its copy has ended. A lost device is reported where it draws.
             let copied = |submission_index| PollType::Wait { submission_index, timeout: None };
             last.replace(submission).map(|last| gpu.device.poll(copied(Some(last))));
@@ -223,17 +216,18 @@ fn send_band(
     belt: &mut StagingBelt,
     texture: &Texture,
     [top, rows]: [usize; 2],
-    texel: &(impl Fn(usize) -> [u32; 4] + Sync),
+    fill: &(impl Fn(usize, &mut [[u32; 4]]) + Sync),
 ) -> Option<SubmissionIndex> {
     let (width, row_bytes) = (texture.width() as usize, pitch(texture.width() as usize) * TEXEL_BYTES);
     let slice =
         belt.allocate(BufferSize::new((rows * row_bytes) as u64)?, BufferSize::new(TEXEL_BYTES as u64)?);
     let mut bytes = slice.get_mapped_range_mut().ok()?;
-    for row in 0..rows {
-        let start = row * row_bytes;
-        let (texels, _) = bytes.slice(start..start + width * TEXEL_BYTES).into_chunks::<TEXEL_BYTES>();
-        let first = (top + row) * width;
-        texels.write_iter((first..first + width).map(|index| bytemuck::cast(texel(index))));
+    let mut few = [[0_u32; 4]; FEW];
+    for (row, column) in (0..rows).flat_map(|row| (0..width).step_by(FEW).map(move |column| (row, column))) {
+        let texels = &mut few[..FEW.min(width - column)];
+        fill((top + row) * width + column, texels);
+        let start = row * row_bytes + column * TEXEL_BYTES;
+        bytes.slice(start..start + size_of_val(texels)).copy_from_slice(bytemuck::cast_slice(texels));
     }
     drop(bytes);
     let layout = TexelCopyBufferLayout {

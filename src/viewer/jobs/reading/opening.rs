@@ -228,7 +228,10 @@ impl OpeningWork {
         priority::lower_this_thread();
         let Some(gpu) = &self.gpu else { return };
         // What is displayed stays when the rest is cancelled, and becomes whole.
-        for (read, uploaded) in rests {
+        for (number, (read, uploaded)) in rests.into_iter().enumerate() {
+            if number == 0 {
+                uploaded.wait_for_picture();
+            }
             uploaded.complete(gpu, read.material());
             worker.wake();
         }

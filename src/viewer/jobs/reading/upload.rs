@@ -1,7 +1,10 @@
 //! Upload: the maps of a material on the adapter. Of a large material a draft is there first, while the rest is sent.
 
 use std::collections::HashMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use eframe::wgpu;
 
@@ -42,6 +45,8 @@ pub struct Uploaded {
     whole: OnceLock<Result<DraftTextures, String>>,
     /// As many texels as the adapter can hold, where it cannot hold all.
     reduced: OnceLock<DraftTextures>,
+    /// Frames that were drawn of the draft.
+    frames: AtomicUsize,
 }
 
 impl Uploaded {
@@ -53,7 +58,13 @@ impl Uploaded {
     }
 
     fn new(gpu: &Gpu, draft: Option<DraftTextures>) -> Self {
-        Self { device: gpu.device.clone(), draft, whole: OnceLock::new(), reduced: OnceLock::new() }
+        Self {
+            device: gpu.device.clone(),
+            draft,
+            whole: OnceLock::new(),
+            reduced: OnceLock::new(),
+            frames: AtomicUsize::new(0),
+        }
     }
 
     /// Sends a draft where `material` is large and the adapter computes on the CPU: the rest, which takes a while there, is for
@@ -65,6 +76,22 @@ impl Uploaded {
             return Self::all(gpu, material);
         }
         Self::new(gpu, send(gpu, material, stride).ok())
+    }
+
+    /// Waits until the draft is on the screen: an adapter that computes on the CPU would draw it after what is sent. No longer than a
+    /// moment, since a window may be hidden.
+    pub fn wait_for_picture(&self) {
+        const MOMENT: Duration = Duration::from_millis(300);
+        // In the second frame the first one has been handed over.
+        let (start, is_drawn) = (Instant::now(), || self.frames.load(Ordering::Relaxed) > 1);
+        while self.draft.is_some() && !is_drawn() && start.elapsed() < MOMENT {
+            thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// Takes note of a frame that is drawn of the draft.
+    pub fn note_frame(&self) {
+        self.frames.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Sends what is missing. Where another thread does so, waits for it.

@@ -171,7 +171,10 @@ impl GpuView {
                 (Some(Err(problem)), _) if request.exact => {
                     return Err(ShadingError::NotThere(problem.to_owned()));
                 }
-                (_, Some(draft)) if draft.stride == stride && !request.exact => (&draft.textures, true),
+                (_, Some(draft)) if draft.stride == stride && !request.exact => {
+                    uploaded.note_frame();
+                    (&draft.textures, true)
+                }
                 (Some(Err(problem)), _) => return Err(ShadingError::NotThere(problem.to_owned())),
                 (None, _) => return Err(ShadingError::NotThere(SENDING.to_owned())),
             };
