@@ -18,8 +18,9 @@ use crate::model::material::read::MaterialId;
 /// What a pane shows where a draft of a material will not do, until all of it is there.
 const SENDING: &str = "Sending the material to the graphics adapter...";
 
-/// Texels of all materials that are sharpened in a frame.
-const SHARPENED: usize = 1 << 21;
+/// Texels of all materials that are sharpened in a frame: of those that are new, which nobody lights yet, and of others.
+const SHARPENED_FIRST: usize = 1 << 21;
+const SHARPENED: usize = 1 << 20;
 
 /// Greatest stride for lack of memory of the adapter.
 const MOST_REDUCED: usize = 32;
@@ -179,9 +180,9 @@ impl GpuView {
                 (None, _) => return Err(ShadingError::NotThere(SENDING.to_owned())),
             };
             let Self { gpu, shading, versions, .. } = self;
-            let band = SHARPENED / materials.len();
-            let mut device = ShadingDevice { gpu, shading, textures, are_reduced, band, versions };
             let shaded = self.shaded.entry(material.id()).or_default();
+            let band = if shaded.is_new() { SHARPENED_FIRST } else { SHARPENED } / materials.len();
+            let mut device = ShadingDevice { gpu, shading, textures, are_reduced, band, versions };
             let size = material.material().size();
             let shaded = shaded.shade(&mut device, size, part_request);
             shaded.map_err(|error| ShadingError::NoRoom(error.to_string()))?;

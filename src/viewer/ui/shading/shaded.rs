@@ -77,6 +77,11 @@ impl ShadedMaterial {
         if self.shows_quick { self.quick.as_ref() } else { self.full.as_ref() }
     }
 
+    /// Whether no picture of all texels has been shown yet.
+    pub fn is_new(&self) -> bool {
+        self.full.as_ref().is_none_or(|full| full.version == 0)
+    }
+
     /// Whether all texels are shaded with these parameters.
     pub fn is_whole(&self, params: ShadeParams) -> bool {
         self.full.as_ref().is_some_and(|full| full.drawn == Some((params, None)))
