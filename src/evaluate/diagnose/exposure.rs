@@ -1,5 +1,7 @@
 //! The exposure of a prediction: the factor on its radiance under which its loss is least.
 
+use rayon::prelude::*;
+
 use super::radiances::Radiances;
 
 /// Most stops of an exposure.
@@ -26,7 +28,10 @@ pub fn best_stops(pairs: &[[f32; 2]], epsilon: f64) -> f64 {
             }
         };
         let of_chunk = |chunk: &[[f32; 2]]| f64::from(chunk.iter().map(of_pair).sum::<f32>());
-        pairs.chunks(256).map(of_chunk).sum::<f64>()
+        let of_part = |part: &[[f32; 2]]| part.chunks(256).map(of_chunk).sum::<f64>();
+        // Summed in their order, so that the result is the same every time.
+        let parts: Vec<f64> = pairs.par_chunks(1 << 14).map(of_part).collect();
+        parts.iter().sum::<f64>()
     };
     let [mut low, mut high] = [-MOST_STOPS, MOST_STOPS];
     for _ in 0..BISECTIONS {
@@ -43,9 +48,9 @@ pub fn best_stops(pairs: &[[f32; 2]], epsilon: f64) -> f64 {
 /// The best stops of all scenes, of each channel or of all together.
 pub(super) fn best_exposure(scenes: &[Vec<Radiances>], epsilon: f64, per_channel: bool) -> [f64; 3] {
     let of = |channels: &[usize]| {
-        let pairs = scenes.iter().flatten();
-        let values = |[g, p]: &Radiances| channels.iter().map(|&c| [g[c], p[c]]).collect::<Vec<_>>();
-        best_stops(&pairs.flat_map(values).collect::<Vec<_>>(), epsilon)
+        let values = |&[g, p]: &Radiances| channels.iter().map(move |&c| [g[c], p[c]]);
+        let pairs: Vec<_> = scenes.iter().flatten().flat_map(values).collect();
+        best_stops(&pairs, epsilon)
     };
     if per_channel { [of(&[0]), of(&[1]), of(&[2])] } else { [of(&[0, 1, 2]); 3] }
 }

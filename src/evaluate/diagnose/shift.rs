@@ -41,8 +41,8 @@ pub(super) fn fits(ground_truth: &Material<f32>, prediction: &Material<f32>, see
     let span = |by: usize| -(by as i32)..=by as i32;
     let all: Vec<[i32; 2]> =
         span(reach[1]).flat_map(|down| span(reach[0]).map(move |right| [right, down])).collect();
-    let pairs = ground_truth.planes().all().zip(prediction.planes().all());
-    let pairs: Vec<_> = pairs.filter_map(|(a, b)| normalized(a).zip(normalized(b))).collect();
+    let pairs: Vec<_> = ground_truth.planes().all().zip(prediction.planes().all()).collect();
+    let pairs: Vec<_> = pairs.into_par_iter().filter_map(|(a, b)| normalized(a).zip(normalized(b))).collect();
     let by = |&[right, down]: &[i32; 2]| i64::from(down) * size[0] as i64 + i64::from(right);
     // Plane by plane: one fits into the cache.
     let of_plane = |(a, b): &(Vec<f32>, Vec<f32>)| -> Vec<f64> {

@@ -1,5 +1,7 @@
 //! The losses of a prediction before and after changes, in the same scenes on the same texels.
 
+use rayon::prelude::*;
+
 use super::corrected::Corrected;
 use super::exposure;
 use super::pair::Pair;
@@ -64,7 +66,7 @@ impl<'a> Trials<'a> {
         let bytes = 10 * size_of::<f32>() * width * height;
         let mut losses = Vec::new();
         for trials in trials.chunks((MOST_BYTES / bytes.max(1)).max(1)) {
-            let corrected = trials.iter().map(|changes| self.corrected(changes));
+            let corrected = trials.par_iter().map(|changes| self.corrected(changes));
             losses.extend(self.of_corrected(&corrected.collect::<Result<Vec<_>, Error>>()?)?);
         }
         Ok(losses)
@@ -168,7 +170,7 @@ impl<'a> Trials<'a> {
             exposure::loss(pairs, stops, epsilon) - exposure::loss(pairs, [0.0; 3], epsilon)
         };
         let changes = self.radiances(corrected)?;
-        let after = paired.after.iter().zip(&changes).map(|(loss, pairs)| loss + change(pairs)).collect();
+        let after = paired.after.par_iter().zip(&changes).map(|(loss, pairs)| loss + change(pairs)).collect();
         Ok(Paired { after, ..paired })
     }
 
