@@ -198,8 +198,10 @@ pub(super) fn write(
     };
     let threads = rayon::current_num_threads().min(MOST_THREADS).min(height.div_ceil(rows));
     thread::scope(|scope| {
-        let other = |_| scope.spawn(|| scoped(&gpu.device, "sending texels", work));
-        let others: Vec<_> = (1..threads).map(other).collect();
+        // Where the system has no more threads, this one does it all.
+        let send = || scoped(&gpu.device, "sending texels", work);
+        let others: Vec<_> =
+            (1..threads).map_while(|_| thread::Builder::new().spawn_scoped(scope, send).ok()).collect();
         work();
         others.into_iter().try_for_each(|other| other.join().unwrap_or_else(|panic| resume_unwind(panic)))
     })
