@@ -26,91 +26,67 @@ macro_rules! piece {
     };
 }
 
-/// Pass 1: a texel a fragment.
-pub const SHADE: Shader = Shader {
-    name: "shade",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("brdf.wgsl"),
-        piece!("scene.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("stride.wgsl"),
-        piece!("maps.wgsl"),
-        piece!("shade.wgsl"),
-        piece!("shade_entry.wgsl"),
-    ],
-};
+/// The shaders that read maps, for maps that an adapter holds in one way.
+#[derive(Clone, Copy, Debug)]
+pub struct MapShaders {
+    /// Pass 1: a texel a fragment.
+    pub shade: Shader,
+    /// Pass 1 by the renderers of the grammar of conventions.
+    pub grammar: Shader,
+    /// Every n-th texel of a map.
+    pub reduce: Shader,
+}
 
-/// Pass 1 by the renderers of the grammar of conventions.
-pub const GRAMMAR: Shader = Shader {
-    name: "shade",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("grammar.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("stride.wgsl"),
-        piece!("maps.wgsl"),
-        piece!("shade.wgsl"),
-        piece!("shade_entry.wgsl"),
-    ],
-};
+/// The shaders that read maps by this piece.
+macro_rules! map_shaders {
+    ($maps:literal) => {
+        MapShaders {
+            shade: Shader {
+                name: "shade",
+                pieces: &[
+                    piece!("texel.wgsl"),
+                    piece!("brdf.wgsl"),
+                    piece!("scene.wgsl"),
+                    piece!("grid.wgsl"),
+                    piece!("fullscreen.wgsl"),
+                    piece!("stride.wgsl"),
+                    piece!($maps),
+                    piece!("shade.wgsl"),
+                    piece!("shade_entry.wgsl"),
+                ],
+            },
+            grammar: Shader {
+                name: "shade",
+                pieces: &[
+                    piece!("texel.wgsl"),
+                    piece!("grammar.wgsl"),
+                    piece!("grid.wgsl"),
+                    piece!("fullscreen.wgsl"),
+                    piece!("stride.wgsl"),
+                    piece!($maps),
+                    piece!("shade.wgsl"),
+                    piece!("shade_entry.wgsl"),
+                ],
+            },
+            reduce: Shader {
+                name: "reduce",
+                pieces: &[
+                    piece!("texel.wgsl"),
+                    piece!("fullscreen.wgsl"),
+                    piece!("stride.wgsl"),
+                    piece!($maps),
+                    piece!("reduce.wgsl"),
+                ],
+            },
+        }
+    };
+}
 
-/// As [`SHADE`], of coded maps.
-pub const CODED_SHADE: Shader = Shader {
-    name: "shade",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("brdf.wgsl"),
-        piece!("scene.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("stride.wgsl"),
-        piece!("coded_maps.wgsl"),
-        piece!("shade.wgsl"),
-        piece!("shade_entry.wgsl"),
-    ],
-};
+/// Of maps as floats.
+pub const FLOATS: MapShaders = map_shaders!("maps.wgsl");
 
-/// As [`GRAMMAR`], of coded maps.
-pub const CODED_GRAMMAR: Shader = Shader {
-    name: "shade",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("grammar.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("stride.wgsl"),
-        piece!("coded_maps.wgsl"),
-        piece!("shade.wgsl"),
-        piece!("shade_entry.wgsl"),
-    ],
-};
-
-/// As [`REDUCE`], of coded maps.
-pub const CODED_REDUCE: Shader = Shader {
-    name: "reduce",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("stride.wgsl"),
-        piece!("coded_maps.wgsl"),
-        piece!("reduce.wgsl"),
-    ],
-};
-
-/// Every n-th texel of a map.
-pub const REDUCE: Shader = Shader {
-    name: "reduce",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("stride.wgsl"),
-        piece!("maps.wgsl"),
-        piece!("reduce.wgsl"),
-    ],
-};
+/// Of maps as codes.
+pub const CODED: MapShaders = map_shaders!("coded_maps.wgsl");
 
 /// Pass 2: a screen pixel a fragment.
 pub const DISPLAY: Shader = Shader {
@@ -247,11 +223,12 @@ pub const PAGE: [(&str, Shader); 4] = [
 
 /// Every shader of this crate.
 pub const ALL: [Shader; 16] = [
-    SHADE,
-    REDUCE,
-    CODED_SHADE,
-    CODED_GRAMMAR,
-    CODED_REDUCE,
+    FLOATS.shade,
+    FLOATS.grammar,
+    FLOATS.reduce,
+    CODED.shade,
+    CODED.grammar,
+    CODED.reduce,
     DISPLAY,
     BLIT,
     PROBE,
@@ -259,7 +236,6 @@ pub const ALL: [Shader; 16] = [
     PAGE_SHADE,
     PAGE_DISPLAY,
     PAGE_DIFFERENCE,
-    GRAMMAR,
     PAGE_GRAMMAR,
     GRAMMAR_LOSS,
     GRAMMAR_SQUARES,

@@ -218,7 +218,7 @@ mod tests {
         };
         let types = [buffer_type(BufferBindingType::Uniform), texture_type(), texture_type(), texture_type()];
         let format = gpu.report.shading_format;
-        let all = Fullscreen::new(&gpu.device, &shaders::REDUCE, &types, format, Constants::new());
+        let all = Fullscreen::new(&gpu.device, &shaders::FLOATS.reduce, &types, format, Constants::new());
         let count = || all.compiled.lock().unwrap().len();
         // The shader has no such constants, which is a fault of the device, but none of the list.
         let with = |number: usize| {

@@ -11,7 +11,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_shaders::{self as shaders, Shader};
+use svbrdf_shaders::{self as shaders, MapShaders, Shader};
 
 use super::fault::scoped;
 use super::params::ShadeParams;
@@ -25,17 +25,19 @@ use super::{Gpu, MaterialTextures};
 /// The largest 16-bit float.
 const LARGEST_F16: f32 = 65504.0;
 
-/// The pipelines of pass 1.
+/// The pipelines of pass 1, for maps that are held in each of the ways.
 #[derive(Debug)]
 pub struct Shading {
-    /// Of maps as floats; of coded ones, compiled when one is drawn.
     floats: Passes,
+    /// Compiled when such maps are drawn.
     coded: OnceLock<Passes>,
 }
 
 /// The pipelines for maps that are held in one way.
 #[derive(Debug)]
 struct Passes {
+    shaders: &'static MapShaders,
+    maps: &'static [BindingType],
     shading: Fullscreen,
     /// Of the renderers of the grammar of conventions, compiled when one is drawn.
     grammar: OnceLock<Fullscreen>,
@@ -44,25 +46,16 @@ struct Passes {
 
 impl Passes {
     /// With these shaders, and these bindings of the maps.
-    fn new(gpu: &Gpu, [shade, reduce]: [&'static Shader; 2], maps: &[BindingType]) -> Self {
-        let shading = pipelines(gpu, shade, maps, constants(Quantity::Rendering, false));
-        Self { shading, grammar: OnceLock::new(), reduction: pipelines(gpu, reduce, maps, reduced(0)) }
-    }
-
-    /// Those for [`Maps::Floats`].
-    fn of_floats(gpu: &Gpu) -> Self {
-        Self::new(gpu, [&shaders::SHADE, &shaders::REDUCE], &FLOATS)
-    }
-
-    /// Those for [`Maps::Coded`].
-    fn of_codes(gpu: &Gpu) -> Self {
-        Self::new(gpu, [&shaders::CODED_SHADE, &shaders::CODED_REDUCE], &CODES)
+    fn new(gpu: &Gpu, shaders: &'static MapShaders, maps: &'static [BindingType]) -> Self {
+        let shading = pipelines(gpu, &shaders.shade, maps, constants(Quantity::Rendering, false));
+        let reduction = pipelines(gpu, &shaders.reduce, maps, reduced(0));
+        Self { shaders, maps, shading, grammar: OnceLock::new(), reduction }
     }
 }
 
 /// The bindings of maps as floats, and as codes.
-const FLOATS: [BindingType; 3] = [texture_type(); 3];
-const CODES: [BindingType; 2] = [codes_type(), buffer_type(BufferBindingType::Uniform)];
+const FLOATS: &[BindingType] = &[texture_type(); 3];
+const CODED: &[BindingType] = &[codes_type(), buffer_type(BufferBindingType::Uniform)];
 
 /// What pass 1 writes: linear floats, a texel each, row 0 on top.
 #[derive(Debug)]
@@ -88,6 +81,7 @@ impl Shaded {
                 texels.iter_mut().zip(&image.pixels[first..]).for_each(|(texel, &[r, g, b])| {
                     *texel = [r, g, b, 0.0].map(f32::to_bits);
                 });
+                true
             })?;
             let view = texture.create_view(&Default::default());
             Ok(Self { texture, view, size, stride: 1, repeated: false })
@@ -117,7 +111,7 @@ impl Shading {
     /// [`Error::Gpu`] where the driver refuses.
     pub fn new(gpu: &Gpu) -> Result<Self, Error> {
         scoped(&gpu.device, "compiling the shading pass", || Self {
-            floats: Passes::of_floats(gpu),
+            floats: Passes::new(gpu, &shaders::FLOATS, FLOATS),
             coded: OnceLock::new(),
         })
     }
@@ -126,7 +120,7 @@ impl Shading {
     fn passes(&self, gpu: &Gpu, textures: &MaterialTextures) -> &Passes {
         match textures.maps {
             Maps::Floats(_) => &self.floats,
-            Maps::Coded(..) => self.coded.get_or_init(|| Passes::of_codes(gpu)),
+            Maps::Coded(..) => self.coded.get_or_init(|| Passes::new(gpu, &shaders::CODED, CODED)),
         }
     }
 
@@ -217,11 +211,8 @@ impl Shading {
             Some(member) if params.quantity == Quantity::Rendering => {
                 let uniforms = GrammarShading::new(&member.terms, &params.scene, largest, stride, size);
                 let grammar = passes.grammar.get_or_init(|| {
-                    let (shader, types): (_, &[BindingType]) = match textures.maps {
-                        Maps::Floats(_) => (&shaders::GRAMMAR, &FLOATS),
-                        Maps::Coded(..) => (&shaders::CODED_GRAMMAR, &CODES),
-                    };
-                    pipelines(gpu, shader, types, constants(Quantity::Rendering, false))
+                    let first = constants(Quantity::Rendering, false);
+                    pipelines(gpu, &passes.shaders.grammar, passes.maps, first)
                 });
                 (grammar, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
             }

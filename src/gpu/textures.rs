@@ -105,6 +105,7 @@ fn floats(
             (first..).zip(texels).for_each(|(index, bits)| {
                 *bits = texel(planes, source(index)).map(f32::to_bits);
             });
+            true
         })?;
         Ok(texture.create_view(&Default::default()))
     };
@@ -125,15 +126,9 @@ fn coded(
     if !(0..count).step_by((count / SAMPLE).max(1)).all(&mut is_packed) {
         return Ok(None);
     }
-    let has_failed = AtomicBool::new(false);
     let format = TextureFormat::Rgba32Uint;
     let texture = gpu.device.create_texture(&TextureDescriptor { format, ..descriptor("codes", extent) });
-    write(gpu, &texture, |first, texels| {
-        if !packing.pack(texels, |number| source(first + number)) {
-            has_failed.store(true, Ordering::Relaxed);
-        }
-    })?;
-    if has_failed.load(Ordering::Relaxed) {
+    if !write(gpu, &texture, |first, texels| packing.pack(texels, |number| source(first + number)))? {
         return Ok(None);
     }
     let values = packing.values();
@@ -171,26 +166,32 @@ pub(super) fn descriptor(label: &'static str, size: Extent3d) -> TextureDescript
 }
 
 /// Sends texels band by band, on several threads. Each fills buffers that are used again: clearing fresh memory takes longer than the
-/// copy. `fill` puts the bits of the texels of a part of a row in their place, from the given index on.
+/// copy. `fill` puts the bits of the texels of a part of a row in their place, from the given index on; where it returns false, the rest
+/// is not sent, and the result is false.
 pub(super) fn write(
     gpu: &Gpu,
     texture: &Texture,
-    fill: impl Fn(usize, &mut [[u32; 4]]) + Sync,
-) -> Result<(), Error> {
+    fill: impl Fn(usize, &mut [[u32; 4]]) -> bool + Sync,
+) -> Result<bool, Error> {
     let [width, height] = [texture.width() as usize, texture.height() as usize];
     let rows = (BAND_BYTES / (pitch(width) * TEXEL_BYTES)).clamp(1, height);
-    let next = AtomicUsize::new(0);
+    let (next, is_refused) = (AtomicUsize::new(0), AtomicBool::new(false));
     let work = || {
         let mut belt = StagingBelt::new(gpu.device.clone(), (rows * pitch(width) * TEXEL_BYTES) as u64);
         let mut last = None;
         loop {
             let top = next.fetch_add(rows, Ordering::Relaxed);
-            if top >= height {
+            if top >= height || is_refused.load(Ordering::Relaxed) {
                 return;
             }
+            let fill = |first: usize, texels: &mut [[u32; 4]]| {
+                if !fill(first, texels) {
+                    is_refused.store(true, Ordering::Relaxed);
+                }
+            };
             // Where the adapter has no buffer for it, it has reported a fault.
             let band = [top, rows.min(height - top)];
-            let Some(submission) = send_band(gpu, &mut belt, texture, band, &fill) else { return };
+            let Some(submission) = send_band(gpu, &mut belt, texture, band, fill) else { return };
             // The buffer of the band before is free again when its copy has ended. A lost device is reported where it draws.
             let copied = |submission_index| PollType::Wait { submission_index, timeout: None };
             last.replace(submission).map(|last| gpu.device.poll(copied(Some(last))));
@@ -204,7 +205,8 @@ pub(super) fn write(
             (1..threads).map_while(|_| thread::Builder::new().spawn_scoped(scope, send).ok()).collect();
         work();
         others.into_iter().try_for_each(|other| other.join().unwrap_or_else(|panic| resume_unwind(panic)))
-    })
+    })?;
+    Ok(!is_refused.into_inner())
 }
 
 /// Texels of a row in a buffer.
@@ -218,7 +220,7 @@ fn send_band(
     belt: &mut StagingBelt,
     texture: &Texture,
     [top, rows]: [usize; 2],
-    fill: &(impl Fn(usize, &mut [[u32; 4]]) + Sync),
+    fill: impl Fn(usize, &mut [[u32; 4]]),
 ) -> Option<SubmissionIndex> {
     let (width, row_bytes) = (texture.width() as usize, pitch(texture.width() as usize) * TEXEL_BYTES);
     let slice =
