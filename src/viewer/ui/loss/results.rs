@@ -193,12 +193,13 @@ impl Results<'_> {
             Some(format!("6 + 3 scenes: {mean} {interval}"))
         };
         let coming = || self.few_are_coming.then(|| "6 + 3 scenes: ...".to_owned());
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             ui.add_space(10.0);
             ui.label(RichText::new(interval).monospace().size(NUMBERS))
                 .on_hover_text(self.in_full(&loss.estimate));
             let Some(text) = self.few.map_or_else(coming, known) else { return };
-            ui.label(RichText::new(text).small().weak()).on_hover_text(
+            // In the next line where there is no room beside the interval.
+            ui.add(egui::Label::new(RichText::new(text).small().weak()).extend()).on_hover_text(
                 "The loss over the 6 near-field and 3 distant random scenes of the papers, for this seed: other seeds \
                  give other numbers within about this interval",
             );
