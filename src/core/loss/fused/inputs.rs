@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::rows::TexelRows;
 use crate::material::Material;
 use crate::model::grammar::words::Norm;
 use crate::render::simd::kernel::Kernel;
@@ -17,7 +18,9 @@ pub(super) struct LossInputs<'a> {
     pub(super) params: ShadingParams,
     pub(super) axes: GridAxes,
     /// The texels that are compared; `None`: all.
-    listed: Option<&'a [usize]>,
+    pub(super) listed: Option<&'a [usize]>,
+    /// The ground truth and the predictions, texel by texel, where that is faster for the listed texels.
+    pub(super) rows: Option<&'a TexelRows>,
     /// All planes of all materials, for prefetching; none where texels are listed.
     pub(super) planes: Vec<&'a [f32]>,
     /// The number of texels that are compared.
@@ -47,6 +50,7 @@ impl<'a> LossInputs<'a> {
             kernel,
             axes: if listed.is_none() { GridAxes::from(grid) } else { GridAxes::without_runs(grid) },
             listed,
+            rows: None,
             planes: planes.collect(),
             texels,
             blocks: texels.div_ceil(TEXELS_PER_BLOCK),

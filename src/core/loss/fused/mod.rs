@@ -12,6 +12,7 @@
 mod compare;
 mod inputs;
 mod pass;
+mod rows;
 mod sums;
 mod texel_means;
 
@@ -27,6 +28,7 @@ use crate::render::simd::Level;
 use crate::render::simd::kernel::Kernel;
 use inputs::LossInputs;
 use pass::LossTile;
+use rows::TexelRows;
 use sums::SCENES_PER_GROUP;
 
 /// The most sums held in memory at a time.
@@ -120,9 +122,12 @@ impl Backend<f32> for Fused {
         };
         let level = self.level.unwrap_or_else(Level::best);
         progress.begin(scenes.len() as u64);
+        let materials: Vec<_> = [ground_truth].into_iter().chain(predictions.iter().copied()).collect();
+        let rows = TexelRows::of(&materials, scenes.len() * texels(0).len());
         let of_scene = |tile: &mut LossTile, (index, scene)| {
             let texels = texels(index);
             let inputs = LossInputs::new(ground_truth, predictions, Some(&texels), kernel);
+            let inputs = LossInputs { rows: rows.as_ref(), ..inputs };
             progress.step().map(|()| inputs.losses_of_scene(level, tile, scene))
         };
         let tile = || LossTile::new(predictions.len());

@@ -2,6 +2,7 @@
 
 use super::compare::Differences;
 use super::inputs::LossInputs;
+use super::rows::Gathered;
 use crate::render::simd::geometry::{Geometry, KernelScene, TileGeometry, is_short};
 use crate::render::simd::lanes::{Lanes, V};
 use crate::render::simd::shade::{ShadingParams, TileRadiance};
@@ -13,6 +14,7 @@ pub(super) struct LossTile {
     geometry: TileGeometry,
     ground_truth: MaterialTerms,
     predictions: Vec<MaterialTerms>,
+    gathered: Gathered,
     expected: TileRadiance,
     predicted: TileRadiance,
 }
@@ -24,6 +26,7 @@ impl LossTile {
             geometry: TileGeometry::ZERO,
             ground_truth: MaterialTerms::ZERO,
             predictions: vec![MaterialTerms::ZERO; predictions],
+            gathered: Gathered::new(),
             expected: TileRadiance::ZERO,
             predicted: TileRadiance::ZERO,
         }
@@ -38,9 +41,21 @@ impl LossTile {
     ) {
         self.positions.fill(&inputs.axes, span);
         let ShadingParams { roughness_floor: floor, narrow, smith, .. } = inputs.params;
-        self.ground_truth.fill::<S, SMITH>(simd, inputs.ground_truth.planes(), span, floor, narrow, smith);
-        for (terms, material) in self.predictions.iter_mut().zip(inputs.predictions) {
-            terms.fill::<S, SMITH>(simd, material.planes(), span, floor, narrow, smith);
+        let terms = std::iter::once(&mut self.ground_truth).chain(&mut self.predictions);
+        let materials = std::iter::once(&inputs.ground_truth).chain(inputs.predictions);
+        let gathered = match (inputs.rows, span) {
+            (Some(rows), TexelSpan::Listed(texels)) => {
+                self.gathered.gather(rows, texels);
+                Some(TexelSpan::Range(0..texels.len()))
+            }
+            _ => None,
+        };
+        for (index, (terms, material)) in terms.zip(materials).enumerate() {
+            let (planes, span) = match &gathered {
+                Some(span) => (self.gathered.planes(index), span),
+                None => (material.planes(), span),
+            };
+            terms.fill::<S, SMITH>(simd, planes, span, floor, narrow, smith);
         }
     }
 
