@@ -15,6 +15,8 @@ pub(super) struct Corrected {
     pub(super) ground_truth: Option<Material<f32>>,
     /// The texels that did not leave the map; `None`: all.
     pub(super) texels: Option<Vec<usize>>,
+    /// The changes of both, which are all but exposures.
+    pub(super) changes: Vec<Change>,
     /// Factors on its radiance, in stops; `None`: 1.
     pub(super) stops: Option<[f64; 3]>,
 }
@@ -22,13 +24,17 @@ pub(super) struct Corrected {
 impl Corrected {
     /// Applies readings, then symmetries, then shifts; exposures apply to renderings.
     pub(super) fn new(pair: &Pair<'_>, changes: &[Change]) -> Result<Self, Error> {
+        let material = pair.prediction.clone();
         let mut corrected =
-            Self { material: pair.prediction.clone(), ground_truth: None, texels: None, stops: None };
+            Self { material, ground_truth: None, texels: None, changes: Vec::new(), stops: None };
         let mut changes = changes.to_vec();
         changes.sort_by_key(order);
         for change in changes {
             match change {
-                Change::Exposure(stops) => corrected.stops = Some(stops),
+                Change::Exposure(stops) => {
+                    corrected.stops = Some(stops);
+                    continue;
+                }
                 Change::GroundTruth(reading) => {
                     corrected.ground_truth = Some(reading.applied(pair.ground_truth, pair.storages[0])?);
                 }
@@ -38,6 +44,7 @@ impl Corrected {
                 Change::Symmetry(_) | Change::Reading(_) => {}
             }
             corrected.material = change.applied(&corrected.material, pair.storages[1])?;
+            corrected.changes.push(change);
         }
         Ok(corrected)
     }

@@ -16,18 +16,21 @@ const BISECTIONS: usize = 40;
 pub fn best_stops(pairs: &[[f32; 2]], epsilon: f64) -> f64 {
     let slope = |stops: f64| {
         let (factor, epsilon) = (stops.exp2() as f32, epsilon as f32);
-        let of_pair = |&[g, p]: &[f32; 2]| {
+        let of_pair = |[g, p]: [f32; 2]| {
             let p = factor * p;
-            let weight = p / (p + epsilon);
-            if p > g {
-                weight
-            } else if p < g {
-                -weight
-            } else {
-                0.0
-            }
+            let sign = f32::from(i8::from(p > g) - i8::from(p < g));
+            sign * p / (p + epsilon)
         };
-        let of_chunk = |chunk: &[[f32; 2]]| f64::from(chunk.iter().map(of_pair).sum::<f32>());
+        let of_chunk = |chunk: &[[f32; 2]]| {
+            let (eights, rest) = chunk.as_chunks::<8>();
+            let mut lanes = [0.0_f32; 8];
+            for pairs in eights {
+                for lane in 0..8 {
+                    lanes[lane] += of_pair(pairs[lane]);
+                }
+            }
+            f64::from(lanes.iter().sum::<f32>() + rest.iter().map(|pair| of_pair(*pair)).sum::<f32>())
+        };
         let of_part = |part: &[[f32; 2]]| part.chunks(256).map(of_chunk).sum::<f64>();
         // Summed in their order, so that the result is the same every time.
         let parts: Vec<f64> = pairs.par_chunks(1 << 14).map(of_part).collect();

@@ -1,5 +1,7 @@
 //! The losses of a prediction before and after changes, in the same scenes on the same texels.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use rayon::prelude::*;
 
 use super::corrected::Corrected;
@@ -29,6 +31,9 @@ pub(super) struct Trials<'a> {
     pub(super) texels: usize,
     pub(super) scenes: Vec<Scene>,
     pub(super) progress: &'a Progress,
+    /// The radiances that were computed last, and the changes of their pair: exposures of one and of three channels are fitted to and tried
+    /// on the same ones.
+    latest: Mutex<Option<(Vec<Change>, Arc<Vec<Vec<Radiances>>>)>>,
 }
 
 /// The losses of each scene without and with changes, on the texels that both have.
@@ -57,7 +62,7 @@ impl<'a> Trials<'a> {
         let sampling =
             Sampling { near, distant, seed, sampler: Sampler::Sobol, texels: Texels::Sampled(texels) };
         let scenes = sampling.scenes(convention)?;
-        Ok(Self { pair, convention, sampling, texels, scenes, progress })
+        Ok(Self { pair, convention, sampling, texels, scenes, progress, latest: Mutex::default() })
     }
 
     /// The losses under each of `trials`.
@@ -170,13 +175,17 @@ impl<'a> Trials<'a> {
             exposure::loss(pairs, stops, epsilon) - exposure::loss(pairs, [0.0; 3], epsilon)
         };
         let changes = self.radiances(corrected)?;
-        let after = paired.after.par_iter().zip(&changes).map(|(loss, pairs)| loss + change(pairs)).collect();
+        let after = paired.after.par_iter().zip(&*changes).map(|(loss, pairs)| loss + change(pairs)).collect();
         Ok(Paired { after, ..paired })
     }
 
-    fn radiances(&self, corrected: &Corrected) -> Result<Vec<Vec<Radiances>>, Error> {
+    fn radiances(&self, corrected: &Corrected) -> Result<Arc<Vec<Vec<Radiances>>>, Error> {
+        let latest = || self.latest.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, radiances)) = latest().as_ref().filter(|(changes, _)| *changes == corrected.changes) {
+            return Ok(radiances.clone());
+        }
         let progress = self.progress.part();
-        radiances(
+        let radiances = Arc::new(radiances(
             corrected.ground_truth.as_ref().unwrap_or(self.pair.ground_truth),
             corrected,
             &self.sampling,
@@ -184,7 +193,9 @@ impl<'a> Trials<'a> {
             RADIANCES.min(self.texels),
             self.convention,
             &progress,
-        )
+        )?);
+        *latest() = Some((corrected.changes.clone(), radiances.clone()));
+        Ok(radiances)
     }
 
     /// The stops of red, green and blue with the least loss, each or all together, after `changes` other than exposures.

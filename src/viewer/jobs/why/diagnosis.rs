@@ -52,6 +52,11 @@ impl DiagnosisJob {
         error.or(self.diagnoses.follow(waker, is_next, (pairs, chosen), seed, diagnosed(floor)))
     }
 
+    /// Whether this pair has neither a diagnosis nor a failure yet.
+    pub fn awaits(&self, pair: &ComparedPair, seed: u64) -> bool {
+        self.diagnoses.awaits(pair, &seed)
+    }
+
     /// The diagnosis of this pair.
     pub fn get(&self, pair: &ComparedPair, seed: u64) -> Option<&Diagnosed> {
         self.diagnoses.get(pair, &seed)

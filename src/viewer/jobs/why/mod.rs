@@ -58,11 +58,17 @@ impl WhyJobs {
         let pairs = ComparedPair::all(work.materials, work.view);
         let (waker, chosen, scene) = (work.waker, work.view.display.prediction, &work.view.scene);
         let is_open = |section| displayed && query.sections.is_open(section);
+        let diagnoses = is_open(WhySection::Diagnosis);
+        let error = self.diagnosis.follow(waker, diagnoses, (&pairs, chosen), query.seed);
+        // What is longest comes after the first line of the tab, which all would share the processors with.
+        let awaits_first = diagnoses
+            && pairs.get(chosen).is_some_and(|pair| self.diagnosis.awaits(pair, query.seed));
+        let is_next = |section| is_open(section) && !awaits_first;
         let errors = [
-            self.diagnosis.follow(waker, is_open(WhySection::Diagnosis), (&pairs, chosen), query.seed),
+            error,
             self.attribution.follow(
                 waker,
-                is_open(WhySection::Maps),
+                is_next(WhySection::Maps),
                 (&pairs, chosen),
                 query.seed,
                 attributed,
@@ -70,7 +76,7 @@ impl WhyJobs {
             self.directions.follow(waker, is_open(WhySection::Directions), &pairs, query.moved, scene),
             self.tables.follow(
                 waker,
-                |name| is_open(WhySection::Table(name)),
+                |name| is_next(WhySection::Table(name)),
                 (&pairs, chosen),
                 &query.scenes,
             ),

@@ -21,8 +21,8 @@ struct ResultKey<K> {
 #[derive(Debug)]
 pub struct OneByOne<R, K = u64> {
     latest: Latest<ResultKey<K>, R>,
-    /// The results of open predictions.
-    done: Vec<(ResultKey<K>, R)>,
+    /// The results of open predictions; `None` of what could not be computed, which is not tried again.
+    done: Vec<(ResultKey<K>, Option<R>)>,
 }
 
 impl<R, K> Default for OneByOne<R, K> {
@@ -32,7 +32,7 @@ impl<R, K> Default for OneByOne<R, K> {
 }
 
 impl<R: Clone + Send + 'static, K: Clone + PartialEq + Send + 'static> OneByOne<R, K> {
-    /// Takes over a result, and computes the next one that is missing: of the `chosen` pair first. Where they are not
+    /// Takes over a result, and computes the next one that is awaited: of the `chosen` pair first. Where they are not
     /// `displayed`, the results stay.
     pub fn follow(
         &mut self,
@@ -47,25 +47,33 @@ impl<R: Clone + Send + 'static, K: Clone + PartialEq + Send + 'static> OneByOne<
             return None;
         }
         self.done.retain(|(key, _)| key.scenes == scenes && pairs.iter().any(|pair| pair.key == key.pair));
-        let missing = |pair: &&ComparedPair| self.get(pair, &scenes).is_none();
-        let pair = pairs.get(chosen).into_iter().chain(pairs).find(missing)?;
+        let awaited = |pair: &&ComparedPair| self.awaits(pair, &scenes);
+        let pair = pairs.get(chosen).into_iter().chain(pairs).find(awaited)?;
         let wanted = ResultKey { pair: pair.key, scenes: scenes.clone() };
         let error = self.latest.follow_only(wanted.clone(), |_| {
             let pair = pair.clone();
             Job::start(waker, move |progress| compute(&pair, scenes, progress))
         });
-        if let Some((key, result)) = self.latest.get()
-            && *key == wanted
-        {
-            self.done.push((wanted, result.clone()));
-            // For the next one that is missing.
+        let result = self.latest.get().filter(|(key, _)| **key == wanted).map(|(_, result)| result.clone());
+        if result.is_some() || error.is_some() {
+            self.done.push((wanted, result));
+            // For the next one that is awaited.
             waker.wake();
         }
         error
     }
 
+    /// Whether this pair has neither a result nor a failure yet.
+    pub fn awaits(&self, pair: &ComparedPair, scenes: &K) -> bool {
+        self.found(pair, scenes).is_none()
+    }
+
     /// The result of this pair.
     pub fn get(&self, pair: &ComparedPair, scenes: &K) -> Option<&R> {
+        self.found(pair, scenes)?.as_ref()
+    }
+
+    fn found(&self, pair: &ComparedPair, scenes: &K) -> Option<&Option<R>> {
         let is_wanted = |key: &ResultKey<K>| key.pair == pair.key && key.scenes == *scenes;
         self.done.iter().find(|(key, _)| is_wanted(key)).map(|(_, result)| result)
     }
