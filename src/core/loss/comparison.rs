@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use rayon::prelude::*;
 
 use crate::error::Error;
-use crate::material::Material;
+use crate::material::{Grid, Material};
 use crate::math::real::Real;
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
@@ -41,6 +41,7 @@ pub struct Comparison<'a, T> {
     backend: &'a dyn Backend<T>,
     pilot: bool,
     most_scenes: Option<usize>,
+    places: Option<(Grid, &'a [usize])>,
 }
 
 /// What computes the loss of each scene.
@@ -128,6 +129,7 @@ impl<'a, T: Compute> Comparison<'a, T> {
             backend: T::cpu(),
             pilot: true,
             most_scenes: None,
+            places: None,
         })
     }
 }
@@ -143,6 +145,13 @@ impl<'a, T> Comparison<'a, T> {
     #[must_use]
     pub fn without_pilot(self) -> Self {
         Self { pilot: false, ..self }
+    }
+
+    /// The same comparison, of materials that hold a part of the texels of a larger `grid`: their texel i is at `texels[i]` of it, as
+    /// row * width + column. Losses are over the texels that they hold. Backends on the processor take these.
+    #[must_use]
+    pub fn at(self, grid: Grid, texels: &'a [usize]) -> Self {
+        Self { places: Some((grid, texels)), ..self }
     }
 
     /// The same comparison, where an accuracy or a time samples at most `count` scenes instead of
@@ -180,6 +189,13 @@ impl<'a, T> Comparison<'a, T> {
     /// What computes the losses.
     pub fn backend(&self) -> &'a dyn Backend<T> {
         self.backend
+    }
+}
+
+impl<'a, T: Real> Comparison<'a, T> {
+    /// Where the texels of the materials are: the grid, and the place of each of them where that is another one than its own.
+    pub fn places(&self) -> (Grid, Option<&'a [usize]>) {
+        self.places.map_or((self.ground_truth.grid(), None), |(grid, texels)| (grid, Some(texels)))
     }
 }
 

@@ -10,7 +10,7 @@ use crate::model::brdf::Model;
 use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::render::render_texel;
+use crate::render::{render_sample, render_texel};
 
 /// Rows are summed within blocks of this many texels, and blocks in order: threads never change a sum.
 const TEXELS_PER_BLOCK: usize = 4096;
@@ -44,6 +44,7 @@ impl<T: Real> Backend<T> for Plain {
         let (epsilon, norm) = (T::of(convention.epsilon), convention.norm());
         let logs = norm == Norm::LogL1;
         let is_squared = matches!(norm, Norm::Mse | Norm::Rmse);
+        let (grid, places) = comparison.places();
         let listed = texels;
         let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
         let blocks = texels.div_ceil(TEXELS_PER_BLOCK);
@@ -56,8 +57,9 @@ impl<T: Real> Backend<T> for Plain {
                 let range = block * TEXELS_PER_BLOCK..texels.min((block + 1) * TEXELS_PER_BLOCK);
                 let rays = scene.rays();
                 let range = range.map(|at| listed.map_or(at, |texels| texels[at]));
-                let radiance = |material: &Material<T>, column, row| {
-                    let radiance = render_texel(material, &model, &rays, column, row);
+                let radiance = |material: &Material<T>, texel: usize| {
+                    let place = places.map_or(texel, |places| places[texel]);
+                    let radiance = render_sample(&material.texel(texel), &model, &rays, grid, place);
                     if logs { radiance.map(|radiance| (radiance + epsilon).ln()) } else { radiance }
                 };
                 let difference = |a: T, b: T| if is_squared { (a - b) * (a - b) } else { (a - b).abs() };
@@ -119,16 +121,14 @@ fn block_sums<T: Real>(
     ground_truth: &Material<T>,
     predictions: &[&Material<T>],
     texels: impl Iterator<Item = usize>,
-    log_radiance: impl Fn(&Material<T>, usize, usize) -> [T; 3],
+    log_radiance: impl Fn(&Material<T>, usize) -> [T; 3],
     difference: impl Fn(T, T) -> T,
 ) -> Vec<f64> {
-    let width = ground_truth.width();
     let mut sums = vec![0.0; predictions.len()];
     for index in texels {
-        let (column, row) = (index % width, index / width);
-        let expected = log_radiance(ground_truth, column, row);
+        let expected = log_radiance(ground_truth, index);
         for (sum, prediction) in sums.iter_mut().zip(predictions) {
-            let got = log_radiance(prediction, column, row);
+            let got = log_radiance(prediction, index);
             for (a, b) in expected.into_iter().zip(got) {
                 *sum += difference(a, b).f64();
             }

@@ -162,6 +162,24 @@ impl<T: Real> Material<T> {
         }
     }
 
+    /// The material of a size (width, height) whose texels are those of this one at `texels`, each as row * width + column.
+    ///
+    /// # Panics
+    /// Where there is no such texel, as indexing a slice does, or they are not `width * height`.
+    #[must_use]
+    pub fn gathered(&self, texels: &[usize], [width, height]: [usize; 2]) -> Self {
+        assert_eq!(texels.len(), width * height, "a texel for each place");
+        let gather = |plane: &Vec<T>| texels.par_iter().map(|&texel| plane[texel]).collect::<Vec<_>>();
+        let Planes { normal, diffuse, specular, roughness } = &*self.planes;
+        let planes = Planes {
+            normal: normal.each_ref().map(gather),
+            diffuse: diffuse.each_ref().map(gather),
+            specular: specular.each_ref().map(gather),
+            roughness: gather(roughness),
+        };
+        Self { name: self.name.clone(), width, height, planes: Arc::new(planes) }
+    }
+
     /// The same material in another size (width, height): the mean over areas on the way down, bilinear on the way up;
     /// normals are normalized again; roughness is averaged as alpha^2 = r^4, and interpolated as r.
     ///

@@ -149,10 +149,23 @@ pub fn render_texel<T: Real>(
     column: usize,
     row: usize,
 ) -> [T; 3] {
-    let texel = material.texel(row * material.width() + column);
+    let place = row * material.width() + column;
+    render_sample(&material.texel(place), model, rays, material.grid(), place)
+}
+
+/// Renders a texel at a place of a grid, as row * width + column.
+#[inline]
+pub fn render_sample<T: Real>(
+    texel: &Texel<T>,
+    model: &Model<T>,
+    rays: &Rays<T>,
+    grid: Grid,
+    place: usize,
+) -> [T; 3] {
+    let [column, row] = [place % grid.width, place / grid.width];
     if let Some(member) = model.member {
-        return member_radiance(&member.terms, &texel, material.grid(), rays, [column, row]);
+        return member_radiance(&member.terms, texel, grid, rays, [column, row]);
     }
-    let (w_l, w_v) = rays.from_texel(material.grid().position(column, row));
-    brdf::render(model, &texel, w_l, w_v)
+    let (w_l, w_v) = rays.from_texel(grid.position(column, row));
+    brdf::render(model, texel, w_l, w_v)
 }

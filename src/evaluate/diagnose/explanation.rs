@@ -2,7 +2,7 @@
 
 use super::finding::Hypothesis;
 use super::proposals::Proposal;
-use super::shift::{Fit, fits};
+use super::shift::{Correlations, Fit};
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
 use svbrdf_files::changes::Change;
@@ -100,15 +100,18 @@ fn is_exposure(hypothesis: Hypothesis) -> bool {
 }
 
 /// Alignments under which the maps correlate much better than as they are, the best first: a shift, a symmetry, or both.
-fn alignments(pilot: &Trials<'_>, of_shifts: &[Fit]) -> Result<Vec<Vec<Proposal>>, Error> {
+fn alignments(
+    correlations: &Correlations<'_>,
+    of_shifts: &[Fit],
+    size: [usize; 2],
+) -> Result<Vec<Vec<Proposal>>, Error> {
     let unmoved = of_shifts.iter().find(|fit| fit.shift == [0, 0]).map_or(0.0, |fit| fit.absolute);
     let best = |fits: &[Fit]| fits.iter().copied().max_by(|a, b| a.absolute.total_cmp(&b.absolute));
     let shift = |fit: Fit| (fit.shift != [0, 0]).then(|| Proposal::shift(fit.shift));
     let mut all: Vec<(f64, Vec<Proposal>)> = Vec::new();
     all.extend(best(of_shifts).map(|fit| (fit.absolute, shift(fit).into_iter().collect())));
-    let (ground_truth, prediction) = (pilot.pair.ground_truth, pilot.pair.prediction);
-    for symmetry in Symmetry::of(ground_truth.size()) {
-        let fits = fits(ground_truth, &symmetry.applied(prediction)?, pilot.sampling.seed);
+    for symmetry in Symmetry::of(size) {
+        let fits = correlations.fits(Some(symmetry))?;
         let changes = |fit: Fit| [Proposal::symmetry(symmetry)].into_iter().chain(shift(fit)).collect();
         all.extend(best(&fits).map(|fit| (fit.absolute, changes(fit))));
     }
@@ -121,10 +124,10 @@ fn alignments(pilot: &Trials<'_>, of_shifts: &[Fit]) -> Result<Vec<Vec<Proposal>
 /// nothing is explained. An exposure is fitted in the pilot.
 pub(super) fn explain(
     [search, pilot]: [&Trials<'_>; 2],
-    fits: &[Fit],
+    (correlations, fits): (&Correlations<'_>, &[Fit]),
     resolvable: f64,
 ) -> Result<Vec<Proposal>, Error> {
-    let alignments = alignments(search, fits)?;
+    let alignments = alignments(correlations, fits, search.pair.ground_truth.size())?;
     let (mut best, mut open) = (Explanation::none(), vec![Explanation::none()]);
     for _ in 0..MOST {
         open = extended(search, &open, &alignments, resolvable)?;

@@ -1,12 +1,14 @@
 //! The floor: the loss that a ground truth cannot resolve, since its maps have steps or its captures differ.
 
 use super::dither::dithered;
+use super::samples::Samples;
 use crate::error::Error;
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request, Sampling, Texels};
+use svbrdf_core::loss::{Comparison, Compute as _, Estimate, Outcome, Request, Sampling, Texels};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::changes::Storage;
 
@@ -28,10 +30,20 @@ pub fn floor(
     seed: u64,
     progress: &Progress,
 ) -> Result<Estimate, Error> {
-    let copies = (0..COPIES).map(|copy| dithered(ground_truth, storage, seed.wrapping_add(copy)));
+    let sampling = sampling(ground_truth, seed);
+    let scenes = sampling.scenes(convention)?;
+    let samples = Samples::of(&sampling, &scenes, ground_truth.grid());
+    let held = samples.as_ref().map_or_else(|| ground_truth.clone(), |samples| samples.of_map(ground_truth));
+    let copies = (0..COPIES).map(|copy| dithered(&held, storage, seed.wrapping_add(copy)));
     let copies = copies.collect::<Result<Vec<_>, CoreError>>()?;
     let copies: Vec<_> = copies.iter().collect();
-    Ok(mean(&[losses(ground_truth, &copies, convention, seed, progress)?]))
+    let Some(samples) = samples else {
+        return Ok(mean(&[losses(ground_truth, &copies, convention, seed, progress)?]));
+    };
+    let comparison = samples.placed(Comparison::new(&held, &copies, *convention)?);
+    let of_scene = |number: usize| samples.of_scene(number).collect();
+    let losses = f32::cpu().losses_on_own_texels(&comparison, &scenes, &of_scene, progress)?;
+    Ok(mean_of(&scenes, &losses.iter().map(Vec::as_slice).collect::<Vec<_>>()))
 }
 
 /// The mean loss between repeated captures of one material: over all pairs of the ground truth and its `repeats`.
@@ -66,20 +78,27 @@ fn losses(
     seed: u64,
     progress: &Progress,
 ) -> Result<Outcome, CoreError> {
-    let [near, distant] = SCENES;
-    let all = first.width() * first.height() <= TEXELS;
-    let texels = if all { Texels::All } else { Texels::Sampled(TEXELS / 8) };
-    let sampling = Sampling { near, distant, seed, sampler: Sampler::Sobol, texels };
     let comparison = Comparison::new(first, others, *convention)?.without_pilot();
-    comparison.run(&Request::Scenes(sampling), progress)
+    comparison.run(&Request::Scenes(sampling(first, seed)), progress)
+}
+
+fn sampling(ground_truth: &Material<f32>, seed: u64) -> Sampling {
+    let [near, distant] = SCENES;
+    let all = ground_truth.width() * ground_truth.height() <= TEXELS;
+    let texels = if all { Texels::All } else { Texels::Sampled(TEXELS / 8) };
+    Sampling { near, distant, seed, sampler: Sampler::Sobol, texels }
 }
 
 /// The mean over all comparisons, which are in the same scenes.
 fn mean(outcomes: &[Outcome]) -> Estimate {
-    let losses: Vec<_> = outcomes.iter().flat_map(|outcome| &outcome.losses).collect();
-    let scenes = outcomes.first().map_or(&[][..], |outcome| outcome.scenes.as_slice());
-    let of_scene =
-        |scene: usize| losses.iter().map(|loss| loss.per_scene[scene]).sum::<f64>() / losses.len() as f64;
+    let losses = outcomes.iter().flat_map(|outcome| &outcome.losses);
+    let losses: Vec<_> = losses.map(|loss| loss.per_scene.as_slice()).collect();
+    mean_of(outcomes.first().map_or(&[], |outcome| &outcome.scenes), &losses)
+}
+
+/// The mean over the losses of several comparisons in each scene.
+fn mean_of(scenes: &[Scene], losses: &[&[f64]]) -> Estimate {
+    let of_scene = |scene: usize| losses.iter().map(|loss| loss[scene]).sum::<f64>() / losses.len() as f64;
     let per_scene: Vec<f64> = (0..scenes.len()).map(of_scene).collect();
     Estimate::of_sampled(Sampler::Sobol, scenes, &per_scene)
 }

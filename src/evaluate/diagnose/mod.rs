@@ -33,6 +33,7 @@ mod marking;
 mod pair;
 mod proposals;
 mod radiances;
+mod samples;
 mod seams;
 mod search;
 mod sentence;

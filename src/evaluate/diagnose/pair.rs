@@ -1,5 +1,6 @@
 //! Pairs of a ground truth and a prediction.
 
+use super::samples::Samples;
 use svbrdf_core::material::Material;
 use svbrdf_files::changes::Storage;
 
@@ -10,4 +11,19 @@ pub(super) struct Pair<'a> {
     pub(super) prediction: &'a Material<f32>,
     /// Of the ground truth and of the prediction.
     pub(super) storages: [&'a Storage; 2],
+}
+
+/// The texels of a pair that it is compared on.
+#[derive(Debug)]
+pub(super) struct SampledPair {
+    pub(super) samples: Samples,
+    pub(super) ground_truth: Material<f32>,
+    pub(super) prediction: Material<f32>,
+}
+
+impl SampledPair {
+    pub(super) fn new(samples: Samples, pair: &Pair<'_>) -> Self {
+        let [ground_truth, prediction] = [pair.ground_truth, pair.prediction].map(|map| samples.of_map(map));
+        Self { samples, ground_truth, prediction }
+    }
 }

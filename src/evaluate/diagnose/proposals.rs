@@ -1,7 +1,7 @@
 //! Proposals: each hypothesis with the value that fits best in the scenes of a pilot.
 
 use super::finding::{Hypothesis, Value};
-use super::shift::{Fit, candidates, interior};
+use super::shift::{Fit, Interior, candidates};
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
 use svbrdf_files::changes::Change;
@@ -145,6 +145,6 @@ fn subtexel(pilot: &Trials<'_>, [x, y]: [i32; 2], centre: f64) -> Result<Option<
         let curvature = before - 2.0 * centre + after;
         if curvature > 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
     };
-    let has_room = !interior(pilot.pair.ground_truth.size(), [x.abs() + 1, y.abs() + 1]).is_empty();
+    let has_room = !Interior::new(pilot.pair.ground_truth.size(), [x.abs() + 1, y.abs() + 1]).is_empty();
     Ok(has_room.then(|| [f64::from(x) + vertex(left, right), f64::from(y) + vertex(above, below)]))
 }

@@ -2,50 +2,36 @@
 
 use rayon::prelude::*;
 
-use super::corrected::Corrected;
 use svbrdf_core::error::Error;
-use svbrdf_core::loss::Sampling;
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::render::render_texel;
+use svbrdf_core::render::render_sample;
 
 /// Radiances of the ground truth and of the prediction, RGB each.
 pub(super) type Radiances = [[f32; 3]; 2];
 
-/// For each of the `scenes` of `sampling` the radiances on `count` random texels; on all where there are no more.
+/// For each of `scenes` the radiances of a ground truth and a prediction on the texels of `of_scene`: their numbers in the materials, and
+/// their places on `grid`.
 pub(super) fn radiances(
-    ground_truth: &Material<f32>,
-    corrected: &Corrected,
-    sampling: &Sampling,
+    materials: [&Material<f32>; 2],
+    grid: Grid,
     scenes: &[Scene],
-    count: usize,
+    of_scene: impl Fn(usize) -> Vec<[usize; 2]> + Sync,
     convention: &Convention,
     progress: &Progress,
 ) -> Result<Vec<Vec<Radiances>>, Error> {
-    let [width, height] = ground_truth.size();
     let model = Model::from(convention);
-    let available = corrected.texels.as_ref().map_or(width * height, Vec::len);
-    let of_scene = |index: usize| {
-        let scene = &scenes[index];
-        let in_kind = if scene.kind == Kind::Near { index } else { index - sampling.near };
-        let sampled = |size| sampling.sampler.texels(sampling.seed, scene.kind, in_kind, count, size);
-        let texels = match &corrected.texels {
-            _ if available <= count => corrected.texels.clone().unwrap_or_else(|| (0..available).collect()),
-            Some(texels) => sampled([available, 1]).into_iter().map(|at| texels[at]).collect(),
-            None => sampled([width, height]),
+    let in_scene = |index: usize| {
+        let rays = scenes[index].rays();
+        let pair = |[texel, place]: [usize; 2]| {
+            materials.map(|material| render_sample(&material.texel(texel), &model, &rays, grid, place))
         };
-        let rays = scene.rays();
-        let pair = |texel: usize| {
-            let [column, row] = [texel % width, texel / width];
-            [ground_truth, &corrected.material]
-                .map(|material| render_texel(material, &model, &rays, column, row))
-        };
-        let pairs = texels.into_iter().map(pair).collect();
+        let pairs = of_scene(index).into_iter().map(pair).collect();
         progress.step()?;
         Ok(pairs)
     };
-    (0..scenes.len()).into_par_iter().map(of_scene).collect()
+    (0..scenes.len()).into_par_iter().map(in_scene).collect()
 }

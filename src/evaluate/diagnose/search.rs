@@ -8,7 +8,7 @@ use super::marking::Marking;
 use super::pair::Pair;
 use super::proposals::Proposal;
 use super::seams::seams;
-use super::shift::fits;
+use super::shift::Correlations;
 use super::trials::Trials;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, check_same_size};
@@ -52,14 +52,18 @@ pub fn diagnose(
     let trials = |size, seed| Trials::new(pair, convention, size, seed, progress);
     let (pilot, evaluation) = (trials(PILOT, seed ^ PILOT_SEED)?, trials(EVALUATION, seed)?);
     let search = trials(SEARCH, seed ^ PILOT_SEED)?;
-    let fits = fits(ground_truth, prediction, pilot.sampling.seed);
+    let correlations = Correlations::new([ground_truth, prediction], pilot.sampling.seed);
+    let fits = correlations.fits(None)?;
     let (mut proposals, subtexel) = Proposal::all(&pilot, &fits)?;
     progress.step()?;
     let unchanged = evaluation.unchanged()?;
     let loss = Estimate::of_sampled(Sampler::Sobol, &evaluation.scenes, &unchanged.before);
     let resolvable = floor / loss.mean.max(f64::MIN_POSITIVE);
-    let explained =
-        if resolvable < 1.0 { explain([&search, &pilot], &fits, resolvable)? } else { Vec::new() };
+    let explained = if resolvable < 1.0 {
+        explain([&search, &pilot], (&correlations, &fits), resolvable)?
+    } else {
+        Vec::new()
+    };
     for proposal in &explained {
         let line = proposals.iter_mut().find(|line| line.hypothesis == proposal.hypothesis);
         line.into_iter().for_each(|line| *line = proposal.clone());

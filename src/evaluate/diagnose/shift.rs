@@ -1,10 +1,14 @@
 //! Shifts by whole texels: the candidates by correlation of the maps.
 
+use std::ops::Range;
+
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
 
+use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
+use svbrdf_files::changes::Symmetry;
 
 /// Most texels of a shift in either direction.
 pub const MOST_SHIFT: usize = 8;
@@ -12,14 +16,39 @@ pub const MOST_SHIFT: usize = 8;
 const RUNS: usize = 1024;
 const LENGTH: usize = 32;
 
-/// The texels of a map of `size` (width, height), as row * width + column, that have a value of their own after a shift.
-pub(super) fn interior([width, height]: [usize; 2], [right, down]: [i32; 2]) -> Vec<usize> {
-    let range = |by: i32, count: usize| {
-        let reach = (by.unsigned_abs() as usize).min(count);
-        if by > 0 { reach..count } else { 0..count - reach }
-    };
-    let columns = range(right, width);
-    range(down, height).flat_map(|row| columns.clone().map(move |column| row * width + column)).collect()
+/// The texels of a map that have a value of their own after a shift: all that did not leave it on one side and enter on the other.
+#[derive(Clone, Debug)]
+pub(super) struct Interior {
+    columns: Range<usize>,
+    rows: Range<usize>,
+    /// Of the map.
+    width: usize,
+}
+
+impl Interior {
+    /// Of a map of a size (width, height), after a shift by (right, down).
+    pub(super) fn new([width, height]: [usize; 2], [right, down]: [i32; 2]) -> Self {
+        let range = |by: i32, count: usize| {
+            let reach = (by.unsigned_abs() as usize).min(count);
+            if by > 0 { reach..count } else { 0..count - reach }
+        };
+        Self { columns: range(right, width), rows: range(down, height), width }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.columns.is_empty() || self.rows.is_empty()
+    }
+
+    /// Whether it has this texel, given as row * width + column.
+    pub(super) fn contains(&self, texel: usize) -> bool {
+        self.columns.contains(&(texel % self.width)) && self.rows.contains(&(texel / self.width))
+    }
+
+    /// Its texels in order.
+    pub(super) fn texels(&self) -> Vec<usize> {
+        let of_row = |row: usize| self.columns.clone().map(move |column| row * self.width + column);
+        self.rows.clone().flat_map(of_row).collect()
+    }
 }
 
 /// How well the maps of a prediction correlate with those of a ground truth after a displacement (right, down).
@@ -32,28 +61,84 @@ pub(super) struct Fit {
     pub(super) absolute: f64,
 }
 
-/// The fits of all displacements within [`MOST_SHIFT`], on texels that each of them leaves inside: all, or random runs of them that
-/// `seed` names, the same for all displacements.
-pub(super) fn fits(ground_truth: &Material<f32>, prediction: &Material<f32>, seed: u64) -> Vec<Fit> {
-    let size = ground_truth.size();
-    let reach = size.map(|side| MOST_SHIFT.min(side / 4));
-    let runs = runs(size, reach, seed);
-    let span = |by: usize| -(by as i32)..=by as i32;
-    let all: Vec<[i32; 2]> =
-        span(reach[1]).flat_map(|down| span(reach[0]).map(move |right| [right, down])).collect();
-    let pairs: Vec<_> = ground_truth.planes().all().zip(prediction.planes().all()).collect();
-    let pairs: Vec<_> = pairs.into_par_iter().filter_map(|(a, b)| normalized(a).zip(normalized(b))).collect();
-    let by = |&[right, down]: &[i32; 2]| i64::from(down) * size[0] as i64 + i64::from(right);
-    // Plane by plane: one fits into the cache.
-    let of_plane = |(a, b): &(Vec<f32>, Vec<f32>)| -> Vec<f64> {
-        all.par_iter().map(|shift| correlation(a, b, &runs, by(shift))).collect()
-    };
-    let of_planes: Vec<_> = pairs.iter().map(of_plane).collect();
-    let fit = |(index, &shift)| {
-        let fits = || of_planes.iter().map(|plane| plane[index]);
-        Fit { shift, signed: fits().sum(), absolute: fits().map(f64::abs).sum() }
-    };
-    all.iter().enumerate().map(fit).collect()
+/// What displacements of a prediction are fitted on: texels of the ground truth that each displacement within [`MOST_SHIFT`] leaves
+/// inside, all or random runs of them, the same for all displacements and symmetries.
+#[derive(Debug)]
+pub(super) struct Correlations<'a> {
+    prediction: &'a Material<f32>,
+    reach: [usize; 2],
+    /// The texels that are looked at, with as many around each run as displacements reach; `None`: all of the map.
+    windows: Option<Vec<usize>>,
+    /// Runs of texels of the map or of the windows, as their first one and the one after their last one, and their texels in a row.
+    runs: Vec<[usize; 2]>,
+    width: usize,
+    /// Planes of the ground truth, as [`normalized`] gives them.
+    truth: Vec<Option<Vec<f32>>>,
+}
+
+impl<'a> Correlations<'a> {
+    /// `seed` names the runs.
+    pub(super) fn new([ground_truth, prediction]: [&'a Material<f32>; 2], seed: u64) -> Self {
+        let size = ground_truth.size();
+        let reach = size.map(|side| MOST_SHIFT.min(side / 4));
+        let runs = runs(size, reach, seed);
+        let length = runs.first().map_or(0, |[first, end]| end - first);
+        let window = [length + 2 * reach[0], 1 + 2 * reach[1]];
+        let of_run = |&[first, _]: &[usize; 2]| {
+            let first = first - reach[1] * size[0] - reach[0];
+            (0..window[0] * window[1]).map(move |i| first + i / window[0] * size[0] + i % window[0])
+        };
+        let is_part = runs.len() * window[0] * window[1] < size[0] * size[1];
+        let windows: Option<Vec<usize>> = is_part.then(|| runs.iter().flat_map(of_run).collect());
+        let in_window = |run: usize| {
+            let first = run * window[0] * window[1] + reach[1] * window[0] + reach[0];
+            [first, first + length]
+        };
+        let (runs, width) = match windows {
+            Some(_) => ((0..runs.len()).map(in_window).collect(), window[0]),
+            None => (runs, size[0]),
+        };
+        let truth = windows.as_ref().map(|texels| ground_truth.gathered(texels, [texels.len(), 1]));
+        let truth = all_normalized(truth.as_ref().unwrap_or(ground_truth));
+        Self { prediction, reach, windows, runs, width, truth }
+    }
+
+    /// The fits of all displacements, of the prediction after a symmetry.
+    ///
+    /// # Errors
+    /// Those of [`Material::new`], which values of a material do not give.
+    pub(super) fn fits(&self, symmetry: Option<Symmetry>) -> Result<Vec<Fit>, Error> {
+        let prediction = self.prediction;
+        let size = prediction.size();
+        let before = |texel: usize| symmetry.map_or(texel, |symmetry| symmetry.before(texel, size));
+        let taken = |texels: &Vec<usize>| {
+            let before: Vec<_> = texels.par_iter().map(|&texel| before(texel)).collect();
+            let taken = prediction.gathered(&before, [texels.len(), 1]);
+            symmetry.map_or_else(|| Ok(taken.clone()), |symmetry| symmetry.turned(&taken))
+        };
+        let prediction = match (&self.windows, symmetry) {
+            (Some(texels), _) => taken(texels)?,
+            (None, Some(symmetry)) => symmetry.applied(prediction)?,
+            (None, None) => prediction.clone(),
+        };
+        let planes = self.truth.iter().zip(all_normalized(&prediction));
+        let pairs: Vec<_> = planes.filter_map(|(a, b)| a.as_ref().zip(b)).collect();
+        let span = |by: usize| -(by as i32)..=by as i32;
+        let all: Vec<[i32; 2]> = span(self.reach[1])
+            .flat_map(|down| span(self.reach[0]).map(move |right| [right, down]))
+            .collect();
+        let by = |&[right, down]: &[i32; 2]| i64::from(down) * self.width as i64 + i64::from(right);
+        // Plane by plane: one fits into the cache.
+        let of_plane = |(a, b): &(&Vec<f32>, Vec<f32>)| -> Vec<f64> {
+            all.par_iter().map(|shift| correlation(a, b, &self.runs, by(shift))).collect()
+        };
+        let of_planes: Vec<_> = pairs.iter().map(of_plane).collect();
+        let fit = |(index, &shift)| {
+            let fits = || of_planes.iter().map(|plane| plane[index]);
+            Fit { shift, signed: fits().sum(), absolute: fits().map(f64::abs).sum() }
+        };
+        Ok(all.iter().enumerate().map(fit).collect())
+    }
 }
 
 /// The two displacements other than none with the best fits, and the two with the best fits by absolute values.
@@ -88,6 +173,11 @@ fn runs([width, height]: [usize; 2], reach: [usize; 2], seed: u64) -> Vec<[usize
     // In the order of memory.
     runs.sort_unstable();
     runs
+}
+
+fn all_normalized(material: &Material<f32>) -> Vec<Option<Vec<f32>>> {
+    let planes: Vec<_> = material.planes().all().collect();
+    planes.into_par_iter().map(normalized).collect()
 }
 
 /// The plane with mean 0 and standard deviation 1; `None` where it is constant.
@@ -128,8 +218,8 @@ mod tests {
 
     #[test]
     fn the_interior_has_the_texels_that_did_not_wrap() {
-        assert_eq!(interior([3, 2], [1, 0]), [1, 2, 4, 5]);
-        assert_eq!(interior([3, 2], [-1, -1]), [0, 1]);
-        assert_eq!(interior([2, 2], [0, 0]), [0, 1, 2, 3]);
+        assert_eq!(Interior::new([3, 2], [1, 0]).texels(), [1, 2, 4, 5]);
+        assert_eq!(Interior::new([3, 2], [-1, -1]).texels(), [0, 1]);
+        assert_eq!(Interior::new([2, 2], [0, 0]).texels(), [0, 1, 2, 3]);
     }
 }

@@ -6,14 +6,16 @@ use rayon::prelude::*;
 
 use super::corrected::Corrected;
 use super::exposure;
-use super::pair::Pair;
+use super::pair::{Pair, SampledPair};
 use super::radiances::{Radiances, radiances};
+use super::samples::{Samples, subset};
+use super::shift::Interior;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Compute as _, Request, Sampling, Texels};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::changes::Change;
 
@@ -31,6 +33,8 @@ pub(super) struct Trials<'a> {
     pub(super) texels: usize,
     pub(super) scenes: Vec<Scene>,
     pub(super) progress: &'a Progress,
+    /// `None`: all texels of the pair are changed.
+    samples: Option<SampledPair>,
     /// The radiances that were computed last, and the changes of their pair: exposures of one and of three channels are fitted to and tried
     /// on the same ones.
     latest: Mutex<Option<(Vec<Change>, Arc<Vec<Vec<Radiances>>>)>>,
@@ -62,12 +66,14 @@ impl<'a> Trials<'a> {
         let sampling =
             Sampling { near, distant, seed, sampler: Sampler::Sobol, texels: Texels::Sampled(texels) };
         let scenes = sampling.scenes(convention)?;
-        Ok(Self { pair, convention, sampling, texels, scenes, progress, latest: Mutex::default() })
+        let samples = Samples::of(&sampling, &scenes, pair.ground_truth.grid());
+        let samples = samples.map(|samples| SampledPair::new(samples, &pair));
+        Ok(Self { pair, convention, sampling, texels, scenes, progress, samples, latest: Mutex::default() })
     }
 
     /// The losses under each of `trials`.
     pub(super) fn losses(&self, trials: &[Vec<Change>]) -> Result<Vec<Paired>, Error> {
-        let [width, height] = self.pair.ground_truth.size();
+        let [width, height] = self.materials()[0].size();
         let bytes = 10 * size_of::<f32>() * width * height;
         let mut losses = Vec::new();
         for trials in trials.chunks((MOST_BYTES / bytes.max(1)).max(1)) {
@@ -79,20 +85,30 @@ impl<'a> Trials<'a> {
 
     /// The losses without changes.
     pub(super) fn unchanged(&self) -> Result<Paired, Error> {
-        let mut losses = self.on_all_texels(self.pair.ground_truth, &[self.pair.prediction])?;
-        let losses = losses.pop().unwrap_or_default();
+        let Pair { ground_truth, prediction, .. } = self.pair;
+        let losses = self.of_maps(Comparison::new(ground_truth, &[prediction], *self.convention)?)?;
+        let losses = losses.into_iter().next().unwrap_or_default();
         Ok(Paired { before: losses.clone(), after: losses })
     }
 
     fn corrected(&self, changes: &[Change]) -> Result<Corrected, Error> {
-        Corrected::new(&self.pair, changes)
+        Corrected::new(&self.pair, self.samples.as_ref(), changes)
+    }
+
+    /// The ground truth and the prediction, or the texels of them that are compared.
+    fn materials(&self) -> [&Material<f32>; 2] {
+        match &self.samples {
+            Some(SampledPair { ground_truth, prediction, .. }) => [ground_truth, prediction],
+            None => [self.pair.ground_truth, self.pair.prediction],
+        }
     }
 
     fn of_corrected(&self, corrected: &[Corrected]) -> Result<Vec<Paired>, Error> {
-        let is_whole = |one: &&Corrected| one.texels.is_none() && one.ground_truth.is_none();
+        let is_whole = |one: &&Corrected| one.interior.is_none() && one.ground_truth.is_none();
         let whole = corrected.iter().filter(is_whole).map(|one| &one.material);
-        let materials: Vec<_> = std::iter::once(self.pair.prediction).chain(whole).collect();
-        let mut losses = self.on_all_texels(self.pair.ground_truth, &materials)?.into_iter();
+        let [ground_truth, prediction] = self.materials();
+        let materials: Vec<_> = std::iter::once(prediction).chain(whole).collect();
+        let mut losses = self.on_all_texels(ground_truth, &materials)?.into_iter();
         let before = losses.next().unwrap_or_default();
         let one = |corrected: &Corrected| {
             let whole = if is_whole(&corrected) { losses.next() } else { None };
@@ -110,19 +126,19 @@ impl<'a> Trials<'a> {
 
     /// On a part of the texels, or against another ground truth.
     fn alone(&self, corrected: &Corrected, before: &[f64]) -> Result<Paired, Error> {
-        let Pair { ground_truth, prediction, .. } = self.pair;
+        let [ground_truth, prediction] = self.materials();
         let changed = corrected.ground_truth.as_ref().unwrap_or(ground_truth);
-        let losses = match &corrected.texels {
+        let losses = match &corrected.interior {
             None => {
                 let after = self.on_all_texels(changed, &[&corrected.material])?;
                 [vec![before.to_vec()], after].concat()
             }
-            Some(texels) if corrected.ground_truth.is_none() => {
-                self.on_texels(changed, &[prediction, &corrected.material], texels)?
+            Some(interior) if corrected.ground_truth.is_none() => {
+                self.within(interior, changed, &[prediction, &corrected.material])?
             }
-            Some(texels) => [
-                self.on_texels(ground_truth, &[prediction], texels)?,
-                self.on_texels(changed, &[&corrected.material], texels)?,
+            Some(interior) => [
+                self.within(interior, ground_truth, &[prediction])?,
+                self.within(interior, changed, &[&corrected.material])?,
             ]
             .concat(),
         };
@@ -130,42 +146,67 @@ impl<'a> Trials<'a> {
         Ok(Paired { before: losses.next().unwrap_or_default(), after: losses.next().unwrap_or_default() })
     }
 
-    /// The losses of each scene, of each prediction.
+    /// The losses of each scene, of each prediction. All materials hold what [`Self::materials`] hold.
     fn on_all_texels(
         &self,
         ground_truth: &Material<f32>,
         predictions: &[&Material<f32>],
     ) -> Result<Vec<Vec<f64>>, Error> {
-        let comparison = Comparison::new(ground_truth, predictions, *self.convention)?.without_pilot();
-        let outcome = comparison.run(&Request::Scenes(self.sampling), &self.progress.part())?;
+        let comparison = Comparison::new(ground_truth, predictions, *self.convention)?;
+        let Some(SampledPair { samples, .. }) = &self.samples else { return self.of_maps(comparison) };
+        let subset = |number: usize| samples.of_scene(number).collect();
+        let (comparison, progress) = (samples.placed(comparison), self.progress.part());
+        f32::cpu().losses_on_own_texels(&comparison, &self.scenes, &subset, &progress)
+    }
+
+    /// The same for whole maps.
+    fn of_maps(&self, comparison: Comparison<'_, f32>) -> Result<Vec<Vec<f64>>, Error> {
+        let request = Request::Scenes(self.sampling);
+        let outcome = comparison.without_pilot().run(&request, &self.progress.part())?;
         Ok(outcome.losses.into_iter().map(|loss| loss.per_scene).collect())
     }
 
-    /// The same on a part of the texels: in each scene on those of its subset that are among `texels`, which are in order. Trials of
-    /// other parts are compared on the same subset. A scene without any has a loss of 0.
-    fn on_texels(
+    /// The same on a part of the texels: in each scene on those of its subset that are in `interior`. Trials of other parts are compared on
+    /// the same subset. A scene without any has a loss of 0.
+    fn within(
         &self,
+        interior: &Interior,
         ground_truth: &Material<f32>,
         predictions: &[&Material<f32>],
-        texels: &[usize],
     ) -> Result<Vec<Vec<f64>>, Error> {
         let comparison = Comparison::new(ground_truth, predictions, *self.convention)?;
+        let comparison = match &self.samples {
+            Some(sampled) => sampled.samples.placed(comparison),
+            None => comparison,
+        };
         let progress = self.progress.part();
-        let is_one_of_them = |texel: &usize| texels.binary_search(texel).is_ok();
-        let subset = |number: usize| self.subset(number).into_iter().filter(is_one_of_them).collect();
-        match self.sampling.texels.sampled(ground_truth.size()) {
-            None if texels.is_empty() => Ok(vec![vec![0.0; self.scenes.len()]; predictions.len()]),
-            None => f32::cpu().scene_losses(&comparison, &self.scenes, Some(texels), &progress),
-            Some(_) => f32::cpu().losses_on_own_texels(&comparison, &self.scenes, &subset, &progress),
+        if self.sampling.texels.sampled(self.pair.ground_truth.size()).is_some() {
+            let subset = |number: usize| {
+                let all = self.subset(number, self.texels).into_iter();
+                all.filter(|[_, place]| interior.contains(*place)).map(|[texel, _]| texel).collect()
+            };
+            f32::cpu().losses_on_own_texels(&comparison, &self.scenes, &subset, &progress)
+        } else if interior.is_empty() {
+            Ok(vec![vec![0.0; self.scenes.len()]; predictions.len()])
+        } else {
+            f32::cpu().scene_losses(&comparison, &self.scenes, Some(&interior.texels()), &progress)
         }
     }
 
-    /// The independent random subset of the texels that a scene is compared on.
-    fn subset(&self, number: usize) -> Vec<usize> {
-        let Sampling { near, seed, sampler, .. } = self.sampling;
-        let kind = self.scenes[number].kind;
-        let index = if kind == Kind::Near { number } else { number - near };
-        sampler.texels(seed, kind, index, self.texels, self.pair.ground_truth.size())
+    /// At most `count` of the texels that a scene is compared on: their numbers in [`Self::materials`], and their places on the map.
+    fn subset(&self, number: usize, count: usize) -> Vec<[usize; 2]> {
+        let (kind, size) = (self.scenes[number].kind, self.pair.ground_truth.size());
+        let all = size[0] * size[1];
+        match &self.samples {
+            Some(SampledPair { samples, .. }) => {
+                samples.of_scene(number).take(count).map(|texel| [texel, samples.texels[texel]]).collect()
+            }
+            None if all <= count => (0..all).map(|texel| [texel; 2]).collect(),
+            None => {
+                let texels = subset(&self.sampling, kind, number, count, size);
+                texels.into_iter().map(|texel| [texel; 2]).collect()
+            }
+        }
     }
 
     /// Adds what an exposure changes on random texels of each scene.
@@ -175,7 +216,8 @@ impl<'a> Trials<'a> {
             exposure::loss(pairs, stops, epsilon) - exposure::loss(pairs, [0.0; 3], epsilon)
         };
         let changes = self.radiances(corrected)?;
-        let after = paired.after.par_iter().zip(&*changes).map(|(loss, pairs)| loss + change(pairs)).collect();
+        let after =
+            paired.after.par_iter().zip(&*changes).map(|(loss, pairs)| loss + change(pairs)).collect();
         Ok(Paired { after, ..paired })
     }
 
@@ -184,16 +226,22 @@ impl<'a> Trials<'a> {
         if let Some((_, radiances)) = latest().as_ref().filter(|(changes, _)| *changes == corrected.changes) {
             return Ok(radiances.clone());
         }
-        let progress = self.progress.part();
-        let radiances = Arc::new(radiances(
-            corrected.ground_truth.as_ref().unwrap_or(self.pair.ground_truth),
-            corrected,
-            &self.sampling,
+        let [ground_truth, _] = self.materials();
+        let is_inside = |place| corrected.interior.as_ref().is_none_or(|interior| interior.contains(place));
+        let of_scene = |number: usize| {
+            let mut texels = self.subset(number, RADIANCES.min(self.texels));
+            texels.retain(|[_, place]| is_inside(*place));
+            texels
+        };
+        let radiances = radiances(
+            [corrected.ground_truth.as_ref().unwrap_or(ground_truth), &corrected.material],
+            self.pair.ground_truth.grid(),
             &self.scenes,
-            RADIANCES.min(self.texels),
+            of_scene,
             self.convention,
-            &progress,
-        )?);
+            &self.progress.part(),
+        )?;
+        let radiances = Arc::new(radiances);
         *latest() = Some((corrected.changes.clone(), radiances.clone()));
         Ok(radiances)
     }

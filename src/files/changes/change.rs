@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::reading::Reading;
-use super::shift::shifted;
+use super::shift::{before_shift, shifted};
 use super::storage::Storage;
 use super::symmetry::Symmetry;
 use svbrdf_core::error::Error;
@@ -45,9 +45,30 @@ impl Change {
         match self {
             _ if !self.fits(prediction.size()) => Ok(prediction.clone()),
             Self::Exposure(_) | Self::GroundTruth(_) => Ok(prediction.clone()),
-            Self::Shift(by) => shifted(prediction, by.map(i32::saturating_neg)),
+            Self::Shift(by) => Ok(shifted(prediction, by.map(i32::saturating_neg))),
             Self::Symmetry(symmetry) => symmetry.applied(prediction),
             Self::Reading(reading) => reading.applied(prediction, storage),
+        }
+    }
+
+    /// Where the texel was that is at `texel` of a prediction of `size` (width, height) after the change, as row * width + column.
+    pub fn before(self, texel: usize, size: [usize; 2]) -> usize {
+        match self {
+            Self::Shift(by) => before_shift(texel, by.map(i32::saturating_neg), size),
+            Self::Symmetry(symmetry) => symmetry.before(texel, size),
+            Self::Exposure(_) | Self::Reading(_) | Self::GroundTruth(_) => texel,
+        }
+    }
+
+    /// What the change does to the values of texels of a prediction, wherever these are.
+    ///
+    /// # Errors
+    /// As [`Self::applied`].
+    pub fn of_values(self, texels: &Material<f32>, storage: &Storage) -> Result<Material<f32>, Error> {
+        match self {
+            Self::Symmetry(symmetry) => symmetry.turned(texels),
+            Self::Reading(reading) => reading.applied(texels, storage),
+            Self::Shift(_) | Self::Exposure(_) | Self::GroundTruth(_) => Ok(texels.clone()),
         }
     }
 }

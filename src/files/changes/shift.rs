@@ -1,24 +1,18 @@
 //! Shifts by whole texels.
 
-use svbrdf_core::error::Error;
-use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::material::Material;
 
 /// The material moved by (right, down) texels; what leaves on one side enters on the other.
-///
-/// # Errors
-/// Those of [`Material::new`], which values of a material do not give.
-pub fn shifted(material: &Material<f32>, [right, down]: [i32; 2]) -> Result<Material<f32>, Error> {
+pub fn shifted(material: &Material<f32>, by: [i32; 2]) -> Material<f32> {
     let [width, height] = material.size();
+    let texels: Vec<usize> =
+        (0..width * height).map(|texel| before_shift(texel, by, [width, height])).collect();
+    material.gathered(&texels, [width, height])
+}
+
+/// Where the texel was that is at `texel` of a map of `size` after it was moved by (right, down).
+pub(super) fn before_shift(texel: usize, [right, down]: [i32; 2], [width, height]: [usize; 2]) -> usize {
     let back =
         |at: usize, by: i32, count: usize| (at as i64 - i64::from(by)).rem_euclid(count as i64) as usize;
-    let source = |index: usize| back(index / width, down, height) * width + back(index % width, right, width);
-    let moved = |plane: &Vec<f32>| (0..plane.len()).map(|index| plane[source(index)]).collect::<Vec<_>>();
-    let Planes { normal, diffuse, specular, roughness } = material.planes();
-    let planes = Planes {
-        normal: normal.each_ref().map(moved),
-        diffuse: diffuse.each_ref().map(moved),
-        specular: specular.each_ref().map(moved),
-        roughness: moved(roughness),
-    };
-    Material::new(material.name(), width, height, planes)
+    back(texel / width, down, height) * width + back(texel % width, right, width)
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::error::Error;
-use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::material::Material;
 
 /// A symmetry other than the identity. Only those that transpose need a square map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -80,32 +80,37 @@ impl Symmetry {
     /// Those of [`Material::new`], which values of a material do not give.
     pub fn applied(self, material: &Material<f32>) -> Result<Material<f32>, Error> {
         let [width, height] = material.size();
-        let source = |index: usize| {
-            let (column, row) = (index % width, index / width);
-            let column = if self.mirrored_x { width - 1 - column } else { column };
-            let row = if self.mirrored_y { height - 1 - row } else { row };
-            if self.transposed { column * width + row } else { row * width + column }
-        };
-        let moved = |plane: &Vec<f32>| (0..plane.len()).map(|index| plane[source(index)]).collect::<Vec<_>>();
-        let Planes { normal, diffuse, specular, roughness } = material.planes();
-        let [mut x, mut y, z] = normal.each_ref().map(moved);
+        let texels: Vec<usize> =
+            (0..width * height).map(|texel| self.before(texel, [width, height])).collect();
+        self.turned(&material.gathered(&texels, [width, height]))
+    }
+
+    /// Where the texel was that is at `texel` of a map of this size (width, height) after the symmetry, as row * width + column.
+    pub fn before(self, texel: usize, [width, height]: [usize; 2]) -> usize {
+        let (column, row) = (texel % width, texel / width);
+        let column = if self.mirrored_x { width - 1 - column } else { column };
+        let row = if self.mirrored_y { height - 1 - row } else { row };
+        if self.transposed { column * width + row } else { row * width + column }
+    }
+
+    /// The material with its normals turned as the symmetry turns them; its texels stay where they are.
+    ///
+    /// # Errors
+    /// As [`Self::applied`].
+    pub fn turned(self, material: &Material<f32>) -> Result<Material<f32>, Error> {
+        let mut planes = material.planes().clone();
+        let [x, y, _] = &mut planes.normal;
         // Transposed rows and columns exchange x with -y, which points up.
         if self.transposed {
-            std::mem::swap(&mut x, &mut y);
+            std::mem::swap(x, y);
         }
         let negated = [self.transposed != self.mirrored_x, self.transposed != self.mirrored_y];
-        for (plane, negated) in [&mut x, &mut y].into_iter().zip(negated) {
+        for (plane, negated) in [x, y].into_iter().zip(negated) {
             if negated {
                 plane.iter_mut().for_each(|value| *value = -*value);
             }
         }
-        let planes = Planes {
-            normal: [x, y, z],
-            diffuse: diffuse.each_ref().map(moved),
-            specular: specular.each_ref().map(moved),
-            roughness: moved(roughness),
-        };
-        Material::new(material.name(), width, height, planes)
+        Material::new(material.name(), material.width(), material.height(), planes)
     }
 }
 
@@ -127,6 +132,8 @@ impl TryFrom<String> for Symmetry {
 
 #[cfg(test)]
 mod tests {
+    use svbrdf_core::material::Planes;
+
     use super::*;
 
     #[test]

@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
+
 use super::rows::TexelRows;
+use crate::loss::comparison::Comparison;
 use crate::material::Material;
 use crate::model::grammar::words::Norm;
 use crate::render::simd::kernel::Kernel;
@@ -17,6 +20,10 @@ pub(super) struct LossInputs<'a> {
     pub(super) kernel: Kernel,
     pub(super) params: ShadingParams,
     pub(super) axes: GridAxes,
+    /// The largest distance of a texel from the middle.
+    pub(super) reach: f64,
+    /// Where on the grid each texel is; `None`: in its order.
+    pub(super) places: Option<&'a [usize]>,
     /// The texels that are compared; `None`: all.
     pub(super) listed: Option<&'a [usize]>,
     /// The ground truth and the predictions, texel by texel, where that is faster for the listed texels.
@@ -31,12 +38,12 @@ pub(super) struct LossInputs<'a> {
 
 impl<'a> LossInputs<'a> {
     pub(super) fn new(
-        ground_truth: &'a Material<f32>,
-        predictions: &'a [&'a Material<f32>],
+        comparison: &'a Comparison<'_, f32>,
         listed: Option<&'a [usize]>,
         kernel: Kernel,
     ) -> Self {
-        let grid = ground_truth.grid();
+        let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
+        let (grid, places) = comparison.places();
         let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
         let planes = [&ground_truth].into_iter().chain(predictions);
         let planes = planes.flat_map(|m| m.planes().all()).filter(|_| listed.is_none());
@@ -48,7 +55,12 @@ impl<'a> LossInputs<'a> {
                 _ => ShadingParams::without_epsilon(&kernel),
             },
             kernel,
-            axes: if listed.is_none() { GridAxes::from(grid) } else { GridAxes::without_runs(grid) },
+            axes: match listed.or(places) {
+                None => GridAxes::from(grid),
+                Some(_) => GridAxes::without_runs(grid),
+            },
+            reach: grid.position::<DVec3>(0, 0).length(),
+            places,
             listed,
             rows: None,
             planes: planes.collect(),

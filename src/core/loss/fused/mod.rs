@@ -61,8 +61,7 @@ impl Fused {
             return plain::texel_means(comparison, scenes, progress);
         };
         let level = self.level.unwrap_or_else(Level::best);
-        let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
-        let inputs = LossInputs::new(ground_truth, predictions, None, kernel);
+        let inputs = LossInputs::new(comparison, None, kernel);
         inputs.texel_means(level, scenes, progress)
     }
 }
@@ -98,7 +97,7 @@ impl Backend<f32> for Fused {
             return Plain.scene_losses(comparison, scenes, texels, progress);
         };
         let level = self.level.unwrap_or_else(Level::best);
-        let inputs = LossInputs::new(comparison.ground_truth(), predictions, texels, kernel);
+        let inputs = LossInputs::new(comparison, texels, kernel);
         let groups: usize = scenes.len().div_ceil(SCENES_PER_GROUP);
         progress.begin((groups * inputs.blocks) as u64);
         let per_batch = SCENES_PER_GROUP * (MAX_SUMS / (SCENES_PER_GROUP * inputs.blocks)).max(1);
@@ -123,10 +122,12 @@ impl Backend<f32> for Fused {
         let level = self.level.unwrap_or_else(Level::best);
         progress.begin(scenes.len() as u64);
         let materials: Vec<_> = [ground_truth].into_iter().chain(predictions.iter().copied()).collect();
-        let rows = TexelRows::of(&materials, scenes.len() * texels(0).len());
+        // Texels that were taken from a map are side by side.
+        let listed = if comparison.places().1.is_some() { 0 } else { scenes.len() * texels(0).len() };
+        let rows = TexelRows::of(&materials, listed);
         let of_scene = |tile: &mut LossTile, (index, scene)| {
             let texels = texels(index);
-            let inputs = LossInputs::new(ground_truth, predictions, Some(&texels), kernel);
+            let inputs = LossInputs::new(comparison, Some(&texels), kernel);
             let inputs = LossInputs { rows: rows.as_ref(), ..inputs };
             progress.step().map(|()| inputs.losses_of_scene(level, tile, scene))
         };

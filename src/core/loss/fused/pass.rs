@@ -10,6 +10,8 @@ use crate::render::simd::tile::{MaterialTerms, Positions, TexelSpan};
 
 /// The tile of all materials that is in cache.
 pub(super) struct LossTile {
+    /// Where on the grid its texels are, if that is not their order.
+    places: Vec<usize>,
     positions: Positions,
     geometry: TileGeometry,
     ground_truth: MaterialTerms,
@@ -22,6 +24,7 @@ pub(super) struct LossTile {
 impl LossTile {
     pub(super) fn new(predictions: usize) -> Self {
         Self {
+            places: Vec::new(),
             positions: Positions::ZERO,
             geometry: TileGeometry::ZERO,
             ground_truth: MaterialTerms::ZERO,
@@ -39,7 +42,17 @@ impl LossTile {
         inputs: &LossInputs<'_>,
         span: &TexelSpan<'_>,
     ) {
-        self.positions.fill(&inputs.axes, span);
+        match (inputs.places, span) {
+            (None, span) => self.positions.fill(&inputs.axes, span),
+            (Some(places), TexelSpan::Range(range)) => {
+                self.positions.fill(&inputs.axes, &TexelSpan::Listed(&places[range.clone()]));
+            }
+            (Some(places), TexelSpan::Listed(texels)) => {
+                self.places.clear();
+                self.places.extend(texels.iter().map(|&texel| places[texel]));
+                self.positions.fill(&inputs.axes, &TexelSpan::Listed(&self.places));
+            }
+        }
         let ShadingParams { roughness_floor: floor, narrow, smith, .. } = inputs.params;
         let terms = std::iter::once(&mut self.ground_truth).chain(&mut self.predictions);
         let materials = std::iter::once(&inputs.ground_truth).chain(inputs.predictions);

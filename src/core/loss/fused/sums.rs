@@ -1,7 +1,6 @@
 //! The sums of a loss, block by block.
 
 use fearless_simd::{Fallback, Simd};
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::compare::{LogProducts, Squares, Sum};
@@ -68,8 +67,7 @@ impl LossInputs<'_> {
 
     /// The scenes as the kernel takes them.
     pub(super) fn kernel_scenes(&self, scenes: &[Scene]) -> Vec<KernelScene> {
-        let reach = self.ground_truth.grid().position::<DVec3>(0, 0).length();
-        scenes.iter().map(|scene| KernelScene::new(scene, &self.kernel, reach)).collect()
+        scenes.iter().map(|scene| KernelScene::new(scene, &self.kernel, self.reach)).collect()
     }
 
     /// The sums of one block: for each scene, for each prediction.

@@ -1,6 +1,6 @@
 //! Each error planted alone: it is found with its value, and the rest of the table stays unmarked.
 
-use super::super::shift::{candidates, fits, interior};
+use super::super::shift::{Correlations, Interior, candidates};
 use super::super::{
     Diagnosis, Hypothesis, Reading, Storage, StoredEncoding, Symmetry, Value, diagnose, sentence, shifted,
 };
@@ -30,7 +30,7 @@ fn only(diagnosis: &Diagnosis) -> (Hypothesis, Value) {
 fn shifts() {
     for (seed, shift) in [(0, [3, -2]), (1, [-8, 8]), (2, [0, 1])] {
         let truth = generated(seed, SIDE);
-        let found = found(&truth, &shifted(&truth, shift).unwrap(), &Storage::default());
+        let found = found(&truth, &shifted(&truth, shift), &Storage::default());
         assert_eq!(only(&found), (Hypothesis::Shift, Value::Displacement(shift.map(f64::from))));
         let finding = found.marked().next().unwrap();
         assert!(finding.loss.unwrap() < 1e-6 && finding.share.unwrap() > 0.999, "{finding:?}");
@@ -42,7 +42,7 @@ fn shifts() {
 fn the_share_of_a_shift_is_that_of_all_texels() {
     let side = 512;
     let truth = generated(0, side);
-    let moved = with(&shifted(&truth, [2, 0]).unwrap(), |planes| {
+    let moved = with(&shifted(&truth, [2, 0]), |planes| {
         let between_columns = |index: usize| (8..24).contains(&(index % side % 32));
         let roughness = planes.roughness.iter_mut().enumerate().filter(|(index, _)| between_columns(*index));
         roughness.for_each(|(_, roughness)| *roughness *= 0.8);
@@ -51,11 +51,11 @@ fn the_share_of_a_shift_is_that_of_all_texels() {
     let finding = found.findings.iter().find(|finding| finding.hypothesis == Hypothesis::Shift).unwrap();
     assert_eq!(finding.value, Value::Displacement([2.0, 0.0]));
 
-    let back = shifted(&moved, [-2, 0]).unwrap();
+    let back = shifted(&moved, [-2, 0]);
     let predictions = [&moved, &back];
     let comparison = Comparison::new(&truth, &predictions, PRINTED).unwrap();
     let scenes = Sampler::Sobol.scenes(1, 64, 32, &PRINTED);
-    let texels = interior([side; 2], [-2, 0]);
+    let texels = Interior::new([side; 2], [-2, 0]).texels();
     let losses = f32::cpu().scene_losses(&comparison, &scenes, Some(&texels), &Progress::default()).unwrap();
     let [before, after] = [0, 1].map(|of: usize| losses[of].iter().sum::<f64>());
     let (share, expected) = (finding.share.unwrap(), 1.0 - after / before);
@@ -197,7 +197,7 @@ fn two_errors_are_found_at_once() {
 fn a_shift_is_that_of_most_rows() {
     let (side, columns) = (272, 272);
     let truth = generated(0, side);
-    let [mut moved, other] = [[2, 0], [5, 0]].map(|shift| shifted(&truth, shift).unwrap());
+    let [mut moved, other] = [[2, 0], [5, 0]].map(|shift| shifted(&truth, shift));
     moved = with(&moved, |planes| {
         let from = other.planes();
         let maps = [&mut planes.normal, &mut planes.diffuse, &mut planes.specular];
@@ -209,7 +209,7 @@ fn a_shift_is_that_of_most_rows() {
             rows.for_each(|(row, other)| row.copy_from_slice(other));
         }
     });
-    let found = candidates(&fits(&truth, &moved, 1));
+    let found = candidates(&Correlations::new([&truth, &moved], 1).fits(None).unwrap());
     assert!(found.contains(&[2, 0]), "{found:?}");
 }
 

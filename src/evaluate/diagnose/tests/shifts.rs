@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::super::pair::Pair;
 use super::super::proposals::shift;
-use super::super::shift::{fits, interior};
+use super::super::shift::{Correlations, Interior};
 use super::super::trials::{Trials, mean};
 use super::super::{Change, Storage, Value, shifted};
 use super::materials::with;
@@ -48,7 +48,8 @@ fn found([truth, moved]: [&Material<f32>; 2]) -> [Value; 2] {
     let (storage, progress) = (Storage::default(), Progress::default());
     let pair = Pair { ground_truth: truth, prediction: moved, storages: [&storage; 2] };
     let pilot = Trials::new(pair, &PRINTED, [64, 32, 8192], 1, &progress).unwrap();
-    let (proposal, subtexel) = shift(&pilot, &fits(truth, moved, 1)).unwrap();
+    let (proposal, subtexel) =
+        shift(&pilot, &Correlations::new([truth, moved], 1).fits(None).unwrap()).unwrap();
     [proposal.value, subtexel]
 }
 
@@ -58,11 +59,11 @@ fn shares([truth, moved]: [&Material<f32>; 2], by: [i32; 2]) -> [f64; 2] {
     let pair = Pair { ground_truth: truth, prediction: moved, storages: [&storage; 2] };
     let trials = Trials::new(pair, &PRINTED, [128, 64, 1 << 16], 1, &progress).unwrap();
     let sampled = trials.losses(&[vec![Change::Shift(by)]]).unwrap().remove(0);
-    let back = shifted(moved, by.map(|by| -by)).unwrap();
+    let back = shifted(moved, by.map(|by| -by));
     let predictions = [moved, &back];
     let comparison = Comparison::new(truth, &predictions, PRINTED).unwrap();
     let scenes = Sampler::Sobol.scenes(1, 16, 8, &PRINTED);
-    let texels = interior(truth.size(), by.map(|by| -by));
+    let texels = Interior::new(truth.size(), by.map(|by| -by)).texels();
     let losses = f32::cpu().scene_losses(&comparison, &scenes, Some(&texels), &progress).unwrap();
     [1.0 - mean(&sampled.after) / mean(&sampled.before), 1.0 - mean(&losses[1]) / mean(&losses[0])]
 }
@@ -72,7 +73,7 @@ const TABLE: &str = "data/polyhaven_arm_wooden_table_02/textures";
 
 /// Predictions are smoother than the ground truth and displaced.
 fn displaced(truth: &Material<f32>, by: [i32; 2]) -> Material<f32> {
-    with(&shifted(truth, by).unwrap(), |planes| planes.roughness.iter_mut().for_each(|r| *r *= 0.8))
+    with(&shifted(truth, by), |planes| planes.roughness.iter_mut().for_each(|r| *r *= 0.8))
 }
 
 #[test]

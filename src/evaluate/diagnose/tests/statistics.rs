@@ -107,7 +107,7 @@ fn expected(truth: &Material<f32>, prediction: &Material<f32>) -> [f64; 3] {
 
 /// A prediction that is displaced, darker and rougher, so that an exposure and a shift lower its loss.
 fn misplaced(truth: &Material<f32>) -> Material<f32> {
-    let moved = shifted(truth, [2, -1]).unwrap();
+    let moved = shifted(truth, [2, -1]);
     with(&moved, |planes| {
         planes.diffuse.iter_mut().flatten().for_each(|d| *d *= 0.7);
         planes.specular.iter_mut().flatten().for_each(|s| *s *= 0.8);

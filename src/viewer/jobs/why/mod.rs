@@ -61,8 +61,8 @@ impl WhyJobs {
         let diagnoses = is_open(WhySection::Diagnosis);
         let error = self.diagnosis.follow(waker, diagnoses, (&pairs, chosen), query.seed);
         // What is longest comes after the first line of the tab, which all would share the processors with.
-        let awaits_first = diagnoses
-            && pairs.get(chosen).is_some_and(|pair| self.diagnosis.awaits(pair, query.seed));
+        let awaits_first =
+            diagnoses && pairs.get(chosen).is_some_and(|pair| self.diagnosis.awaits(pair, query.seed));
         let is_next = |section| is_open(section) && !awaits_first;
         let errors = [
             error,
