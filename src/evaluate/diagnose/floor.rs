@@ -1,5 +1,7 @@
 //! The floor: the loss that a ground truth cannot resolve, since its maps have steps or its captures differ.
 
+use rayon::prelude::*;
+
 use super::dither::dithered;
 use super::samples::Samples;
 use crate::error::Error;
@@ -34,7 +36,7 @@ pub fn floor(
     let scenes = sampling.scenes(convention)?;
     let samples = Samples::of(&sampling, &scenes, ground_truth.grid());
     let held = samples.as_ref().map_or_else(|| ground_truth.clone(), |samples| samples.of_map(ground_truth));
-    let copies = (0..COPIES).map(|copy| dithered(&held, storage, seed.wrapping_add(copy)));
+    let copies = (0..COPIES).into_par_iter().map(|copy| dithered(&held, storage, seed.wrapping_add(copy)));
     let copies = copies.collect::<Result<Vec<_>, CoreError>>()?;
     let copies: Vec<_> = copies.iter().collect();
     let Some(samples) = samples else {

@@ -13,6 +13,9 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 
+/// Ratios of radiances whose product f64 holds, unless many are extreme.
+const FEW: usize = 6;
+
 /// The loss between averages over blocks of texels, and the roughness of these blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Rung {
@@ -49,28 +52,41 @@ pub fn ladder(
         Ok(losses)
     };
     let by_scene = scenes.par_iter().map(of_scene).collect::<Result<Vec<_>, Error>>()?;
-    let rung = |level: u32| {
-        let sum = by_scene.iter().map(|losses| losses[level as usize]).sum::<f64>();
-        let roughness = materials.map(|material| filtered_roughness(material, level).unwrap_or(f64::NAN));
-        Rung { side: 1 << level, loss: sum / by_scene.len() as f64, roughness }
+    let [of_truth, of_prediction] = materials.map(filtered_roughness);
+    let rung = |(level, roughness): (usize, (f64, f64))| {
+        let sum = by_scene.iter().map(|losses| losses[level]).sum::<f64>();
+        Rung { side: 1 << level, loss: sum / by_scene.len() as f64, roughness: roughness.into() }
     };
-    Ok((0..levels).into_par_iter().map(rung).collect())
+    Ok(of_truth.into_iter().zip(of_prediction).enumerate().map(rung).collect())
 }
 
 /// The image with the mean of 2 x 2 pixels in each; a last odd row or column is left out.
 fn halved(image: &Image<f32>) -> Image<f32> {
     let [width, height] = [image.width / 2, image.height / 2];
-    let mean = |index: usize| {
-        let at = index / width * 2 * image.width + index % width * 2;
-        let four = [at, at + 1, at + image.width, at + image.width + 1].map(|i| image.pixels[i]);
-        [0, 1, 2].map(|c| 0.25 * four.iter().map(|pixel| pixel[c]).sum::<f32>())
-    };
-    Image { width, height, pixels: (0..width * height).map(mean).collect() }
+    let mut pixels = Vec::with_capacity(width * height);
+    for rows in image.pixels.chunks_exact(2 * image.width) {
+        let (upper, lower) = rows.split_at(image.width);
+        let pairs = upper.as_chunks::<2>().0.iter().zip(lower.as_chunks::<2>().0);
+        let mean = |([a, b], [c, d]): (&[[f32; 3]; 2], &[[f32; 3]; 2])| {
+            [0, 1, 2].map(|i| 0.25 * (a[i] + b[i] + c[i] + d[i]))
+        };
+        pixels.extend(pairs.map(mean));
+    }
+    Image { width, height, pixels }
 }
 
+/// The mean of `|ln(p + epsilon) - ln(g + epsilon)|`. A logarithm is of the product of a few ratios, each at least 1.
 fn difference(g: &Image<f32>, p: &Image<f32>, epsilon: f64) -> f64 {
     let epsilon = epsilon as f32;
-    let of_pair = |(g, p): (&f32, &f32)| f64::from(((p + epsilon) / (g + epsilon)).ln().abs());
+    let ratio = |(p, g): (&f32, &f32)| {
+        let [p, g] = [p + epsilon, g + epsilon];
+        f64::from(p.max(g)) / f64::from(p.min(g))
+    };
     let [g, p] = [g.pixels.as_flattened(), p.pixels.as_flattened()];
-    g.iter().zip(p).map(of_pair).sum::<f64>() / g.len() as f64
+    let of_few = |(g, p): (&[f32], &[f32])| {
+        let ratios = || p.iter().zip(g).map(ratio);
+        let product = ratios().product::<f64>();
+        if product.is_finite() { product.ln() } else { ratios().map(f64::ln).sum() }
+    };
+    g.chunks(FEW).zip(p.chunks(FEW)).map(of_few).sum::<f64>() / g.len() as f64
 }

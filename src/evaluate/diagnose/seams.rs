@@ -1,5 +1,6 @@
 //! Seams: whether a map that is repeated shows its border.
 
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -18,32 +19,37 @@ pub struct Seam {
 
 /// The seams of all maps that are not constant.
 pub fn seams(material: &Material<f32>) -> Vec<Seam> {
-    let [width, height] = material.size();
     let of_map = |map: Map| {
-        let planes: Vec<&[f32]> = planes_of(material, map);
-        let value = |plane: &[f32], across: usize, along: usize, columns: bool| {
-            if columns { plane[along * width + across] } else { plane[across * width + along] }
-        };
-        let seam = move |columns: bool| {
-            let [count, length] = if columns { [width, height] } else { [height, width] };
-            let difference = |first: usize| {
-                let next = (first + 1) % count;
-                let of_plane = |plane: &&[f32]| {
-                    let at = |along| value(plane, first, along, columns) - value(plane, next, along, columns);
-                    (0..length).map(|along| f64::from(at(along).abs())).sum::<f64>()
-                };
-                planes.iter().map(of_plane).sum::<f64>()
-            };
+        let of_planes: Vec<_> = planes_of(material, map)
+            .into_par_iter()
+            .map(|plane| differences(plane, material.width()))
+            .collect();
+        let seam = |(axis, across): (usize, &'static str)| {
+            let count = of_planes.first()?[axis].len();
+            let difference = |first: usize| of_planes.iter().map(|plane| plane[axis][first]).sum::<f64>();
             let differences: Vec<f64> = (0..count).map(difference).collect();
             let border = *differences.last()?;
             let as_large = differences.iter().filter(|difference| **difference >= border).count();
             let varies = differences.iter().any(|difference| *difference > 0.0);
-            let across = if columns { "columns" } else { "rows" };
             varies.then(|| Seam { map, across, rank: as_large as f64 / count as f64 })
         };
-        [seam(true), seam(false)]
+        ["columns", "rows"].into_iter().enumerate().map(seam).collect::<Vec<_>>()
     };
     Map::ALL.into_iter().flat_map(of_map).flatten().collect()
+}
+
+/// How much each column of a plane of this `width` differs from the next one, and each row; after the last one comes the first.
+fn differences(plane: &[f32], width: usize) -> [Vec<f64>; 2] {
+    let of = |a: f32, b: f32| f64::from((a - b).abs());
+    let mut columns = vec![0.0; width];
+    let next_rows = plane.chunks(width).cycle().skip(1);
+    let of_row = |(row, next): (&[f32], &[f32])| {
+        let following = row.iter().skip(1).chain(row.first());
+        columns.iter_mut().zip(row.iter().zip(following)).for_each(|(sum, (a, b))| *sum += of(*a, *b));
+        row.iter().zip(next).map(|(a, b)| of(*a, *b)).sum()
+    };
+    let rows = plane.chunks(width).zip(next_rows).map(of_row).collect();
+    [columns, rows]
 }
 
 fn planes_of(material: &Material<f32>, map: Map) -> Vec<&[f32]> {

@@ -24,6 +24,9 @@ const MOST_BYTES: usize = 1 << 30;
 /// Texels of a scene whose radiances are compared one by one, for exposures.
 const RADIANCES: usize = 1024;
 
+/// Radiances in each scene.
+type SceneRadiances = Arc<Vec<Vec<Radiances>>>;
+
 /// A pair, and the scenes that changes of it are tried in.
 pub(super) struct Trials<'a> {
     pub(super) pair: Pair<'a>,
@@ -37,7 +40,7 @@ pub(super) struct Trials<'a> {
     samples: Option<SampledPair>,
     /// The radiances that were computed last, and the changes of their pair: exposures of one and of three channels are fitted to and tried
     /// on the same ones.
-    latest: Mutex<Option<(Vec<Change>, Arc<Vec<Vec<Radiances>>>)>>,
+    latest: Mutex<Option<(Vec<Change>, SceneRadiances)>>,
 }
 
 /// The losses of each scene without and with changes, on the texels that both have.
@@ -221,7 +224,7 @@ impl<'a> Trials<'a> {
         Ok(Paired { after, ..paired })
     }
 
-    fn radiances(&self, corrected: &Corrected) -> Result<Arc<Vec<Vec<Radiances>>>, Error> {
+    fn radiances(&self, corrected: &Corrected) -> Result<SceneRadiances, Error> {
         let latest = || self.latest.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, radiances)) = latest().as_ref().filter(|(changes, _)| *changes == corrected.changes) {
             return Ok(radiances.clone());
@@ -250,5 +253,51 @@ impl<'a> Trials<'a> {
     pub(super) fn best_exposure(&self, changes: &[Change], per_channel: bool) -> Result<[f64; 3], Error> {
         let pairs = self.radiances(&self.corrected(changes)?)?;
         Ok(exposure::best_exposure(&pairs, self.convention.epsilon, per_channel))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::materials::{generated, with};
+    use super::*;
+    use svbrdf_core::model::convention::PRINTED;
+    use svbrdf_files::changes::{Reading, Storage, StoredEncoding, Symmetry};
+
+    #[test]
+    fn changes_of_the_compared_texels_alone_have_the_losses_of_changed_maps_bit_for_bit() {
+        let (truth, other) = (generated(0, 96), generated(1, 96));
+        let darker = with(&other, |planes| planes.diffuse.iter_mut().flatten().for_each(|d| *d *= 0.5));
+        let (progress, storage) = (Progress::default(), Storage::default());
+        let without_kernel: Convention = "gltf-viewer".parse().unwrap();
+        assert!(!svbrdf_core::render::simd::has(&without_kernel));
+        let pair = Pair { ground_truth: &truth, prediction: &darker, storages: [&storage; 2] };
+        let [gloss, linear] = [Reading::Gloss, Reading::Colours(StoredEncoding::Linear)];
+        let sets = vec![
+            vec![Change::Reading(gloss)],
+            vec![
+                Change::Symmetry(Symmetry::ALL[4]),
+                Change::Reading(Reading::NormalY),
+                Change::Shift([2, -1]),
+            ],
+            vec![Change::GroundTruth(linear), Change::Shift([0, 3])],
+            vec![Change::GroundTruth(gloss), Change::Symmetry(Symmetry::ALL[5])],
+            vec![Change::Exposure([0.5, 0.25, 1.0]), Change::Symmetry(Symmetry::ALL[3])],
+            vec![Change::Exposure([0.5; 3]), Change::Shift([-4, 0])],
+        ];
+        for convention in [&PRINTED, &without_kernel] {
+            let mut trials = Trials::new(pair, convention, [16, 8, 2048], 3, &progress).unwrap();
+            assert!(trials.samples.as_ref().is_some_and(|sampled| sampled.samples.texels.len() == 24 * 256));
+            let of_samples = trials.losses(&sets).unwrap();
+            let stops = |trials: &Trials<'_>| trials.best_exposure(&sets[1], true).unwrap();
+            let stops_of_samples = stops(&trials);
+            trials.samples = None;
+            *trials.latest.lock().unwrap() = None;
+            let of_maps = trials.losses(&sets).unwrap();
+            for ((set, found), expected) in sets.iter().zip(&of_samples).zip(&of_maps) {
+                assert_eq!((&found.before, &found.after), (&expected.before, &expected.after), "{set:?}");
+                assert!(mean(&found.after) != mean(&found.before), "{set:?}");
+            }
+            assert_eq!(stops_of_samples, stops(&trials));
+        }
     }
 }

@@ -82,7 +82,7 @@ impl Backend<f32> for GpuLosses {
     ) -> Result<Vec<Vec<f64>>, Error> {
         let convention = comparison.convention();
         let passes = self.passes(convention)?;
-        if texels.is_some() {
+        if texels.is_some() || comparison.places().1.is_some() {
             let problem = "it compares all texels, and a part of them was asked for".to_owned();
             return Err(Error::Gpu { problem, remedy: "compute this loss on the processor" });
         }

@@ -127,6 +127,28 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
     );
 }
 
+/// The maps are mixed when the first line is there, or at once where it is folded.
+#[needs(adapter)]
+#[test]
+fn the_first_line_has_the_processors_to_itself() {
+    let mixes = |window: &Window<'_>| window.state().parts.jobs.why.attribution.busy().is_some();
+    let mut window = built_in();
+    tab(&mut window, "Why");
+    let mut frames = 0;
+    while window.state().diagnosis().is_none() {
+        assert!(!mixes(&window) && window.state().attribution().is_none(), "frame {frames}");
+        assert!(has(&window, "After the diagnosis"), "frame {frames}");
+        window.step();
+        frames += 1;
+    }
+    assert!(frames > 0, "nothing was awaited");
+    wait(&mut window, "the attribution", |app| app.attribution().is_some());
+    let mut folded = built_in();
+    apply(&mut folded, WhyCommand::ShowSection(WhySection::Diagnosis, false));
+    tab(&mut folded, "Why");
+    assert!(mixes(&folded));
+}
+
 #[needs(adapter)]
 #[test]
 fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_prediction_itself() {

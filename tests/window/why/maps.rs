@@ -8,6 +8,8 @@ use svbrdf_evaluate::why::{Attribution, attribute};
 
 use super::*;
 use crate::materials::write_packed;
+use svbrdf_viewer::model::command::WhyCommand;
+use svbrdf_viewer::model::settings::why::WhySection;
 
 fn expected(prediction: usize, convention: &Convention) -> Attribution {
     let materials = materials();
@@ -58,6 +60,7 @@ fn a_share_below_0_is_explained_below_the_bars() {
     });
     let mut window = on_files([metal, dull]);
     wait(&mut window, "the materials", |app| app.names().len() == 2);
+    apply(&mut window, WhyCommand::ShowSection(WhySection::Diagnosis, false));
     tab(&mut window, "Why");
     let below = |window: &Window<'_>| window.get_by_label("A click shows").rect();
     let before = below(&window);

@@ -60,7 +60,7 @@ impl WhyJobs {
         let is_open = |section| displayed && query.sections.is_open(section);
         let diagnoses = is_open(WhySection::Diagnosis);
         let error = self.diagnosis.follow(waker, diagnoses, (&pairs, chosen), query.seed);
-        // What is longest comes after the first line of the tab, which all would share the processors with.
+        // The tab is read from above: what takes longer than its first line does not share the processors with it.
         let awaits_first =
             diagnoses && pairs.get(chosen).is_some_and(|pair| self.diagnosis.awaits(pair, query.seed));
         let is_next = |section| is_open(section) && !awaits_first;

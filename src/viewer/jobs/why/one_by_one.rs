@@ -83,3 +83,40 @@ impl<R: Clone + Send + 'static, K: Clone + PartialEq + Send + 'static> OneByOne<
         self.latest.running().map(|job| (job.fraction(), job.elapsed()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use svbrdf_files::source::MaterialSource;
+
+    use super::*;
+    use crate::model::material::loaded::LoadedMaterial;
+    use crate::model::material::read::ReadMaterial;
+    use crate::model::view::state::ViewState;
+
+    #[test]
+    fn a_pair_that_fails_is_reported_once_and_does_not_keep_the_others_waiting() {
+        let read = |number| MaterialSource::built_in(number).read(&Progress::default()).unwrap();
+        let one = |number| ReadMaterial::new(MaterialSource::built_in(number), read(number));
+        let all = [0, 1, 2].map(|number| LoadedMaterial::new(Arc::new(one(number))));
+        let pairs = ComparedPair::all(&all, &ViewState::default());
+        let (mut results, mut errors) = (OneByOne::<String>::default(), 0);
+        for _ in 0..500 {
+            let compute = |pair: &ComparedPair, _, _: &Progress| match pair.prediction().name() {
+                "blurred normals" => Err(Error::internal("planted")),
+                name => Ok(name.to_owned()),
+            };
+            let error = results.follow(&Waker::default(), true, (&pairs, 0), 7, compute);
+            errors += usize::from(error.is_some());
+            if pairs.iter().all(|pair| !results.awaits(pair, &7)) {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        assert_eq!(errors, 1);
+        let found = [0, 1].map(|pair| results.get(&pairs[pair], &7).map(String::as_str));
+        assert_eq!(found, [None, Some("wrong roughness")]);
+        assert!(results.awaits(&pairs[0], &8), "another seed");
+    }
+}

@@ -73,8 +73,13 @@ impl MapsSection<'_> {
     fn state_line(&self, ui: &mut egui::Ui, attributed: Option<&Attributed>) {
         let height = ui.spacing().interact_size.y;
         let Some(Attributed { attribution, elapsed }) = attributed else {
-            let (fraction, elapsed) = self.jobs.attribution.busy().unwrap_or_default();
-            let text = format!("Mixing maps, {} s", elapsed.as_secs());
+            let (pair, busy) = (self.pairs.get(self.state.display.prediction), self.jobs.attribution.busy());
+            let awaits = |pair| self.jobs.diagnosis.awaits(pair, self.settings.seed);
+            let text = match busy {
+                None if pair.is_some_and(awaits) => "After the diagnosis".to_owned(),
+                _ => format!("Mixing maps, {} s", busy.unwrap_or_default().1.as_secs()),
+            };
+            let (fraction, _) = busy.unwrap_or_default();
             ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
             return;
         };
