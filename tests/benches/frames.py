@@ -3,6 +3,7 @@
 
     cargo build --release
     tests/benches/frames.py target/release/svbrdf [GT PRED...] [--only-latency]
+    tests/benches/frames.py target/release/svbrdf GT PRED --why
     tests/benches/frames.py target/release/svbrdf --dataset GT METHOD...
 
 Needs Xvfb and xdotool, and a machine that does nothing else. The window has 1360 x 860 points. The pointer hovers over a pane, then
@@ -10,7 +11,8 @@ drags the light; then both again with magnified materials, and with differences.
 millisecond; a frame is a change of it. Prints the median and the 95th percentile of the times between frames, and the processor time
 per frame. Then single motions: from the event of the mouse to the first changed pixel of another pane, which is what a hand feels
 (`--only-latency`: nothing else). With materials also the time from the start to the first picture and to the last one, beside that of `svbrdf info`, which
-reads them and does no more. With --dataset: flips, memory, and drags in the contact sheet of a data set, such as that of
+reads them and does no more. With --why: from a click on the tab Why to its
+first line. With --dataset: flips, memory, and drags in the contact sheet of a data set, such as that of
 `cargo run --release --example make_dataset -- FOLDER`. A large material, here of 2048 x 2048 texels, of a small one:
 
     convert src/files/samples/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
@@ -38,6 +40,8 @@ MOTIONS, BETWEEN_MOTIONS = 40, 0.4
 FLIPS = 30
 # What flips change: rows and columns inside the picture of the first method, beside titles and lists, which change before.
 FLIPPED = ((540, 740), range(120, 320, 9))
+# The tab Why, and where the first line of its diagnosis is, of one prediction.
+WHY, FIRST_LINE = (1120, 45), ((1049, 1340), range(204, 229, 2))
 # What is compared: rows of the other panes. The server itself draws the pointer, which is not a frame.
 ROWS = range(8, HEIGHT, 9)
 COLUMNS = (530, 1030)
@@ -140,6 +144,21 @@ def latency(screen, environment, name, centre, radius):
     )
 
 
+def first_line(screen, environment):
+    """The time from a click on the tab Why to the first line of its diagnosis."""
+    move = ["mousemove", *map(str, WHY)]
+    subprocess.run(["xdotool", *move, "sleep", "0.5"], env=environment, check=True)
+    before, start = screen.rows(*FIRST_LINE), time.perf_counter()
+    subprocess.run(["xdotool", "click", "1"], env=environment, check=True)
+    last = start
+    # First what another tab had there goes, then the line comes.
+    while time.perf_counter() - start < 20 and (last == start or time.perf_counter() - last < 5):
+        if (now := screen.rows(*FIRST_LINE)) != before:
+            before, last = now, time.perf_counter()
+        time.sleep(0.002)
+    print(f"first line of the diagnosis {last - start:.2f} s after the click")
+
+
 def flips(screen, process, environment):
     """Times from the key to the first changed pixel of a picture, and the memory after many flips."""
     press = lambda key: subprocess.run(["xdotool", "key", key], env=environment, check=True)
@@ -185,8 +204,9 @@ def reading(program, material):
 
 
 def main():
-    only_latency, is_dataset = "--only-latency" in sys.argv, "--dataset" in sys.argv
-    arguments = [argument for argument in sys.argv[1:] if argument not in ("--only-latency", "--dataset")]
+    options = ("--only-latency", "--dataset", "--why")
+    only_latency, is_dataset, is_why = (option in sys.argv for option in options)
+    arguments = [argument for argument in sys.argv[1:] if argument not in options]
     program, materials = pathlib.Path(arguments[0]).resolve(), [str(pathlib.Path(p).resolve()) for p in arguments[1:]]
     with tempfile.TemporaryDirectory() as folder:
         screen = Screen(folder)
@@ -237,6 +257,9 @@ def main():
                 subprocess.run(["xdotool", "key", "s"], env=environment, check=True)
                 time.sleep(5)
                 measure(screen, process, environment, "drag the light in the sheet", True, (600, 400), 30)
+                return
+            if is_why:
+                first_line(screen, environment)
                 return
             pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
             latency(screen, environment, "motions of the light", pane, 90)

@@ -13,8 +13,8 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
 
-/// Ratios of radiances whose product f64 holds, unless many are extreme.
-const FEW: usize = 6;
+/// Values that share a logarithm.
+const FEW: usize = 24;
 
 /// The loss between averages over blocks of texels, and the roughness of these blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
@@ -75,18 +75,46 @@ fn halved(image: &Image<f32>) -> Image<f32> {
     Image { width, height, pixels }
 }
 
-/// The mean of `|ln(p + epsilon) - ln(g + epsilon)|`. A logarithm is of the product of a few ratios, each at least 1.
+/// The mean of `|ln(p + epsilon) - ln(g + epsilon)|`: a few logarithms of the larger ones over the smaller ones of several values.
 fn difference(g: &Image<f32>, p: &Image<f32>, epsilon: f64) -> f64 {
     let epsilon = epsilon as f32;
-    let ratio = |(p, g): (&f32, &f32)| {
+    let ends = |(p, g): (&f32, &f32)| {
         let [p, g] = [p + epsilon, g + epsilon];
-        f64::from(p.max(g)) / f64::from(p.min(g))
+        [f64::from(p.max(g)), f64::from(p.min(g))]
     };
     let [g, p] = [g.pixels.as_flattened(), p.pixels.as_flattened()];
     let of_few = |(g, p): (&[f32], &[f32])| {
-        let ratios = || p.iter().zip(g).map(ratio);
-        let product = ratios().product::<f64>();
-        if product.is_finite() { product.ln() } else { ratios().map(f64::ln).sum() }
+        let all = || p.iter().zip(g).map(ends);
+        let [larger, smaller] = all().fold([1.0, 1.0], |[a, b], [larger, smaller]| [a * larger, b * smaller]);
+        let ratio = larger / smaller;
+        // Otherwise f64 does not hold the products of many extreme values.
+        let is_held = ratio.is_finite() && smaller > f64::MIN_POSITIVE;
+        if is_held { ratio.ln() } else { all().map(|[larger, smaller]| (larger / smaller).ln()).sum() }
     };
     g.chunks(FEW).zip(p.chunks(FEW)).map(of_few).sum::<f64>() / g.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn differences_are_those_of_logarithms_and_hold_extreme_radiances() {
+        let image = |values: &dyn Fn(usize) -> f32| {
+            let pixels = (0..35).map(|i| [0, 1, 2].map(|c| values(3 * i + c))).collect();
+            Image { width: 7, height: 5, pixels }
+        };
+        let usual = image(&|i| 0.3 * (i * 37 % 11) as f32);
+        let dark = image(&|i| 1e-3 * (i * 29 % 7) as f32);
+        let extreme = image(&|i| if i % 2 == 0 { 8e37 } else { 0.0 });
+        for epsilon in [0.01, 1e-30] {
+            for [g, p] in [[&usual, &dark], [&usual, &extreme], [&extreme, &dark]] {
+                let log = |x: f32| (f64::from(x) + epsilon).ln();
+                let pairs = g.pixels.as_flattened().iter().zip(p.pixels.as_flattened());
+                let expected = pairs.map(|(g, p)| (log(*p) - log(*g)).abs()).sum::<f64>() / 105.0;
+                let found = difference(g, p, epsilon);
+                assert!((found / expected - 1.0).abs() < 1e-6, "{epsilon}: {found} {expected}");
+            }
+        }
+    }
 }

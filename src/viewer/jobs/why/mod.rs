@@ -73,14 +73,14 @@ impl WhyJobs {
                 query.seed,
                 attributed,
             ),
-            self.directions.follow(waker, is_open(WhySection::Directions), &pairs, query.moved, scene),
+            self.directions.follow(waker, is_next(WhySection::Directions), &pairs, query.moved, scene),
             self.tables.follow(
                 waker,
                 |name| is_next(WhySection::Table(name)),
                 (&pairs, chosen),
                 &query.scenes,
             ),
-            self.scenes.follow(waker, is_open(WhySection::Scenes), pairs.get(chosen), query.scenes),
+            self.scenes.follow(waker, is_next(WhySection::Scenes), pairs.get(chosen), query.scenes),
         ];
         errors.into_iter().flatten().collect()
     }
