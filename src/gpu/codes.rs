@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// Values that a code can name.
 pub(super) const VALUES: usize = 256;
-/// Places of the table: so many that each value of an 8-bit map in [0, 1] has one of its own, linear or sRGB.
+/// Places of the table. Each value of an 8-bit map in [0, 1] has one of its own, linear or sRGB.
 const PLACES: usize = 8192;
 /// An empty place.
 const NONE: u16 = u16::MAX;

@@ -122,8 +122,8 @@ fn coded(
 ) -> Result<Option<Maps>, Error> {
     let packing = Packing::new(planes);
     let count = extent.width as usize * extent.height as usize;
-    let mut is_packed = |index: usize| packing.pack(&mut [[0; 4]], |_| source(index));
-    if !(0..count).step_by((count / SAMPLE).max(1)).all(&mut is_packed) {
+    let is_packed = |index: usize| packing.pack(&mut [[0; 4]], |_| source(index));
+    if !(0..count).step_by((count / SAMPLE).max(1)).all(is_packed) {
         return Ok(None);
     }
     let format = TextureFormat::Rgba32Uint;

@@ -45,7 +45,7 @@ struct Data<'a> {
     ground_truth: bool,
 }
 
-/// `Rays` of near-field and of distant scenes, but for light and view, where the shader is that of the grammar.
+/// The uniform `Rays` of near-field and of distant scenes, without light and view. Only the shader of the grammar has it.
 pub(super) type Rays = BTreeMap<&'static str, ShaderRays>;
 
 /// The renderer of a convention: the shaders and their uniforms.

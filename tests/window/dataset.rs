@@ -382,3 +382,23 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     });
     assert!(loss(&window, 10, 0).unwrap().loss == 0.0);
 }
+
+/// Panes without a material say why there is none.
+#[needs(adapter)]
+#[test]
+fn a_ground_truth_that_cannot_be_read_is_told_in_the_panes() {
+    let folder = tempfile::tempdir().unwrap();
+    let folders = folders(folder.path());
+    std::fs::write(folders[0].join("b.png"), "no picture").unwrap();
+    let mut window = on_dataset(&dataset(folders, None));
+    press(&mut window, egui::Key::PageDown);
+    wait(&mut window, "the problem", |app| !app.parts.model.dataset.problems.is_empty());
+    window.run_steps(3);
+    let problem = window.state().parts.model.dataset.problems[0].1.clone();
+    assert!(problem.contains("b.png") && window.state().names().is_empty(), "{problem}");
+    window.get_by_label(&problem);
+    assert!(!has(&window, "Open a material with Ctrl+O, or drop files or folders here."));
+    press(&mut window, egui::Key::PageDown);
+    wait(&mut window, "the next material", |app| app.names().first().is_some_and(|name| name == "c"));
+    assert!(!has(&window, &problem));
+}

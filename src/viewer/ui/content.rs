@@ -121,6 +121,7 @@ pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, view: &'a View
         peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
         swapped: model.swapped,
         reading: !displayed.jobs.openings.is_empty(),
+        problem: model.dataset.problems.first().map(|(_, problem)| problem.as_str()),
         range: displayed.range(),
         computed_maps: displayed.computed_maps().map(AsRef::as_ref),
         photograph: displayed.photograph(),

@@ -122,8 +122,11 @@ impl Backend<f32> for Fused {
         let level = self.level.unwrap_or_else(Level::best);
         progress.begin(scenes.len() as u64);
         let materials: Vec<_> = [ground_truth].into_iter().chain(predictions.iter().copied()).collect();
-        // Texels that were taken from a map are side by side.
-        let listed = if comparison.places().1.is_some() { 0 } else { scenes.len() * texels(0).len() };
+        let listed = match comparison.places() {
+            (_, None) if !scenes.is_empty() => scenes.len() * texels(0).len(),
+            // Texels that were taken from a map are side by side.
+            _ => 0,
+        };
         let rows = TexelRows::of(&materials, listed);
         let of_scene = |tile: &mut LossTile, (index, scene)| {
             let texels = texels(index);

@@ -32,6 +32,8 @@ pub struct Scenery<'a> {
     pub swapped: bool,
     /// Whether materials are being read.
     pub reading: bool,
+    /// Why there is no material.
+    pub problem: Option<&'a str>,
     /// The difference that has the last colour.
     pub range: f64,
     /// Where the difference is a map that no shader computes, the maps once they are there.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use eframe::egui::{self, Rect, Sense, Vec2};
+use eframe::egui::{self, Color32, Rect, RichText, Sense, Vec2, vec2};
 
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
@@ -19,6 +19,7 @@ use super::texels::texels;
 use super::title::title_bar;
 use crate::jobs::reading::upload::{BAND, Uploads};
 use crate::model::command::Command;
+use crate::model::material::loaded::drawable;
 use crate::model::view::framing;
 use crate::model::view::state::{Projection, ViewState};
 use crate::model::view::texel_plane::{Seen, TexelPlane};
@@ -138,12 +139,7 @@ impl Viewport {
             return Vec::new();
         };
         if scenery.materials.is_empty() {
-            let text = if scenery.reading {
-                "Reading..."
-            } else {
-                "Open a material with Ctrl+O, or drop files or folders here."
-            };
-            note(ui, area, text);
+            empty(ui, area, scenery);
             return Vec::new();
         }
         let contents = scenery.contents();
@@ -405,6 +401,17 @@ fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<&'static str> {
     let steep = z > STEEP * (x * x + y * y + z * z).sqrt();
     let perspective = state.display.projection == Projection::Perspective;
     (perspective && steep).then_some("Perspective from straight above: right-drag to tilt")
+}
+
+/// Says why there is no material.
+fn empty(ui: &mut egui::Ui, area: Rect, scenery: &Scenery<'_>) {
+    let text = match scenery.problem {
+        _ if scenery.reading => "Reading...",
+        Some(problem) => problem,
+        None => "Open a material with Ctrl+O, or drop files or folders here.",
+    };
+    let text = RichText::new(drawable(text)).size(15.0).color(Color32::from_gray(235));
+    ui.put(area.shrink2(vec2(0.1 * area.width(), 0.0)), egui::Label::new(text));
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use crate::model::material::read::MaterialId;
 /// What a pane shows where a draft of a material will not do, until all of it is there.
 const SENDING: &str = "Sending the material to the graphics adapter...";
 
-/// Texels of all materials that are sharpened in a frame: of those that are new, which nobody lights yet, and of others.
+/// Texels of all materials that are sharpened in a frame: of new materials, whose light nobody drags yet, and of others.
 const SHARPENED_FIRST: usize = 1 << 21;
 const SHARPENED: usize = 1 << 20;
 
