@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use eframe::egui::{self, Color32, Rect, RichText, Sense, Vec2, vec2};
+use eframe::egui::{self, Align, Layout, Rect, RichText, Sense, Vec2, vec2};
 
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
@@ -410,8 +410,9 @@ fn empty(ui: &mut egui::Ui, area: Rect, scenery: &Scenery<'_>) {
         Some(problem) => problem,
         None => "Open a material with Ctrl+O, or drop files or folders here.",
     };
-    let text = RichText::new(drawable(text)).size(15.0).color(Color32::from_gray(235));
-    ui.put(area.shrink2(vec2(0.1 * area.width(), 0.0)), egui::Label::new(text));
+    let middle = area.shrink2(vec2(0.1 * area.width(), 0.45 * area.height()));
+    let builder = egui::UiBuilder::new().max_rect(middle).layout(Layout::top_down(Align::Center));
+    ui.scope_builder(builder, |ui| ui.label(RichText::new(drawable(text)).size(15.0)));
 }
 
 #[cfg(test)]
