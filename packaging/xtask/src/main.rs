@@ -1,20 +1,24 @@
-//! `cargo xtask bless [NAME...]` renews what is generated; `cargo xtask shot STATE` takes a screenshot of the window.
+//! `cargo xtask bless [NAME...]` renews what is generated; `cargo xtask shot STATE` takes a screenshot of the window;
+//! `cargo xtask size` prints the size of each room.
 
 mod bless;
 mod shot;
+mod size;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 const USAGE: &str = "usage: cargo xtask bless [NAME...]
-       cargo xtask shot STATE [--size WIDTHxHEIGHT] [--output FILE]";
+       cargo xtask shot STATE [--size WIDTHxHEIGHT] [--output FILE]
+       cargo xtask size [--lower]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let done = match arguments.split_first() {
         Some((name, rest)) if name == "bless" => bless::run(rest),
         Some((name, rest)) if name == "shot" => shot::run(rest),
-        _ => Err(format!("{USAGE}\n\n{}\n{}", bless::help(), shot::help())),
+        Some((name, rest)) if name == "size" => size::run(rest),
+        _ => Err(format!("{USAGE}\n\n{}\n{}\n{}", bless::help(), shot::help(), size::help())),
     };
     done.map_or_else(
         |problem| {
@@ -25,10 +29,15 @@ fn main() -> ExitCode {
     )
 }
 
+/// The root of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
 /// A program in the root of the repository.
 fn command(program: &str) -> Command {
     let mut command = Command::new(program);
-    command.current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("../.."));
+    command.current_dir(root());
     command
 }
 
