@@ -22,6 +22,7 @@
 //!
 //! | crate | folder | content |
 //! |---|---|---|
+//! | `svbrdf_assets` | `assets` | what the program embeds: the built-in materials and the icon |
 //! | [`svbrdf_core`] | `src/core` | numbers only: BRDF, scenes, materials, rendering, pictures, loss |
 //! | [`svbrdf_files`] | `src/files` | reading and writing: materials, renderings, sessions, photographs, the built-in materials |
 //! | [`svbrdf_evaluate`] | `src/evaluate` | analyses, each a computation and a report: what a loss comes from, diagnoses, metrics, rankings, data sets, photographs |

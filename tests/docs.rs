@@ -121,7 +121,7 @@ fn every_link_of_the_pages_leads_to_a_file_and_its_heading() {
 #[test]
 fn the_pages_are_short_to_load_and_the_readme_is_short_to_read() {
     const LARGEST: u64 = 250_000;
-    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/assets");
+    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/pictures");
     for picture in fs::read_dir(assets).unwrap() {
         let picture = picture.unwrap();
         let bytes = picture.metadata().unwrap().len();

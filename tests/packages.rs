@@ -12,8 +12,9 @@ fn read(file: &str) -> String {
 }
 
 /// The manifests of the crates that are published.
-const MANIFESTS: [&str; 8] = [
+const MANIFESTS: [&str; 9] = [
     "Cargo.toml",
+    "assets/Cargo.toml",
     "shaders/Cargo.toml",
     "src/core/Cargo.toml",
     "src/evaluate/Cargo.toml",

@@ -167,5 +167,5 @@ fn native_options(adapters: Adapters) -> eframe::NativeOptions {
 
 fn icon() -> egui::IconData {
     // A window without an icon is a window.
-    eframe::icon_data::from_png_bytes(include_bytes!("../../packaging/icons/64.png")).unwrap_or_default()
+    eframe::icon_data::from_png_bytes(svbrdf_assets::ICON).unwrap_or_default()
 }

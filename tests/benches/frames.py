@@ -15,7 +15,7 @@ reads them and does no more. With --why: from a click on the tab Why to its
 first line. With --dataset: flips, memory, and drags in the contact sheet of a data set, such as that of
 `cargo run --release --example make_dataset -- FOLDER`. A large material, here of 2048 x 2048 texels, of a small one:
 
-    convert src/files/samples/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
+    convert assets/samples/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
 """
 
 import math

@@ -24,7 +24,7 @@ fn temporary(folder: &Path) -> Vec<String> {
 
 /// The window after *Browse* in its dialog *Open*, and the screen before.
 fn browsed(desktop: &Desktop) -> (Running, RgbImage) {
-    let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples/worn_tiles.png");
+    let built_in = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/samples/worn_tiles.png");
     std::fs::copy(built_in, desktop.folder.path().join("tiles.png")).unwrap();
     let program = desktop.open(&[]);
     desktop.dialog("ctrl+o");

@@ -1,4 +1,4 @@
-//! Makes the icons anew: `cargo xtask bless icons` writes them into `packaging/icons/`.
+//! Makes the icons anew: `cargo xtask bless icons` writes them into `assets/icons/`.
 //!
 //! Above the diagonal stands the built-in ground truth, below it the log difference of a prediction from it.
 
@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         Rgba([r, g, b, (255.0 * opacity(x, y)).round() as u8])
     });
     for side in [32, 48, 64, 128, 256] {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("packaging/icons");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/icons");
         resize(&icon, side, side, FilterType::Lanczos3).save(folder.join(format!("{side}.png")))?;
     }
     Ok(())

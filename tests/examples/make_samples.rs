@@ -1,4 +1,4 @@
-//! Makes the sample materials anew: `cargo xtask bless samples` writes them into `src/files/samples/`.
+//! Makes the sample materials anew: `cargo xtask bless samples` writes them into `assets/samples/`.
 
 use std::error::Error;
 use std::fs::File;
@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn write(name: &str, planes: &Planes<f64>) -> Result<(), Box<dyn Error>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/samples").join(name);
     let encoder =
         PngEncoder::new_with_quality(File::create(&path)?, CompressionType::Best, FilterType::Adaptive);
     let side = u32::try_from(SIDE)?;

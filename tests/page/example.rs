@@ -61,7 +61,7 @@ fn the_example_is_what_its_command_writes() {
 }
 
 #[test]
-#[ignore = "writes docs/assets/report.jpg: cargo xtask bless report-picture"]
+#[ignore = "writes assets/pictures/report.jpg: cargo xtask bless report-picture"]
 fn write_the_picture_of_the_report() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
     let html = fs::read_to_string(docs.join("example-report.html")).unwrap();

@@ -142,7 +142,7 @@ fn run(folder: &Path, program: &str, words: &str) {
 }
 
 #[test]
-#[ignore = "writes docs/assets/ranking.jpg: cargo xtask bless report-picture"]
+#[ignore = "writes assets/pictures/ranking.jpg: cargo xtask bless report-picture"]
 fn write_the_picture_of_the_ranking() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = tempfile::tempdir().unwrap();
@@ -156,7 +156,7 @@ fn write_the_picture_of_the_ranking() {
                  return [r.left + r.width / 2, r.top + r.height / 2]; })()";
     let [x, y] = serde_json::from_value(page.evaluate(place)).unwrap();
     page.drag("left", 0, [x, y], [x - 40.0, y - 30.0]);
-    page.save_jpeg(&root.join("docs/assets/ranking.jpg"));
+    page.save_jpeg(&root.join("assets/pictures/ranking.jpg"));
 }
 
 #[test]

@@ -110,7 +110,7 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     window.get_by_label("3 scenes of render.json");
 
     let mut window = built_in();
-    let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples/worn_tiles.png");
+    let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/samples/worn_tiles.png");
     drop_files(&mut window, [material.clone(), path.clone(), material]);
     wait(&mut window, "materials and scenes", |app| app.names().len() == 2 && is_over(3)(app));
     assert_eq!(window.state().messages(), ["The loss is over the 3 scenes of render.json"]);

@@ -49,7 +49,7 @@ fn opened<'a>() -> Window<'a> {
     window
 }
 
-/// Moves the pointer to where nothing is under it, and writes the window to this file of `docs/assets/`.
+/// Moves the pointer to where nothing is under it, and writes the window to this file of `assets/pictures/`.
 fn write(window: &mut Window<'_>, name: &str) {
     window.event(egui::Event::PointerMoved(egui::pos2(2.0, SIZE.y - 2.0)));
     window.run_steps(12);
@@ -62,7 +62,7 @@ fn write(window: &mut Window<'_>, name: &str) {
             pixel.0[c] = (f32::from(pixel.0[c]) + rest * f32::from(fill.to_array()[c])).min(255.0) as u8;
         }
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/assets").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/pictures").join(name);
     let file = std::io::BufWriter::new(std::fs::File::create(path).unwrap());
     // At most 250 KB.
     let encoder = JpegEncoder::new_with_quality(file, QUALITY);
@@ -70,7 +70,7 @@ fn write(window: &mut Window<'_>, name: &str) {
 }
 
 #[test]
-#[ignore = "writes the pictures in docs/assets"]
+#[ignore = "writes the pictures in assets/pictures"]
 fn the_pictures_of_the_readme() {
     differences();
     let mut window = opened();
@@ -94,7 +94,7 @@ fn the_pictures_of_the_readme() {
 
 /// The built-in ground truth with Y of its normals in the other direction, diagnosed.
 #[test]
-#[ignore = "writes a picture in docs/assets"]
+#[ignore = "writes a picture in assets/pictures"]
 fn the_picture_of_a_diagnosis() {
     let folder = tempfile::tempdir().unwrap();
     let [truth, flipped] = ["worn tiles.png", "Y down.png"].map(|name| folder.path().join(name));
@@ -158,7 +158,7 @@ fn training() {
 
 /// Nine materials with two methods: the sheet under one light, and the losses of the methods.
 #[test]
-#[ignore = "writes a picture in docs/assets"]
+#[ignore = "writes a picture in assets/pictures"]
 fn the_picture_of_a_data_set() {
     let folder = tempfile::tempdir().unwrap();
     let truth = generate::ground_truth();

@@ -23,12 +23,8 @@ const GENERATED: [Generated; 12] = [
         files: "packaging/THIRD-PARTY",
         script: "made=$(packaging/third_party.py) && printf '%s\\n' \"$made\" >packaging/THIRD-PARTY",
     },
-    Generated {
-        name: "samples",
-        files: "src/files/samples/*.png",
-        script: "cargo run --example make_samples",
-    },
-    Generated { name: "icons", files: "packaging/icons/*.png", script: "cargo run --example make_icon" },
+    Generated { name: "samples", files: "assets/samples/*.png", script: "cargo run --example make_samples" },
+    Generated { name: "icons", files: "assets/icons/*.png", script: "cargo run --example make_icon" },
     Generated {
         name: "shaders",
         files: "shaders/page.json",
@@ -46,12 +42,12 @@ const GENERATED: [Generated; 12] = [
     },
     Generated {
         name: "report-picture",
-        files: "docs/assets/{report,ranking}.jpg",
+        files: "assets/pictures/{report,ranking}.jpg",
         script: "cargo test --test main write_the_picture_of_the -- --ignored",
     },
     Generated {
         name: "pictures",
-        files: "docs/assets/{window,why,where,diagnosis,training,photograph,dataset}.jpg",
+        files: "assets/pictures/{window,why,where,diagnosis,training,photograph,dataset}.jpg",
         script: "cargo test --package window-tests screenshots -- --ignored",
     },
     Generated {

@@ -10,8 +10,9 @@ use std::path::{Path, PathBuf};
 use crate::{command, root};
 
 /// A file belongs to the longest of these that its path begins with.
-const ROOMS: [&str; 16] = [
+const ROOMS: [&str; 17] = [
     "",
+    "assets",
     "docs",
     "packaging",
     "python",

@@ -13,6 +13,7 @@ pub mod generate;
 mod noise;
 mod tiles;
 
+use svbrdf_assets::SAMPLES;
 use svbrdf_core::math::real::Real;
 
 use crate::error::Error;
@@ -31,7 +32,7 @@ const STORED: ReadOptions = ReadOptions {
 };
 
 /// Number of samples.
-pub const COUNT: usize = 3;
+pub const COUNT: usize = SAMPLES.len();
 
 /// A ground truth and predictions of it, of the same size.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,13 +40,6 @@ pub struct BuiltIn<T> {
     pub ground_truth: Read<T>,
     pub predictions: Vec<Read<T>>,
 }
-
-/// Name and packed image of each sample, the ground truth first.
-const SAMPLES: [(&str, &[u8]); COUNT] = [
-    ("worn tiles", include_bytes!("worn_tiles.png")),
-    ("blurred normals", include_bytes!("blurred_normals.png")),
-    ("wrong roughness", include_bytes!("wrong_roughness.png")),
-];
 
 /// The ground truth "worn tiles" with the predictions "blurred normals" and "wrong roughness".
 ///
