@@ -63,7 +63,7 @@ impl Findings {
         let one =
             |prediction: &&Material<f32>| attribute(ground_truth, prediction, &convention, request, progress);
         let attributions = predictions.iter().map(one).collect::<Result<_, _>>()?;
-        let lights = hemisphere(&comparison, Endpoint::Light, ALONG_NORMAL, SIDE, progress, |_| {})?;
+        let lights = hemisphere(&comparison, Endpoint::Light, ALONG_NORMAL, SIDE, progress)?;
         Ok(Self { loss, robust: None, attributions, worst, lights })
     }
 }

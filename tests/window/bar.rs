@@ -265,7 +265,6 @@ fn every_control_of_the_bar_and_of_the_panel_has_a_tooltip() {
         window.run_steps(30);
         if name == "Why" {
             // Nothing moves any more.
-            wait(&mut window, "the directions", |app| app.direction_map().is_some_and(|map| map.side == 64));
             wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
             see(&mut window, "roughness of wrong roughness: 60.1% of the loss");
         }

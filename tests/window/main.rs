@@ -25,6 +25,7 @@ mod loss_panel;
 mod lost_window;
 mod mapping;
 mod materials;
+mod observed;
 mod order;
 mod outside;
 mod panels;
@@ -63,6 +64,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Modifiers, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use observed::Observed as _;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_needs::needs;
@@ -161,7 +163,6 @@ fn more(window: &mut Window<'_>) {
     click(window, "More of light and view");
 }
 
-/// Opens a tab of the side panel.
 /// Chooses a tab. A material alone has no tabs: its files are shown.
 fn tab(window: &mut Window<'_>, name: &str) {
     if name == "Files" && has(window, "Open a prediction to compare") {

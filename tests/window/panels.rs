@@ -80,25 +80,3 @@ fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
     let recent = &window.state().parts.model.recent;
     assert_eq!(recent.len(), 12, "what could not be opened is not remembered");
 }
-
-#[needs(adapter)]
-#[test]
-fn a_drag_on_the_hemisphere_moves_the_nearer_endpoint_and_keeps_its_distance() {
-    let mut window = built_in();
-    let before = window.state().parts.model.view.scene;
-    let rect = window.get_by_label("Directions of light and view").rect();
-    let length = |[x, y, z]: [f64; 3]| (x * x + y * y + z * z).sqrt();
-    // The view is straight above: in the middle.
-    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.3, 0.5));
-    let after = window.state().parts.model.view.scene;
-    assert_eq!((after.light, after.kind), (before.light, before.kind));
-    assert!(after.view[0] < -0.3 * length(before.view), "{after:?}");
-    assert!((length(after.view) - length(before.view)).abs() < 1e-9);
-    let radius = 0.5 * (rect.width() - 24.0);
-    let [x, y, _] = before.light.map(|c| (c / length(before.light)) as f32);
-    let at = vec2(0.5, 0.5) + vec2(x, -y) * radius / rect.width();
-    drag_primary(&mut window, rect, at, vec2(0.5, 0.2));
-    let moved = window.state().parts.model.view.scene;
-    assert_eq!(moved.view, after.view);
-    assert!(moved.light[1] > after.light[1] && (length(moved.light) - length(before.light)).abs() < 1e-9);
-}

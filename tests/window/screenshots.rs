@@ -45,7 +45,6 @@ fn opened<'a>() -> Window<'a> {
     }
     wait(&mut window, "the attribution", |app| app.attribution().is_some());
     wait(&mut window, "the thumbnails", |app| app.listed_scenes().is_some());
-    wait(&mut window, "the directions", |app| app.direction_map().is_some_and(|map| map.side == 64));
     window
 }
 
@@ -79,15 +78,6 @@ fn the_pictures_of_the_readme() {
     wait(&mut window, "its statistics", |app| app.difference_statistics().is_some());
     write(&mut window, "why.jpg");
 
-    let mut window = opened();
-    window.get_by_label("Error map").click();
-    window.run_steps(3);
-    wait(&mut window, "the error map", |app| app.difference_statistics().is_some());
-    for section in ["Which map", "Which scenes"] {
-        window.get_by_label(section).click();
-        window.run_steps(12);
-    }
-    write(&mut window, "where.jpg");
     training();
     photographed();
 }

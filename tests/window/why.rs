@@ -1,7 +1,6 @@
-//! The tab *Why*: maps, scenes, directions, and the loss while the light moves.
+//! The tab *Why*: maps, scenes, and the loss while the light moves.
 
 mod diagnosis;
-mod directions;
 mod error_map;
 mod maps;
 mod scenes;
@@ -69,10 +68,7 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
     window.set_size(vec2(1200.0, 1800.0));
     let nothing = |window: &Window<'_>| {
         let app = window.state();
-        app.diagnosis().is_none()
-            && app.attribution().is_none()
-            && app.listed_scenes().is_none()
-            && app.direction_map().is_none()
+        app.diagnosis().is_none() && app.attribution().is_none() && app.listed_scenes().is_none()
     };
     rest(&mut window, 60);
     assert!(nothing(&window), "the tab of the loss is open");
@@ -80,7 +76,6 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
     click(&mut window, "Which map");
     click(&mut window, "Would something trivial explain it?");
     wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
-    wait(&mut window, "the directions", |app| app.direction_map().is_some());
     rest(&mut window, 60);
     assert!(window.state().attribution().is_none(), "its section is folded");
     assert!(window.state().diagnosis().is_none(), "its section is folded");
@@ -94,24 +89,21 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
 fn the_controls_of_why_stay_where_they_are_while_results_come() {
     let mut window = opened();
     let controls = |window: &Window<'_>| {
-        ["Which map", "Which scenes", "Save scenes...", "Which light or view", "Over views"]
+        ["Which map", "Which scenes", "Save scenes...", "Other metrics"]
             .map(|name| window.get_by_label(name).rect())
             .to_vec()
     };
     let search = |window: &Window<'_>| window.get_by_label("Find worst scene").rect();
-    // What is below the maps over directions and their legends.
-    let below = |window: &Window<'_>| window.get_by_label_contains("distant scenes, view fixed at").rect();
-    let before = (controls(&window), search(&window), below(&window));
+    let before = (controls(&window), search(&window));
     for prediction in [egui::Key::Num1, egui::Key::Num2] {
         window.key_press(prediction);
         window.step();
         for frame in 0..6000 {
-            let now = (controls(&window), search(&window), below(&window));
+            let now = (controls(&window), search(&window));
             assert_eq!(now, before, "{prediction:?}, frame {frame}");
             let state = window.state();
             let listed = state.listed_scenes().is_some_and(|(_, thumbnails)| !thumbnails.is_empty());
-            let finest = state.direction_map().is_some_and(|map| map.side == 64);
-            if listed && finest && state.attribution().is_some() {
+            if listed && state.attribution().is_some() {
                 break;
             }
             assert!(frame < 5999, "waited in vain for the results");
@@ -127,5 +119,5 @@ fn the_controls_of_why_stay_where_they_are_while_results_come() {
         window.step();
     }
     window.run_steps(2);
-    assert_eq!((controls(&window), search(&window)), (before.0, before.1), "with the worst scene");
+    assert_eq!((controls(&window), search(&window)), before, "with the worst scene");
 }

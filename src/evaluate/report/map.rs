@@ -94,7 +94,7 @@ impl MapReport {
         side: usize,
         progress: &Progress,
     ) -> Result<Self, Error> {
-        let map = why::hemisphere(comparison, moved, fixed, side, progress, |_| ())?;
+        let map = why::hemisphere(comparison, moved, fixed, side, progress)?;
         let entry = |(index, name): (usize, String)| {
             let (direction, largest) = map.worst(index)?;
             let (standard_error, direction) = (Some(map.standard_error(index)), Some(direction));

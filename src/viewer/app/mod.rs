@@ -7,7 +7,6 @@ pub mod device_loss;
 pub mod display;
 pub mod effects;
 pub mod events;
-pub mod observe;
 pub mod parts;
 pub mod saving;
 pub mod stop;
@@ -92,6 +91,11 @@ impl App {
     /// Reports panics of the frames to this guard.
     pub fn guard(&mut self, crash: &CrashGuard) {
         self.crash = crash.clone();
+    }
+
+    /// Whether a frame has panicked.
+    pub fn has_crashed(&self) -> bool {
+        self.crash.has_crashed()
     }
 
     /// Closes the window at a signal, and cancels what is being written.

@@ -98,7 +98,6 @@ impl Jobs {
             sections: model.settings.sections.clone(),
             scenes: loss.listed_scenes(),
             seed: loss.seed,
-            moved: model.why.moved,
         };
         // Materials that arrive one by one would be looked at in vain.
         let is_complete = !self.openings.expect_more();

@@ -43,7 +43,7 @@ fn diagnosed<'a>() -> (tempfile::TempDir, Window<'a>) {
     apply(&mut window, MaterialsCommand::Open { paths: vec![truth, flipped, darker], replace: true, read });
     wait(&mut window, "the materials", |app| app.names() == ["truth", "flipped", "darker"]);
     tab(&mut window, "Why");
-    for section in ["Which map", "Which scenes", "Which light or view"] {
+    for section in ["Which map", "Which scenes"] {
         click(&mut window, section);
     }
     unfold(&mut window, true);
@@ -246,7 +246,7 @@ fn nothing_moves(all: bool) {
     window.run_steps(16);
     assert!(window.state().diagnosis().is_none(), "it takes longer than that");
     let tops = |window: &Window<'_>| {
-        let sections = ["Loss in this scene", SECTION, "Which map", "Which scenes", "Which light or view"];
+        let sections = ["Loss in this scene", SECTION, "Which map", "Which scenes"];
         let rows = window.query_all_by_label_contains(" of the loss");
         let mut rows: Vec<egui::Rect> = rows.map(|node| node.rect()).collect();
         rows.sort_by(|a, b| a.top().total_cmp(&b.top()));

@@ -14,8 +14,7 @@ fn the_other_metrics_are_those_of_the_core_of_the_chosen_prediction() {
     let mut window = by_scenes();
     window.set_size(vec2(1200.0, 2400.0));
     tab(&mut window, "Why");
-    for section in ["Would something trivial explain it?", "Which map", "Which scenes", "Which light or view"]
-    {
+    for section in ["Would something trivial explain it?", "Which map", "Which scenes"] {
         click(&mut window, section);
     }
     let (request, materials) = (window.state().parts.model.settings.loss.listed_scenes(), materials());

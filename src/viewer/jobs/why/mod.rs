@@ -2,7 +2,6 @@
 
 pub mod attribution;
 pub mod diagnosis;
-pub mod directions;
 pub mod one_by_one;
 pub mod pair;
 pub mod scenes;
@@ -11,7 +10,6 @@ pub mod tables;
 pub mod thumbnails;
 
 use svbrdf_core::loss::Request;
-use svbrdf_core::model::scene::Endpoint;
 use svbrdf_evaluate::why::Worst;
 
 use crate::error::Error;
@@ -21,7 +19,6 @@ use crate::model::settings::why::{WhySection, WhySections};
 
 pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
 pub use diagnosis::{Diagnosed, DiagnosisJob};
-pub use directions::{DirectionMaps, DirectionsJob, ScaledPicture};
 pub use pair::ComparedPair;
 pub use scenes::{SceneList, ScenesJob};
 pub use search::SearchJob;
@@ -37,8 +34,6 @@ pub struct WhyQuery {
     pub scenes: Request,
     /// Seeds the scenes of the attribution and the diagnosis.
     pub seed: u64,
-    /// The endpoint that moves over the hemisphere.
-    pub moved: Endpoint,
 }
 
 /// The jobs of the tab.
@@ -47,7 +42,6 @@ pub struct WhyJobs {
     pub diagnosis: DiagnosisJob,
     pub attribution: AttributionJob,
     pub scenes: ScenesJob,
-    pub directions: DirectionsJob,
     pub search: SearchJob,
     pub tables: TableJobs,
 }
@@ -56,7 +50,7 @@ impl WhyJobs {
     /// Takes over results, and computes what is wanted now; nothing new where the tab is not `displayed`.
     pub fn follow(&mut self, work: &JobContext<'_>, displayed: bool, query: WhyQuery) -> Vec<Error> {
         let pairs = ComparedPair::all(work.materials, work.view);
-        let (waker, chosen, scene) = (work.waker, work.view.display.prediction, &work.view.scene);
+        let (waker, chosen) = (work.waker, work.view.display.prediction);
         let is_open = |section| displayed && query.sections.is_open(section);
         let diagnoses = is_open(WhySection::Diagnosis);
         let error = self.diagnosis.follow(waker, diagnoses, (&pairs, chosen), query.seed);
@@ -73,7 +67,6 @@ impl WhyJobs {
                 query.seed,
                 attributed,
             ),
-            self.directions.follow(waker, is_next(WhySection::Directions), &pairs, query.moved, scene),
             self.tables.follow(
                 waker,
                 |name| is_next(WhySection::Table(name)),

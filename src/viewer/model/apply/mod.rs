@@ -117,7 +117,6 @@ fn apply_to_why(model: &mut Model, command: WhyCommand) -> Vec<Effect> {
     match command {
         WhyCommand::ShowSection(section, on) => model.settings.sections.open(section, on),
         WhyCommand::ListScenes(count) => model.why.listed = count,
-        WhyCommand::SetMoved(moved) => model.why.moved = moved,
         WhyCommand::FindWorst => return vec![Effect::Loss(LossEffect::FindWorst)],
         WhyCommand::CancelSearch => return vec![Effect::Loss(LossEffect::CancelSearch)],
     }

@@ -265,8 +265,6 @@ pub enum WhyCommand {
     ShowSection(WhySection, bool),
     /// Lists this many scenes, the worst first.
     ListScenes(usize),
-    /// Chooses what moves over the hemisphere.
-    SetMoved(Endpoint),
     /// Searches the worst scene of the chosen prediction, and shows it.
     FindWorst,
     CancelSearch,

@@ -1,10 +1,8 @@
-//! State of the tab *Why*: its unfolded sections, the endpoint that moves, and the number of listed scenes.
+//! State of the tab *Why*: its unfolded sections, and the number of listed scenes.
 
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
-
-use svbrdf_core::model::scene::Endpoint;
 
 /// Scenes in the panel until more are asked for.
 const FEW: usize = 10;
@@ -12,15 +10,13 @@ const FEW: usize = 10;
 /// What the tab shows, besides its sections, which persist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WhyState {
-    /// The endpoint that moves over the hemisphere.
-    pub moved: Endpoint,
     /// Number of listed scenes.
     pub listed: usize,
 }
 
 impl Default for WhyState {
     fn default() -> Self {
-        Self { moved: Endpoint::Light, listed: FEW }
+        Self { listed: FEW }
     }
 }
 
@@ -35,8 +31,6 @@ pub enum WhySection {
     Maps,
     /// Which scenes the loss comes from.
     Scenes,
-    /// The loss over the directions of light or view.
-    Directions,
     /// The table of the analysis of this name.
     Table(&'static str),
 }
@@ -48,7 +42,6 @@ impl WhySection {
             Self::Hypotheses => "hypotheses",
             Self::Maps => "maps",
             Self::Scenes => "scenes",
-            Self::Directions => "directions",
             Self::Table(name) => name,
         }
     }
@@ -61,7 +54,7 @@ pub struct WhySections(BTreeSet<String>);
 
 impl Default for WhySections {
     fn default() -> Self {
-        let open = [WhySection::Diagnosis, WhySection::Maps, WhySection::Scenes, WhySection::Directions];
+        let open = [WhySection::Diagnosis, WhySection::Maps, WhySection::Scenes];
         Self(open.into_iter().map(|section| section.name().to_owned()).collect())
     }
 }

@@ -1,8 +1,7 @@
 //! Light, view and convention.
 
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{self, PopupCloseBehavior, Role, Sense, Stroke, Vec2, WidgetInfo, vec2};
-use glam::DVec3;
+use eframe::egui::{self, PopupCloseBehavior, Role, Sense, WidgetInfo, vec2};
 
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::named_conventions as named;
@@ -15,8 +14,6 @@ use crate::model::settings::Settings;
 use crate::model::view::animation::{Animation, Path, Preset};
 use crate::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
 use crate::model::view::state::ViewState;
-use crate::ui::pane::handles;
-use crate::ui::widgets::hemisphere::{direction_at, pos_of, unit};
 use crate::ui::widgets::number;
 
 /// What the section shows.
@@ -29,11 +26,8 @@ pub struct ScenePanel<'a> {
     pub animation: &'a Animation,
 }
 
-/// Share of the radius that a drag reaches: sin of 89 degrees.
-const RIM: f64 = 0.999_847_695;
-/// Side of the hemisphere, and widths of a number and of the name of an endpoint, in points.
-const HEMISPHERE: f32 = 94.0;
-const NUMBER: f32 = 56.0;
+/// Widths of a number and of the name of an endpoint, in points.
+const NUMBER: f32 = 70.0;
 const NAME: f32 = 14.0;
 
 impl ScenePanel<'_> {
@@ -42,7 +36,6 @@ impl ScenePanel<'_> {
         let mut scene = self.state.scene;
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
-            hemisphere(ui, &mut scene);
             ui.vertical(|ui| {
                 ui.horizontal(|ui| {
                     self.kinds(ui, &mut commands);
@@ -197,45 +190,6 @@ impl ScenePanel<'_> {
 fn label(chosen: &ChosenConvention) -> String {
     let file = chosen.file.as_ref().and_then(|file| file.file_name());
     file.map_or_else(|| chosen.to_string(), |file| drawable(&file.to_string_lossy()))
-}
-
-/// The directions of light and view, seen from above. A drag moves the nearer of the two; its distance stays.
-fn hemisphere(ui: &mut egui::Ui, scene: &mut Scene) {
-    let (all, response) = ui.allocate_exact_size(Vec2::splat(HEMISPHERE), Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, "Directions of light and view"));
-    // The handles stay inside at the rim.
-    let area = all.shrink(12.0);
-    let at = |scene: &Scene, which| pos_of(area, unit(scene, which));
-    let grabbed = response.id.with("grabbed");
-    if let Some(origin) = ui.input(|i| i.pointer.press_origin()).filter(|_| response.drag_started()) {
-        let distance = |which| at(scene, which).distance(origin);
-        let which = match distance(Endpoint::Light) <= distance(Endpoint::View) {
-            true => Endpoint::Light,
-            false => Endpoint::View,
-        };
-        ui.data_mut(|data| data.insert_temp(grabbed, which));
-    }
-    if let (Some(pos), Some(which)) = (
-        response.interact_pointer_pos().filter(|_| response.dragged()),
-        ui.data(|data| data.get_temp::<Endpoint>(grabbed)),
-    ) {
-        let length = DVec3::from(endpoint(scene, which)).length();
-        let direction = DVec3::from(direction_at(area, pos, RIM));
-        set_endpoint(scene, which, (direction * length).to_array());
-    }
-    let (painter, visuals) = (ui.painter_at(all), ui.visuals());
-    let thin = Stroke::new(1.0, visuals.weak_text_color());
-    let radius = 0.5 * area.width();
-    painter.circle(area.center(), radius, visuals.extreme_bg_color, thin);
-    // 60 degrees off the normal.
-    let faint = Stroke::new(1.0, visuals.weak_text_color().gamma_multiply(0.4));
-    painter.circle_stroke(area.center(), radius * 3.0_f32.sqrt() / 2.0, faint);
-    handles::paint_eye(&painter, at(scene, Endpoint::View), false);
-    handles::paint_sun(&painter, at(scene, Endpoint::Light), false);
-    response.on_hover_text(
-        "The directions of light (sun) and view (eye) from the middle of the material, seen from above: straight above in the \
-         middle, 60 degrees off the normal at the inner circle. A drag moves one; its distance stays.",
-    );
 }
 
 /// Three numbers for one endpoint of the scene.

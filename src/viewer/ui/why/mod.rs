@@ -1,9 +1,7 @@
-//! Tab *Why*: maps, scenes and directions from which the losses of the predictions come.
+//! Tab *Why*: maps and scenes from which the losses of the predictions come.
 
 pub mod diagnosis;
-pub mod directions;
 pub mod hypotheses;
-pub mod legends;
 pub mod maps;
 pub mod row;
 pub mod scenes;
@@ -76,11 +74,6 @@ impl WhyPanel<'_> {
             ),
             (WhySection::Maps, "Which map", "How much of the loss comes from each map"),
             (WhySection::Scenes, "Which scenes", "The scenes of the loss, worst first"),
-            (
-                WhySection::Directions,
-                "Which light or view",
-                "The loss over the directions of a distant light or view",
-            ),
         ];
         for (section, title, question) in own.into_iter().chain(tables) {
             ui.separator();
@@ -98,9 +91,6 @@ impl WhyPanel<'_> {
                     MapsSection { state, jobs, settings, pairs, names }.ui(ui, &mut commands);
                 }
                 WhySection::Scenes => self.scenes(ui, pair, textures, &mut commands),
-                WhySection::Directions => {
-                    self.directions(ui, pair.convention.u1_max.sqrt(), textures, &mut commands)
-                }
                 WhySection::Table(analysis) => {
                     tables::ui(ui, self.jobs.tables.get(analysis, pair, &self.settings.listed_scenes()))
                 }

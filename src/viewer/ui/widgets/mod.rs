@@ -2,7 +2,6 @@
 
 pub mod bounds;
 pub mod colour_bar;
-pub mod hemisphere;
 pub mod hint;
 pub mod names;
 pub mod numbers;

@@ -1,0 +1,205 @@
+//! What the tests read of a window.
+
+use svbrdf_core::loss::{Estimate, Loss};
+use svbrdf_core::material::Material;
+use svbrdf_core::picture::statistics::{Distributions, Histogram, Statistics};
+use svbrdf_evaluate::diagnose::Diagnosis;
+use svbrdf_evaluate::photograph::PhotographComparison;
+use svbrdf_evaluate::study::Study;
+use svbrdf_evaluate::why::{Attribution, RankedScene, Worst};
+
+use svbrdf_viewer::app::App;
+use svbrdf_viewer::jobs::training::RunView;
+use svbrdf_viewer::jobs::why::ComparedPair;
+use svbrdf_viewer::model::message::Message;
+
+/// How the values of one channel of a material are distributed.
+type ValueDistribution<'a> = (&'a Histogram, Option<Statistics>);
+
+/// What the tests read of a window.
+pub trait Observed {
+    /// The losses of the predictions, once they are complete for the current materials and settings.
+    fn losses(&self) -> Option<&[Loss]>;
+    /// The study of the chosen pair as far as it has got, and whether it is complete.
+    fn study(&self) -> Option<(&Study, bool)>;
+    /// The statistics of each prediction's difference in the panes, once they are up to date.
+    fn difference_statistics(&self) -> Option<&[Option<Statistics>]>;
+    /// The statistics, histograms and automatic range of the difference in the panes, once they are up to date.
+    fn difference_distributions(&self) -> Option<&Distributions>;
+    /// For each channel of the quantity, histogram and statistics of the values of every material, once they are up to date.
+    fn value_distributions(&self) -> Option<Vec<Vec<ValueDistribution<'_>>>>;
+    /// The difference that has the last colour.
+    fn difference_range(&self) -> f64;
+    /// Every material against the photograph, where the panes compare with one and it is there.
+    fn against_photograph(&self) -> Option<&[PhotographComparison]>;
+    /// The corners of the material in the photograph; `None` for the whole picture, or without a photograph.
+    fn photograph_corners(&self) -> Option<[[f64; 2]; 4]>;
+    /// The number of photographs in the filmstrip, once they have been read.
+    fn filmstrip_length(&self) -> Option<usize>;
+    /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.
+    fn displayed_materials(&self) -> Vec<(&str, &Material<f32>)>;
+    /// The latest losses of the predictions in one scene, and whether it is the current one.
+    fn scene_losses(&self) -> Option<(&[f64], bool)>;
+    /// The diagnosis of the chosen prediction, after the floor of the ground truth.
+    fn diagnosis(&self) -> Option<&Diagnosis>;
+    /// The attribution of the chosen prediction.
+    fn attribution(&self) -> Option<&Attribution>;
+    /// The listed scenes of the chosen prediction, and the pixels of their thumbnails.
+    fn listed_scenes(&self) -> Option<(&[RankedScene], &[Vec<f32>])>;
+    /// The worst scene that was found for the chosen prediction.
+    fn worst(&self) -> Option<&Worst>;
+    /// Whether the worst scene is being searched.
+    fn is_searching(&self) -> bool;
+    /// The training runs in the window: the place of the prediction, the numbers of the steps, and the step that is shown.
+    fn training_runs(&self) -> Vec<(usize, Vec<u64>, u64)>;
+    /// The losses of the steps of the run in this place, as far as they are known.
+    fn step_losses(&self, index: usize) -> Vec<Option<Result<Estimate, String>>>;
+    /// The names of the materials, the ground truth first.
+    fn names(&self) -> Vec<String>;
+    /// The materials in the window, the ground truth first.
+    fn materials(&self) -> impl Iterator<Item = &Material<f32>>;
+    /// Size of the panes and the legend, in pixels.
+    fn picture_size(&self) -> [u32; 2];
+    /// Why a material is not what its files hold now, of each material.
+    fn problems(&self) -> Vec<Option<&str>>;
+    /// Whether a material is being read.
+    fn is_reading(&self) -> bool;
+    /// The texts of the messages in the window: errors and results, the latest last.
+    fn messages(&self) -> Vec<String>;
+}
+
+impl Observed for App {
+    fn losses(&self) -> Option<&[Loss]> {
+        self.parts.jobs.loss.finished(&self.parts.model.materials, &self.parts.model.loss_query())
+    }
+
+    fn study(&self) -> Option<(&Study, bool)> {
+        let (study, current) = self.parts.jobs.study.measured(
+            &self.parts.model.materials,
+            self.parts.model.view.display.prediction,
+            &self.parts.model.view.convention(),
+        )?;
+        current.then_some((study, self.parts.jobs.study.job().is_none()))
+    }
+
+    fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {
+        let (distributions, current) = self.parts.displayed().distributions()?;
+        current.then_some(distributions.statistics.as_slice())
+    }
+
+    fn difference_distributions(&self) -> Option<&Distributions> {
+        let (distributions, current) = self.parts.displayed().distributions()?;
+        current.then_some(distributions)
+    }
+
+    fn value_distributions(&self) -> Option<Vec<Vec<ValueDistribution<'_>>>> {
+        let (values, current) =
+            self.parts.jobs.panes.histograms.get(&self.parts.jobs.panes.displayed, &self.parts.model.view)?;
+        current.then(|| {
+            let channel = values.iter();
+            channel.map(|all| all.iter().map(|one| (&one.histogram, one.statistics)).collect()).collect()
+        })
+    }
+
+    fn difference_range(&self) -> f64 {
+        self.parts.displayed().range()
+    }
+
+    fn against_photograph(&self) -> Option<&[PhotographComparison]> {
+        self.parts.displayed().photographs().map(|all| all.comparisons.as_slice())
+    }
+
+    fn photograph_corners(&self) -> Option<[[f64; 2]; 4]> {
+        self.parts.model.photograph.source().and_then(|source| source.corners).map(|corners| corners.0)
+    }
+
+    fn filmstrip_length(&self) -> Option<usize> {
+        let svbrdf_viewer::app::parts::Parts { model, jobs, .. } = &self.parts;
+        let displayed = jobs.photograph.displayed(&model.photograph, self.parts.displayed().materials())?;
+        displayed.filmstrip.map(|strip| strip.count())
+    }
+
+    fn displayed_materials(&self) -> Vec<(&str, &Material<f32>)> {
+        self.parts.jobs.panes.displayed.iter().map(|one| (one.name(), one.material())).collect()
+    }
+
+    fn scene_losses(&self) -> Option<(&[f64], bool)> {
+        self.parts.jobs.scene_loss.get(&self.parts.model.materials.all, &self.parts.model.view)
+    }
+
+    fn diagnosis(&self) -> Option<&Diagnosis> {
+        let seed = self.parts.model.settings.loss.seed;
+        self.parts.jobs.why.diagnosis.get(&pair(self)?, seed).map(|done| &done.diagnosis)
+    }
+
+    fn attribution(&self) -> Option<&Attribution> {
+        self.parts
+            .jobs
+            .why
+            .attribution
+            .get(&pair(self)?, &self.parts.model.settings.loss.seed)
+            .map(|done| &done.attribution)
+    }
+
+    fn listed_scenes(&self) -> Option<(&[RankedScene], &[Vec<f32>])> {
+        let (list, thumbnails) =
+            self.parts.jobs.why.scenes.get(&pair(self)?, &self.parts.model.settings.loss.listed_scenes())?;
+        Some((&list.ranked, &thumbnails?.pixels))
+    }
+
+    fn worst(&self) -> Option<&Worst> {
+        self.parts.jobs.why.search.found(&pair(self)?)
+    }
+
+    fn is_searching(&self) -> bool {
+        self.parts.jobs.why.search.busy().is_some()
+    }
+
+    fn training_runs(&self) -> Vec<(usize, Vec<u64>, u64)> {
+        let views = self
+            .parts
+            .jobs
+            .training
+            .views(&self.parts.model.materials.all, self.parts.model.training.requested.as_ref());
+        let numbers = |view: &RunView<'_>| view.run.steps.iter().map(|step| step.number).collect();
+        views.iter().map(|view| (view.index, numbers(view), view.number)).collect()
+    }
+
+    fn step_losses(&self, index: usize) -> Vec<Option<Result<Estimate, String>>> {
+        let views = self
+            .parts
+            .jobs
+            .training
+            .views(&self.parts.model.materials.all, self.parts.model.training.requested.as_ref());
+        let view = views.iter().find(|view| view.index == index);
+        view.map_or(Vec::new(), |view| view.losses.iter().map(|loss| loss.cloned()).collect())
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.parts.model.materials.all.iter().map(|s| s.name().to_owned()).collect()
+    }
+
+    fn materials(&self) -> impl Iterator<Item = &Material<f32>> {
+        self.parts.model.materials.all.iter().map(|one| one.material())
+    }
+
+    fn picture_size(&self) -> [u32; 2] {
+        self.parts.model.geometry.picture
+    }
+
+    fn problems(&self) -> Vec<Option<&str>> {
+        self.parts.model.materials.all.iter().map(|one| one.problem.as_deref()).collect()
+    }
+
+    fn is_reading(&self) -> bool {
+        !self.parts.jobs.openings.is_empty()
+    }
+
+    fn messages(&self) -> Vec<String> {
+        self.parts.model.messages.iter().map(Message::to_string).collect()
+    }
+}
+
+fn pair(app: &App) -> Option<ComparedPair> {
+    ComparedPair::of(&app.parts.model.materials.all, &app.parts.model.view)
+}
