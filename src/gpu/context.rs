@@ -62,19 +62,6 @@ impl Gpu {
         Ok(adapter)
     }
 
-    /// As [`Gpu::select_adapter`], with adapters that compute on the CPU first: for drivers that fail again and again.
-    ///
-    /// # Errors
-    /// As [`Gpu::select_adapter`].
-    pub fn select_software(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter, String> {
-        let is_software = |adapter: &&Adapter| adapter.get_info().device_type == wgpu::DeviceType::Cpu;
-        let software: Vec<Adapter> = adapters.iter().filter(is_software).cloned().collect();
-        match select(&software, surface) {
-            Some((adapter, _)) => Ok(adapter),
-            None => Self::select_adapter(adapters, surface),
-        }
-    }
-
     /// Asks for all that the adapter can do in size, and for no feature that is not everywhere.
     pub fn device_descriptor(adapter: &Adapter) -> DeviceDescriptor<'static> {
         DeviceDescriptor {

@@ -13,4 +13,4 @@ pub mod window;
 pub use error::Error;
 pub use model::dataset::OpenDataset;
 pub use model::settings::options::ViewerOptions;
-pub use window::{run, run_watched};
+pub use window::run;

@@ -35,7 +35,7 @@ fn browsed(desktop: &Desktop) -> (Running, RgbImage) {
 }
 
 fn wait_for_tiles(desktop: &Desktop) {
-    let stored = desktop.folder.path().join(".local/share/svbrdf/app.ron");
+    let stored = desktop.folder.path().join(".local/share/svbrdf/settings.json");
     desktop.wait("the material to be opened", |_| {
         std::fs::read_to_string(&stored).is_ok_and(|text| text.contains("tiles.png"))
     });

@@ -1,14 +1,11 @@
 //! Conventions in files: the losses are those of the file, whatever it is called.
 
 use svbrdf_core::loss::Request;
-use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::dataset::{DatasetReading, DatasetSettings, Evaluation, Source};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::ReadOptions;
-use svbrdf_viewer::OpenDataset;
 use svbrdf_viewer::model::command::{DisplayCommand, MaterialsCommand};
 
-use super::materials::{losses_in, write_packed};
+use super::materials::losses_in;
 use super::*;
 
 /// A convention by the name `mine`, of this brightness.
@@ -90,39 +87,4 @@ fn a_session_and_the_command_line_open_it() {
     let mut window = self::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });
     assert_eq!(window.state().parts.model.view.convention().name, "printed");
     see(&mut window, "mine.toml");
-}
-
-#[needs(adapter)]
-#[test]
-fn a_data_set_has_the_losses_of_the_file_and_its_results_folder_tells_files_apart() {
-    let folder = tempfile::tempdir().unwrap();
-    let (path, results) = (folder.path().join("mine.toml"), folder.path().join("results"));
-    for (name, more) in [("gt", 0), ("ours", 40)] {
-        std::fs::create_dir(folder.path().join(name)).unwrap();
-        write_packed(&folder.path().join(format!("{name}/a.png")), 8, |tile, x, _| {
-            [[128, 128, 255], [60 + 4 * x as u8; 3], [90 + more; 3], [20; 3]][tile as usize]
-        });
-    }
-    let [gt, ours] = ["gt", "ours"].map(|name| folder.path().join(name));
-    let source = Source::folders(gt, vec![(None, ours)]);
-    let dataset = OpenDataset::new(source, DatasetReading::default(), (0.02, 0), Some(results)).unwrap();
-    let mut found = Vec::new();
-    for factor in [2.0, 8.0] {
-        write(&path, factor);
-        let convention = chosen(&path);
-        let settings = DatasetSettings { convention: convention.clone(), ..dataset.settings.clone() };
-        let progress = Progress::default();
-        let expected = Evaluation::new(&settings, &dataset.reading, None, &progress).unwrap();
-        let expected = expected.material(&dataset.cases[0]).unwrap().predictions[0].known;
-        let mut window = window(ViewerOptions {
-            dataset: Some(Box::new(dataset.clone())),
-            convention: Some(convention),
-            ..ViewerOptions::default()
-        });
-        wait(&mut window, "the loss", |app| app.parts.jobs.dataset.losses.count() == 1);
-        let row = window.state().parts.jobs.dataset.losses.row(0).unwrap().by_method[0];
-        assert_eq!(row, expected, "{factor}");
-        found.push(row.unwrap().loss);
-    }
-    assert_ne!(found[0], found[1], "of one name, and another renderer");
 }

@@ -1,4 +1,4 @@
-//! A panic in a frame: the window closes as at a normal exit, and what it was is reported.
+//! The end of a window: a panic in a frame, or a lost device.
 
 use super::*;
 
@@ -18,22 +18,27 @@ impl egui::DroppedFile for Planted {
 
 #[needs(adapter)]
 #[test]
-fn a_panic_in_a_frame_closes_the_window_draws_no_frame_again_and_stores_no_settings() {
-    let stored = |window: &mut Window<'_>| {
-        let mut memory = super::materials::Memory::default();
-        eframe::App::save(window.state_mut(), &mut memory);
-        ["settings", "recent"].map(|key| memory.0.contains_key(key))
-    };
-    let mut window = built_in();
-    assert!(!window.state().has_crashed() && stored(&mut window) == [true, true]);
-    window.input_mut().dropped_files.push(Arc::new(Planted));
-    window.step();
-    assert!(window.state().has_crashed());
-    let commands = &window.output().viewport_output[&egui::ViewportId::ROOT].commands;
-    assert!(commands.contains(&egui::ViewportCommand::Close), "{commands:?}");
-    let exposure = window.state().parts.model.view.exposure_ev;
-    window.key_press(egui::Key::E);
-    window.step();
-    assert_eq!(window.state().parts.model.view.exposure_ev, exposure, "no frame is drawn after it");
-    assert_eq!(stored(&mut window), [false, true]);
+fn a_panic_or_a_lost_device_closes_the_window_with_its_reason_and_no_frame_is_drawn_after_it() {
+    type End = fn(&mut Window<'_>);
+    let ends: [(End, &str); 2] = [
+        (|window| window.input_mut().dropped_files.push(Arc::new(Planted)), "a planted fault"),
+        (|window| window.state().parts.gpu.as_ref().unwrap().gpu.lose(), "the graphics device was lost ("),
+    ];
+    for (end, reason) in ends {
+        let guard = CrashGuard::default();
+        let mut window = guarded_window(ViewerOptions::default(), guard.clone(), 1.0);
+        assert!(!guard.has_crashed());
+        end(&mut window);
+        window.step();
+        let output = window.output();
+        assert!(output.shapes.is_empty() || reason.contains("planted"), "nothing is drawn on a lost device");
+        let commands = &output.viewport_output[&egui::ViewportId::ROOT].commands;
+        assert!(commands.contains(&egui::ViewportCommand::Close), "{commands:?}");
+        let exposure = window.state().parts.model.view.exposure_ev;
+        window.key_press(egui::Key::E);
+        window.step();
+        assert_eq!(window.state().parts.model.view.exposure_ev, exposure);
+        let error = guard.outcome(Ok(Ok(()))).unwrap_err().to_string();
+        assert!(error.contains(reason), "{error}");
+    }
 }

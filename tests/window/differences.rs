@@ -147,7 +147,7 @@ fn every_pane_in_false_colours_has_a_scale_and_no_other() {
     let scales = |window: &Window<'_>| {
         let parts = &window.state().parts;
         let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
-        let scenery = svbrdf_viewer::ui::content::scenery(&window.ctx, displayed, &parts.model.view);
+        let scenery = svbrdf_viewer::ui::content::scenery(&window.ctx, displayed);
         let contents = scenery.contents();
         contents.into_iter().map(|content| PaneScale::of(&scenery, content)).collect::<Vec<_>>()
     };

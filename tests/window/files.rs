@@ -7,40 +7,12 @@ const FIELD: &str = "Files, folders or name prefixes, one a line:";
 
 #[needs(adapter)]
 #[test]
-fn the_window_starts_on_the_built_in_pair() {
-    let mut window = built_in();
-    assert_eq!(window.state().names(), ["worn tiles", "blurred normals", "wrong roughness"]);
-    let rect = pane(&window, GROUND_TRUTH);
-    let picture = pixels(&mut window, rect);
-    let colours: std::collections::HashSet<_> = picture.pixels().map(|p| p.0).collect();
-    assert!(colours.len() > 1000, "a rendering has many colours, this has {}", colours.len());
-}
-
-#[needs(adapter)]
-#[test]
 fn dropped_files_replace_the_built_in_pair() {
     let mut window = built_in();
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples");
     drop_files(&mut window, ["blurred_normals.png", "worn_tiles.png"].map(|name| assets.join(name)));
     wait(&mut window, "the dropped files", |app| app.names().len() == 2);
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
-}
-
-#[needs(adapter)]
-#[test]
-fn files_dropped_on_a_comparison_are_added_and_can_be_a_comparison_of_their_own() {
-    let mut window = built_in();
-    let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/files/samples");
-    let dropped = |names: &[&str]| names.iter().map(|name| assets.join(name)).collect::<Vec<_>>();
-    drop_files(&mut window, dropped(&["worn_tiles.png"]));
-    wait(&mut window, "the first", |app| app.names().len() == 1);
-    assert!(window.query_by_label("New comparison").is_none(), "in place of the built-in materials");
-    drop_files(&mut window, dropped(&["blurred_normals.png", "wrong_roughness.png"]));
-    wait(&mut window, "two more", |app| app.names().len() == 3);
-    window.run_steps(3);
-    click(&mut window, "New comparison");
-    wait(&mut window, "their comparison", |app| app.names().len() == 2);
-    assert!(window.query_by_label("New comparison").is_none());
 }
 
 #[needs(adapter)]
@@ -173,16 +145,4 @@ fn guesses_are_refused_where_the_window_was_told_to() {
         let refused = window.state().messages().iter().any(|text| text.contains("ambiguous"));
         assert_eq!(refused, strict, "{:?}", window.state().messages());
     }
-}
-
-#[needs(adapter)]
-#[test]
-fn predictions_of_one_name_are_told_apart_by_their_folders() {
-    let folder = tempfile::tempdir().unwrap();
-    ["run_a", "run_b"].into_iter().for_each(|run| std::fs::create_dir(folder.path().join(run)).unwrap());
-    let mut window = on_files(strips(folder.path(), ["large.png", "run_a/out.png", "run_b/out.png"]));
-    wait(&mut window, "the loss", |app| app.losses().is_some());
-    assert_eq!(window.state().names(), ["large", "run_a", "run_b"]);
-    let losses = window.state().losses().unwrap().iter().map(|loss| loss.prediction.clone());
-    assert_eq!(losses.collect::<Vec<_>>(), ["run_a", "run_b"]);
 }

@@ -5,8 +5,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::flip::flip;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_viewer::model::command::{DisplayCommand, InspectionCommand};
-use svbrdf_viewer::model::inspection::Region;
+use svbrdf_viewer::model::command::DisplayCommand;
 
 use super::*;
 
@@ -74,26 +73,4 @@ fn panes_readout_and_saved_file_have_the_numbers_of_flip() {
         let rgb = saved[i / 256 * width + width - 256 + i % 256];
         assert!(rgb.iter().all(|channel| (channel - value).abs() < 1e-6), "{i}: {rgb:?}, expected {value}");
     }
-}
-
-#[needs(adapter)]
-#[test]
-fn the_table_of_a_rectangle_is_of_the_flip_in_the_panes() {
-    let mut window = shown();
-    let maps = settle(&mut window);
-    let region = Region { first: [40, 30], last: [71, 50] };
-    apply(&mut window, InspectionCommand::SetRegion(Some(region)));
-    let texels = (30..=50).flat_map(|row| (40..=71).map(move |column| row * 256 + column));
-    let of = |map: &[f32]| Statistics::of(&texels.clone().map(|index| map[index]).collect::<Vec<_>>());
-    wait(&mut window, "the rectangle", |app| {
-        let panes = &app.parts.jobs.panes;
-        let (materials, view) = (&panes.displayed, &app.parts.model.view);
-        let computed = panes.difference.maps(materials, view);
-        let Some((numbers, true)) = panes.region.get(region, materials, view, computed) else { return false };
-        numbers[1].is_difference
-            && numbers[1].rows[0].1 == of(&maps[0])
-            && numbers[2].rows[0].1 == of(&maps[1])
-    });
-    assert_ne!(of(&maps[0]), of(&maps[1]), "a planted fault: the other prediction");
-    see(&mut window, "FLIP of rendering");
 }

@@ -3,8 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test reads its own files")]
 
-mod alone;
-mod animation;
 mod assumptions;
 mod bar;
 mod convention_files;
@@ -12,7 +10,6 @@ mod corners;
 mod crash;
 mod damaged;
 mod dataset;
-mod device_loss;
 mod differences;
 mod fields;
 mod files;
@@ -22,7 +19,6 @@ mod flip;
 mod gestures;
 mod key_presses;
 mod loss_panel;
-mod lost_window;
 mod mapping;
 mod materials;
 mod observed;
@@ -69,7 +65,8 @@ use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::statistics::Statistics;
 use svbrdf_needs::needs;
 use svbrdf_viewer::ViewerOptions;
-use svbrdf_viewer::app::App;
+use svbrdf_viewer::app::storage::Storage;
+use svbrdf_viewer::app::{App, CrashGuard};
 use svbrdf_viewer::model::command::{Command, WindowCommand};
 use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
 
@@ -82,6 +79,11 @@ fn window<'a>(options: ViewerOptions) -> Window<'a> {
 
 /// The window on a screen with this many pixels per point.
 fn scaled_window<'a>(options: ViewerOptions, scale: f32) -> Window<'a> {
+    guarded_window(options, CrashGuard::default(), scale)
+}
+
+/// The window that reports its end to this guard.
+fn guarded_window<'a>(options: ViewerOptions, guard: CrashGuard, scale: f32) -> Window<'a> {
     gpu::gpu();
     let mut window = Harness::builder()
         .with_size(vec2(1200.0, 800.0))
@@ -89,7 +91,7 @@ fn scaled_window<'a>(options: ViewerOptions, scale: f32) -> Window<'a> {
         .with_max_steps(16)
         .with_step_dt(1.0 / 30.0)
         .wgpu()
-        .build_eframe(|cc| App::new(cc, options));
+        .build_eframe(|cc| App::new(cc, options, Storage::default()).guarded(guard));
     window.set_render_cursor(false);
     wait(&mut window, "the materials to be read", |app| {
         !app.is_reading() && (!app.names().is_empty() || !app.messages().is_empty())
@@ -158,16 +160,8 @@ fn by_scenes<'a>() -> Window<'a> {
     window
 }
 
-/// Opens the menu of light and view.
-fn more(window: &mut Window<'_>) {
-    click(window, "More of light and view");
-}
-
-/// Chooses a tab. A material alone has no tabs: its files are shown.
+/// Opens a tab of the side panel.
 fn tab(window: &mut Window<'_>, name: &str) {
-    if name == "Files" && has(window, "Open a prediction to compare") {
-        return;
-    }
     click(window, &format!("Tab {name}"));
 }
 
@@ -223,13 +217,8 @@ fn retype(window: &mut Window<'_>, text: &str) {
 
 /// Saves, and dismisses the message that says so.
 fn save(window: &mut Window<'_>, kind: SaveKind, path: &Path) {
-    let size = window.state().picture_size();
-    save_as(window, SaveRequest { kind, path: path.to_owned(), size, handles: true });
-}
-
-fn save_as(window: &mut Window<'_>, request: SaveRequest) {
-    let message = format!("Saved {}", request.path.display());
-    apply(window, WindowCommand::Save(request));
+    let message = format!("Saved {}", path.display());
+    apply(window, WindowCommand::Save(SaveRequest { kind, path: path.to_owned() }));
     wait(window, "the file", |app| !app.messages().is_empty());
     assert_eq!(window.state().messages(), [message]);
     apply(window, WindowCommand::DismissMessages);

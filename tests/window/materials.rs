@@ -1,6 +1,5 @@
 //! The built-in materials in memory and as files, and what the core gives for them.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use image::RgbImage;
@@ -57,24 +56,4 @@ pub fn strips<const N: usize>(folder: &Path, names: [&str; N]) -> [PathBuf; N] {
 pub fn write_packed(path: &Path, side: u32, value: impl Fn(u32, u32, u32) -> [u8; 3]) {
     let pixel = |x, y| image::Rgb(value(x / side, x % side, y));
     RgbImage::from_fn(4 * side, side, pixel).save(path).unwrap();
-}
-
-/// What egui stores of a program, in memory.
-#[derive(Default)]
-pub struct Memory(pub HashMap<String, String>);
-
-impl eframe::Storage for Memory {
-    fn get_string(&self, key: &str) -> Option<String> {
-        self.0.get(key).cloned()
-    }
-
-    fn set_string(&mut self, key: &str, value: String) {
-        self.0.insert(key.to_owned(), value);
-    }
-
-    fn remove_string(&mut self, key: &str) {
-        self.0.remove(key);
-    }
-
-    fn flush(&mut self) {}
 }

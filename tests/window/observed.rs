@@ -2,7 +2,7 @@
 
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::material::Material;
-use svbrdf_core::picture::statistics::{Distributions, Histogram, Statistics};
+use svbrdf_core::picture::statistics::{Distributions, Statistics};
 use svbrdf_evaluate::diagnose::Diagnosis;
 use svbrdf_evaluate::photograph::PhotographComparison;
 use svbrdf_evaluate::study::Study;
@@ -12,9 +12,6 @@ use svbrdf_viewer::app::App;
 use svbrdf_viewer::jobs::training::RunView;
 use svbrdf_viewer::jobs::why::ComparedPair;
 use svbrdf_viewer::model::message::Message;
-
-/// How the values of one channel of a material are distributed.
-type ValueDistribution<'a> = (&'a Histogram, Option<Statistics>);
 
 /// What the tests read of a window.
 pub trait Observed {
@@ -26,8 +23,6 @@ pub trait Observed {
     fn difference_statistics(&self) -> Option<&[Option<Statistics>]>;
     /// The statistics, histograms and automatic range of the difference in the panes, once they are up to date.
     fn difference_distributions(&self) -> Option<&Distributions>;
-    /// For each channel of the quantity, histogram and statistics of the values of every material, once they are up to date.
-    fn value_distributions(&self) -> Option<Vec<Vec<ValueDistribution<'_>>>>;
     /// The difference that has the last colour.
     fn difference_range(&self) -> f64;
     /// Every material against the photograph, where the panes compare with one and it is there.
@@ -92,15 +87,6 @@ impl Observed for App {
         current.then_some(distributions)
     }
 
-    fn value_distributions(&self) -> Option<Vec<Vec<ValueDistribution<'_>>>> {
-        let (values, current) =
-            self.parts.jobs.panes.histograms.get(&self.parts.jobs.panes.displayed, &self.parts.model.view)?;
-        current.then(|| {
-            let channel = values.iter();
-            channel.map(|all| all.iter().map(|one| (&one.histogram, one.statistics)).collect()).collect()
-        })
-    }
-
     fn difference_range(&self) -> f64 {
         self.parts.displayed().range()
     }
@@ -144,7 +130,7 @@ impl Observed for App {
     fn listed_scenes(&self) -> Option<(&[RankedScene], &[Vec<f32>])> {
         let (list, thumbnails) =
             self.parts.jobs.why.scenes.get(&pair(self)?, &self.parts.model.settings.loss.listed_scenes())?;
-        Some((&list.ranked, &thumbnails?.pixels))
+        Some((list, &thumbnails?.pixels))
     }
 
     fn worst(&self) -> Option<&Worst> {

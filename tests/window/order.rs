@@ -1,11 +1,9 @@
 //! Whether the order survives: the fold has what `svbrdf rank --robust` prints, of what is in the window now.
 
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::dataset::{self, DatasetReading, Source};
 use svbrdf_evaluate::report::{Report as _, RobustReport};
 use svbrdf_evaluate::robust::RobustInput;
 use svbrdf_files::convention::ChosenConvention;
-use svbrdf_viewer::OpenDataset;
 use svbrdf_viewer::model::command::{LossCommand, SceneCommand};
 
 use super::materials::write_packed;
@@ -79,39 +77,4 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
     apply(&mut window, SceneCommand::SetConvention(ChosenConvention::read("guided-2020").unwrap()));
     rest(&mut window, 5);
     assert!(window.state().parts.jobs.order.state().is_ok(), "no job");
-}
-
-#[needs(adapter)]
-#[test]
-fn the_fold_of_methods_has_the_answer_over_the_materials() {
-    let folder = tempfile::tempdir().unwrap();
-    (0..4).for_each(|number| drop(write(folder.path(), number)));
-    let open = || {
-        let [gt, near, far] = ["gt", "near", "far"].map(|name| folder.path().join(name));
-        let source = Source::folders(gt, vec![(None, near), (None, far)]);
-        OpenDataset::new(source, DatasetReading::default(), (0.1, 0), None).unwrap()
-    };
-    let ask = |dataset: &OpenDataset| {
-        let dataset = Some(Box::new(dataset.clone()));
-        let mut window = window(ViewerOptions { dataset, ..ViewerOptions::default() });
-        tab(&mut window, "Methods");
-        see(&mut window, TITLE);
-        click(&mut window, TITLE);
-        window
-    };
-    let mut few = ask(&open());
-    see(&mut few, "expected at least 5 materials that all methods have, found 4");
-    write(folder.path(), 4);
-    let dataset = open();
-    let mut window = ask(&dataset);
-    let report = |app: &App| {
-        let state = app.parts.jobs.dataset.order.state().ok().flatten();
-        state.map(|answer| answer.clone().unwrap())
-    };
-    wait(&mut window, "the answer", |app| report(app).is_some());
-    let found = report(window.state()).unwrap();
-    let answers =
-        dataset::robust(&dataset.cases, &dataset.settings, &dataset.reading, &Progress::default()).unwrap();
-    assert_eq!(found.text(), answers.report(&dataset.settings).unwrap().text());
-    see(&mut window, "near beats far under all");
 }

@@ -48,35 +48,3 @@ fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
     wait(&mut window, "the loss", |app| app.losses().is_some());
     assert!(!has(&window, "at least one scene"));
 }
-
-#[needs(adapter)]
-#[test]
-fn what_opens_materials_is_in_sight_in_a_small_window_after_many() {
-    let mut window = built_in();
-    window.set_size(vec2(900.0, 600.0));
-    let path =
-        |i| format!("/runs/a/very/long/name/that/does/not/fit/into/one/line/of/the/window/epoch_{i:04}");
-    let comparison = |i| {
-        let mut session = window.state().parts.model.session();
-        session.materials.truncate(2);
-        for (one, name) in session.materials.iter_mut().zip(["ground truth", "a prediction with a long name"])
-        {
-            (one.path, one.built_in) = (Some(format!("{}/{name}", path(i)).into()), None);
-        }
-        session
-    };
-    let recent = (0..12).map(comparison).collect();
-    window.state_mut().parts.model.recent = recent;
-    click(&mut window, "Open");
-    let button = window.get_by_label("Open these").rect();
-    assert!(button.bottom() < 600.0 && button.top() > 0.0, "{button:?}");
-    let name = "ground truth | a prediction with a long name";
-    assert_eq!(window.get_all_by_label(name).count(), 12);
-    window.get_all_by_label(name).nth(1).unwrap().click();
-    window.run_steps(3);
-    wait(&mut window, "the end of reading", |app| !app.is_reading());
-    let problem = format!("cannot read {}/ground truth", path(1));
-    assert!(has(&window, &problem));
-    let recent = &window.state().parts.model.recent;
-    assert_eq!(recent.len(), 12, "what could not be opened is not remembered");
-}

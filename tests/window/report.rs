@@ -10,7 +10,7 @@ use super::*;
 /// Begins to save.
 fn start(window: &mut Window<'_>, path: &Path) {
     let (kind, path) = (SaveKind::Report, path.to_owned());
-    apply(window, WindowCommand::Save(SaveRequest { kind, path, size: [0; 2], handles: true }));
+    apply(window, WindowCommand::Save(SaveRequest { kind, path }));
 }
 
 /// The text between two others.
@@ -79,14 +79,4 @@ fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
     window.get_by_label("Save file");
     assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
-}
-
-#[needs(adapter)]
-#[test]
-fn a_report_is_html() {
-    let mut window = built_in();
-    let folder = tempfile::tempdir().unwrap();
-    start(&mut window, &folder.path().join("report.png"));
-    wait(&mut window, "the refusal", |app| !app.messages().is_empty());
-    assert!(window.state().messages()[0].contains("NAME.html"), "{:?}", window.state().messages());
 }

@@ -11,9 +11,8 @@ use super::materials::write_packed;
 use super::*;
 
 /// Changes of the layout, the panels, the legend and the drawer, each its own inverse.
-const INVOLUTIONS: [egui::Key; 6] = [
+const INVOLUTIONS: [egui::Key; 5] = [
     egui::Key::D, // differences, and the legend with them
-    egui::Key::J, // histograms
     egui::Key::B, // side panel
     egui::Key::X, // ground truth and prediction change places
     egui::Key::V, // false colours
@@ -70,41 +69,6 @@ fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
     assert!((degrees - 85.0).abs() < 1e-6, "it stops at {degrees} degrees");
     press(&mut window, egui::Key::F);
     assert!((share(view(&window)) - 0.2).abs() < 1e-9, "a fifth of its area: {:?}", view(&window));
-}
-
-/// The accessible rectangles of all controls of the bar, by name.
-fn bar(window: &Window<'_>) -> Vec<(String, egui::Rect)> {
-    let rect = |name: &str| {
-        let nodes = window.query_all_by_label(name).map(|node| node.rect());
-        nodes.min_by(|a, b| a.top().total_cmp(&b.top())).unwrap_or_else(|| panic!("no {name}"))
-    };
-    super::bar::CONTROLS.iter().map(|name| ((*name).to_owned(), rect(name))).collect()
-}
-
-#[needs(adapter)]
-#[test]
-fn the_controls_of_the_bar_stay_where_they_are_in_every_mode() {
-    let mut window = built_in();
-    window.set_size(vec2(1500.0, 860.0));
-    window.run_steps(12);
-    let before = bar(&window);
-    // The scale of a difference comes and goes below the panes.
-    let place = |window: &Window<'_>| {
-        let pane = pane(window, GROUND_TRUTH);
-        (pane.min, pane.width())
-    };
-    let panes = place(&window);
-    for key in
-        [egui::Key::D, egui::Key::M, egui::Key::D, egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::D]
-    {
-        press(&mut window, key);
-        assert_eq!(bar(&window), before, "{:?}", window.state().parts.model.view.display);
-        assert_eq!(place(&window), panes);
-    }
-    for key in [egui::Key::V, egui::Key::P, egui::Key::T, egui::Key::X, egui::Key::C] {
-        press(&mut window, key);
-        assert_eq!(bar(&window), before, "{key:?}");
-    }
 }
 
 #[needs(adapter)]

@@ -145,30 +145,6 @@ fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
 
 #[needs(adapter)]
 #[test]
-fn the_columns_of_the_status_line_do_not_move_with_the_pointer() {
-    let mut window = built_in();
-    let rect = pane(&window, GROUND_TRUTH);
-    // Of what is in the line; other parts of the window begin with these characters, too.
-    let lefts = |window: &Window<'_>| -> Vec<Option<f32>> {
-        let column = |start: &str| {
-            let mut all = window.query_all_by_label_contains(start);
-            let is_in_line = |top: f32| top > 760.0;
-            all.find(|n| n.value().is_some_and(|v| v.starts_with(start)) && is_in_line(n.rect().top()))
-                .map(|node| node.rect().left())
-        };
-        ["texel ", "gt ", "1 ", "2 "].map(column).to_vec()
-    };
-    hover(&mut window, rect.min - vec2(20.0, 60.0));
-    let outside = lefts(&window);
-    assert!(outside[..3].iter().all(Option::is_some), "{outside:?}");
-    for share in [vec2(0.05, 0.05), vec2(0.5, 0.5), vec2(0.7, 0.3), vec2(0.9, 0.9)] {
-        hover(&mut window, rect.min + rect.size() * share);
-        assert_eq!(lefts(&window), outside);
-    }
-}
-
-#[needs(adapter)]
-#[test]
 fn a_texel_is_pinned_by_key_and_by_click_and_its_numbers_are_in_the_drawer() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -230,28 +206,6 @@ fn a_click_within_one_frame_pins_and_moves_the_light_as_a_longer_one() {
     assert_eq!(window.state().parts.model.view.scene, before, "it moves no light");
     click(&mut window, Modifiers::NONE);
     assert_ne!(window.state().parts.model.view.scene.light, before.light);
-}
-
-#[needs(adapter)]
-#[test]
-fn the_table_of_a_pin_fits_into_the_window() {
-    let mut window = built_in();
-    for (width, tables) in [(1700.0, 1), (900.0, 2)] {
-        window.set_size(vec2(width, 860.0));
-        window.run_steps(6);
-        let at = pane(&window, GROUND_TRUTH).center();
-        hover(&mut window, at);
-        press(&mut window, egui::Key::I);
-        window.run_steps(6);
-        let heads: Vec<egui::Rect> = ["normal", "rendering", "D", "NoL", "VoH", "normal error", "loss term"]
-            .into_iter()
-            .map(|head| window.get_by_role_and_label(Role::Label, head).rect())
-            .collect();
-        assert!(heads.iter().all(|head| head.right() < width), "{width}: {heads:?}");
-        // A column of the second table is further left than the last one of the first.
-        assert_eq!(if heads[2].left() > heads[1].left() { 1 } else { 2 }, tables, "{width}: {heads:?}");
-        click(&mut window, "Remove all pins");
-    }
 }
 
 #[needs(adapter)]

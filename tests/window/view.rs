@@ -25,51 +25,6 @@ fn the_wipe_line_wins_over_the_handle_of_the_view() {
     assert!(scene.view[0] > 0.1, "{scene:?}");
 }
 
-#[needs(adapter)]
-#[test]
-fn a_hidden_handle_of_the_view_is_not_grabbed() {
-    let mut window = built_in();
-    let rect = pane(&window, GROUND_TRUTH);
-    more(&mut window);
-    click(&mut window, "View handle");
-    press(&mut window, egui::Key::Escape);
-    let before = window.state().parts.model.view.scene;
-    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.4, 0.4));
-    let after = window.state().parts.model.view.scene;
-    assert_eq!(after.view, before.view);
-    assert_ne!(after.light, before.light);
-}
-
-#[needs(adapter)]
-#[test]
-fn a_narrow_window_has_no_side_panel_until_asked_and_room_for_the_readout() {
-    let mut window = built_in();
-    // While it is computed, there is another button.
-    wait(&mut window, "the loss", |app| app.losses().is_some());
-    for (size, columns) in [(vec2(640.0, 420.0), &["gt "][..]), (vec2(700.0, 500.0), &["gt ", "1 "])] {
-        window.set_size(size);
-        window.run_steps(20);
-        assert!(window.query_by_label("Near-field").is_none());
-        let at = pane(&window, GROUND_TRUTH).center();
-        hover(&mut window, at);
-        assert!(texel_read(&window).is_some());
-        columns.iter().for_each(|start| drop(column(&window, start)));
-        press(&mut window, egui::Key::B);
-        window.run_steps(20);
-        let panes = [GROUND_TRUTH, PREDICTIONS[0]].map(|title| pane(&window, title).right());
-        let panes = panes.into_iter().fold(0.0, f32::max);
-        for label in ["Near-field", "Distant", "Compute loss"] {
-            let rect = window.get_by_label(label).rect();
-            assert!(rect.left() >= panes && rect.right() <= size.x, "{label} at {rect:?}, panes to {panes}");
-        }
-        press(&mut window, egui::Key::B);
-    }
-    window.set_size(vec2(1200.0, 800.0));
-    window.run_steps(20);
-    window.get_by_label("Near-field");
-    assert!(window.state().parts.model.settings.side_panel, "the choice of wide windows is their own");
-}
-
 /// The pane that changes is drawn into the window, and from the next frame on its kept pixels are copied.
 #[needs(adapter)]
 #[test]
@@ -137,15 +92,6 @@ fn the_window_is_named_after_what_is_open() {
         }
     }
     assert_eq!(seen, ["worn tiles, blurred normals - svbrdf", "worn tiles - svbrdf"]);
-}
-
-#[needs(adapter)]
-#[test]
-fn a_picture_on_the_clipboard_is_refused_with_the_reason() {
-    let mut window = built_in();
-    let picture = egui::ColorImage::filled([2, 2], egui::Color32::RED);
-    window.event(egui::Event::PasteImage(std::sync::Arc::new(picture)));
-    see(&mut window, "The clipboard holds a picture");
 }
 
 #[needs(adapter)]

@@ -10,18 +10,17 @@ use std::time::{Duration, Instant};
 use crate::{command, finish};
 
 /// States of the window: a name, the settings that it starts with, and the keys that are pressed.
-const STATES: [(&str, &str, &[&str]); 11] = [
-    ("loss", "()", &[]),
-    ("why", "(tab:Why)", &[]),
-    ("metrics", "(tab:Why,sections:[\"metrics\"])", &[]),
-    ("files", "(tab:Files)", &[]),
-    ("light", "(dark:false)", &[]),
-    ("difference", "()", &["d"]),
-    ("map", "()", &["m"]),
-    ("histograms", "(histograms:true)", &["d"]),
-    ("help", "()", &["F1"]),
-    ("tiled", "()", &["t"]),
-    ("pinned", "()", &["i"]),
+const STATES: [(&str, &str, &[&str]); 10] = [
+    ("loss", "{}", &[]),
+    ("why", r#"{"tab":"Why"}"#, &[]),
+    ("metrics", r#"{"tab":"Why","sections":["metrics"]}"#, &[]),
+    ("files", r#"{"tab":"Files"}"#, &[]),
+    ("light", r#"{"dark":false}"#, &[]),
+    ("difference", "{}", &["d"]),
+    ("map", "{}", &["m"]),
+    ("help", "{}", &["F1"]),
+    ("tiled", "{}", &["t"]),
+    ("pinned", "{}", &["i"]),
 ];
 /// The longest that the window takes to come to rest.
 const PATIENCE: Duration = Duration::from_secs(120);
@@ -99,8 +98,8 @@ impl Desktop {
         let home = std::env::temp_dir().join(format!("svbrdf-shot-{}", std::process::id()));
         let stored = home.join(".local/share/svbrdf");
         fs::create_dir_all(&stored).map_err(|problem| problem.to_string())?;
-        let text = format!("{{\"settings\":{settings:?}}}");
-        fs::write(stored.join("app.ron"), text).map_err(|problem| problem.to_string())?;
+        let text = format!("{{\"settings\":{settings}}}");
+        fs::write(stored.join("settings.json"), text).map_err(|problem| problem.to_string())?;
         let mut server = command("Xvfb");
         server.args(["-displayfd", "1", "-nolisten", "tcp", "-screen", "0", &format!("{size}x24")]);
         let mut server = start(server.stdout(Stdio::piped()).stderr(Stdio::null()))?;

@@ -1,4 +1,4 @@
-//! Automatic exposure: the brightest 1% of a rendering just clip, or its median is a middle gray.
+//! Automatic exposure: the brightest 1% of a rendering just clip.
 
 use crate::material::Material;
 use crate::model::brdf::Model;
@@ -8,25 +8,12 @@ use crate::model::scene::{Kind, Scene};
 use crate::render::render_texel;
 use crate::statistics::quantile;
 
-/// The linear value of sRGB 0.55: the maximum of the channels, whose mean is darker.
-const MIDDLE: f32 = 0.26;
 /// Most texels that are rendered to find the exposure: of a larger map, random ones.
 const TEXELS: usize = 20_000;
 
 /// The stops by which a rendering of `material` is brightened so that the brightest 1% of its texels just clip; 0
 /// where these are black.
 pub fn automatic(material: &Material<f32>, scene: &Scene, convention: &Convention) -> f32 {
-    stops(material, scene, convention, 0.99, 1.0)
-}
-
-/// The stops by which a rendering of `material` is brightened so that the median of its texels is a middle gray of the screen; 0 where it
-/// is black. A highlight may clip: for a material that is looked at alone.
-pub fn by_median(material: &Material<f32>, scene: &Scene, convention: &Convention) -> f32 {
-    stops(material, scene, convention, 0.5, MIDDLE)
-}
-
-/// The stops that bring the quantile `share` of the brightest channels of the texels to `level`.
-fn stops(material: &Material<f32>, scene: &Scene, convention: &Convention, share: f64, level: f32) -> f32 {
     let (model, rays) = (Model::from(convention), scene.rays());
     let brightness = |i: usize| {
         let rgb = render_texel(material, &model, &rays, i % material.width(), i / material.width());
@@ -39,8 +26,8 @@ fn stops(material: &Material<f32>, scene: &Scene, convention: &Convention, share
         let texels = Sampler::Random.texels(0, Kind::Near, 0, TEXELS, material.size());
         texels.into_iter().map(brightness).collect()
     };
-    match quantile(&mut brightest, share) {
-        Some(found) if found > 0.0 => (level / found as f32).log2(),
+    match quantile(&mut brightest, 0.99) {
+        Some(found) if found > 0.0 => -(found as f32).log2(),
         _ => 0.0,
     }
 }
@@ -75,13 +62,6 @@ mod tests {
         };
         let uniform =
             |diffuse| automatic(&Material::uniform("", 8, 8, &texel(diffuse)).unwrap(), &scene, &convention);
-        // Three quarters of the texels are dark: the median is theirs.
-        let dark = Material::uniform("", 8, 8, &texel(0.1)).unwrap();
-        let of_median = by_median(&material, &scene, &convention);
-        assert!(
-            (of_median - (automatic(&dark, &scene, &convention) + MIDDLE.log2())).abs() < 1e-4,
-            "{of_median}"
-        );
         assert!(
             (stripes - uniform(0.8)).abs() < 1e-4,
             "{stripes}, not {} but {}",

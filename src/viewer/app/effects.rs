@@ -95,10 +95,10 @@ fn carry_out_on_losses(parts: &mut Parts, effect: LossEffect) {
 fn carry_out_on_dialogs(parts: &mut Parts, effect: DialogEffect) {
     let dialogs = &mut parts.ui.dialogs;
     match effect {
-        DialogEffect::ShowOpen(on) => dialogs.open = on.then(|| OpenDialog::from(parts.model.read)),
+        DialogEffect::ShowOpen(on) => dialogs.open = on.then(OpenDialog::default),
         DialogEffect::ShowSave(kind) => {
-            let (size, has_dataset) = (parts.model.geometry.picture, parts.model.dataset.open.is_some());
-            dialogs.save = kind.map(|kind| SaveDialog::new(kind, size, has_dataset));
+            let has_dataset = parts.model.dataset.open.is_some();
+            dialogs.save = kind.map(|kind| SaveDialog::new(kind, has_dataset));
         }
         DialogEffect::ShowPhotograph(on) => dialogs.photograph = on.then(PhotographDialog::default),
         DialogEffect::FillPhotograph(path) => {
@@ -177,7 +177,7 @@ fn save_assumptions(parts: &mut Parts, index: usize) {
 /// Puts a text on the clipboard, and reports it.
 fn copy_text(parts: &mut Parts, ctx: &egui::Context, text: String, what: &'static str) {
     ctx.copy_text(text);
-    parts.model.report([Message::Copied(what)]);
+    parts.model.report([Message::Done(format!("Copied {what}"))]);
 }
 
 /// The numbers of every pin in every material, as CSV.

@@ -96,7 +96,8 @@ fn take_saved(parts: &mut Parts) {
     match (result, &mut parts.ui.dialogs.save) {
         (Ok(path), _) => {
             parts.ui.dialogs.save = None;
-            parts.model.report([Message::Saved(std::path::absolute(&path).unwrap_or(path))]);
+            let path = std::path::absolute(&path).unwrap_or(path);
+            parts.model.report([Message::Done(format!("Saved {}", path.display()))]);
         }
         (Err(error), _) if error.is_cancelled() => {}
         (Err(error), Some(dialog)) => dialog.fail(error.to_string()),

@@ -1,30 +1,23 @@
 //! Application: the frame of the window, which holds the model, the jobs and the user interface together.
 
-pub mod context;
 pub mod crash;
 pub mod dataset;
-pub mod device_loss;
-pub mod display;
 pub mod effects;
 pub mod events;
 pub mod parts;
 pub mod saving;
-pub mod stop;
 pub mod storage;
-pub mod stored_file;
 pub mod training;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use eframe::egui;
 
-use svbrdf_gpu::Gpu;
+use svbrdf_core::error::Error as CoreError;
 
-use context::CurrentContext;
-pub use crash::{CrashGuard, outcome};
+pub use crash::CrashGuard;
 use parts::Parts;
-pub use stop::Stop;
-use storage::Stored;
+use storage::Storage;
 
 use super::jobs::Jobs;
 use super::jobs::displayed::Displayed;
@@ -39,69 +32,50 @@ use super::model::settings::options::ViewerOptions;
 use super::ui::WindowUi;
 use super::ui::shading::gpu_view::GpuView;
 use super::ui::widgets::theme;
+use crate::error::Error;
 
 /// The name of the program, in its title and among the programs of the desktop.
 pub(crate) const NAME: &str = "svbrdf";
-
-/// What is called in the middle of every frame.
-pub type Watch = dyn Fn(&egui::Context, &Gpu);
 
 /// The viewer.
 #[derive(Debug)]
 pub struct App {
     pub parts: Parts,
-    stored: Stored,
+    storage: Storage,
     crash: CrashGuard,
-    context: CurrentContext,
-    /// The time of the model when its window was opened: each counts from 0.
-    opened_at: f64,
     /// The title that the window was given.
     title: String,
     /// Whether the scale of text and controls is to be chosen by the monitor: at the first start.
     unscaled: bool,
-    /// What egui remembered of a window whose device was lost.
-    memory: Option<egui::Memory>,
 }
 
 impl App {
     /// Starts to read the materials that `options` names, and returns before they have been read.
-    pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions) -> Self {
+    pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions, storage: Storage) -> Self {
         theme::install(&cc.egui_ctx);
         let mut model = Model::default();
-        let unscaled = cc.storage.is_none_or(|storage| storage.get_string(storage::SETTINGS).is_none());
-        let stored = Stored::load(cc.storage, &mut model);
+        storage.load(&mut model);
         cc.egui_ctx.set_zoom_factor(model.settings.ui_scale);
-        let context = CurrentContext::new(&cc.egui_ctx);
-        let gpu = adapter(cc, &mut model, &context);
-        let woken = context.clone();
-        let waker = Waker::new(move |after: Duration| woken.get().request_repaint_after(after));
+        let gpu = adapter(cc, &mut model);
+        let woken = cc.egui_ctx.clone();
+        let waker = Waker::new(move |after: Duration| woken.request_repaint_after(after));
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
-        let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu, stop: Stop::default() };
+        let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu };
         let start = parts.model.start(options);
         start.into_iter().for_each(|effect| effects::carry_out(&mut parts, &cc.egui_ctx, effect));
-        let crash = CrashGuard::default();
-        Self { parts, stored, crash, context, opened_at: 0.0, title: String::new(), unscaled, memory: None }
+        let unscaled = storage.is_new();
+        Self { parts, storage, crash: CrashGuard::default(), title: String::new(), unscaled }
     }
 
-    /// The colour below everything that is drawn.
-    pub fn background(visuals: &egui::Visuals) -> [f32; 4] {
-        visuals.panel_fill.to_normalized_gamma_f32()
-    }
-
-    /// Reports panics of the frames to this guard.
-    pub fn guard(&mut self, crash: &CrashGuard) {
-        self.crash = crash.clone();
+    /// Reports failures of the frames to this guard.
+    #[must_use]
+    pub fn guarded(self, crash: CrashGuard) -> Self {
+        Self { crash, ..self }
     }
 
     /// Whether a frame has panicked.
     pub fn has_crashed(&self) -> bool {
         self.crash.has_crashed()
-    }
-
-    /// Closes the window at a signal, and cancels what is being written.
-    pub fn stop_at_signals(&mut self, stop: &Stop) {
-        stop.listen(&self.context);
-        self.parts.stop = stop.clone();
     }
 
     /// Carries out one command, and its effects.
@@ -124,31 +98,25 @@ impl App {
 
     /// One frame: input, commands, model, picture. What a gesture changes is in the frame that read it; what is clicked in a panel is
     /// in the next one.
-    fn frame(&mut self, ui: &mut egui::Ui, watch: &Watch) {
-        let start = Instant::now();
+    fn frame(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.parts.model.settings.dark);
         self.suit_monitor(&ctx);
         self.parts.model.settings.ui_scale = scale_in_range(&ctx);
-        self.parts.model.time = self.opened_at + ctx.input(|i| i.time);
+        self.parts.model.time = ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
         events::take_results(&mut self.parts, &ctx);
         let commands = self.parts.ui.input(&ctx, Displayed::of(&self.parts.model, &self.parts.jobs));
         self.apply_all(&ctx, commands);
         dataset::show(&mut self.parts);
-        if self.parts.model.animate(f64::from(ctx.input(|i| i.stable_dt))) {
-            ctx.request_repaint();
-        }
         exposure::follow(&mut self.parts.model);
         self.follow(&ctx);
-        self.parts.gpu.iter().for_each(|view| watch(&ctx, &view.gpu));
         let displayed = Displayed::of(&self.parts.model, &self.parts.jobs);
         let commands = self.parts.ui.draw(ui, displayed, self.parts.gpu.as_mut());
         self.name_window(&ctx);
         self.apply_all(&ctx, commands);
         let is_photograph_settled = self.parts.jobs.photograph.is_settled(&self.parts.model.photograph);
         undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
-        self.parts.ui.frame_ms = start.elapsed().as_secs_f32() * 1e3;
     }
 
     /// Chooses the scale of text and controls at the first start: systems without one of their own draw text of 2 mm on a 4K screen.
@@ -185,7 +153,6 @@ impl App {
             self.parts.model.inspection.keep_within(ground_truth.material().size());
         }
         let parts = DisplayedParts {
-            extra_pane: self.parts.ui.has_extra_pane(),
             longest_texture: ctx.input(|i| i.max_texture_side),
             dataset: self.parts.ui.dataset.displayed.clone(),
         };
@@ -207,58 +174,53 @@ impl App {
 }
 
 impl App {
-    /// The frame of a window, which closes where the device is lost or the frame panics.
-    pub fn draw(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame, watch: &Watch) {
-        let crash = self.crash.clone();
-        if ui.input(|input| input.events.iter().any(is_by_hand)) {
-            crash.begin_use();
-        }
-        let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui, watch));
-        if self.loss().is_some() {
-            self.leave(ui.ctx());
-        } else if is_drawn {
-            self.stored.store_changes(&self.parts.model, ui.ctx(), frame.storage_mut());
-        } else {
-            // The state is stored as the window closes.
-            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
-        }
+    /// Why the device of the window was lost, where it was.
+    fn loss(&self) -> Option<String> {
+        self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss()).map(|reason| reason.trim().to_owned())
     }
 }
 
 impl eframe::App for App {
-    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
-        self.draw(ui, frame, &|_, _| ());
+    /// The frame of a window, which closes where the device is lost or the frame panics.
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        let crash = self.crash.clone();
+        let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui));
+        if let Some(reason) = self.loss() {
+            crash.fail(lost(&reason));
+            // egui-wgpu 0.37 would panic.
+            ui.ctx().graphics_mut(|graphics| *graphics = Default::default());
+        }
+        if crash.has_crashed() {
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+        } else if is_drawn && !ui.input(|i| i.pointer.any_down()) {
+            self.storage.store(&self.parts.model);
+        }
     }
 
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
-        Self::background(visuals)
-    }
-
-    fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        let crash = self.crash.clone();
-        crash.attempt(|| self.parts.model.remember_session(self.parts.jobs.openings.is_empty()));
-        if crash.has_crashed() {
-            self.stored.store_sessions(&self.parts.model, storage);
-        } else {
-            self.stored.store(&self.parts.model, storage);
-        }
+        visuals.panel_fill.to_normalized_gamma_f32()
     }
 
     fn on_exit(&mut self) {
-        if self.loss().is_some() {
+        if self.crash.has_crashed() {
             return;
         }
-        // A file that is being written is completed, or cancelled by the signal that closed the window.
+        self.parts.model.remember_session(self.parts.jobs.openings.is_empty());
+        self.parts.model.settings.window = Some(self.parts.model.geometry.window);
+        self.storage.store(&self.parts.model);
+        // A file that is being written is completed.
         if let Some(saving) = self.parts.jobs.saving.take() {
             let _ = saving.wait();
         }
     }
 }
 
-/// Whether somebody used the window.
-fn is_by_hand(event: &egui::Event) -> bool {
-    use egui::Event::{Key, MouseWheel, PointerButton, Text};
-    matches!(event, Key { .. } | Text(_) | PointerButton { .. } | MouseWheel { .. })
+/// The end of a window whose device was lost.
+fn lost(reason: &str) -> Error {
+    let problem = format!("the graphics device was lost ({reason})");
+    let remedy = "start again, and reopen these materials with Ctrl+Shift+O; where it is lost again, update the graphics driver or \
+                  set WGPU_BACKEND to another one (vulkan, gl)";
+    CoreError::Gpu { problem, remedy }.into()
 }
 
 /// The scale of text and controls for a monitor of this height in pixels, in quarters: 1 up to 1080.
@@ -274,7 +236,7 @@ fn scale_in_range(ctx: &egui::Context) -> f32 {
 }
 
 /// The adapter of a window, and its limits for the user interface; a message where its driver fails.
-fn adapter(cc: &eframe::CreationContext<'_>, model: &mut Model, context: &CurrentContext) -> Option<GpuView> {
+fn adapter(cc: &eframe::CreationContext<'_>, model: &mut Model) -> Option<GpuView> {
     let gpu = match GpuView::new(cc.wgpu_render_state.as_ref()?) {
         Ok(gpu) => gpu,
         Err(error) => {
@@ -283,8 +245,8 @@ fn adapter(cc: &eframe::CreationContext<'_>, model: &mut Model, context: &Curren
         }
     };
     theme::suit(&cc.egui_ctx, &gpu.gpu.report);
-    let context = context.clone();
-    gpu.gpu.at_loss(move || context.get().request_repaint());
+    let context = cc.egui_ctx.clone();
+    gpu.gpu.at_loss(move || context.request_repaint());
     Some(gpu)
 }
 

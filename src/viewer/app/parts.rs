@@ -1,6 +1,5 @@
 //! Parts of the application: the model, the jobs, the user interface and the adapter.
 
-use super::stop::Stop;
 use crate::jobs::Jobs;
 use crate::jobs::displayed::Displayed;
 use crate::model::Model;
@@ -15,7 +14,6 @@ pub struct Parts {
     pub ui: WindowUi,
     /// `None` where there is no adapter.
     pub gpu: Option<GpuView>,
-    pub stop: Stop,
 }
 
 impl Parts {

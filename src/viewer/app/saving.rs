@@ -18,16 +18,12 @@ use crate::model::message::Message;
 use crate::model::settings::save_kind::{SaveKind, SaveRequest};
 
 /// Starts to save.
-pub(super) fn save_file(
-    parts: &mut Parts,
-    ctx: &egui::Context,
-    SaveRequest { kind, path, size, handles }: SaveRequest,
-) {
+pub(super) fn save_file(parts: &mut Parts, ctx: &egui::Context, SaveRequest { kind, path }: SaveRequest) {
     if let Err(error) = check_output_of(&path, parts.model.files()) {
         parts.model.report([Message::Failed(error.into())]);
         return;
     }
-    let picture = (kind == SaveKind::View).then(|| picture(parts, ctx, size, handles));
+    let picture = (kind == SaveKind::View).then(|| picture(parts, ctx));
     let (displayed, view) = (parts.displayed(), &parts.model.view);
     let job = match (kind, picture) {
         (SaveKind::View, Some(Ok(picture))) => save_view(parts, picture, path),
@@ -52,7 +48,6 @@ pub(super) fn save_file(
             saving::materials_csv(displayed, parts.ui.dataset.listed().to_vec(), path)
         }
     };
-    parts.stop.cancels(&job.progress());
     parts.jobs.saving = Some(job);
 }
 
@@ -68,25 +63,20 @@ fn save_view(parts: &Parts, picture: egui::ColorImage, path: PathBuf) -> Job<Pat
     saving::view(&parts.jobs.waker, Image::<u8> { width, height, pixels }, entries, path)
 }
 
-/// Puts the view on the clipboard as a picture of the size that it has in the window.
+/// Puts the view on the clipboard as a picture.
 pub(super) fn copy_picture(parts: &mut Parts, ctx: &egui::Context) {
-    match picture(parts, ctx, parts.model.geometry.picture, true) {
+    match picture(parts, ctx) {
         Ok(picture) => {
             ctx.copy_image(picture);
-            parts.model.report([Message::Copied("the view as a picture")]);
+            parts.model.report([Message::Done("Copied the view as a picture".to_owned())]);
         }
         Err(error) => parts.model.report([Message::Failed(error)]),
     }
 }
 
-fn picture(
-    parts: &mut Parts,
-    ctx: &egui::Context,
-    pixels: [u32; 2],
-    handles: bool,
-) -> Result<egui::ColorImage, Error> {
+fn picture(parts: &mut Parts, ctx: &egui::Context) -> Result<egui::ColorImage, Error> {
     let displayed = Displayed::of(&parts.model, &parts.jobs);
-    parts.ui.picture(ctx, displayed, parts.gpu.as_mut(), pixels, handles)
+    parts.ui.picture(ctx, displayed, parts.gpu.as_mut())
 }
 
 /// How the view is displayed, as (keyword, text).

@@ -1,8 +1,13 @@
-//! Storage of the settings and of the last session between two starts.
+//! Storage of the settings and of the last comparisons between two starts.
 
-use eframe::egui;
-use serde::Deserialize;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
+
+use svbrdf_core::progress::Progress;
+use svbrdf_files::disk::open::NamedFile;
+use svbrdf_files::disk::{atomic, own};
 use svbrdf_files::session::Session;
 
 use crate::model::Model;
@@ -10,151 +15,164 @@ use crate::model::message::Message;
 use crate::model::ranges::bring_into_range;
 use crate::model::settings::Settings;
 
-/// The key of the settings in the storage.
-pub const SETTINGS: &str = "settings";
-/// The key of the sessions of the last comparisons.
-pub const RECENT: &str = "recent";
-/// The key under which earlier versions stored the last session.
-pub const SESSION: &str = "session";
+/// The name of the file, and the name of one that cannot be read.
+const FILE: &str = "settings.json";
+const DAMAGED: &str = "settings.json.damaged";
 
-/// The settings as last stored.
-#[derive(Debug)]
-pub struct Stored {
+/// What is stored.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+struct Stored {
     settings: Settings,
     recent: Vec<Session>,
 }
 
-/// The session where still earlier versions stored it.
-#[derive(Deserialize)]
-struct EarlierSettings {
-    last: Option<Session>,
+/// The file, and what was last stored in it.
+#[derive(Debug, Default)]
+pub struct Storage {
+    /// `None`: nothing is stored.
+    folder: Option<PathBuf>,
+    /// `None` before there is a file.
+    stored: Option<Stored>,
+    is_damaged: bool,
 }
 
-impl Stored {
-    /// Loads what the last start has stored into `model`; numbers are brought into their ranges.
-    pub fn load(storage: Option<&dyn eframe::Storage>, model: &mut Model) -> Self {
-        if let Some(storage) = storage {
-            model.settings = eframe::get_value(storage, SETTINGS).unwrap_or_default();
-            let out_of_range = bring_into_range(model).map(Message::OutOfRange);
-            model.report(out_of_range);
-            let earlier = || eframe::get_value::<EarlierSettings>(storage, SETTINGS)?.last;
-            let last = || eframe::get_value(storage, SESSION).or_else(earlier).into_iter().collect();
-            model.recent = eframe::get_value(storage, RECENT).unwrap_or_else(last);
+impl Storage {
+    /// Reads the file in `folder`. One that cannot be read is renamed.
+    pub fn read(folder: Option<PathBuf>) -> Self {
+        let path =
+            folder.as_deref().map(|folder| folder.join(FILE)).filter(|path| path.symlink_metadata().is_ok());
+        let stored = path.as_deref().and_then(stored);
+        let is_damaged = path.is_some() && stored.is_none();
+        if let (true, Some(path)) = (is_damaged, path) {
+            let _ = std::fs::rename(&path, path.with_file_name(DAMAGED));
         }
-        Self { settings: model.settings.clone(), recent: model.recent.clone() }
+        Self { folder, stored, is_damaged }
     }
 
-    /// Stores changed settings at once: a program that is killed stores nothing at its end.
-    pub fn store_changes(
-        &mut self,
-        model: &Model,
-        ctx: &egui::Context,
-        storage: Option<&mut (dyn eframe::Storage + 'static)>,
-    ) {
-        let is_stored = model.settings == self.settings && model.recent == self.recent;
-        if is_stored || ctx.input(|i| i.pointer.any_down()) {
+    /// The size of the last window, in points.
+    pub fn window(&self) -> Option<[f32; 2]> {
+        self.stored.as_ref()?.settings.window
+    }
+
+    /// Whether nothing has been stored yet.
+    pub fn is_new(&self) -> bool {
+        self.stored.is_none()
+    }
+
+    /// Gives `model` what the last start has stored; numbers are brought into their ranges.
+    pub fn load(&self, model: &mut Model) {
+        if let (true, Some(folder)) = (self.is_damaged, &self.folder) {
+            let place = folder.join(DAMAGED);
+            let text = format!(
+                "The settings of the last start cannot be read. They are in {}; the window has the default ones.",
+                place.display()
+            );
+            model.report([Message::Warning(text)]);
+        }
+        let Some(Stored { settings, recent }) = self.stored.clone() else { return };
+        (model.settings, model.recent) = (settings, recent);
+        let out_of_range = bring_into_range(model).map(Message::Warning);
+        model.report(out_of_range);
+    }
+
+    /// Stores what has changed, at once: a program that is killed stores nothing at its end. A file that cannot be written is missed
+    /// at the next start only.
+    pub fn store(&mut self, model: &Model) {
+        let now = Stored { settings: model.settings.for_next_start(), recent: model.recent.clone() };
+        let Some(folder) = self.folder.as_deref().filter(|_| self.stored.as_ref() != Some(&now)) else {
             return;
+        };
+        if let (Ok(()), Ok(text)) = (own::folder(folder), serde_json::to_string_pretty(&now)) {
+            let _ = atomic::write_text(&folder.join(FILE), &text, &Progress::default());
         }
-        self.settings = model.settings.clone();
-        self.recent = model.recent.clone();
-        if let Some(storage) = storage {
-            self.store(model, storage);
-            storage.flush();
-        }
+        self.stored = Some(now);
     }
+}
 
-    /// Stores settings and sessions.
-    pub fn store(&self, model: &Model, storage: &mut dyn eframe::Storage) {
-        eframe::set_value(storage, SETTINGS, &model.settings.for_next_start());
-        self.store_sessions(model, storage);
-    }
+/// What a regular file holds.
+fn stored(path: &Path) -> Option<Stored> {
+    let text = NamedFile::by_file(path, path.parent()?).text().ok()?;
+    serde_json::from_str(&text).ok()
+}
 
-    /// Stores the sessions, and leaves the settings as the last frame that was drawn has stored them: with those of a frame that has
-    /// panicked, the next start might panic, too.
-    pub fn store_sessions(&self, model: &Model, storage: &mut dyn eframe::Storage) {
-        eframe::set_value(storage, RECENT, &model.recent);
-    }
+/// The folder in which the program stores its settings.
+pub fn folder() -> Option<PathBuf> {
+    let variable =
+        |name: &str| -> Option<OsString> { std::env::var_os(name).filter(|value| !value.is_empty()) };
+    let home = || variable("HOME").map(PathBuf::from);
+    let of_programs = if cfg!(windows) {
+        PathBuf::from(variable("APPDATA")?)
+    } else if cfg!(target_os = "macos") {
+        home()?.join("Library/Application Support")
+    } else {
+        variable("XDG_DATA_HOME").map(PathBuf::from).or_else(|| Some(home()?.join(".local/share")))?
+    };
+    Some(of_programs.join(super::NAME))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::model::ranges::UI_SCALE;
-    use std::collections::HashMap;
-    use std::path::PathBuf;
     use svbrdf_core::loss::{Ask, FileScenes, LossSettings};
 
-    #[derive(Default)]
-    struct Memory(HashMap<String, String>);
-
-    impl eframe::Storage for Memory {
-        fn get_string(&self, key: &str) -> Option<String> {
-            self.0.get(key).cloned()
-        }
-
-        fn set_string(&mut self, key: &str, value: String) {
-            self.0.insert(key.to_owned(), value);
-        }
-
-        fn remove_string(&mut self, key: &str) {
-            self.0.remove(key);
-        }
-
-        fn flush(&mut self) {}
-    }
-
-    /// The model of the next start.
-    fn restarted(model: &Model) -> Model {
-        let (mut memory, mut next) = (Memory::default(), Model::default());
-        Stored::load(None, &mut Model::default()).store(model, &mut memory);
-        Stored::load(Some(&memory), &mut next);
-        next
+    /// The model of the next start on this folder.
+    fn started(folder: &Path) -> Model {
+        let mut model = Model::default();
+        Storage::read(Some(folder.to_owned())).load(&mut model);
+        model
     }
 
     #[test]
-    fn stored_settings_and_sessions_load_unchanged() {
+    fn settings_and_sessions_come_back_without_the_scenes_of_a_file() {
+        let folder = tempfile::tempdir().unwrap();
         let loss = LossSettings { ask: Ask::Time, seed: 7, ..LossSettings::default() };
-        let mut model = Model::default();
-        model.settings = Settings { dark: false, loss, ..Settings::default() };
-        model.recent = vec![model.session()];
-        let next = restarted(&model);
-        assert_eq!((next.settings, next.recent), (model.settings, model.recent));
-    }
-
-    #[test]
-    fn the_next_start_begins_without_the_scenes_of_a_file() {
         let file = FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes: Vec::new() };
-        let loss = LossSettings { seed: 7, ..LossSettings::default() };
         let mut model = Model::default();
-        model.settings.loss = loss.with_file(Some(file));
-        assert_eq!(restarted(&model).settings, Settings { loss, ..Settings::default() });
+        model.settings = Settings { dark: false, loss: loss.with_file(Some(file)), ..Settings::default() };
+        model.recent = vec![model.session()];
+        let mut storage = Storage::read(Some(folder.path().to_owned()));
+        assert!(storage.is_new());
+        storage.store(&model);
+        let next = started(folder.path());
+        assert_eq!(
+            next.settings,
+            Settings { dark: false, loss: loss.with_file(None), ..Settings::default() }
+        );
+        assert_eq!(next.recent, model.recent);
+        assert_eq!(next.messages.iter().count(), 0);
     }
 
     #[test]
-    fn the_session_that_an_earlier_version_stored_within_the_settings_is_found() {
-        #[derive(serde::Serialize)]
-        struct Earlier {
-            dark: bool,
-            last: Option<Session>,
+    fn what_cannot_be_read_is_renamed_and_scales_that_no_window_has_are_brought_into_range() {
+        let folder = tempfile::tempdir().unwrap();
+        let (file, damaged) = (folder.path().join(FILE), folder.path().join(DAMAGED));
+        for text in ["{\"settings\": {\"dark\": tr", "\u{0}", "", "{\"settings\": {\"ui_scale\": \"wide\"}}"]
+        {
+            std::fs::write(&file, text).unwrap();
+            let model = started(folder.path());
+            assert_eq!((model.settings, file.exists()), (Settings::default(), false), "{text}");
+            assert_eq!(NamedFile::by_user(&damaged).text().unwrap(), text);
+            assert!(model.messages.iter().any(|message| message.to_string().contains(DAMAGED)));
         }
-        let last = Model::default().session();
-        let mut memory = Memory::default();
-        eframe::set_value(&mut memory, SETTINGS, &Earlier { dark: false, last: Some(last.clone()) });
-        let mut next = Model::default();
-        Stored::load(Some(&memory), &mut next);
-        assert_eq!((next.settings.dark, next.recent), (false, vec![last]));
-    }
-
-    #[test]
-    fn a_scale_that_no_window_can_have_is_brought_into_range() {
-        for scale in ["0.0", "-1.0", "NaN", "inf", "1000000000.0"] {
-            let mut memory = Memory::default();
-            memory.0.insert(SETTINGS.to_owned(), format!("(dark: false, ui_scale: {scale})"));
-            let mut model = Model::default();
-            Stored::load(Some(&memory), &mut model);
+        for scale in ["0.0", "-1.0", "1e9", "1e-30"] {
+            std::fs::write(&file, format!("{{\"settings\": {{\"dark\": false, \"ui_scale\": {scale}}}}}"))
+                .unwrap();
+            let model = started(folder.path());
             assert!(UI_SCALE.contains(&model.settings.ui_scale) && !model.settings.dark, "{scale}");
-            let messages: Vec<_> = model.messages.iter().map(ToString::to_string).collect();
-            assert!(messages.len() == 1 && messages[0].contains("UI scale"), "{scale}: {messages:?}");
+            assert!(model.messages.iter().any(|message| message.to_string().contains("UI scale")), "{scale}");
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn nothing_but_a_regular_file_is_opened() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join(FILE);
+        assert!(std::process::Command::new("mkfifo").arg(&file).status().unwrap().success());
+        assert!(Storage::read(Some(folder.path().to_owned())).is_damaged && !file.exists(), "a pipe");
+        std::os::unix::fs::symlink("/dev/zero", &file).unwrap();
+        assert!(Storage::read(Some(folder.path().to_owned())).is_damaged, "a device");
     }
 }

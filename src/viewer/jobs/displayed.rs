@@ -24,29 +24,17 @@ pub struct Displayed<'a> {
     /// Whether this is a picture that is saved: with a caption, without controls, and a photograph as it is compared even
     /// while its corners are edited.
     pub is_picture: bool,
-    /// Whether panes are without sun and eye: in pictures that are saved so.
-    pub hides_handles: bool,
 }
 
 impl<'a> Displayed<'a> {
     /// What the panes of the window display.
     pub fn of(model: &'a Model, jobs: &'a Jobs) -> Self {
-        Self { model, jobs, is_picture: false, hides_handles: false }
+        Self { model, jobs, is_picture: false }
     }
 
     /// The materials in the panes, the ground truth first: with a replacement of the chosen prediction where one is displayed.
     pub fn materials(self) -> &'a [LoadedMaterial] {
         &self.jobs.panes.displayed
-    }
-
-    /// The material that is looked at alone: there is nothing to compare it with.
-    pub fn alone(self) -> Option<&'a LoadedMaterial> {
-        let [material] = &self.model.materials.all[..] else { return None };
-        let runs =
-            self.jobs.training.views(&self.model.materials.all, self.model.training.requested.as_ref());
-        let is_compared = self.model.photograph.source().is_some() || !runs.is_empty();
-        let is_of_dataset = self.model.dataset.open.is_some();
-        (!is_compared && !is_of_dataset && self.jobs.openings.is_empty()).then_some(material)
     }
 
     fn view(self) -> &'a ViewState {

@@ -1,6 +1,5 @@
 //! Jobs that follow the model: they compute what is displayed now, and only that.
 
-use svbrdf_core::loss::Request;
 use svbrdf_evaluate::why::Worst;
 
 use super::Jobs;
@@ -12,13 +11,10 @@ use super::work::context::JobContext;
 use crate::error::Error;
 use crate::model::Model;
 use crate::model::settings::Tab;
-use crate::model::settings::loss_query::LossQuery;
 
 /// What the window displays, as far as jobs depend on it.
 #[derive(Clone, Debug, Default)]
 pub struct DisplayedParts {
-    /// Whether an empty place beside the panes has the difference or the value of the chosen prediction.
-    pub extra_pane: bool,
     /// Longest side of a texture.
     pub longest_texture: usize,
     /// What is in sight of a data set.
@@ -62,15 +58,6 @@ impl Jobs {
         let (waker, materials, query) = (&self.waker, &model.materials, model.loss_query());
         self.loss.follow(waker, materials, &query, auto);
         self.loss.poll(waker);
-        let Some(few) = model.settings.loss.question().few_scenes else {
-            self.few = Default::default();
-            return;
-        };
-        // After the loss itself.
-        let done = !self.loss.is_running() && self.loss.losses().is_some();
-        let query = LossQuery { request: Request::Scenes(few), ..query };
-        self.few.follow(waker, materials, &query, model.settings.auto_loss && done);
-        self.few.poll(waker);
     }
 
     /// Whether the order of the predictions survives, where that is in sight.
@@ -110,10 +97,10 @@ impl Jobs {
     }
 
     fn follow_panes(&mut self, model: &Model, parts: &DisplayedParts, findings: &mut JobFindings) {
-        let (settings, view) = (&model.settings, &model.view);
+        let (view, settings) = (&model.view, &model.settings);
         let has_photograph = Displayed::of(model, self).photograph().is_some();
         let computed = Displayed::of(model, self).computed_maps().cloned();
-        let differences = view.display.difference || parts.extra_pane;
+        let differences = view.display.difference;
         let averages = differences && view.is_error_map();
         let Self { waker, gpu, panes, photograph, .. } = self;
         let work = JobContext { waker, gpu: gpu.as_ref(), materials: &panes.displayed, view };
@@ -121,7 +108,6 @@ impl Jobs {
         findings.photograph_error = unreadable;
         let of_ground_truth = differences && !averages && !has_photograph;
         let errors = [
-            panes.histograms.follow(&work, settings.histograms && !view.display.difference),
             panes.region.follow(&work, model.inspection.region, computed.as_ref()),
             error,
             panes.difference.follow(&work, of_ground_truth),

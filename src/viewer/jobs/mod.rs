@@ -33,9 +33,6 @@ use loss::LossJob;
 use loss::scene::SceneLossJob;
 use loss::study::StudyJob;
 use panes::PaneJobs;
-use panes::difference::DifferenceJob;
-use panes::error_map::ErrorMapJob;
-use panes::replacement::ReplacementJob;
 use photograph::PhotographJobs;
 use reading::opening::Openings;
 use reading::read::MaterialReader;
@@ -58,8 +55,6 @@ pub struct Jobs {
     pub watch: FileWatch,
     pub training: TrainingJobs,
     pub loss: LossJob,
-    /// The loss over the few scenes of the papers, beside a more accurate one.
-    pub few: LossJob,
     pub scene_loss: SceneLossJob,
     pub study: StudyJob,
     pub order: OrderJob<OrderKey>,
@@ -76,16 +71,6 @@ pub struct Jobs {
 impl Jobs {
     pub fn new(waker: Waker, gpu: Option<Gpu>) -> Self {
         Self { waker, gpu, ..Self::default() }
-    }
-
-    /// Continues on another device. What the last one had is computed again, and the maps of the materials are sent again.
-    pub fn replace_device(&mut self, gpu: Option<Gpu>) {
-        self.gpu = gpu;
-        self.uploads = Uploads::default();
-        self.panes.replacement = ReplacementJob::default();
-        self.panes.error_map = ErrorMapJob::default();
-        self.panes.difference = DifferenceJob::default();
-        self.photograph.forget_device();
     }
 
     /// Starts to read materials; the number of the opening.

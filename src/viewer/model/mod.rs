@@ -20,7 +20,6 @@ use std::path::{Path, PathBuf};
 
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::convention::ChosenConvention;
-use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
 use dataset::DatasetState;
@@ -35,7 +34,6 @@ use message::list::MessageList;
 use settings::Settings;
 use settings::loss_query::LossQuery;
 use settings::why::WhyState;
-use view::animation::Animation;
 use view::framing;
 use view::geometry::WindowGeometry;
 use view::state::ViewState;
@@ -53,15 +51,12 @@ pub struct Model {
     pub dataset: DatasetState,
     pub photograph: PhotographState,
     pub training: TrainingState,
-    /// Whether the last opening was of one material, which has no prediction yet.
-    pub opened_alone: bool,
     pub inspection: Inspection,
     /// The inspected texels of a session whose materials are being read.
     pub inspected_later: Option<Inspection>,
     pub why: WhyState,
     /// What the automatic exposure was last computed for.
     pub exposed: Exposed,
-    pub animation: Animation,
     pub history: History,
     pub messages: MessageList,
     /// Whether ground truth and chosen prediction have changed places.
@@ -74,8 +69,6 @@ pub struct Model {
     pub asks_order: bool,
     /// Whether the side panel is open where the window is narrow.
     pub narrow_side_panel: bool,
-    /// How the last materials were read: the open dialog starts with it.
-    pub read: ReadOptions,
     /// The conventions of files that were opened.
     pub conventions: Vec<ChosenConvention>,
     /// What the last frame measured.
@@ -124,7 +117,8 @@ impl Model {
 
     /// Takes the scenes of a file as those of the loss.
     pub fn use_scenes(&mut self, file: FileScenes) {
-        self.report([Message::ScenesOpened(file.name.clone(), file.scenes.len())]);
+        let text = format!("The loss is over the {} scenes of {}", file.scenes.len(), file.name);
+        self.report([Message::Done(text)]);
         self.settings.loss = self.settings.loss.with_file(Some(file));
     }
 
@@ -135,12 +129,6 @@ impl Model {
             self.conventions.retain(|one| one.file != chosen.file);
             self.conventions.push(chosen);
         }
-    }
-
-    /// Moves on what moves by itself, by `seconds`; whether anything does.
-    pub fn animate(&mut self, seconds: f64) -> bool {
-        self.animation.step(&mut self.view.scene, seconds);
-        self.animation.is_running()
     }
 
     /// Pans back a material that would be lost from the panes.

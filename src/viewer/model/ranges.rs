@@ -104,7 +104,7 @@ pub fn bring_into_range(model: &mut Model) -> Option<String> {
     let mut found = RangeProblems::default();
     found.settings(&mut model.settings);
     found.view(&mut model.view);
-    (!found.0.is_empty()).then(|| found.0.join(", "))
+    (!found.0.is_empty()).then(|| format!("Settings out of range: {}.", found.0.join(", ")))
 }
 
 #[cfg(test)]

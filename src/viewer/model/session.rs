@@ -45,9 +45,6 @@ impl Model {
             (None, None) if options.dataset.is_some() => None,
             (None, None) => Some(ReadRequest::built_in()),
             (None, Some(ground_truth)) => {
-                if options.predictions.is_empty() && options.photograph.is_none() {
-                    self.light_alone();
-                }
                 let predictions = sources(options.predictions);
                 let all: Vec<_> = std::iter::once(ground_truth).chain(predictions).collect();
                 let many = OpenDataset::of_many(&all, self.materials.rules);
@@ -77,7 +74,6 @@ impl Model {
     /// Takes a data set as what is open. What could be undone belongs to the last materials.
     pub fn open_dataset(&mut self, dataset: DatasetState) {
         self.dataset = dataset;
-        self.opened_alone = false;
         self.history = History::default();
     }
 
@@ -85,14 +81,6 @@ impl Model {
     pub fn close_dataset(&mut self) {
         if self.dataset.open.is_some() {
             self.open_dataset(DatasetState::default());
-        }
-    }
-
-    /// Lights a material that is looked at alone from the side and from afar, unless light or view were moved.
-    pub fn light_alone(&mut self) {
-        self.opened_alone = true;
-        if self.view.scene == ViewState::default().scene {
-            self.view.scene.light = [1.0, 1.0, 2.4];
         }
     }
 
@@ -170,7 +158,6 @@ impl Model {
             display: session.window.display.clone().unwrap_or_default(),
         };
         self.close_dataset();
-        self.opened_alone = false;
         self.exposed = Exposed::Restored;
         if let Some(loss) = &session.window.loss {
             self.settings.loss = loss.clone();
@@ -182,7 +169,7 @@ impl Model {
             Ok(convention) => self.use_convention(convention),
             Err(problem) => self.report([Message::Failed(problem.into())]),
         }
-        let out_of_range = bring_into_range(self).map(Message::OutOfRange);
+        let out_of_range = bring_into_range(self).map(Message::Warning);
         self.report(out_of_range);
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
         self.photograph.set(session.photograph.clone(), stamp);

@@ -1,10 +1,9 @@
-//! Content of the window: the panes, and the legend or the histograms below them. It is what a saved picture of the view shows.
+//! Content of the window: the panes, and the legend below them. It is what a saved picture of the view shows.
 
 use eframe::egui;
 
 use svbrdf_core::model::scene::Kind;
 
-use super::legend::histograms::ValueStrip;
 use super::legend::strip::LegendStrip;
 use super::pane::scenery::Scenery;
 use super::pane::viewport::{PaneTools, STRIP, Viewport};
@@ -15,10 +14,9 @@ use super::widgets::texture::PanelTextures;
 use crate::jobs::displayed::Displayed;
 use crate::model::Model;
 use crate::model::command::Command;
-use crate::model::view::state::ViewState;
 
 /// Height of the caption of a picture that is saved, in points.
-const CAPTION: f32 = 20.0;
+pub const CAPTION: f32 = 20.0;
 
 /// The panes and what is below them.
 #[derive(Debug)]
@@ -26,8 +24,6 @@ pub struct CentralArea<'a> {
     pub displayed: Displayed<'a>,
     pub viewport: &'a mut Viewport,
     pub textures: &'a mut PanelTextures,
-    /// What the panes show: the view of the model, magnified in larger pictures.
-    pub view: &'a ViewState,
 }
 
 impl CentralArea<'_> {
@@ -38,19 +34,15 @@ impl CentralArea<'_> {
             let panel = bare(egui::Panel::bottom("caption"), ui).exact_size(CAPTION).resizable(false);
             panel.show(ui, |ui| caption(ui, displayed.model, self.magnification()));
         }
-        let strip = BelowPanes::of(displayed, self.viewport.has_extra);
-        if let Some(strip) = &strip {
+        let has_legend = displayed.model.view.display.difference && compares(displayed);
+        if has_legend {
             let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
-            panel.show(ui, |ui| match strip {
-                BelowPanes::Legend => commands.extend(LegendStrip::new(displayed).ui(ui)),
-                BelowPanes::Values => ValueStrip::new(displayed).ui(ui),
-            });
+            panel.show(ui, |ui| commands.extend(LegendStrip::new(displayed).ui(ui)));
         }
-        self.viewport.has_strip = strip.is_some();
         egui::CentralPanel::no_frame().show(ui, |ui| {
-            let scenery = scenery(ui.ctx(), displayed, self.view);
+            let scenery = scenery(ui.ctx(), displayed);
             let drawing = PaneTools { gpu, uploads: &displayed.jobs.uploads, textures: self.textures };
-            commands.extend(self.viewport.ui(ui, &scenery, drawing));
+            commands.extend(self.viewport.ui(ui, &scenery, drawing, has_legend));
         });
         commands
     }
@@ -58,7 +50,7 @@ impl CentralArea<'_> {
     /// Screen pixels per texel, where there is a material.
     fn magnification(&self) -> Option<f32> {
         let grid = self.displayed.model.materials.ground_truth()?.grid();
-        Some(self.viewport.magnification(grid, self.view))
+        Some(self.viewport.magnification(grid, &self.displayed.model.view))
     }
 }
 
@@ -84,40 +76,20 @@ fn caption(ui: &mut egui::Ui, model: &Model, magnification: Option<f32>) {
     });
 }
 
-/// What is below the panes, of one height.
-enum BelowPanes {
-    Legend,
-    Values,
-}
-
-impl BelowPanes {
-    fn of(displayed: Displayed<'_>, has_extra: bool) -> Option<Self> {
-        let model = displayed.model;
-        let difference = model.view.display.difference;
-        if model.settings.histograms && !difference && model.materials.ground_truth().is_some() {
-            Some(Self::Values)
-        } else {
-            (compares(displayed) && (difference || has_extra)).then_some(Self::Legend)
-        }
-    }
-}
-
 /// Whether there is something to compare: predictions, or a photograph.
 fn compares(displayed: Displayed<'_>) -> bool {
     !displayed.model.materials.predictions().is_empty() || displayed.photograph().is_some()
 }
 
-/// What the panes display in this view.
-pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>, view: &'a ViewState) -> Scenery<'a> {
+/// What the panes display.
+pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>) -> Scenery<'a> {
     let model = displayed.model;
     Scenery {
         materials: displayed.materials(),
-        state: view,
+        state: &model.view,
         dark: model.settings.dark,
         highlight_follows: model.settings.highlight_follows,
-        handles: !displayed.hides_handles,
         is_picture: displayed.is_picture,
-        view_handle: model.settings.view_handle,
         peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
         swapped: model.swapped,
         reading: !displayed.jobs.openings.is_empty(),

@@ -23,8 +23,6 @@ use eframe::egui;
 use content::CentralArea;
 use dataset::DatasetUi;
 use dialogs::Dialogs;
-use input::KeyInput;
-use materials::alone::MapThumbnails;
 use pane::viewport::Viewport;
 use panels::inspection::Drawer;
 use panels::status::StatusBar;
@@ -46,50 +44,36 @@ const NARROW: f32 = 900.0;
 #[derive(Debug, Default)]
 pub struct WindowUi {
     pub dialogs: Dialogs,
-    input: KeyInput,
     viewport: Viewport,
     textures: PanelTextures,
-    thumbnails: MapThumbnails,
     pub dataset: DatasetUi,
     /// Size of the panes and the legend, in pixels.
     picture_size: [u32; 2],
     /// Whether the drawer is there.
     has_drawer: bool,
-    /// Processor time of the last frame, in milliseconds.
-    pub frame_ms: f32,
 }
 
 impl WindowUi {
-    /// Begins again in a new window on another device; dialogs and text that was typed stay.
-    pub fn forget_device(&mut self) {
-        self.textures = PanelTextures::default();
-        self.viewport = Viewport::default();
-    }
-
     /// What the last frame measured.
     pub fn geometry(&self, ctx: &egui::Context) -> WindowGeometry {
         WindowGeometry {
             pane: self.viewport.pane_pixels(),
             picture: self.picture_size,
+            window: (ctx.content_rect().size() * ctx.zoom_factor()).into(),
             is_narrow: ctx.content_rect().width() < NARROW,
             texel: self.viewport.last_texel,
         }
     }
 
-    /// Whether an empty place beside the panes is filled.
-    pub fn has_extra_pane(&self) -> bool {
-        self.viewport.has_extra
-    }
-
     /// The commands of keys, dropped files and gestures: all that is read before the window is drawn.
     pub fn input(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Vec<Command> {
-        let mut commands = self.input.commands(ctx, displayed, &self.dialogs);
+        let mut commands = input::commands(ctx, displayed, &self.dialogs);
         if !self.dialogs.is_open() && !displayed.model.help {
             commands.extend(self.dataset.keys(ctx, displayed));
         }
         let has_panes = !displayed.model.dataset.sheet.is_open;
         if has_panes && !self.dialogs.is_open() && !displayed.model.help {
-            let scenery = content::scenery(ctx, displayed, &displayed.model.view);
+            let scenery = content::scenery(ctx, displayed);
             commands.extend(self.viewport.gestures(ctx, &scenery));
         }
         commands
@@ -104,8 +88,7 @@ impl WindowUi {
     ) -> Vec<Command> {
         let (model, mut commands) = (displayed.model, Vec::new());
         bare(egui::Panel::top("top"), ui).show(ui, |ui| commands.extend(TopBar::new(displayed).ui(ui)));
-        bare(egui::Panel::bottom("status"), ui)
-            .show(ui, |ui| commands.extend(self.status(ui, displayed, gpu.as_deref())));
+        bare(egui::Panel::bottom("status"), ui).show(ui, |ui| commands.extend(self.status(ui, displayed)));
         let was_open = model.side_panel();
         let mut is_open = was_open;
         bare(egui::Panel::right("side"), ui).exact_size(SIDE).resizable(false).show_collapsible(
@@ -114,11 +97,7 @@ impl WindowUi {
             // Contents that are too wide are cut off: the panel does not grow.
             |ui| {
                 commands.extend(fixed(ui, |ui| {
-                    let tools = side::SideTools {
-                        thumbnails: &mut self.thumbnails,
-                        textures: &mut self.textures,
-                        dataset: &mut self.dataset,
-                    };
+                    let tools = side::SideTools { textures: &mut self.textures, dataset: &mut self.dataset };
                     side::ui(ui, displayed, tools)
                 }))
             },
@@ -142,12 +121,8 @@ impl WindowUi {
                 area
             }
             None => {
-                let mut content = CentralArea {
-                    displayed,
-                    viewport: &mut self.viewport,
-                    textures: &mut self.textures,
-                    view: &model.view,
-                };
+                let mut content =
+                    CentralArea { displayed, viewport: &mut self.viewport, textures: &mut self.textures };
                 commands.extend(content.ui(ui, gpu));
                 self.viewport.area
             }
@@ -156,11 +131,11 @@ impl WindowUi {
         if model.help {
             commands.extend(input::help::ui(ui.ctx()));
         }
-        commands.extend(self.dialogs.ui(ui.ctx(), displayed, self.picture_size));
+        commands.extend(self.dialogs.ui(ui.ctx(), displayed));
         commands
     }
 
-    fn status(&self, ui: &mut egui::Ui, displayed: Displayed<'_>, gpu: Option<&GpuView>) -> Vec<Command> {
+    fn status(&self, ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
         let view = &displayed.model.view;
         let has_panes = !displayed.model.dataset.sheet.is_open;
         let hovered = self.viewport.hovered.filter(|_| has_panes);
@@ -175,8 +150,6 @@ impl WindowUi {
             hovered: hovered.map(|hovered| hovered.index),
             magnification: grid.map_or(1.0, |grid| self.viewport.magnification(grid, view)),
             is_armed: displayed.model.inspection.is_armed,
-            adapter: gpu.map(|gpu| &gpu.gpu.report),
-            frame_ms: self.frame_ms,
         };
         bar.ui(ui)
     }

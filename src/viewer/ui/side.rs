@@ -8,7 +8,6 @@ use svbrdf_files::read::Certainty;
 use super::dataset::DatasetUi;
 use super::loss::panel::LossPanel;
 use super::loss::training::TrainingPanel;
-use super::materials::alone::{AloneCard, MapThumbnails};
 use super::materials::panel::MaterialsPanel;
 use super::panels::light_and_view::ScenePanel;
 use super::photograph::card::PhotographCard;
@@ -24,7 +23,6 @@ use crate::model::settings::Tab;
 /// What the panel keeps between frames.
 #[derive(Debug)]
 pub struct SideTools<'a> {
-    pub thumbnails: &'a mut MapThumbnails,
     pub textures: &'a mut PanelTextures,
     pub dataset: &'a mut DatasetUi,
 }
@@ -32,23 +30,16 @@ pub struct SideTools<'a> {
 pub fn ui(
     ui: &mut egui::Ui,
     displayed: Displayed<'_>,
-    SideTools { thumbnails, textures, dataset }: SideTools<'_>,
+    SideTools { textures, dataset }: SideTools<'_>,
 ) -> Vec<Command> {
     let (model, jobs) = (displayed.model, displayed.jobs);
-    let mut commands = match displayed.alone() {
-        Some(material) => {
-            let card = AloneCard { material, view: &model.view, animation: &model.animation };
-            card.ui(ui, thumbnails, textures)
-        }
-        None => tabs(ui, displayed),
-    };
+    let mut commands = tabs(ui, displayed);
     bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
         let header = egui::CollapsingHeader::new("Light and view").default_open(true);
         let scene = ScenePanel {
             state: &model.view,
             conventions: &model.conventions,
-            settings: &model.settings,
-            animation: &model.animation,
+            highlight_follows: model.settings.highlight_follows,
         };
         let header = header.show_unindented(ui, |ui| commands.extend(scene.ui(ui)));
         header
@@ -63,8 +54,7 @@ pub fn ui(
             .resizable(false)
             .show(ui, |ui| commands.extend(card.ui(ui, textures)));
     }
-    // Of a material alone, only its files.
-    let tab = if displayed.alone().is_some() { Tab::Files } else { model.tab() };
+    let tab = model.tab();
     let scroll = egui::ScrollArea::vertical().id_salt(tab as usize);
     scroll.auto_shrink([false, false]).show(ui, |ui| {
         commands.extend(match tab {
@@ -127,7 +117,6 @@ fn loss_tab(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
         settings: &model.settings.loss,
         auto: model.settings.auto_loss,
         job: &jobs.loss,
-        few: &jobs.few,
         sorted: model.settings.sort_losses,
         materials: &model.materials,
         chosen: model.view.display.prediction,

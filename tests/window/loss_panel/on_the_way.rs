@@ -101,37 +101,3 @@ fn a_newer_request_supersedes_a_running_one() {
     assert_eq!(window.state().losses().unwrap(), expected);
     window.get_by_label_contains("from 60 + 31 scenes in");
 }
-
-#[needs(adapter)]
-#[test]
-fn going_back_to_what_is_shown_stops_what_was_asked_for_in_between() {
-    let mut window = by_scenes();
-    wait(&mut window, "the first loss", |app| app.losses().is_some());
-    let first = shown(&window);
-    let was = window.state().parts.model.settings.loss.clone();
-    let loss = &mut window.state_mut().parts.model.settings.loss;
-    (loss.near, loss.distant, loss.seed) = (100_000, 50_000, 1);
-    window.step();
-    window.state_mut().parts.model.settings.loss = was;
-    for _ in 0..20 {
-        window.step();
-        std::thread::sleep(std::time::Duration::from_millis(20));
-        assert_eq!(shown(&window), first);
-    }
-}
-
-#[needs(adapter)]
-#[test]
-fn the_old_numbers_stay_until_the_new_ones_are_there() {
-    let mut window = by_scenes();
-    wait(&mut window, "the first loss", |app| app.losses().is_some());
-    assert_eq!(shown(&window).len(), 1);
-    for seed in 1..20 {
-        window.state_mut().parts.model.settings.loss.seed = seed;
-        window.step();
-        assert_eq!(shown(&window).len(), 1, "at seed {seed}");
-    }
-    wait(&mut window, "the last loss", |app| app.losses().is_some());
-    let expected = expected(&Sampling { seed: 19, ..Sampling::default() });
-    assert_eq!(window.state().losses().unwrap(), expected);
-}

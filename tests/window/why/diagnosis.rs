@@ -4,9 +4,8 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
-use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::{NormalY, Order, ReadOptions};
-use svbrdf_viewer::model::command::{MaterialsCommand, SceneCommand, WhyCommand};
+use svbrdf_viewer::model::command::{MaterialsCommand, WhyCommand};
 use svbrdf_viewer::model::settings::why::WhySection;
 
 use super::*;
@@ -222,46 +221,4 @@ fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
             !app.is_reading() && *app.materials().nth(1).unwrap() == wrong
         });
     }
-}
-
-#[needs(adapter)]
-#[test]
-fn nothing_moves_while_it_is_diagnosed_and_a_folded_section_diagnoses_nothing() {
-    for all in [true, false] {
-        nothing_moves(all);
-    }
-}
-
-/// With the lines that have no mark, or without.
-fn nothing_moves(all: bool) {
-    let (_folder, mut window) = diagnosed();
-    unfold(&mut window, all);
-    click(&mut window, SECTION);
-    window.run_steps(8);
-    // What is diagnosed is dropped.
-    apply(&mut window, SceneCommand::SetConvention(ChosenConvention::read("guided-2020").unwrap()));
-    rest(&mut window, 40);
-    assert!(window.state().diagnosis().is_none(), "its section is folded");
-    click(&mut window, SECTION);
-    window.run_steps(16);
-    assert!(window.state().diagnosis().is_none(), "it takes longer than that");
-    let tops = |window: &Window<'_>| {
-        let sections = ["Loss in this scene", SECTION, "Which map", "Which scenes"];
-        let rows = window.query_all_by_label_contains(" of the loss");
-        let mut rows: Vec<egui::Rect> = rows.map(|node| node.rect()).collect();
-        rows.sort_by(|a, b| a.top().total_cmp(&b.top()));
-        (sections.map(|name| window.get_by_label(name).rect()), rows)
-    };
-    let before = tops(&window);
-    assert_eq!(before.1.len() > 10, all, "{before:?}");
-    for _ in 0..6000 {
-        window.step();
-        assert_eq!(tops(&window), before);
-        if window.query_by_label("Diagnosis of darker: nothing trivial").is_some() {
-            break;
-        }
-        std::thread::sleep(std::time::Duration::from_millis(10));
-    }
-    assert!(window.state().diagnosis().is_some());
-    assert_eq!(tops(&window), before);
 }

@@ -7,9 +7,6 @@ use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::why::{Attribution, attribute};
 
 use super::*;
-use crate::materials::write_packed;
-use svbrdf_viewer::model::command::WhyCommand;
-use svbrdf_viewer::model::settings::why::WhySection;
 
 fn expected(prediction: usize, convention: &Convention) -> Attribution {
     let materials = materials();
@@ -45,31 +42,6 @@ fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_co
     window.get_by_label("normal of blurred normals: 80.9% of the loss");
     choose(&mut window, "Convention", "guided-2020");
     assert_eq!(wait_for_attribution(&mut window), expected(2, &"guided-2020".parse().unwrap()));
-}
-
-/// A metal and a rougher, darker prediction of it.
-#[needs(adapter)]
-#[test]
-fn a_share_below_0_is_explained_below_the_bars() {
-    let folder = tempfile::tempdir().unwrap();
-    let [metal, dull] = [("metal.png", 40, 200), ("dull.png", 120, 20)].map(|(name, roughness, specular)| {
-        let tiles = [[128, 128, 255], [2; 3], [roughness; 3], [specular; 3]];
-        let path = folder.path().join(name);
-        write_packed(&path, 16, |tile, _, _| tiles[tile as usize]);
-        path
-    });
-    let mut window = on_files([metal, dull]);
-    wait(&mut window, "the materials", |app| app.names().len() == 2);
-    apply(&mut window, WhyCommand::ShowSection(WhySection::Diagnosis, false));
-    tab(&mut window, "Why");
-    let below = |window: &Window<'_>| window.get_by_label("A click shows").rect();
-    let before = below(&window);
-    let attribution = wait_for_attribution(&mut window);
-    assert!(attribution.of(Map::Specular).shapley.mean < 0.0);
-    let note = window.get_by_label(&attribution.note().unwrap()).rect();
-    window.get_by_label_contains("the wrong specular partly cancels the errors of other maps");
-    assert_eq!(below(&window), before, "moved by the note");
-    assert!(note.bottom() < before.top() && note.height() > 8.0, "{note:?} above {before:?}");
 }
 
 /// Clicks on a map once its share is known.

@@ -3,13 +3,11 @@
 pub mod computed_maps;
 pub mod difference;
 pub mod error_map;
-pub mod histograms;
 pub mod region;
 pub mod replacement;
 
 use difference::DifferenceJob;
 use error_map::ErrorMapJob;
-use histograms::HistogramsJob;
 use region::RegionJob;
 use replacement::ReplacementJob;
 
@@ -25,7 +23,6 @@ pub struct PaneJobs {
     /// The materials, with a replacement of the chosen prediction where one is displayed.
     pub displayed: Vec<LoadedMaterial>,
     pub replacement: ReplacementJob,
-    pub histograms: HistogramsJob,
     pub region: RegionJob,
     pub difference: DifferenceJob,
     pub error_map: ErrorMapJob,

@@ -135,11 +135,6 @@ impl PhotographJobs {
         [None, error.or_else(|| self.list(work, state))]
     }
 
-    /// Lets everything that is on the adapter be sent again.
-    pub fn forget_device(&mut self) {
-        self.compared = Latest::default();
-    }
-
     /// The photograph as it was taken, while the corners are edited.
     fn draw(&mut self, work: &JobContext<'_>, state: &PhotographState, longest: usize) -> Option<Error> {
         let photograph = self.photograph(state).filter(|_| state.edits_corners()).cloned();

@@ -20,7 +20,7 @@ use crate::model::settings::why::{WhySection, WhySections};
 pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
 pub use diagnosis::{Diagnosed, DiagnosisJob};
 pub use pair::ComparedPair;
-pub use scenes::{SceneList, ScenesJob};
+pub use scenes::ScenesJob;
 pub use search::SearchJob;
 pub use tables::{AnalysisTable, TableJobs};
 pub use thumbnails::{MOST as MOST_THUMBNAILS, Thumbnails};

@@ -1,5 +1,4 @@
-//! Automatic exposure: the brightest 1% of the rendering of the ground truth just clip; of a material alone, the median is a middle
-//! gray.
+//! Automatic exposure: the brightest 1% of the rendering of the ground truth just clip.
 
 use svbrdf_core::picture::exposure;
 
@@ -25,9 +24,7 @@ pub fn follow(model: &mut Model) {
         (AutoExposure::Once, Exposed::Pending) => true,
     };
     if is_due {
-        let is_alone = model.opened_alone && model.materials.all.len() == 1;
-        let of = if is_alone { exposure::by_median } else { exposure::automatic };
-        let ev = of(ground_truth.material(), &model.view.scene, &model.view.convention());
+        let ev = exposure::automatic(ground_truth.material(), &model.view.scene, &model.view.convention());
         model.view.exposure_ev = ev.clamp(-STOPS, STOPS);
     }
     if is_due || model.exposed == Exposed::Restored {

@@ -15,7 +15,6 @@ use crate::model::command::effect::{DialogEffect, Effect};
 use crate::model::dataset::OpenDataset;
 use crate::model::material::request::{ReadRequest, Target};
 use crate::model::material::source::sources;
-use crate::model::message::Message;
 
 pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect> {
     if replaces_all(&command) {
@@ -24,15 +23,6 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
     let materials = &mut model.materials;
     match command {
         MaterialsCommand::Open { paths, replace, read } => open(model, paths, replace, read),
-        MaterialsCommand::AddDropped { paths, read } => {
-            let opens_alone = |path: &PathBuf| {
-                scene_file::is_named(path) || Session::is_named(path) || convention::is_file(path)
-            };
-            if !paths.iter().any(opens_alone) && !is_dataset(&paths) {
-                model.report([Message::Dropped { paths: paths.clone(), read }]);
-            }
-            open(model, paths, false, read)
-        }
         MaterialsCommand::OpenAgain(source) => {
             vec![Effect::Read(ReadRequest::new(vec![*source], Target::Predictions))]
         }
@@ -41,7 +31,6 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
             std::iter::once(Effect::AllowOutside).chain(opened).collect()
         }
         MaterialsCommand::OpenBuiltIn => {
-            model.opened_alone = false;
             vec![Effect::Read(ReadRequest::built_in())]
         }
         MaterialsCommand::CancelReading(number) => vec![Effect::CancelReading(number)],
@@ -78,6 +67,7 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
 }
 
 fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions) -> Vec<Effect> {
+    let read = if replace || read != ReadOptions::AUTO { read } else { model.materials.read_of_added() };
     // First: the scenes or the convention of a file replace those of a session.
     if let Some(at) = paths.iter().position(|path| convention::is_file(path)) {
         let mut paths = paths;
@@ -103,11 +93,6 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
     }
     if let Some(many) = many(model, &paths, replace, read) {
         return vec![Effect::OpenMany(Box::new(many))];
-    }
-    model.read = read;
-    model.opened_alone &= !replace;
-    if replace && paths.len() == 1 && model.photograph.source().is_none() {
-        model.light_alone();
     }
     let target = if replace { Target::Everything } else { Target::Predictions };
     let (first, predictions) = paths.split_at(usize::from(replace).min(paths.len()));
@@ -154,10 +139,7 @@ fn is_dataset(paths: &[PathBuf]) -> bool {
 
 /// Opens a recent comparison as it was shown.
 fn reopen(model: &mut Model, index: usize) -> Vec<Effect> {
-    let Some(session) = model.recent.get(index).cloned() else {
-        model.report([Message::NothingToReopen]);
-        return Vec::new();
-    };
+    let Some(session) = model.recent.get(index).cloned() else { return Vec::new() };
     let mut effects = vec![Effect::Dialog(DialogEffect::ShowOpen(false))];
     effects.push(Effect::Read(model.open_session(&session)));
     effects.extend(session.dataset.map(|dataset| Effect::RestoreDataset(Box::new(dataset))));

@@ -97,7 +97,6 @@ fn change_window(model: &mut Model, command: WindowCommand) {
         WindowCommand::SetDark(on) => model.settings.dark = on,
         WindowCommand::ToggleSidePanel if model.geometry.is_narrow => model.narrow_side_panel ^= true,
         WindowCommand::ToggleSidePanel => model.settings.side_panel ^= true,
-        WindowCommand::ToggleHistograms => model.settings.histograms ^= true,
         WindowCommand::ChooseTab(tab) => model.settings.tab = tab,
         WindowCommand::ShowHelp(on) => model.help = on,
         WindowCommand::DismissMessage(number) => model.messages.dismiss(number),

@@ -1,11 +1,12 @@
 //! Commands about light, view and convention.
 
+use svbrdf_core::model::scene::{Scene, SceneFile};
+
 use super::exposure;
 use crate::model::Model;
+use crate::model::command::SceneCommand;
 use crate::model::command::effect::Effect;
-use crate::model::command::{MaterialsCommand, SceneCommand};
-use crate::model::message::pasted::{Pasted, pasted, scene_text};
-use crate::model::message::{Message, PasteProblem};
+use crate::model::message::Message;
 use crate::model::view::endpoint;
 
 pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
@@ -25,40 +26,48 @@ pub(super) fn apply(model: &mut Model, command: SceneCommand) -> Vec<Effect> {
             endpoint::orbit(scene, endpoint, sideways, upwards);
         }
         SceneCommand::ToggleHighlightFollows => model.settings.highlight_follows ^= true,
-        SceneCommand::ToggleViewHandle => model.settings.view_handle ^= true,
-        SceneCommand::Preset(preset) => {
-            preset.apply(scene);
-            exposure::choose_scene(model);
-        }
-        SceneCommand::Animate(animation) => {
-            let current = &mut model.animation;
-            let starts = animation.light && (!current.light || animation.path != current.path);
-            *current = animation;
-            if starts {
-                current.start_light(scene);
-            }
-        }
-        SceneCommand::TogglePause => model.animation.paused ^= true,
         SceneCommand::SetConvention(convention) => model.use_convention(convention),
         SceneCommand::Copy => {
             return vec![Effect::CopyText { text: scene_text(*scene), what: "the scene as JSON" }];
         }
-        SceneCommand::Paste(text) => return paste(model, &text),
-        SceneCommand::PastePicture => model.report([Message::NotPasted(PasteProblem::Picture)]),
+        SceneCommand::Paste(text) => match pasted(&text) {
+            Ok(scene) => return apply(model, SceneCommand::Choose(scene)),
+            Err(problem) => model.report([Message::Warning(problem)]),
+        },
     }
     Vec::new()
 }
 
-fn paste(model: &mut Model, text: &str) -> Vec<Effect> {
-    match pasted(text) {
-        Ok(Pasted::Scene(scene)) => return model.apply(SceneCommand::Choose(scene).into()),
-        Ok(Pasted::Files(paths)) => {
-            let replace = model.materials.only_built_in();
-            let read = model.materials.read_of_added();
-            let open = MaterialsCommand::Open { paths, replace, read };
-            return model.apply(open.into());
+/// The first scene of a scene file, or a scene alone.
+fn pasted(text: &str) -> Result<Scene, String> {
+    let of_file = serde_json::from_str::<SceneFile>(text).ok().and_then(|file| file.scenes.first().copied());
+    let Some(scene) = of_file.or_else(|| serde_json::from_str(text).ok()) else {
+        let remedy = "Copy one from this window or from a scene file.";
+        return Err(format!("Not pasted: the clipboard holds no scene. {remedy}"));
+    };
+    scene.check().map_err(|problem| format!("Not pasted: the scene cannot be rendered, {problem}."))?;
+    Ok(scene)
+}
+
+/// The scene as a scene file of one scene.
+fn scene_text(scene: Scene) -> String {
+    serde_json::to_string_pretty(&SceneFile { scenes: vec![scene] }).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::view::state::ViewState;
+
+    #[test]
+    fn a_copied_scene_can_be_pasted() {
+        let scene = ViewState::default().scene;
+        assert_eq!(pasted(&scene_text(scene)), Ok(scene));
+        let below = scene_text(Scene { light: [0.0, 0.0, -1.0], ..scene });
+        for (text, problem) in
+            [("{\"scenes\": []}", "no scene"), ("brown fox", "no scene"), (&below, "above the plane")]
+        {
+            assert!(pasted(text).unwrap_err().contains(problem), "{text}");
         }
-        Err(problem) => model.report([Message::NotPasted(problem)]),
     }
-    Vec::new()
 }

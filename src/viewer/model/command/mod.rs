@@ -24,7 +24,6 @@ use super::inspection::Region;
 use super::settings::Tab;
 use super::settings::save_kind::SaveRequest;
 use super::settings::why::WhySection;
-use super::view::animation::{Animation, Preset};
 use super::view::state::{AutoExposure, Layout};
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_files::source::MaterialSource;
@@ -52,11 +51,6 @@ pub enum MaterialsCommand {
     Open {
         paths: Vec<PathBuf>,
         replace: bool,
-        read: ReadOptions,
-    },
-    /// Opens materials that were dropped as predictions, and offers to compare them with each other.
-    AddDropped {
-        paths: Vec<PathBuf>,
         read: ReadOptions,
     },
     /// Opens a prediction that was refused or closed.
@@ -114,21 +108,11 @@ pub enum SceneCommand {
         upwards: f64,
     },
     ToggleHighlightFollows,
-    /// Shows or hides the handle of the view.
-    ToggleViewHandle,
-    /// Puts the light where the preset has it.
-    Preset(Preset),
-    /// Starts or changes what moves by itself.
-    Animate(Animation),
-    /// Pauses what moves, or goes on.
-    TogglePause,
     SetConvention(ChosenConvention),
     /// Puts the scene on the clipboard as a scene file.
     Copy,
-    /// Takes the scene, or opens the files, that this text of the clipboard names.
+    /// Takes the scene of this text of the clipboard.
     Paste(String),
-    /// Says why the picture on the clipboard is not taken.
-    PastePicture,
 }
 
 /// What the panes show, and how.
@@ -234,8 +218,6 @@ pub enum WindowCommand {
     /// Sets the size of text and controls: 1 is the size of the system.
     SetScale(f32),
     ToggleSidePanel,
-    /// Shows or hides the histograms of the values.
-    ToggleHistograms,
     ChooseTab(Tab),
     ShowHelp(bool),
     /// Dismisses the message of this number.

@@ -4,9 +4,8 @@ use std::path::Path;
 
 use super::{Message, Severity};
 
-/// How long a success and an offer are shown, in seconds.
+/// How long a success is shown, in seconds.
 const MOMENT: f64 = 6.0;
-const OFFER: f64 = 20.0;
 
 /// A message, and the time at which it disappears.
 #[derive(Debug)]
@@ -27,11 +26,7 @@ impl MessageList {
         let text = message.to_string();
         let is_same = |earlier: &Message| earlier.path() == message.path() && earlier.to_string() == text;
         self.posted.retain(|earlier| !is_same(&earlier.message));
-        let until = match message.severity() {
-            Severity::Success => Some(now + MOMENT),
-            Severity::Offer => Some(now + OFFER),
-            Severity::Warning | Severity::Error => None,
-        };
+        let until = (message.severity() == Severity::Success).then_some(now + MOMENT);
         self.posted.push(Posted { message, until });
     }
 
@@ -92,7 +87,7 @@ mod tests {
     #[test]
     fn a_success_disappears_and_an_error_stays_until_its_file_has_been_read() {
         let mut list = MessageList::default();
-        list.add(Message::Saved("view.png".into()), 10.0);
+        list.add(Message::Done("Saved view.png".to_owned()), 10.0);
         list.add(not_read("a.png"), 10.0);
         list.add(not_read("b.png"), 10.0);
         assert_eq!(list.expire(12.0), Some(MOMENT - 2.0));

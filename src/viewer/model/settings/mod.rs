@@ -35,7 +35,7 @@ impl Tab {
     ];
 }
 
-/// Persistent settings. Every field has a default, so that the settings of older versions load.
+/// Persistent settings. Every field has a default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -43,12 +43,10 @@ pub struct Settings {
     pub side_panel: bool,
     /// Whether a left-drag moves the highlight under the pointer, instead of the light.
     pub highlight_follows: bool,
-    /// Whether the handle of the view is shown.
-    pub view_handle: bool,
     /// Size of the window's text and controls: 1 is the size of the system.
     pub ui_scale: f32,
-    /// Whether histograms of the values are below the panes.
-    pub histograms: bool,
+    /// Width and height of the last window, in points.
+    pub window: Option<[f32; 2]>,
     /// The tab of the side panel.
     pub tab: Tab,
     /// Whether the prediction with the least loss comes first in the panel.
@@ -68,9 +66,8 @@ impl Default for Settings {
             dark: true,
             side_panel: true,
             highlight_follows: false,
-            view_handle: true,
             ui_scale: 1.0,
-            histograms: false,
+            window: None,
             tab: Tab::Loss,
             sort_losses: true,
             sections: WhySections::default(),

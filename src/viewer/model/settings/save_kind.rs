@@ -7,10 +7,6 @@ use std::path::PathBuf;
 pub struct SaveRequest {
     pub kind: SaveKind,
     pub path: PathBuf,
-    /// Size of a picture of the view, in pixels.
-    pub size: [u32; 2],
-    /// Whether a picture of the view has the handles of light and view.
-    pub handles: bool,
 }
 
 /// What is saved.
@@ -61,8 +57,8 @@ impl SaveKind {
     pub fn explanation(self) -> &'static str {
         match self {
             Self::View => {
-                "The panes and the legend as they are seen, at any size, with light, view, exposure and convention in \
-                 the file's metadata."
+                "The panes and the legend as they are seen, with light, view, exposure and convention in the file's \
+                 metadata."
             }
             Self::Renderings => {
                 "The rendering, map or difference that is selected, of every material side by side, one pixel per texel; \

@@ -7,10 +7,10 @@ pub struct WindowGeometry {
     pub pane: [f32; 2],
     /// Width and height of the panes and the legend together, in pixels.
     pub picture: [u32; 2],
+    /// Width and height of the window, in points.
+    pub window: [f32; 2],
     /// Whether the side panel is closed until it is asked for.
     pub is_narrow: bool,
     /// The texel that was under the pointer last.
     pub texel: Option<[usize; 2]>,
 }
-
-impl WindowGeometry {}

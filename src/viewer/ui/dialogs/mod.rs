@@ -37,8 +37,8 @@ impl Dialogs {
         self.open.is_some() || self.save.is_some() || self.photograph.is_some()
     }
 
-    /// Draws the dialogs; `view_size` is the size of the view in the window, in pixels.
-    pub fn ui(&mut self, ctx: &egui::Context, displayed: Displayed<'_>, view_size: [u32; 2]) -> Vec<Command> {
+    /// Draws the dialogs.
+    pub fn ui(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Vec<Command> {
         let (model, mut commands) = (displayed.model, Vec::new());
         if model.study {
             commands.extend(StudyWindow::new(displayed).ui(ctx));
@@ -50,7 +50,7 @@ impl Dialogs {
             commands.extend(dialog.ui(ctx));
         }
         if let Some(dialog) = &mut self.save {
-            commands.extend(dialog.ui(ctx, displayed.jobs.saving.as_ref(), view_size));
+            commands.extend(dialog.ui(ctx, displayed.jobs.saving.as_ref()));
         }
         commands
     }

@@ -10,7 +10,6 @@ use svbrdf_files::session::Session;
 use super::path_field::{PathField, dialog};
 use crate::model::command::{BrowseFor, Command, DatasetCommand, MaterialsCommand, WindowCommand};
 use crate::model::material::source::file_name;
-use crate::ui::widgets::read_options::read_options;
 
 /// The paths and choices so far.
 #[derive(Debug, Default)]
@@ -18,7 +17,6 @@ pub struct OpenDialog {
     /// One path a line.
     pub text: String,
     pub opens: Opens,
-    pub read: ReadOptions,
     /// Whether its materials have been asked for.
     pub submitted: bool,
     /// The number of the opening that reads its materials.
@@ -68,12 +66,6 @@ fn paths(session: &Session) -> String {
     }
     let paths = session.materials.iter().filter_map(|one| one.path.as_deref());
     paths.map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n")
-}
-
-impl From<ReadOptions> for OpenDialog {
-    fn from(read: ReadOptions) -> Self {
-        Self { read, ..Self::default() }
-    }
 }
 
 impl OpenDialog {
@@ -156,10 +148,6 @@ impl OpenDialog {
         ] {
             ui.radio_value(&mut self.opens, opens, text).on_hover_text(hover);
         }
-        let reading = ui.collapsing("How to read them...", |ui| {
-            read_options(ui, "the materials to open", &mut self.read, &[]);
-        });
-        reading.header_response.on_hover_text("Conventions of the files, where they do not say them");
         let paths: Vec<PathBuf> =
             self.text.lines().map(str::trim).filter(|l| !l.is_empty()).map(PathBuf::from).collect();
         let ready = !paths.is_empty() && !self.submitted;
@@ -174,7 +162,7 @@ impl OpenDialog {
                 Opens::Dataset => DatasetCommand::Open(paths).into(),
                 opens => {
                     let replace = opens == Opens::Comparison;
-                    MaterialsCommand::Open { paths, replace, read: self.read }.into()
+                    MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO }.into()
                 }
             });
         }

@@ -8,11 +8,7 @@ use super::path_field::{PathField, dialog};
 use crate::jobs::work::job::Job;
 use crate::model::command::{BrowseFor, Command, WindowCommand};
 use crate::model::settings::save_kind::{SaveKind, SaveRequest};
-use crate::ui::widgets::number;
 use crate::ui::widgets::theme;
-
-/// Width and height of a picture of the view, in pixels.
-const SIDE: std::ops::RangeInclusive<u32> = 64..=8192;
 
 /// What is typed and chosen so far.
 #[derive(Debug)]
@@ -21,10 +17,6 @@ pub struct SaveDialog {
     pub what: SaveKind,
     /// Whether there is a list of materials to save.
     has_dataset: bool,
-    /// Size of a picture of the view, in pixels.
-    size: [u32; 2],
-    /// Whether a picture of the view has the handles of light and view.
-    handles: bool,
     /// The path of an existing file, once the dialog has said that it exists.
     replaces: Option<String>,
     /// Whether the button gets the focus, so that Return presses it.
@@ -33,43 +25,23 @@ pub struct SaveDialog {
 }
 
 impl SaveDialog {
-    /// `what` is chosen at first; `size` is the size of the view in the window, in pixels.
-    pub fn new(what: SaveKind, size: [u32; 2], has_dataset: bool) -> Self {
+    /// `what` is chosen at first.
+    pub fn new(what: SaveKind, has_dataset: bool) -> Self {
         let path = what.proposal().to_owned();
-        Self {
-            path,
-            what,
-            has_dataset,
-            size,
-            handles: true,
-            replaces: None,
-            focus_button: false,
-            field: PathField::default(),
-        }
+        Self { path, what, has_dataset, replaces: None, focus_button: false, field: PathField::default() }
     }
 
-    /// `saving` is the file that is being written; `view_size` the size of the view in the window, in pixels.
-    pub fn ui(
-        &mut self,
-        ctx: &egui::Context,
-        saving: Option<&Job<PathBuf>>,
-        view_size: [u32; 2],
-    ) -> Vec<Command> {
+    /// `saving` is the file that is being written.
+    pub fn ui(&mut self, ctx: &egui::Context, saving: Option<&Job<PathBuf>>) -> Vec<Command> {
         let mut commands = Vec::new();
-        let open = dialog(ctx, "Save", 420.0, |ui| self.contents(ui, saving, view_size, &mut commands));
+        let open = dialog(ctx, "Save", 420.0, |ui| self.contents(ui, saving, &mut commands));
         if !open {
             commands.push(WindowCommand::ShowSave(false).into());
         }
         commands
     }
 
-    fn contents(
-        &mut self,
-        ui: &mut egui::Ui,
-        saving: Option<&Job<PathBuf>>,
-        view_size: [u32; 2],
-        commands: &mut Vec<Command>,
-    ) {
+    fn contents(&mut self, ui: &mut egui::Ui, saving: Option<&Job<PathBuf>>, commands: &mut Vec<Command>) {
         self.choice(ui);
         let field = self.field.ui(ui, "To file:", egui::TextEdit::singleline(&mut self.path));
         let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
@@ -87,11 +59,6 @@ impl SaveDialog {
             ui.add(egui::Label::new(RichText::new(&folder).small().weak()).truncate()).on_hover_text(folder);
         });
         ui.label(RichText::new(self.what.explanation()).small().weak());
-        if self.what == SaveKind::View {
-            self.sizes(ui, view_size);
-            ui.checkbox(&mut self.handles, "With handles")
-                .on_hover_text("The sun and the eye, which mark light and view");
-        }
         let replaces = self.replaces.as_deref() == Some(self.path.trim());
         if let Some(job) = saving {
             progress(ui, job, commands);
@@ -141,21 +108,6 @@ impl SaveDialog {
         });
     }
 
-    fn sizes(&mut self, ui: &mut egui::Ui, view_size: [u32; 2]) {
-        ui.horizontal(|ui| {
-            ui.label("Size");
-            for (name, side, default) in
-                [("Width in pixels", 0, view_size[0]), ("Height in pixels", 1, view_size[1])]
-            {
-                number(ui, name, &mut self.size[side], default, |drag| drag.range(SIDE))
-                    .on_hover_text(format!("{name} of the picture"));
-            }
-            if ui.button("As in the window").on_hover_text("The size of the panes in the window").clicked() {
-                self.size = view_size;
-            }
-        });
-    }
-
     /// Shows what went wrong, and puts the cursor into the path field.
     pub fn fail(&mut self, problem: String) {
         self.field.fail(problem);
@@ -170,9 +122,7 @@ impl SaveDialog {
             return;
         }
         self.field.clear();
-        let size = self.size.map(|side| side.clamp(*SIDE.start(), *SIDE.end()));
-        let request = SaveRequest { kind: self.what, path, size, handles: self.handles };
-        commands.push(WindowCommand::Save(request).into());
+        commands.push(WindowCommand::Save(SaveRequest { kind: self.what, path }).into());
     }
 }
 

@@ -22,7 +22,6 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
             ("Ctrl + Shift + left-drag", "orbit the light"),
             ("Ctrl + Shift + right-drag", "distance of the light"),
             ("H", "highlight follows the pointer, on / off"),
-            ("Space", "pause or resume the light and the turntable that move by themselves"),
         ],
     ),
     (
@@ -69,7 +68,6 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
                 "automatic exposure, once / following light and view: the brightest 1% of the ground truth clips",
             ),
             ("T", "repeat the material 2 x 2 times to show its seams, on / off"),
-            ("J", "histograms of the values, on / off"),
             ("V", "false colours for roughness, on / off"),
             ("L", "mark clipped pixels, on / off"),
             ("I, Alt + click", "pin the texel: all its numbers in a table below; again: remove the pin"),
@@ -94,7 +92,7 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
                 "save view, renderings, strip, report or session / copy the view as a picture",
             ),
             ("Ctrl + R", "read all files again"),
-            ("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene, or paths of materials"),
+            ("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene"),
         ],
     ),
     (
@@ -152,7 +150,6 @@ fn event_command(event: &egui::Event) -> Option<Command> {
     match event {
         egui::Event::Copy => Some(SceneCommand::Copy.into()),
         egui::Event::Paste(text) => Some(SceneCommand::Paste(text.clone()).into()),
-        egui::Event::PasteImage(_) => Some(SceneCommand::PastePicture.into()),
         egui::Event::Text(text) if text == "?" => Some(WindowCommand::ShowHelp(true).into()),
         _ => None,
     }
@@ -182,7 +179,6 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (none, Key::D, DisplayCommand::ShowDifference(!now.difference).into()),
         (none, Key::P, DisplayCommand::ToggleProjection.into()),
         (none, Key::T, DisplayCommand::ToggleTiled.into()),
-        (none, Key::J, WindowCommand::ToggleHistograms.into()),
         (none, Key::V, DisplayCommand::ToggleFalseColour.into()),
         (none, Key::L, DisplayCommand::ToggleClipping.into()),
         (none, Key::H, SceneCommand::ToggleHighlightFollows.into()),

@@ -7,55 +7,26 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
+use svbrdf_files::read::ReadOptions;
+
 use super::dialogs::Dialogs;
 use crate::jobs::displayed::Displayed;
 use crate::model::command::{
     Command, DatasetCommand, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand,
-    PhotographCommand, SceneCommand, WhyCommand, WindowCommand,
+    PhotographCommand, WhyCommand, WindowCommand,
 };
 
-/// The state of the keys between frames.
-#[derive(Debug, Default)]
-pub struct KeyInput {
-    /// Whether something was dragged since Space was pressed: then Space pans and does not pause.
-    space_dragged: bool,
-}
-
-impl KeyInput {
-    /// The commands of the keys and of dropped files.
-    pub fn commands(
-        &mut self,
-        ctx: &egui::Context,
-        displayed: Displayed<'_>,
-        dialogs: &Dialogs,
-    ) -> Vec<Command> {
-        let escape = escape(displayed, dialogs);
-        let now = keys::Context {
-            enter_is_free: ctx.memory(|m| m.focused()).is_none(),
-            escape: &escape,
-            difference: displayed.model.view.display.difference,
-        };
-        let mut commands = keys::commands(ctx, now);
-        commands.extend(self.pause_key(ctx, displayed));
-        commands.extend(dropped(ctx, displayed, dialogs));
-        commands
-    }
-
-    /// Space, pressed and released without a drag, pauses what moves by itself.
-    fn pause_key(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Option<Command> {
-        let (pressed, released, down, dragging) = ctx.input(|i| {
-            let space = egui::Key::Space;
-            (i.key_pressed(space), i.key_released(space), i.key_down(space), i.pointer.any_down())
-        });
-        if pressed {
-            self.space_dragged = false;
-        }
-        self.space_dragged |= down && dragging;
-        let animation = &displayed.model.animation;
-        let moves = animation.light || animation.turntable;
-        let free = ctx.memory(|m| m.focused()).is_none();
-        (released && !self.space_dragged && moves && free).then_some(SceneCommand::TogglePause.into())
-    }
+/// The commands of the keys and of dropped files.
+pub fn commands(ctx: &egui::Context, displayed: Displayed<'_>, dialogs: &Dialogs) -> Vec<Command> {
+    let escape = escape(displayed, dialogs);
+    let now = keys::Context {
+        enter_is_free: ctx.memory(|m| m.focused()).is_none(),
+        escape: &escape,
+        difference: displayed.model.view.display.difference,
+    };
+    let mut commands = keys::commands(ctx, now);
+    commands.extend(dropped(ctx, displayed, dialogs));
+    commands
 }
 
 /// What Escape does: it closes or cancels the first of these that is there.
@@ -87,10 +58,5 @@ fn dropped(ctx: &egui::Context, displayed: Displayed<'_>, dialogs: &Dialogs) -> 
     }
     let replace = displayed.model.materials.only_built_in();
     let is_empty = paths.is_empty();
-    let read = displayed.model.materials.read_of_added();
-    let open = match replace {
-        true => MaterialsCommand::Open { paths, replace, read },
-        false => MaterialsCommand::AddDropped { paths, read },
-    };
-    (!is_empty).then(|| open.into())
+    (!is_empty).then(|| MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO }.into())
 }

@@ -1,5 +1,4 @@
-//! Legend of the differences, and histograms of the values.
+//! Legend of the differences.
 
-pub mod histograms;
 pub mod statistics;
 pub mod strip;

@@ -31,8 +31,6 @@ pub struct LossPanel<'a> {
     pub settings: &'a LossSettings,
     pub auto: bool,
     pub job: &'a LossJob,
-    /// The loss over the few scenes of the papers, where it is another one.
-    pub few: &'a LossJob,
     /// Whether the least loss comes first.
     pub sorted: bool,
     pub materials: &'a MaterialList,
@@ -62,15 +60,8 @@ impl LossPanel<'_> {
                 if self.is_stale() {
                     ui.set_opacity(0.5);
                 }
-                let few = self.few.losses().filter(|_| self.few.is_complete());
-                // Those of other materials or of another convention belong to no row.
-                let of_these = |few: &&KeyedLosses| {
-                    few.key.ids == losses.key.ids && few.key.query.convention == losses.key.query.convention
-                };
                 let results = Results {
                     latest: losses,
-                    few: few.filter(of_these),
-                    few_are_coming: self.auto && self.settings.question().few_scenes.is_some(),
                     chosen: self.chosen,
                     stale: self.materials.stale_predictions(),
                     sorted: self.sorted,

@@ -33,10 +33,6 @@ const STALE_MARK: &str = " (stale)";
 #[derive(Debug)]
 pub struct Results<'a> {
     pub latest: &'a KeyedLosses,
-    /// The losses over the 6 + 3 scenes of the papers; `None` where they are not known, or are what `latest` is.
-    pub few: Option<&'a KeyedLosses>,
-    /// Whether those losses are on their way where they are not known: their line keeps its place, so that what is below stays.
-    pub few_are_coming: bool,
     pub chosen: usize,
     /// Of each prediction, whether its files or those of the ground truth hold something else by now.
     pub stale: Vec<bool>,
@@ -68,7 +64,7 @@ impl Results<'_> {
                 commands.push(DisplayCommand::ChoosePrediction(index).into());
             }
             if index == self.chosen {
-                self.details(ui, index, &losses[index]);
+                self.interval(ui, &losses[index]);
             }
         }
         ui.add_space(4.0);
@@ -185,24 +181,13 @@ impl Results<'_> {
         response.on_hover_text(format!("95% interval {interval}\n{meaning}\n{}", self.in_full(estimate)));
     }
 
-    /// Below the chosen prediction: its interval, and its loss over the few scenes of the papers.
-    fn details(&self, ui: &mut egui::Ui, index: usize, loss: &Loss) {
+    /// Below the chosen prediction: its interval.
+    fn interval(&self, ui: &mut egui::Ui, loss: &Loss) {
         let [_, interval] = significant(&loss.estimate);
-        let known = |few: &KeyedLosses| {
-            let [mean, interval] = significant(&few.report.outcome.losses.get(index)?.estimate);
-            Some(format!("6 + 3 scenes: {mean} {interval}"))
-        };
-        let coming = || self.few_are_coming.then(|| "6 + 3 scenes: ...".to_owned());
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal(|ui| {
             ui.add_space(10.0);
             ui.label(RichText::new(interval).monospace().size(NUMBERS))
                 .on_hover_text(self.in_full(&loss.estimate));
-            let Some(text) = self.few.map_or_else(coming, known) else { return };
-            // In the next line where there is no room beside the interval.
-            ui.add(egui::Label::new(RichText::new(text).small().weak()).extend()).on_hover_text(
-                "The loss over the 6 near-field and 3 distant random scenes of the papers, for this seed: other seeds \
-                 give other numbers within about this interval",
-            );
         });
     }
 

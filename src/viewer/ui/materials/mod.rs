@@ -1,5 +1,3 @@
 //! Tab *Files*: the materials, and what was assumed about each.
 
-pub mod alone;
-pub mod assumptions;
 pub mod panel;

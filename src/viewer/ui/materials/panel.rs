@@ -4,9 +4,8 @@ use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, FontId, RichText};
 
 use svbrdf_evaluate::diagnose::{Finding, sentence_of};
-use svbrdf_files::read::{Note, ReadOptions, Sidecar};
+use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions, Sidecar};
 
-use super::assumptions::{self, AssumedLine};
 use crate::jobs::reading::opening::Openings;
 use crate::model::command::{Command, MaterialsCommand};
 use crate::model::material::list::MaterialList;
@@ -117,20 +116,20 @@ fn chooser(ui: &mut egui::Ui, material: &LoadedMaterial, read: &mut ReadOptions)
     }
 }
 
-/// What was assumed about a map and why, in two rows at most: all of it on hovering.
-fn line(ui: &mut egui::Ui, line: &AssumedLine) {
+/// An assumption and its reason, in two rows at most.
+fn line(ui: &mut egui::Ui, assumption: &Assumption) {
     const ROWS: usize = 2;
     let (font, small) = (FontId::proportional(12.5), FontId::proportional(11.0));
     let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
     let (panel, warning) = (ui.visuals().panel_fill, ui.visuals().warn_fg_color);
     let mut job = LayoutJob::default();
-    job.append(&format!("{}: ", line.name), 0.0, TextFormat::simple(font.clone(), weak));
-    job.append(&line.chosen, 0.0, TextFormat::simple(font, text));
-    if line.unsure {
+    job.append(&format!("{}: ", assumption.what.name()), 0.0, TextFormat::simple(font.clone(), weak));
+    job.append(&assumption.chosen, 0.0, TextFormat::simple(font, text));
+    if assumption.certainty == Certainty::Unsure {
         let badge = TextFormat { background: warning, ..TextFormat::simple(small.clone(), panel) };
         job.append(" unsure ", 6.0, badge);
     }
-    job.append(&format!(": {}", line.why), 0.0, TextFormat::simple(small, weak));
+    job.append(&format!(": {}", assumption.why), 0.0, TextFormat::simple(small, weak));
     job.wrap.max_rows = ROWS;
     ui.label(job);
 }
@@ -182,9 +181,7 @@ fn section(
     if let Some(problem) = &material.problem {
         ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
     }
-    for one in assumptions::lines(&record.assumptions) {
-        line(ui, &one);
-    }
+    record.assumptions.iter().for_each(|assumption| line(ui, assumption));
     commands.extend(findings.iter().flat_map(|finding| finding_line(ui, index, material, finding)));
     // Which file is which map stands in "As stored".
     for note in record.notes.iter().filter(|note| !note.is_routine()) {

@@ -9,18 +9,14 @@ pub const TITLE: f32 = 24.0;
 /// Room between two panes.
 const GAP: f32 = 6.0;
 
-/// How many times smaller panes may be where a place stays free beside them: it shows the difference, too.
-const FREE: f32 = 1.1;
-
-/// The number of columns of `count` cells that shows the material largest in `area`, or nearly so with a place that stays free.
+/// The number of columns of `count` cells that shows the material largest in `area`.
 pub fn columns(area: Rect, count: usize, grid: Grid) -> usize {
     let [half_width, half_height] = grid.half_extent();
     let size = |columns: usize| {
         let cell = cell_size(area.size(), columns, count.div_ceil(columns));
         (cell.x / half_width).min((cell.y - TITLE) / half_height)
     };
-    let worth = |columns: usize| size(columns) * if has_free_place(columns, count) { FREE } else { 1.0 };
-    (1..=count.max(1)).max_by(|a, b| worth(*a).total_cmp(&worth(*b))).unwrap_or(1)
+    (1..=count.max(1)).max_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap_or(1)
 }
 
 /// Splits `area` into `count` cells. All have the same size in whole pixels (`scale` pixels per point): only then are
@@ -36,19 +32,6 @@ pub fn cells(area: Rect, count: usize, columns: usize, scale: f32) -> Vec<Rect> 
             Rect::from_min_size(area.min + place * step, cell)
         })
         .collect()
-}
-
-/// The empty place behind the last of `cells`, in a grid whose last row is not full.
-pub fn free_cell(area: Rect, cells: &[Rect]) -> Option<Rect> {
-    let [first, second, .., last] = cells else { return None };
-    let step = second.left() - first.left();
-    let free = last.translate(vec2(step, 0.0));
-    (step > 0.0 && area.expand(0.5).contains_rect(free)).then_some(free)
-}
-
-/// Whether the last row of a grid is not full.
-fn has_free_place(columns: usize, count: usize) -> bool {
-    count > columns && columns > 1 && !count.is_multiple_of(columns)
 }
 
 fn cell_size(area: Vec2, columns: usize, rows: usize) -> Vec2 {
@@ -99,21 +82,6 @@ mod tests {
                 assert!(cells[..i].iter().all(|other| !other.shrink(0.1).intersects(cell.shrink(0.1))));
             }
         }
-    }
-
-    #[test]
-    fn a_grid_of_three_has_a_free_cell_and_a_row_has_none() {
-        let square = area(900.0, 900.0);
-        let three = arranged(square, 3, 1.0);
-        let free = free_cell(square, &three).unwrap();
-        assert!(
-            three.iter().all(|cell| !cell.shrink(0.1).intersects(free.shrink(0.1))),
-            "{three:?}, {free:?}"
-        );
-        assert_eq!((free.left(), free.top()), (three[1].left(), three[2].top()));
-        assert_eq!(free_cell(square, &arranged(square, 4, 1.0)), None);
-        let wide = area(1200.0, 400.0);
-        assert_eq!(free_cell(wide, &arranged(wide, 3, 1.0)), None);
     }
 
     #[test]

@@ -43,8 +43,6 @@ pub struct PaneTarget<'a> {
     pub placed: Placed,
     pub state: &'a ViewState,
     pub highlight_follows: bool,
-    /// Whether the handle of the view is shown, and can be grabbed.
-    pub view_handle: bool,
     /// Whether a left-drag draws a rectangle.
     pub is_armed: bool,
 }
@@ -83,10 +81,7 @@ impl PaneTarget<'_> {
             Gesture::Pan
         } else if self.over(Endpoint::Light, pos) {
             Gesture::Light
-        } else if self.view_handle
-            && self.state.display.projection == Projection::Flat
-            && self.over(Endpoint::View, pos)
-        {
+        } else if self.state.display.projection == Projection::Flat && self.over(Endpoint::View, pos) {
             Gesture::View
         } else {
             Gesture::Light

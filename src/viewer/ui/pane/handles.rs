@@ -26,11 +26,10 @@ pub fn ndc_from_pos(rect: Rect, pos: Pos2) -> [f32; 2] {
     [offset.x, -offset.y]
 }
 
-/// Draws the handles of a scene: the sun, and in flat panes the eye where it is shown.
-pub fn paint_endpoints(painter: &Painter, rect: Rect, camera: &Camera, state: &ViewState, eye: bool) {
+/// Draws the handles of a scene: the sun, and in flat panes the eye.
+pub fn paint_endpoints(painter: &Painter, rect: Rect, camera: &Camera, state: &ViewState) {
     let place = |which| pos_from_plane(camera, rect, endpoint::over_plane(&state.scene, which));
-    if eye
-        && state.display.projection == Projection::Flat
+    if state.display.projection == Projection::Flat
         && let Some((at, out_of_range)) = place(Endpoint::View)
     {
         paint_eye(painter, at, out_of_range);

@@ -20,12 +20,8 @@ pub struct Scenery<'a> {
     pub state: &'a ViewState,
     pub dark: bool,
     pub highlight_follows: bool,
-    /// Whether light and view have handles, sun and eye.
-    pub handles: bool,
     /// Whether this is in a picture that is saved, which has no buttons.
     pub is_picture: bool,
-    /// Whether the handle of the view is shown.
-    pub view_handle: bool,
     /// Whether every pane shows the ground truth, as long as a key is held.
     pub peek: bool,
     /// Whether the chosen prediction and the ground truth are swapped.
@@ -152,21 +148,6 @@ impl Scenery<'_> {
     pub fn corner_editor(&self, content: PaneContent) -> Option<CornerEditor<'_>> {
         let corners = self.photograph?.corners.filter(|_| content.photograph == PhotographUse::Displayed);
         corners.map(CornerEditor)
-    }
-
-    /// What fills an empty place beside the panes: of the chosen prediction, the difference where the others show values,
-    /// and the value where they show differences.
-    pub fn extra(&self) -> Option<PaneContent> {
-        let panes = self.materials.len() + usize::from(self.photograph.is_some());
-        let grid = self.state.display.layout == Layout::SideBySide && panes > 2;
-        let difference = !self.state.display.difference;
-        let photograph = match self.photograph {
-            Some(_) => PhotographUse::Reference,
-            None => PhotographUse::Absent,
-        };
-        let mode = DisplayMode::Value;
-        let content = PaneContent { index: self.chosen(), reference: 0, mode, difference, photograph };
-        grid.then_some(content)
     }
 
     /// The name of what a pane shows, without its difference, in about `most` characters.

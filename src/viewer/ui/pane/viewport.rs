@@ -8,7 +8,7 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams, Tiling};
 
-use super::cells::{TITLE, cells, columns, free_cell, picture_rect};
+use super::cells::{TITLE, cells, columns, picture_rect};
 use super::gestures::{self, Gesture, PaneTarget};
 use super::handles;
 use super::hovered::Hovered;
@@ -67,10 +67,6 @@ pub struct Viewport {
     is_draft: bool,
     /// Whether everything is shaded in full at once, for pictures that are saved.
     is_exact: bool,
-    /// Whether the difference or the value of the chosen prediction fills an empty place, where there is a strip below the panes.
-    pub has_extra: bool,
-    /// Whether there is a strip below the panes.
-    pub has_strip: bool,
     /// Where the panes are.
     pub area: Rect,
     /// Size of a pane in physical pixels.
@@ -88,8 +84,6 @@ impl Default for Viewport {
             policy: DraftPolicy::default(),
             is_draft: false,
             is_exact: false,
-            has_extra: false,
-            has_strip: false,
             area: Rect::ZERO,
             pane_pixels: Vec2::ZERO,
         }
@@ -106,7 +100,7 @@ struct DrawnPane {
 impl Viewport {
     /// Panes like these that are shaded in full before they are drawn.
     pub fn exact(&self) -> Self {
-        Self { is_exact: true, has_extra: self.has_extra, ..Self::default() }
+        Self { is_exact: true, ..Self::default() }
     }
 
     /// The commands of the mouse in the panes, as the last frame has drawn them.
@@ -120,7 +114,6 @@ impl Viewport {
                 placed: placed(scenery.state, grid, *rect, self.pane_pixels()),
                 state: scenery.state,
                 highlight_follows: scenery.highlight_follows,
-                view_handle: scenery.view_handle,
                 is_armed: scenery.inspection.is_armed,
             };
             commands.extend(gestures::commands(ctx, &response, &target, &mut self.gesture));
@@ -128,8 +121,14 @@ impl Viewport {
         commands
     }
 
-    /// Draws the panes and returns the commands of their titles and of the corner editor.
-    pub fn ui(&mut self, ui: &mut egui::Ui, scenery: &Scenery<'_>, drawing: PaneTools<'_>) -> Vec<Command> {
+    /// Draws the panes, which may have a strip below them, and returns the commands of their titles and of the corner editor.
+    pub fn ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        scenery: &Scenery<'_>,
+        drawing: PaneTools<'_>,
+        has_strip: bool,
+    ) -> Vec<Command> {
         let area = ui.available_rect_before_wrap();
         self.area = area;
         self.hovered = None;
@@ -145,8 +144,8 @@ impl Viewport {
         let contents = scenery.contents();
         let grid = scenery.materials[0].grid();
         self.plane = scenery.lights_plane().then(|| scenery.state.texels(grid));
-        // The strip comes and goes with the difference: the arrangement, and whether a place is free, are those beside it.
-        let beside_strip = if self.has_strip { area } else { area.with_max_y(area.bottom() - STRIP) };
+        // The strip comes and goes with the difference: the arrangement is that beside it.
+        let beside_strip = if has_strip { area } else { area.with_max_y(area.bottom() - STRIP) };
         let columns = columns(beside_strip, contents.len(), grid);
         let cells = cells(area, contents.len(), columns, ui.pixels_per_point());
         if let Some(cell) = cells.first() {
@@ -161,13 +160,7 @@ impl Viewport {
             note(ui, area, &problem);
             return Vec::new();
         }
-        let extra = scenery.extra().zip(free_cell(area, &cells));
-        self.has_extra = extra.is_some();
-        if self.has_extra && !self.has_strip {
-            ui.ctx().request_repaint();
-        }
-        let mut panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
-        panes.extend(extra.filter(|_| self.has_strip));
+        let panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
         let mut on_material = panes.iter().filter(|(content, _)| scenery.corner_editor(*content).is_none());
         self.hovered = on_material.find_map(|(content, cell)| {
             let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());
@@ -201,12 +194,7 @@ impl Viewport {
         let id = ui.scope_id().with(("pane", number));
         let response = ui.interact(rect, id, Sense::drag());
         self.drawn.push(DrawnPane { id, rect });
-        let kind = match (number < scenery.contents().len(), content.difference) {
-            (true, _) => "Pane",
-            (false, true) => "Difference pane",
-            (false, false) => "Value pane",
-        };
-        let label = format!("{kind} {}", scenery.name_of(content, usize::MAX));
+        let label = format!("Pane {}", scenery.name_of(content, usize::MAX));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
         let placed = placed(scenery.state, scenery.materials[0].grid(), rect, self.pane_pixels());
         self.paint(ui, scenery, gpu, (number, content), &placed);
@@ -251,8 +239,8 @@ impl Viewport {
         gpu.paint(&painter, rect, number, drawn, params);
         self.paint_marks(&painter, scenery, content, placed);
         let has_room = rect.size().min_elem() >= HANDLES || ui.rect_contains_pointer(rect);
-        if state.display.quantity == Quantity::Rendering && scenery.handles && has_room {
-            handles::paint_endpoints(&painter, rect, &camera, state, scenery.view_handle);
+        if state.display.quantity == Quantity::Rendering && has_room {
+            handles::paint_endpoints(&painter, rect, &camera, state);
         }
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
@@ -310,7 +298,7 @@ impl Viewport {
         };
         let sharpens = !moves && part != ShadedPart::Whole;
         let request = ShadingRequest { params, part, sharpens, waits: scenery.reading, exact: is_exact };
-        gpu.keep_only(scenery.materials, contents.len() + 1);
+        gpu.keep_only(scenery.materials, contents.len());
         let displayed: BTreeSet<usize> = contents.iter().flat_map(|one| [one.index, one.reference]).collect();
         let materials: Vec<_> = displayed.into_iter().map(|index| &scenery.materials[index]).collect();
         if gpu.shade(&materials, uploads, request)? {

@@ -1,7 +1,6 @@
 //! Light, view and convention.
 
-use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{self, PopupCloseBehavior, Role, Sense, WidgetInfo, vec2};
+use eframe::egui::{self, Role, Sense, WidgetInfo, vec2};
 
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::named_conventions as named;
@@ -10,8 +9,6 @@ use svbrdf_files::convention::ChosenConvention;
 
 use crate::model::command::{Command, SceneCommand, WindowCommand};
 use crate::model::material::loaded::drawable;
-use crate::model::settings::Settings;
-use crate::model::view::animation::{Animation, Path, Preset};
 use crate::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
 use crate::model::view::state::ViewState;
 use crate::ui::widgets::number;
@@ -22,8 +19,8 @@ pub struct ScenePanel<'a> {
     pub state: &'a ViewState,
     /// Those of files.
     pub conventions: &'a [ChosenConvention],
-    pub settings: &'a Settings,
-    pub animation: &'a Animation,
+    /// Whether a left-drag moves the highlight, in place of the light.
+    pub highlight_follows: bool,
 }
 
 /// Widths of a number and of the name of an endpoint, in points.
@@ -34,28 +31,12 @@ impl ScenePanel<'_> {
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let mut scene = self.state.scene;
-        ui.horizontal_top(|ui| {
-            ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
-            ui.vertical(|ui| {
-                ui.horizontal(|ui| {
-                    self.kinds(ui, &mut commands);
-                    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-                    let menu = MenuButton::new("\u{2026}").config(config);
-                    let (more, _) = menu.ui(ui, |ui| {
-                        self.presets(ui, &mut commands);
-                        ui.separator();
-                        self.motion(ui, &mut commands);
-                        ui.separator();
-                        self.buttons(ui, &mut commands);
-                    });
-                    more.widget_info(|| WidgetInfo::labeled(Role::Button, true, "More of light and view"));
-                    more.on_hover_text("Presets of the light, what moves by itself, handles, copy");
-                });
-                coordinates(ui, "Light", &mut scene, Endpoint::Light);
-                coordinates(ui, "View", &mut scene, Endpoint::View);
-                self.convention(ui, &mut commands);
-            });
-        });
+        ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
+        ui.horizontal(|ui| self.kinds(ui, &mut commands));
+        coordinates(ui, "Light", &mut scene, Endpoint::Light);
+        coordinates(ui, "View", &mut scene, Endpoint::View);
+        self.convention(ui, &mut commands);
+        self.buttons(ui, &mut commands);
         if scene != self.state.scene {
             commands.push(SceneCommand::Set(scene).into());
         }
@@ -82,75 +63,17 @@ impl ScenePanel<'_> {
         }
     }
 
-    fn presets(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        ui.horizontal_wrapped(|ui| {
-            for preset in Preset::ALL {
-                let [name, meaning] = preset.texts();
-                if ui.small_button(name).on_hover_text(meaning).clicked() {
-                    commands.push(SceneCommand::Preset(preset).into());
-                }
-            }
-        });
-    }
-
-    /// What moves by itself.
-    fn motion(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let mut animation = *self.animation;
-        ui.horizontal_wrapped(|ui| {
-            ui.checkbox(&mut animation.light, "Move light")
-                .on_hover_text("The light follows a path by itself");
-            let combo = egui::ComboBox::from_id_salt("path").width(96.0).selected_text(animation.path.name());
-            let combo = combo.show_ui(ui, |ui| {
-                for path in Path::ALL {
-                    ui.selectable_value(&mut animation.path, path, path.name());
-                }
-            });
-            combo
-                .response
-                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Path of the light"));
-            ui.checkbox(&mut animation.turntable, "Turntable")
-                .on_hover_text("The view turns about the upright axis of the material");
-        });
-        // Always there: what was clicked on stays in its place.
-        ui.add_enabled_ui(animation.light || animation.turntable, |ui| {
-            ui.horizontal(|ui| {
-                number(ui, "Speed", &mut animation.speed, 1.0, |drag| {
-                    drag.speed(0.02).range(0.05..=10.0).fixed_decimals(2).prefix("x ")
-                })
-                .on_hover_text("At 1 a circle takes 6 seconds");
-                let name = if animation.paused { "Resume" } else { "Pause" };
-                if ui.small_button(name).on_hover_text("Space").clicked() {
-                    commands.push(SceneCommand::TogglePause.into());
-                }
-            });
-        });
-        if animation != *self.animation {
-            let started =
-                animation.light && !self.animation.light || animation.turntable && !self.animation.turntable;
-            animation.paused &= !started;
-            commands.push(SceneCommand::Animate(animation).into());
-        }
-    }
-
     fn buttons(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        ui.horizontal_wrapped(|ui| {
-            let mut follows = self.settings.highlight_follows;
+        ui.horizontal(|ui| {
+            let mut follows = self.highlight_follows;
             ui.checkbox(&mut follows, "Highlight follows").on_hover_text(
                 "A left-drag moves the mirror highlight under the pointer, instead of the light (H)",
             );
-            if follows != self.settings.highlight_follows {
+            if follows != self.highlight_follows {
                 commands.push(SceneCommand::ToggleHighlightFollows.into());
             }
-            let mut handle = self.settings.view_handle;
-            ui.checkbox(&mut handle, "View handle")
-                .on_hover_text("The eye in flat panes, which moves the view");
-            if handle != self.settings.view_handle {
-                commands.push(SceneCommand::ToggleViewHandle.into());
-            }
-            let copy = ui
-                .button("Copy scene")
-                .on_hover_text("Copy the scene as JSON, the format of scene files (Ctrl+C)");
-            if copy.clicked() {
+            let copy = ui.button("Copy scene");
+            if copy.on_hover_text("Copy the scene as JSON, the format of scene files (Ctrl+C)").clicked() {
                 commands.push(SceneCommand::Copy.into());
             }
         });

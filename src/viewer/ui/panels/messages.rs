@@ -84,7 +84,7 @@ fn text_of(message: &Message) -> String {
 
 fn text(ui: &egui::Ui, message: &Message) -> RichText {
     let colour = match message.severity() {
-        Severity::Success | Severity::Offer => ui.visuals().text_color(),
+        Severity::Success => ui.visuals().text_color(),
         Severity::Warning => ui.visuals().warn_fg_color,
         Severity::Error => theme::problem(ui.visuals()),
     };

@@ -1,6 +1,5 @@
 //! Panels around the panes: the bars, light and view, the inspected texels, and the messages.
 
-pub mod bar_item;
 pub mod inspection;
 pub mod light_and_view;
 pub mod menu;

@@ -1,8 +1,6 @@
-//! Status bar: the line at the bottom: the numbers of the texel under the pointer, and the graphics adapter.
+//! Status bar: the line at the bottom: the numbers of the texel under the pointer.
 
 use eframe::egui::{self, RichText};
-
-use svbrdf_gpu::AdapterReport;
 
 use crate::jobs::panes::computed_maps::ComputedMaps;
 use crate::jobs::photograph::Photographs;
@@ -14,8 +12,6 @@ use crate::ui::widgets::number;
 use crate::ui::widgets::readout::{self, Readout};
 use crate::ui::widgets::theme;
 
-/// Least width of the line, in points, in which the adapter is named.
-const WIDE: f32 = 1000.0;
 /// Width of the line, in points, below which its buttons have short names.
 const NARROW: f32 = 850.0;
 /// Width of the field of the magnification, in points.
@@ -41,9 +37,6 @@ pub struct StatusBar<'a> {
     /// Screen pixels per texel.
     pub magnification: f32,
     pub is_armed: bool,
-    /// `None` where there is no adapter.
-    pub adapter: Option<&'a AdapterReport>,
-    pub frame_ms: f32,
 }
 
 impl StatusBar<'_> {
@@ -51,24 +44,12 @@ impl StatusBar<'_> {
         let mut commands = Vec::new();
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.set_height(ui.spacing().interact_size.y);
-            if ui.available_width() > WIDE {
-                self.adapter(ui);
-            }
             self.buttons(ui, &mut commands);
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
                 self.columns(ui, &mut commands)
             });
         });
         commands
-    }
-
-    fn adapter(&self, ui: &mut egui::Ui) {
-        ui.label(RichText::new(milliseconds(self.frame_ms)).monospace().weak())
-            .on_hover_text("CPU time of the last frame");
-        if let Some(adapter) = self.adapter {
-            let name = egui::Label::new(RichText::new(&adapter.name).weak()).truncate();
-            ui.add_sized([120.0, 16.0], name).on_hover_text(adapter.to_string());
-        }
     }
 
     fn buttons(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
@@ -189,21 +170,9 @@ fn magnification(pixels: f32) -> String {
     }
 }
 
-/// A time in 8 characters, also where a frame takes seconds: its column must not push others out of the line.
-fn milliseconds(time: f32) -> String {
-    if time < 999.95 { format!("{time:5.1} ms") } else { format!("{:5.0} ms", time.min(99_999.0)) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_time_of_a_frame_keeps_its_width() {
-        let times = [0.0, 9.96, 99.96, 999.94, 999.96, 1234.5, 1e7].map(milliseconds);
-        assert!(times.iter().all(|text| text.chars().count() == 8), "{times:?}");
-        assert_eq!([&times[1], &times[5]], [" 10.0 ms", " 1234 ms"]);
-    }
 
     #[test]
     fn the_magnification_has_two_digits_or_more() {

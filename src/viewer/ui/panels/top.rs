@@ -1,4 +1,4 @@
-//! Bar at the top: open, save, layout, map or rendering, exposure, projection.
+//! Bar at the top: open, save, layout, map or rendering, exposure, projection, in as many lines as the window needs.
 
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{self, PopupCloseBehavior, RichText, Role, WidgetInfo};
@@ -10,16 +10,12 @@ use crate::jobs::displayed::Displayed;
 use crate::model::command::{Command, DisplayCommand, WindowCommand};
 use crate::model::dataset::DatasetState;
 use crate::model::view::state::{AutoExposure, Layout, Projection, ViewState};
-use crate::ui::panels::bar_item::{BarItem, Room};
 use crate::ui::widgets::number;
 
 /// Height of every control, gap between two of them, and width of the exposure, in points.
 const HEIGHT: f32 = 24.0;
 const GAP: f32 = 3.0;
 const EXPOSURE: f32 = 62.0;
-/// Gap between the buttons of a segment, and width of a separator, in points.
-const SEGMENTS: f32 = 1.0;
-const SEPARATOR: f32 = 6.0;
 
 /// What the bar shows.
 #[derive(Debug)]
@@ -28,8 +24,6 @@ pub struct TopBar<'a> {
     pub dark: bool,
     pub side_panel: bool,
     pub swapped: bool,
-    /// Whether histograms of the values are shown.
-    pub histograms: bool,
     /// Size of text and controls.
     pub scale: f32,
     pub has_predictions: bool,
@@ -47,7 +41,6 @@ impl<'a> TopBar<'a> {
             dark: model.settings.dark,
             side_panel: model.side_panel(),
             swapped: model.swapped,
-            histograms: model.settings.histograms,
             scale: model.settings.ui_scale,
             has_predictions: !model.materials.predictions().is_empty(),
             has_photograph: model.photograph.source().is_some(),
@@ -57,50 +50,93 @@ impl<'a> TopBar<'a> {
 
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
+        let display = &self.state.display;
         ui.spacing_mut().item_spacing.x = GAP;
-        let room = &room(ui);
-        ui.horizontal(|ui| {
-            self.files(ui, room, &mut commands);
+        ui.horizontal_wrapped(|ui| {
+            let mut item = |ui: &mut egui::Ui, text: &str, name, hover: &str, on, command: Command| {
+                if button(ui, text, name, true, on).on_hover_text(hover).clicked() {
+                    commands.push(command);
+                }
+            };
+            let open = WindowCommand::ShowOpen(true).into();
+            item(ui, icons::ICON_FOLDER_OPEN.codepoint, "Open", "Open materials (Ctrl+O)", None, open);
+            let hover = "Save view, renderings, strip or session (Ctrl+S)";
+            item(ui, icons::ICON_SAVE.codepoint, "Save", hover, None, WindowCommand::ShowSave(true).into());
+            let hover = "Copy the view as a picture (Ctrl+Shift+C)";
+            item(ui, icons::ICON_CONTENT_COPY.codepoint, "Copy", hover, None, WindowCommand::CopyPicture.into());
             ui.separator();
             self.layouts(ui, &mut commands);
             ui.separator();
             self.quantities(ui, &mut commands);
             self.differences(ui, &mut commands);
             ui.separator();
-            let toggles = [
-                BarItem::Histogram,
-                BarItem::Perspective,
-                BarItem::Tile,
-                BarItem::FalseColour,
-                BarItem::Swap,
-            ];
-            self.items(ui, room, &toggles, &mut commands);
-            if room.exposure {
-                ui.separator();
-                self.exposure(ui, &mut commands);
-                self.items(ui, room, &[BarItem::Clip], &mut commands);
-                ui.separator();
-                let position =
-                    [BarItem::Fit, BarItem::OneToOne, BarItem::Reset, BarItem::Undo, BarItem::Redo];
-                self.items(ui, room, &position, &mut commands);
+            self.exposure(ui, &mut commands);
+            ui.separator();
+            for (icon, name, hover, on, command) in [
+                (
+                    icons::ICON_VIEW_IN_AR.codepoint,
+                    "3D",
+                    "The plane seen from the view position, or the flat texture (P)",
+                    Some(display.projection == Projection::Perspective),
+                    DisplayCommand::ToggleProjection,
+                ),
+                (
+                    icons::ICON_GRID_VIEW.codepoint,
+                    "Tile",
+                    "Repeat the material 2 × 2 times, shifted by half of itself: shows its seams; for display only (T)",
+                    Some(display.tiled),
+                    DisplayCommand::ToggleTiled,
+                ),
+                (
+                    icons::ICON_PALETTE.codepoint,
+                    "False colour",
+                    "Roughness from 0 (black) to 1 (light yellow) (V)",
+                    Some(display.false_colour),
+                    DisplayCommand::ToggleFalseColour,
+                ),
+                (
+                    icons::ICON_SWAP_HORIZ.codepoint,
+                    "Swap",
+                    "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
+                    Some(self.swapped),
+                    DisplayCommand::Swap,
+                ),
+                (
+                    icons::ICON_BRIGHTNESS_ALERT.codepoint,
+                    "Clipped pixels",
+                    "Mark clipped pixels: too bright (magenta) or black (blue) (L)",
+                    Some(display.show_clipping),
+                    DisplayCommand::ToggleClipping,
+                ),
+                (
+                    icons::ICON_FIT_SCREEN.codepoint,
+                    "Fit",
+                    "Fit the material into its pane (F)",
+                    None,
+                    DisplayCommand::Fit,
+                ),
+                ("1:1", "One texel per pixel", "One texel per pixel (0)", None, DisplayCommand::OneToOne),
+                (
+                    icons::ICON_RESTART_ALT.codepoint,
+                    "Reset",
+                    "Reset light, view, zoom, exposure and clipping marks (R)",
+                    None,
+                    DisplayCommand::Reset,
+                ),
+                (icons::ICON_UNDO.codepoint, "Undo", "Undo (Ctrl+Z)", None, DisplayCommand::Undo),
+                (icons::ICON_REDO.codepoint, "Redo", "Redo (Ctrl+Shift+Z)", None, DisplayCommand::Redo),
+            ] {
+                // Nothing comes and goes in the bar: what has no effect now is disabled.
+                let applies = name != "False colour" || display.quantity == Quantity::Roughness;
+                let response = button(ui, icon, name, applies, on.map(|on| on && applies));
+                if response.on_hover_text(hover).on_disabled_hover_text(hover).clicked() {
+                    commands.push(command.into());
+                }
             }
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                self.window(ui, room, &mut commands);
-            });
+            ui.separator();
+            self.window(ui, &mut commands);
         });
         commands
-    }
-
-    fn files(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
-        let open = Face::Icon.button(ui, icons::ICON_FOLDER_OPEN.codepoint, "Open", true, None);
-        if open.on_hover_text("Open materials (Ctrl+O)").clicked() {
-            commands.push(WindowCommand::ShowOpen(true).into());
-        }
-        let save = Face::Icon.button(ui, icons::ICON_SAVE.codepoint, "Save", true, None);
-        if save.on_hover_text("Save view, renderings, strip or session (Ctrl+S)").clicked() {
-            commands.push(WindowCommand::ShowSave(true).into());
-        }
-        self.items(ui, room, &[BarItem::Copy], commands);
     }
 
     fn layouts(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
@@ -120,7 +156,7 @@ impl<'a> TopBar<'a> {
             ] {
                 let on = self.state.display.layout == layout;
                 let name = format!("Layout {}", layout.name());
-                let button = Face::Icon.button(ui, icon.codepoint, &name, true, Some(on));
+                let button = button(ui, icon.codepoint, &name, true, Some(on));
                 if button.on_hover_text(hover).clicked() && !on {
                     commands.push(DisplayCommand::SetLayout(layout).into());
                 }
@@ -133,7 +169,7 @@ impl<'a> TopBar<'a> {
             for quantity in Quantity::ALL {
                 let (name, text) = (quantity.name(), letter(quantity));
                 let on = self.state.display.quantity == quantity;
-                let button = Face::Text.button(ui, &text, &format!("Show {name}"), true, Some(on));
+                let button = button(ui, &text, &format!("Show {name}"), true, Some(on));
                 let hover = match quantity {
                     Quantity::Rendering => "Rendering under the light and view (M, Shift+M)".to_owned(),
                     _ => format!("Map of {name} (M, Shift+M)"),
@@ -147,9 +183,9 @@ impl<'a> TopBar<'a> {
 
     fn differences(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         segments(ui, |ui| {
-            for (difference, name) in [false, true].into_iter().zip(DIFFERENCES) {
+            for (difference, name) in [(false, "Value"), (true, "Difference")] {
                 let on = self.state.display.difference == difference;
-                let button = Face::Text.button(ui, name, name, true, Some(on));
+                let button = button(ui, name, name, true, Some(on));
                 let hover = "Show the value, or the difference of predictions from the ground truth (D)";
                 if button.on_hover_text(hover).clicked() && !on {
                     commands.push(DisplayCommand::ShowDifference(difference).into());
@@ -158,39 +194,9 @@ impl<'a> TopBar<'a> {
         });
     }
 
-    /// Those of `items` that have room.
-    fn items(&self, ui: &mut egui::Ui, room: &Room, items: &[BarItem], commands: &mut Vec<Command>) {
-        for item in items.iter().filter(|item| room.has(**item)) {
-            self.item(ui, *item, Face::Icon, commands);
-        }
-    }
-
-    pub(super) fn item(&self, ui: &mut egui::Ui, item: BarItem, face: Face, commands: &mut Vec<Command>) {
-        let display = &self.state.display;
-        let on = match item {
-            BarItem::Histogram => Some(self.histograms),
-            BarItem::Perspective => Some(display.projection == Projection::Perspective),
-            BarItem::Tile => Some(display.tiled),
-            BarItem::FalseColour => Some(display.false_colour),
-            BarItem::Swap => Some(self.swapped),
-            BarItem::Clip => Some(display.show_clipping),
-            _ => None,
-        };
-        // Nothing comes and goes in the bar: what has no effect now is disabled.
-        let applies = match item {
-            BarItem::Histogram => !display.difference,
-            BarItem::FalseColour => display.quantity == Quantity::Roughness,
-            _ => true,
-        };
-        let button = face.button(ui, item.icon(), item.name(), applies, on.map(|on| on && applies));
-        if button.on_hover_text(item.hover()).on_disabled_hover_text(item.hover()).clicked() {
-            commands.push(item.command());
-        }
-    }
-
-    pub(super) fn exposure(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn exposure(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         segments(ui, |ui| {
-            let darker = Face::Text.button(ui, "\u{2212}", "Darker", true, None);
+            let darker = button(ui, "\u{2212}", "Darker", true, None);
             if darker.on_hover_text("Exposure lower by 0.5 stops (Shift+E)").clicked() {
                 commands.push(DisplayCommand::StepExposure(-0.5).into());
             }
@@ -206,7 +212,7 @@ impl<'a> TopBar<'a> {
             if ev != self.state.exposure_ev {
                 commands.push(DisplayCommand::SetExposure(ev).into());
             }
-            let brighter = Face::Text.button(ui, "+", "Brighter", true, None);
+            let brighter = button(ui, "+", "Brighter", true, None);
             if brighter.on_hover_text("Exposure higher by 0.5 stops (E)").clicked() {
                 commands.push(DisplayCommand::StepExposure(0.5).into());
             }
@@ -226,7 +232,7 @@ impl<'a> TopBar<'a> {
                     "The brightest 1% of the ground truth just clip, under every light and view (Shift+N)",
                 ),
             ] {
-                let button = Face::Text.button(ui, text, name, true, Some(now == auto));
+                let button = button(ui, text, name, true, Some(now == auto));
                 if button.on_hover_text(hover).clicked() {
                     commands.push(DisplayCommand::AutoExposure(auto).into());
                 }
@@ -234,31 +240,23 @@ impl<'a> TopBar<'a> {
         });
     }
 
-    /// From the right.
-    fn window(&self, ui: &mut egui::Ui, room: &Room, commands: &mut Vec<Command>) {
-        let help = Face::Icon.button(ui, icons::ICON_HELP.codepoint, "Help", true, None);
-        if help.on_hover_text("Keys and mouse (?)").clicked() {
-            commands.push(WindowCommand::ShowHelp(true).into());
-        }
-        let panel =
-            Face::Icon.button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(self.side_panel));
+    fn window(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        // Several of its controls may be used in a row.
+        let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+        let face = shaped(icons::ICON_MENU.codepoint, false);
+        let (menu, _) = MenuButton::from_button(face).config(config).ui(ui, |ui| self.menu(ui, commands));
+        menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
+        menu.on_hover_text("Study, photograph, theme, size of the window's text");
+        let panel = button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(self.side_panel));
         if panel.on_hover_text("Side panel (B)").clicked() {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
-        // Several of its controls may be used in a row.
-        let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-        let face = Face::Icon.shaped(icons::ICON_MENU.codepoint, false);
-        let (menu, _) =
-            MenuButton::from_button(face).config(config).ui(ui, |ui| self.menu(ui, room, commands));
-        menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
-        menu.on_hover_text(
-            "Study, photograph, theme, size of the window's text, and what does not fit into this line",
-        );
+        let help = button(ui, icons::ICON_HELP.codepoint, "Help", true, None);
+        if help.on_hover_text("Keys and mouse (?)").clicked() {
+            commands.push(WindowCommand::ShowHelp(true).into());
+        }
     }
 }
-
-/// The names of what panes of predictions show.
-const DIFFERENCES: [&str; 2] = ["Value", "Difference"];
 
 /// The name of a quantity in the bar: maps by their first letters.
 fn letter(quantity: Quantity) -> String {
@@ -268,85 +266,27 @@ fn letter(quantity: Quantity) -> String {
     }
 }
 
-/// What of the bar fits into its line, by the widths that its parts have.
-fn room(ui: &egui::Ui) -> Room {
-    // Between it and the controls from the right.
-    const AIR: f32 = 10.0;
-    let icon = |text: &str| Face::Icon.width(ui, text) + GAP;
-    let texts = |texts: &[&str]| {
-        let widths: f32 = texts.iter().map(|text| Face::Text.width(ui, text) + SEGMENTS).sum();
-        widths - SEGMENTS + GAP
-    };
-    let separator = SEPARATOR + GAP;
-    let letters = Quantity::ALL.map(letter);
-    let letters: Vec<&str> = letters.iter().map(String::as_str).collect();
-    // Open, Save, three layouts; help, panel and menu.
-    let always =
-        8.0 * icon(icons::ICON_SAVE.codepoint) + 3.0 * separator + texts(&letters) + texts(&DIFFERENCES);
-    Room::new(ui.available_width() - always - AIR, |part| match part {
-        Some(item) => icon(item.icon()),
-        None => {
-            let number = Face::Text.width(ui, "EV \u{2212}20.0").max(EXPOSURE) + SEGMENTS;
-            2.0 * separator + number + texts(&["\u{2212}", "+", "Auto", "Follow"])
-        }
-    })
+/// A button that is named `name` for assistive software, and is on or off where it can be: `None` is a button that does something.
+fn button(ui: &mut egui::Ui, text: &str, name: &str, enabled: bool, on: Option<bool>) -> egui::Response {
+    let response = ui.add_enabled(enabled, shaped(text, on.unwrap_or(false)));
+    response.widget_info(|| match on {
+        Some(on) => WidgetInfo::selected(Role::Button, enabled, on, name),
+        None => WidgetInfo::labeled(Role::Button, enabled, name),
+    });
+    response
 }
 
-/// What a button shows.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Face {
-    Icon,
-    Text,
-    /// Its name, in the menu.
-    Name,
-}
-
-impl Face {
-    /// A button that is named `name` for assistive software, and is on or off where it can be: `None` is a button that does something.
-    pub(super) fn button(
-        self,
-        ui: &mut egui::Ui,
-        text: &str,
-        name: &str,
-        enabled: bool,
-        on: Option<bool>,
-    ) -> egui::Response {
-        let label = if matches!(self, Self::Name) { name } else { text };
-        let response = ui.add_enabled(enabled, self.shaped(label, on.unwrap_or(false)));
-        response.widget_info(|| match on {
-            Some(on) => WidgetInfo::selected(Role::Button, enabled, on, name),
-            None => WidgetInfo::labeled(Role::Button, enabled, name),
-        });
-        response
-    }
-
-    /// The size of its text, and its least width.
-    fn size(self, text: &str) -> [f32; 2] {
-        match self {
-            Self::Icon if text.is_ascii() => [13.0, HEIGHT + 4.0],
-            Self::Icon => [17.0, HEIGHT + 4.0],
-            Self::Text | Self::Name => [13.0, 0.0],
-        }
-    }
-
-    /// The width of the button with this text, in points.
-    fn width(self, ui: &egui::Ui, text: &str) -> f32 {
-        let [size, least] = self.size(text);
-        let font = egui::FontId::proportional(size);
-        let galley = ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::PLACEHOLDER);
-        (galley.size().x + 2.0 * ui.spacing().button_padding.x).max(least)
-    }
-
-    fn shaped(self, text: &str, on: bool) -> egui::Button<'static> {
-        let [size, width] = self.size(text);
-        egui::Button::selectable(on, RichText::new(text).size(size)).min_size(egui::vec2(width, HEIGHT))
-    }
+/// A text, or a letter of the icon font.
+fn shaped(text: &str, on: bool) -> egui::Button<'static> {
+    let (size, width) =
+        if text.starts_with(char::is_alphanumeric) { (13.0, 0.0) } else { (17.0, HEIGHT + 4.0) };
+    egui::Button::selectable(on, RichText::new(text).size(size)).min_size(egui::vec2(width, HEIGHT))
 }
 
 /// Buttons without gaps, of which usually one is on.
 fn segments(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui)) {
     ui.scope(|ui| {
-        ui.spacing_mut().item_spacing.x = SEGMENTS;
+        ui.spacing_mut().item_spacing.x = 1.0;
         contents(ui);
     });
 }

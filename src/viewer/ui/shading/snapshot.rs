@@ -1,4 +1,4 @@
-//! Snapshot: a part of the window as a picture of any size, drawn offscreen by the code that draws the window.
+//! Snapshot: a part of the window as a picture, drawn offscreen by the code that draws the window.
 
 use eframe::egui_wgpu::{RenderState, Renderer, RendererOptions, ScreenDescriptor};
 use eframe::{egui, wgpu};
@@ -11,39 +11,29 @@ use crate::ui::widgets::theme;
 /// Frames until the layout is settled.
 const FRAMES: usize = 2;
 
-/// Size in pixels, and pixels per point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Size {
-    pub pixels: [u32; 2],
-    pub scale: f32,
-}
-
-/// Draws `content` in a window of this size that nobody sees.
+/// Draws `content` in a window that nobody sees, of this size in pixels and pixels per point.
 ///
 /// # Errors
 /// [`Error::Gpu`] where the adapter cannot make a picture of this size, or fails.
 pub fn snapshot(
     state: &RenderState,
     gpu: &Gpu,
-    size: Size,
+    (size, scale): ([u32; 2], f32),
     dark: bool,
     mut content: impl FnMut(&mut egui::Ui),
 ) -> Result<egui::ColorImage, Error> {
     let limit = gpu.report.max_texture_side;
-    if size.pixels.iter().any(|side| !(16..=limit).contains(side)) {
+    if size.iter().any(|side| !(16..=limit).contains(side)) {
         return Err(Error::Gpu {
-            problem: format!(
-                "expected a picture of 16 to {limit} pixels along a side, found {:?}",
-                size.pixels
-            ),
+            problem: format!("expected a picture of 16 to {limit} pixels along a side, found {:?}", size),
             remedy: "choose another size",
         });
     }
     let ctx = egui::Context::default();
     theme::install(&ctx);
     theme::choose(&ctx, dark);
-    ctx.set_pixels_per_point(size.scale);
-    let points = egui::vec2(size.pixels[0] as f32, size.pixels[1] as f32) / size.scale;
+    ctx.set_pixels_per_point(scale);
+    let points = egui::vec2(size[0] as f32, size[1] as f32) / scale;
     let input = egui::RawInput {
         screen_rect: Some(egui::Rect::from_min_size(egui::Pos2::ZERO, points)),
         ..Default::default()
@@ -64,11 +54,11 @@ pub fn snapshot(
         }
         shapes = output.shapes;
     }
-    let primitives = ctx.tessellate(shapes, size.scale);
-    let screen = ScreenDescriptor { size_in_pixels: size.pixels, pixels_per_point: size.scale };
+    let primitives = ctx.tessellate(shapes, scale);
+    let screen = ScreenDescriptor { size_in_pixels: size, pixels_per_point: scale };
     let texture = paint(state, &mut renderer, &primitives, &screen);
-    let [width, height] = size.pixels.map(|side| side as usize);
-    let mut rgba = read_rgba(gpu, &texture, size.pixels)?;
+    let [width, height] = size.map(|side| side as usize);
+    let mut rgba = read_rgba(gpu, &texture, size)?;
     if matches!(state.target_format, wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Bgra8UnormSrgb) {
         rgba.iter_mut().for_each(|pixel| pixel.swap(0, 2));
     }

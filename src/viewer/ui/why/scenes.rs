@@ -1,27 +1,20 @@
 //! The scenes of the loss of the chosen prediction, worst first, and the search for the worst of all.
 
-use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
-use svbrdf_core::loss::LossSettings;
 use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::statistics::Histogram;
 use svbrdf_evaluate::why::{RankedScene, Worst};
 
-use crate::jobs::why::{ComparedPair, MOST_THUMBNAILS, SceneList, Thumbnails};
+use crate::jobs::why::{ComparedPair, MOST_THUMBNAILS, Thumbnails};
 use crate::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};
 use crate::ui::why::WhyPanel;
-use crate::ui::widgets::bounds::{between, inset};
 use crate::ui::widgets::numbers::digits;
-use crate::ui::widgets::rows;
 use crate::ui::widgets::texture::PanelTextures;
 use crate::ui::widgets::theme;
 
 /// Side of a thumbnail and height of the number below it, in points.
 const SIDE: f32 = 52.0;
 const NUMBER: f32 = 15.0;
-/// Height of the histogram, in points.
-const HISTOGRAM: f32 = 40.0;
 /// Scenes that one click adds to the list.
 const MORE: usize = 20;
 
@@ -37,8 +30,6 @@ impl WhyPanel<'_> {
         let scenes = self.settings.listed_scenes();
         let (list, thumbnails) = self.jobs.scenes.get(pair, &scenes).unzip();
         let count = scenes.count().unwrap_or(0);
-        self.histogram(ui, list, count);
-        distribution(ui, list, self.settings);
         let thumbnails = thumbnails.flatten();
         let texture = thumbnails
             .map(|thumbnails| textures.id(ui.ctx(), &thumbnails.picture, egui::TextureOptions::LINEAR));
@@ -46,63 +37,10 @@ impl WhyPanel<'_> {
         self.search(ui, pair, commands);
     }
 
-    /// How many scenes have which loss, with the mean and the loss of the current scene; the progress until the list is there.
-    fn histogram(&self, ui: &mut egui::Ui, list: Option<&SceneList>, count: usize) {
-        let size = vec2(ui.available_width(), HISTOGRAM + 14.0);
-        let (response, painter) = ui.allocate_painter(size, Sense::hover());
-        let Some(list) = list else {
-            let fraction = self.jobs.scenes.busy().unwrap_or_default();
-            let bar = egui::ProgressBar::new(fraction).text(format!("{count} scenes")).corner_radius(3.0);
-            // A widget in `ui` would end the room of the histogram.
-            ui.new_child(egui::UiBuilder::new().max_rect(response.rect)).add(bar);
-            return;
-        };
-        response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::Role::Image, true, "Histogram of the losses of the scenes")
-        });
-        let area = inset(response.rect, vec2(4.0, 0.0)).with_max_y(response.rect.top() + HISTOGRAM);
-        let Histogram { low, high, counts, .. } = &list.histogram;
-        let x = |loss: f64| area.left() + area.width() * ((loss - low) / (high - low)).clamp(0.0, 1.0) as f32;
-        let highest = counts.iter().copied().max().unwrap_or(0).max(1) as f32;
-        let step = area.width() / counts.len() as f32;
-        let colour = theme::series(self.state.display.prediction, ui.visuals().dark_mode);
-        for (bin, count) in counts.iter().enumerate().filter(|(_, count)| **count > 0) {
-            let left = area.left() + bin as f32 * step;
-            let top = area.bottom() - (*count as f32 / highest * (HISTOGRAM - 2.0)).max(1.5);
-            let bar = Rect::from_x_y_ranges(left..=left + (step - 1.0).max(1.0), top..=area.bottom());
-            painter.rect_filled(bar, 0.0, colour);
-        }
-        let ink = ui.visuals().text_color();
-        painter.line_segment([area.left_bottom(), area.right_bottom()], Stroke::new(1.0, ink));
-        let mark = |loss: f64, stroke: Stroke| {
-            painter.line_segment([pos2(x(loss), area.top()), pos2(x(loss), area.bottom())], stroke);
-        };
-        mark(list.mean, Stroke::new(1.5, ink));
-        let here = self.losses.and_then(|(losses, _)| losses.get(self.state.display.prediction).copied());
-        if let Some(here) = here {
-            mark(here, Stroke::new(2.0, theme::accent(ui.visuals())));
-        }
-        let (font, weak) = (FontId::monospace(11.0), ui.visuals().weak_text_color());
-        painter.text(area.left_bottom(), Align2::LEFT_TOP, "0", font.clone(), weak);
-        painter.text(area.right_bottom(), Align2::RIGHT_TOP, digits(*high), font.clone(), weak);
-        let mean = pos2(between(x(list.mean), area.left() + 60.0, area.right() - 90.0), area.bottom());
-        painter.text(
-            mean,
-            Align2::CENTER_TOP,
-            format!("mean of {} {}", list.ranked.len(), digits(list.mean)),
-            font,
-            ink,
-        );
-        let [mean, current] = if ui.visuals().dark_mode { ["White", "orange"] } else { ["Black", "brown"] };
-        response.on_hover_text(format!(
-            "Number of scenes by their loss, on all texels. {mean}: their mean; {current}: the current scene"
-        ));
-    }
-
     fn thumbnails(
         &self,
         ui: &mut egui::Ui,
-        list: Option<&SceneList>,
+        list: Option<&[RankedScene]>,
         count: usize,
         thumbnails: Option<(&Thumbnails, egui::TextureId)>,
         commands: &mut Vec<Command>,
@@ -111,7 +49,7 @@ impl WhyPanel<'_> {
         ui.horizontal_wrapped(|ui| {
             ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
             for rank in 0..listed {
-                let Some(ranked) = list.and_then(|list| list.ranked.get(rank)) else {
+                let Some(ranked) = list.and_then(|list| list.get(rank)) else {
                     let (area, _) = ui.allocate_exact_size(vec2(SIDE, SIDE + NUMBER), Sense::hover());
                     let fill = ui.visuals().widgets.inactive.weak_bg_fill;
                     ui.painter().rect_filled(area.with_max_y(area.top() + SIDE), 0.0, fill);
@@ -134,11 +72,6 @@ impl WhyPanel<'_> {
                     commands.push(WhyCommand::ListScenes(listed + MORE).into());
                 }
             }
-            if listed > MORE / 2
-                && ui.small_button("Fewer scenes").on_hover_text("List the worst ones only").clicked()
-            {
-                commands.push(WhyCommand::ListScenes(MORE / 2).into());
-            }
             let save = ui.small_button("Save scenes...");
             let hover =
                 "Write these scenes to a scene file, worst first; Open, and --scenes of svbrdf, take it";
@@ -146,8 +79,12 @@ impl WhyPanel<'_> {
                 commands.push(WindowCommand::SaveScenes.into());
             }
         });
-        let range = thumbnails.map_or_else(|| "...".to_owned(), |(thumbnails, _)| digits(thumbnails.range));
-        ui.label(RichText::new(format!("log difference, 0 to {range}")).small().weak())
+        let text = match (thumbnails, self.jobs.scenes.busy()) {
+            (Some((thumbnails, _)), _) => format!("log difference, 0 to {}", digits(thumbnails.range)),
+            (None, Some(fraction)) => format!("{:.0}% of {count} scenes", 100.0 * fraction),
+            (None, None) => "...".to_owned(),
+        };
+        ui.label(RichText::new(text).small().weak())
             .on_hover_text("From black to light yellow, the same in all thumbnails");
     }
 
@@ -211,28 +148,6 @@ fn place(scene: &Scene) -> String {
     };
     let triple = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
     format!("{kind}, light {}, view {}", triple(scene.light), triple(scene.view))
-}
-
-/// The distribution of the losses in words.
-fn distribution(ui: &mut egui::Ui, list: Option<&SceneList>, settings: &LossSettings) {
-    const ROWS: usize = 2;
-    let in_words = |list: &SceneList| {
-        let distribution = list.distribution?;
-        Some(format!(
-            "{} + {} scenes: median {}, 95% below {}, the worst tenth adds {:.0}% of the loss",
-            list.counts[0],
-            list.counts[1],
-            digits(distribution.median),
-            digits(distribution.percentile95),
-            100.0 * distribution.worst_tenth
-        ))
-    };
-    let of = match settings.file_scenes() {
-        Some(file) => format!("Near-field and distant scenes of {}, each on all texels", file.name),
-        None => "Near-field and distant scenes of the seed of the loss, each on all texels".to_owned(),
-    };
-    let format = TextFormat::simple(FontId::proportional(11.0), ui.visuals().weak_text_color());
-    rows(ui, list.and_then(in_words), format, ROWS, &of);
 }
 
 fn thumbnail(
