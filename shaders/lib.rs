@@ -31,8 +31,6 @@ macro_rules! piece {
 pub struct MapShaders {
     /// Pass 1: a texel a fragment.
     pub shade: Shader,
-    /// Pass 1 by the renderers of the grammar of conventions.
-    pub grammar: Shader,
     /// Every n-th texel of a map.
     pub reduce: Shader,
 }
@@ -47,19 +45,6 @@ macro_rules! map_shaders {
                     piece!("texel.wgsl"),
                     piece!("brdf.wgsl"),
                     piece!("scene.wgsl"),
-                    piece!("grid.wgsl"),
-                    piece!("fullscreen.wgsl"),
-                    piece!("stride.wgsl"),
-                    piece!($maps),
-                    piece!("shade.wgsl"),
-                    piece!("shade_entry.wgsl"),
-                ],
-            },
-            grammar: Shader {
-                name: "shade",
-                pieces: &[
-                    piece!("texel.wgsl"),
-                    piece!("grammar.wgsl"),
                     piece!("grid.wgsl"),
                     piece!("fullscreen.wgsl"),
                     piece!("stride.wgsl"),
@@ -112,43 +97,6 @@ pub const BLIT: Shader = Shader { name: "blit", pieces: &[piece!("fullscreen.wgs
 pub const PROBE: Shader =
     Shader { name: "probe", pieces: &[piece!("texel.wgsl"), piece!("brdf.wgsl"), piece!("probe.wgsl")] };
 
-/// Algorithm 1: sums over blocks of texels.
-pub const LOSS: Shader = Shader {
-    name: "loss",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("brdf.wgsl"),
-        piece!("scene.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("log_sum.wgsl"),
-        piece!("loss.wgsl"),
-    ],
-};
-
-/// As [`LOSS`], by the renderers of the grammar of conventions.
-pub const GRAMMAR_LOSS: Shader = Shader {
-    name: "loss",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("grammar.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("log_sum.wgsl"),
-        piece!("loss.wgsl"),
-    ],
-};
-
-/// As [`GRAMMAR_LOSS`], of squares.
-pub const GRAMMAR_SQUARES: Shader = Shader {
-    name: "loss",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("grammar.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("square_sum.wgsl"),
-        piece!("loss.wgsl"),
-    ],
-};
-
 /// Pass 1 of the report, for WebGL.
 pub const PAGE_SHADE: Shader = Shader {
     name: "page_shade",
@@ -156,21 +104,6 @@ pub const PAGE_SHADE: Shader = Shader {
         piece!("texel.wgsl"),
         piece!("brdf.wgsl"),
         piece!("scene.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("stride.wgsl"),
-        piece!("maps.wgsl"),
-        piece!("shade.wgsl"),
-        piece!("page_shade.wgsl"),
-    ],
-};
-
-/// Pass 1 of the report by the renderers of the grammar, for WebGL.
-pub const PAGE_GRAMMAR: Shader = Shader {
-    name: "page_shade",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("grammar.wgsl"),
         piece!("grid.wgsl"),
         piece!("fullscreen.wgsl"),
         piece!("stride.wgsl"),
@@ -214,29 +147,19 @@ pub const PAGE_DIFFERENCE: Shader = Shader {
 pub const PAGE_GLSL: &str = include_str!("page.json");
 
 /// The shaders that [`PAGE_GLSL`] is made of.
-pub const PAGE: [(&str, Shader); 4] = [
-    ("shade", PAGE_SHADE),
-    ("grammar", PAGE_GRAMMAR),
-    ("display", PAGE_DISPLAY),
-    ("difference", PAGE_DIFFERENCE),
-];
+pub const PAGE: [(&str, Shader); 3] =
+    [("shade", PAGE_SHADE), ("display", PAGE_DISPLAY), ("difference", PAGE_DIFFERENCE)];
 
 /// Every shader of this crate.
-pub const ALL: [Shader; 16] = [
+pub const ALL: [Shader; 10] = [
     FLOATS.shade,
-    FLOATS.grammar,
     FLOATS.reduce,
     CODED.shade,
-    CODED.grammar,
     CODED.reduce,
     DISPLAY,
     BLIT,
     PROBE,
-    LOSS,
     PAGE_SHADE,
     PAGE_DISPLAY,
     PAGE_DIFFERENCE,
-    PAGE_GRAMMAR,
-    GRAMMAR_LOSS,
-    GRAMMAR_SQUARES,
 ];

@@ -18,8 +18,3 @@ fn from_texel(rays: Rays, c: vec3f) -> Directions {
     }
     return Directions(rays.light, rays.view);
 }
-
-// `render`: Algorithm 3 in these directions.
-fn rendered(model: Model, texel: Texel, directions: Directions) -> vec3f {
-    return render(model, texel, directions.w_l, directions.w_v);
-}

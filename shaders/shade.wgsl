@@ -28,7 +28,8 @@ fn shade_texel(c: vec3f, stored: vec2u) -> vec3f {
         case QUANTITY_ROUGHNESS { return vec3f(texel.roughness); }
         default {}
     }
-    return rendered(shading.model, texel, from_texel(shading.rays, c));
+    let directions = from_texel(shading.rays, c);
+    return render(shading.model, texel, directions.w_l, directions.w_v);
 }
 
 fn shaded(corner: Corner) -> vec4f {

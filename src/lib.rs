@@ -28,15 +28,13 @@
 //! | [`svbrdf_evaluate`] | `src/evaluate` | analyses, each a computation and a report: what a loss comes from, diagnoses, metrics, rankings, data sets, photographs |
 //! | `svbrdf_shaders` | `shaders` | the WGSL of adapters, and the GLSL of pages |
 //! | [`svbrdf_page`] | `src/page` | reports and rankings as HTML pages |
-//! | `svbrdf_gpu` (feature `gpu`) | `src/gpu` | rendering and loss on a graphics adapter |
+//! | `svbrdf_gpu` (feature `viewer`) | `src/gpu` | rendering on a graphics adapter |
 //! | `svbrdf_viewer` (feature `viewer`) | `src/viewer` | the window |
-//! | `svbrdf` | `src` | [`backend`] (processor or adapter, whichever is faster), and the command line in `src/cli`, which is part of the binary |
+//! | `svbrdf` | `src` | the command line in `src/cli`, which is part of the binary |
 //!
 //! In `src/viewer`, `model` is what the window displays, changed by commands alone; `jobs` computes in the background; `ui` reads
 //! the hand and draws. The compiler guards the order of the crates, `tests/layering.rs` that of the modules within.
 //! `docs/architecture.md` follows a loss, a drag and a folder through them.
-
-pub mod backend;
 
 pub use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request, Sampling, Texels};
 pub use svbrdf_core::material::{Map, Material, Planes};

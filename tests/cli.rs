@@ -1,6 +1,5 @@
 //! The program as its users run it: exit codes, stdout, stderr and files.
 
-mod backend;
 mod conform;
 mod diagnose;
 mod ends;
@@ -115,14 +114,6 @@ fn assert_refused(folder: &Path, commands: &[(&str, i32, &str)]) {
         let stderr = fail(folder, args, *code);
         assert!(stderr.contains(words), "{args}: `{words}` is missing in {stderr}");
     }
-}
-
-/// The output of a command where no adapter is found.
-fn without_adapter(folder: &Path, args: &str) -> Output {
-    let mut command = svbrdf();
-    command.args(args.split_whitespace()).current_dir(folder);
-    command.env("WGPU_BACKEND", "vulkan").env("VK_ICD_FILENAMES", "none").env("VK_DRIVER_FILES", "none");
-    command.output().unwrap()
 }
 
 /// The output of a command under a limit of the shell, such as `-v 200000`: of one thread, so that it takes little by itself.

@@ -2,5 +2,4 @@
 
 mod losses;
 mod peers;
-mod rungs;
 mod sampling;

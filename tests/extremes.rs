@@ -78,12 +78,12 @@ fn write_extremes() {
     survey.verdict().unwrap_or_else(|e| panic!("{e}"));
 }
 
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 fn adapter() -> Option<String> {
     crate::support::gpu::find_gpu().ok().map(|gpu| gpu.report.name.clone())
 }
 
-#[cfg(not(feature = "gpu"))]
+#[cfg(not(feature = "viewer"))]
 fn adapter() -> Option<String> {
     None
 }

@@ -1,11 +1,9 @@
 //! The shaders against their Rust twins: numbers first, then renderings, then what a window shows.
-#![cfg(feature = "gpu")]
+#![cfg(feature = "viewer")]
 
 mod adapter;
 mod display;
 mod drafts;
-mod grammar;
-mod loss;
 mod plane;
 
 use glam::DVec3;

@@ -13,7 +13,7 @@ use graph::{Arrow, CRATES, Tree, circles};
 
 /// From the bottom to the top. A module belongs to the longest name that it begins with; files of one layer may use one
 /// another.
-const LAYERS: [&[&str]; 22] = [
+const LAYERS: [&[&str]; 21] = [
     &["core/choices", "core/error", "core/progress", "core/text"],
     &["core/math"],
     &["core/statistics"],
@@ -34,7 +34,6 @@ const LAYERS: [&[&str]; 22] = [
     &["viewer/model"],
     &["viewer/jobs"],
     &["viewer"],
-    &["backend"],
     &["cli", "lib", "main"],
 ];
 

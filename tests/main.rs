@@ -20,7 +20,7 @@ mod fused;
 mod golden_loss;
 mod golden_points;
 mod golden_requests;
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 mod gpu_parity;
 mod layering;
 mod metrics;
@@ -34,7 +34,7 @@ mod reading;
 mod real_files;
 mod sampling;
 mod scene_files;
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 mod shaders;
 mod shared_materials;
 mod study;

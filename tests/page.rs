@@ -10,7 +10,7 @@ mod numbers;
 mod pixels;
 mod ranking;
 mod readable;
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 mod shaders;
 
 use svbrdf_core::material::{Material, Planes};

@@ -1,5 +1,5 @@
 //! The shaders without a GPU: naga parses and validates them, and tells where their members lie.
-#![cfg(feature = "gpu")]
+#![cfg(feature = "viewer")]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::mem::offset_of;
@@ -8,12 +8,10 @@ use std::path::Path;
 use wgpu::naga;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
 
-use svbrdf_core::model::grammar::{RendererTerms, shader};
 use svbrdf_gpu::uniforms::{
-    Band, CameraUniforms, DisplayUniforms, GrammarBand, GrammarModel, GrammarScene, GrammarShading, LogSum,
-    ModelUniforms, ProbePoint, SceneUniforms, ShadingUniforms,
+    CameraUniforms, DisplayUniforms, ModelUniforms, ProbePoint, SceneUniforms, ShadingUniforms,
 };
-use svbrdf_shaders::{ALL, Shader};
+use svbrdf_shaders::ALL;
 
 /// A struct as Rust lays it out: its name in WGSL, its size, its members with their offsets.
 #[derive(Debug)]
@@ -40,29 +38,12 @@ fn layouts() -> Vec<Layout> {
         layout!(ShadingUniforms is Shading { rays, model, largest, stride, size }),
         layout!(CameraUniforms is Camera { origin, origin_right, origin_up, direction, direction_right, direction_up }),
         layout!(DisplayUniforms is Display { camera, background, exposure, epsilon, wipe, range, stride, size, corner }),
-        layout!(Band is Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
-        layout!(LogSum is LogSum { larger, smaller, exponent }),
         layout!(ProbePoint is Point { normal, roughness, diffuse, specular, w_l, w_v }),
     ]
 }
 
-/// Of the shaders with grammar.wgsl, whose structs have the names of those of the others.
-fn grammar_layouts() -> Vec<Layout> {
-    let model = shader::model(&RendererTerms::BASE);
-    let members = model.iter().enumerate().map(|(i, (name, _))| (*name, 4 * i)).collect();
-    vec![
-        Layout { name: "Model", size: size_of::<GrammarModel>(), members },
-        layout!(GrammarScene is Rays { view, view_is_point, light, light_is_point, intensity, falls_off, columns, rows, half_extent }),
-        layout!(GrammarShading is Shading { rays, model, largest, stride, size }),
-        layout!(GrammarBand is Band { model, size, first, texels, stride, blocks, predictions, epsilon }),
-    ]
-}
-
-/// The shaders with grammar.wgsl, or those without.
-fn modules(of_grammar: bool) -> Vec<naga::Module> {
-    let is_of =
-        |shader: &&Shader| shader.pieces.iter().any(|(file, _)| *file == "grammar.wgsl") == of_grammar;
-    ALL.iter().filter(is_of).map(|shader| parse(&shader.source()).expect("valid")).collect()
+fn modules() -> Vec<naga::Module> {
+    ALL.iter().map(|shader| parse(&shader.source()).expect("valid")).collect()
 }
 
 fn parse(source: &str) -> Result<naga::Module, String> {
@@ -184,20 +165,17 @@ fn an_invalid_shader_is_refused() {
 
 #[test]
 fn uniforms_are_laid_out_as_the_shaders_read_them() {
-    let of = |modules: &[naga::Module], layouts: Vec<Layout>| -> Vec<String> {
-        layouts.iter().flat_map(|layout| complaints(modules, layout)).collect()
-    };
-    let wrong = [of(&modules(false), layouts()), of(&modules(true), grammar_layouts())].concat();
+    let modules = modules();
+    let wrong: Vec<String> = layouts().iter().flat_map(|layout| complaints(&modules, layout)).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]
 fn a_wrong_layout_is_seen() {
-    for (planted, modules) in [(layouts(), modules(false)), (grammar_layouts(), modules(true))] {
-        planted.into_iter().for_each(|planted| a_wrong_one_is_seen(planted, &modules));
-    }
+    let modules = modules();
+    layouts().into_iter().for_each(|planted| a_wrong_one_is_seen(planted, &modules));
     let unknown = Layout { name: "Unknown", size: 0, members: Vec::new() };
-    assert!(!complaints(&modules(false), &unknown).is_empty());
+    assert!(!complaints(&modules, &unknown).is_empty());
 }
 
 fn a_wrong_one_is_seen(planted: Layout, modules: &[naga::Module]) {

@@ -24,7 +24,7 @@ fn materials() -> [Material<f32>; 2] {
 }
 
 fn run([ground_truth, prediction]: &[Material<f32>; 2], progress: &Progress) -> Result<Study, Error> {
-    study::run(&Pair { ground_truth, prediction, convention: PRINTED, gpu: None }, progress, |_| ())
+    study::run(&Pair { ground_truth, prediction, convention: PRINTED }, progress, |_| ())
 }
 
 /// The study of [`materials`], which the tests share.
@@ -127,7 +127,7 @@ fn maps_are_quantized_as_files_hold_them() {
 #[test]
 fn a_study_is_the_same_every_time_but_for_the_times_and_can_be_cancelled_at_any_point() {
     let [ground_truth, prediction] = &materials();
-    let pair = Pair { ground_truth, prediction, convention: PRINTED, gpu: None };
+    let pair = Pair { ground_truth, prediction, convention: PRINTED };
     let progress = Progress::default();
     let mut second = None;
     let cancelled = study::run(&pair, &progress, |study| {

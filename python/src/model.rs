@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use pyo3::prelude::*;
 use svbrdf_core::loss::{Sampling, Texels};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::grammar::Description;
+use svbrdf_core::model::grammar::words::{Maps, Shadowing, Transfer, Weight};
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::render::simd::kernel::Kernel;
 use svbrdf_files::scene_file;
 
 use crate::errors::{Error, exception};
@@ -39,36 +41,45 @@ pub struct SmithItems {
     is_weighted: bool,
 }
 
-impl From<Kernel> for ConventionItems {
-    fn from(Kernel { limits: c, norm, smith }: Kernel) -> Self {
-        Self {
+impl ConventionItems {
+    /// Of a named convention; `None` where `svbrdf.torch` does not have its renderer.
+    fn of(described: &Description) -> Option<Self> {
+        let c = Convention::try_from(described).ok()?;
+        let (material, specular, light) =
+            (&described.terms.material, &described.terms.specular, &described.terms.light);
+        let is_smith = specular.g == Shadowing::Smith;
+        let is_algorithm_3 = specular.g == Shadowing::Schlick && light.lz.is_some();
+        if described.terms.output.transfer != Transfer::Linear || !(is_smith || is_algorithm_3) {
+            return None;
+        }
+        let smith = is_smith.then(|| SmithItems {
+            cosine_floor: specular.nl_min,
+            intensity_distant: light.factor * light.intensity_distant.unwrap_or(light.intensity)[0],
+            specular: (material.material == Maps::Dielectric).then_some(material.f0),
+            is_weighted: described.terms.diffuse.diffuse == Weight::Fresnel,
+        });
+        Some(Self {
             name: c.name,
-            intensity: smith.map_or(c.intensity, |smith| smith.intensities[0]),
-            roughness_floor: c.roughness_floor,
-            light_z_floor: c.light_z_floor,
-            clamp_n_dot_h: c.clamp_n_dot_h,
-            d_floor: c.d_floor,
-            g_floor: c.g_floor,
+            intensity: light.factor * light.intensity[0],
+            roughness_floor: material.r_min,
+            light_z_floor: light.lz.unwrap_or(0.0),
+            clamp_n_dot_h: !is_smith && specular.nh_clamped,
+            d_floor: specular.d_den_min,
+            g_floor: specular.g_den_min,
             epsilon: c.epsilon,
             light_distance_sigma: c.light_distance_sigma,
             u1_max: c.u1_max,
             shift_z: c.shift_z,
-            norm: norm.name(),
-            smith: smith.map(|smith| SmithItems {
-                cosine_floor: smith.cosine_floor,
-                intensity_distant: smith.intensities[1],
-                specular: smith.specular,
-                is_weighted: smith.is_weighted,
-            }),
-        }
+            norm: c.norm().name(),
+            smith,
+        })
     }
 }
 
-/// The conventions that the kernel has, the default first.
+/// The conventions that `svbrdf.torch` has, the default first.
 #[pyfunction]
 pub fn conventions() -> Vec<ConventionItems> {
-    let kernels = named::all().iter().filter_map(|one| Kernel::of(&one.try_into().ok()?));
-    kernels.filter(|kernel| kernel.has_norm()).map(ConventionItems::from).collect()
+    named::all().iter().filter_map(ConventionItems::of).collect()
 }
 
 /// Kind, view and light.

@@ -97,8 +97,8 @@ const OF_PHOTOGRAPHS: [(&str, &[&str]); 3] = [
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there.
 #[rustfmt::skip]
-const VALUES: [(&str, &str); 63] = [
-    ("about", "@about.toml"), ("text-pt", "9"), ("width-mm", "120"), ("backend", "auto"), ("capture", "@cap"), ("clip", "0.2"), ("columns", "roughness"),
+const VALUES: [(&str, &str); 62] = [
+    ("about", "@about.toml"), ("text-pt", "9"), ("width-mm", "120"), ("capture", "@cap"), ("clip", "0.2"), ("columns", "roughness"),
     ("convention", "guided-2020"), ("corners", "0,0 7,0 7,7 0,7"), ("crop", "1,1,3,3"), ("depth", "16"),
     ("distance-tail", "0.001%"), ("distant", "5"), ("exposure", "1"), ("fail-above", "0.0001"),
     ("figures", "worst:1"), ("fixed", "0.1,0.2,1"), ("format", "json"), ("fov", "30"),

@@ -2,9 +2,7 @@
 
 use std::time::Duration;
 
-use svbrdf::backend::{self, Adapter};
-use svbrdf_core::error::Error;
-use svbrdf_core::loss::{Comparison, Compute, LossOptions, Precision, Question, Request, Sampling, Texels};
+use svbrdf_core::loss::{Comparison, Compute, LossOptions, Precision, Question, Texels};
 use svbrdf_evaluate::report::{LossReport, Report as _};
 
 use super::args::scenes::SceneArgs;
@@ -53,28 +51,12 @@ pub struct LossArgs {
     #[arg(value_parser = offered(str::parse::<Precision>, ["f32", "f64"]), hide_possible_values = true)]
     precision: Precision,
 
-    /// Device that computes the loss
-    #[arg(long, value_enum, default_value_t)]
-    backend: DeviceChoice,
-
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     format: ReportFormat,
 
     #[command(flatten)]
     comparison: ComparisonArgs,
-}
-
-/// The requested device.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
-enum DeviceChoice {
-    /// The CPU, which the window uses, too
-    #[default]
-    Cpu,
-    /// The graphics adapter: equal to about 6 digits; faster for many scenes and large maps on a fast adapter
-    Gpu,
-    /// Measures both on a few scenes and uses the faster one
-    Auto,
 }
 
 /// A loss to compute.
@@ -85,7 +67,6 @@ struct LossJob {
     steps: Vec<Option<u64>>,
     question: Question,
     precision: Precision,
-    device: DeviceChoice,
     format: ReportFormat,
 }
 
@@ -93,23 +74,19 @@ impl LossArgs {
     pub fn job(mut self, given: &Given) -> NewJob {
         let steps = self.comparison.materials.expand_steps()?;
         let comparison = ComparisonJob::with_predictions(&self.comparison, given)?;
-        let Self { scenes, texels, target_error, time_budget, precision, backend: device, format, .. } = self;
+        let Self { scenes, texels, target_error, time_budget, precision, format, .. } = self;
         let options = LossOptions { texels, target_error, time_budget, ..scenes.options()? };
         let question = SessionSettings::question(comparison.session.as_ref(), &options)?;
-        check_backend(device, precision, &question)?;
-        Ok(Box::new(LossJob { comparison, steps, question, precision, device, format }))
+        Ok(Box::new(LossJob { comparison, steps, question, precision, format }))
     }
 }
 
 /// Prints the losses to stdout; with `--strict` fails where a target error is not reached, after the losses are printed.
 impl Job for LossJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        if (self.precision, self.device) == (Precision::F64, DeviceChoice::Auto) {
-            exit::tell("note: computed on the CPU: graphics adapters compute in f32");
-        }
         let report = match self.precision {
-            Precision::F32 => self.report(|comparison, request| self.on_device(comparison, request))?,
-            Precision::F64 => self.report(on_backend::<f64>)?,
+            Precision::F32 => self.report::<f32>()?,
+            Precision::F64 => self.report::<f64>()?,
         };
         let materials = self.comparison.materials;
         let paths = materials.paths.iter().map(|path| Some(path.display().to_string())).collect();
@@ -120,73 +97,11 @@ impl Job for LossJob {
 }
 
 impl LossJob {
-    /// Opens the materials in precision `T` and answers the question: with `run`, but what few scenes stand beside on the CPU.
-    fn report<T: Compute>(
-        &self,
-        run: impl FnOnce(Comparison<'_, T>, &Request) -> Result<LossReport, Error>,
-    ) -> Result<LossReport, CommandError> {
+    /// Opens the materials in precision `T` and answers the question.
+    fn report<T: Compute>(&self) -> Result<LossReport, CommandError> {
         let opened = self.comparison.materials.open::<T>()?;
         let predictions: Vec<_> = opened.predictions.iter().collect();
         let comparison = Comparison::new(&opened.ground_truth, &predictions, self.comparison.convention)?;
-        let Question { request, few_scenes: Some(few) } = &self.question else {
-            return Ok(run(comparison, &self.question.request)?);
-        };
-        if self.device != DeviceChoice::Cpu {
-            exit::tell(
-                "note: the loss over all scenes is computed on the CPU: graphics adapters compare a fixed number of scenes",
-            );
-        }
-        let report = on_backend(comparison.clone(), request)?;
-        Ok(report.beside(run(comparison, &Request::Scenes(*few))?))
+        Ok(watched("rendering", |progress| LossReport::answer(&comparison, &self.question, progress))?)
     }
-
-    /// The report of `request`, computed on the requested device.
-    fn on_device(&self, comparison: Comparison<'_, f32>, request: &Request) -> Result<LossReport, Error> {
-        let adapter = match self.device {
-            DeviceChoice::Cpu => None,
-            DeviceChoice::Gpu => Some(Adapter::start()?),
-            DeviceChoice::Auto => {
-                let fastest = backend::fastest(&comparison, request)?;
-                exit::tell(&format!("note: {fastest}"));
-                fastest.adapter
-            }
-        };
-        match &adapter {
-            Some(adapter) => on_backend(comparison.on(adapter.backend()), request),
-            None => on_backend(comparison, request),
-        }
-    }
-}
-
-/// The report of `request`, computed by the backend of `comparison`.
-fn on_backend<T: Compute>(comparison: Comparison<'_, T>, request: &Request) -> Result<LossReport, Error> {
-    let outcome = watched("rendering", |progress| comparison.run(request, progress))?;
-    Ok(LossReport::new(&comparison, request, outcome))
-}
-
-/// A graphics adapter compares all texels, in f32.
-fn check_backend(
-    device: DeviceChoice,
-    precision: Precision,
-    question: &Question,
-) -> Result<(), CommandError> {
-    let few_scenes = question.few_scenes.map(Request::Scenes);
-    let problem = match (device, precision, few_scenes.as_ref().unwrap_or(&question.request)) {
-        (DeviceChoice::Cpu | DeviceChoice::Auto, ..) => return Ok(()),
-        (DeviceChoice::Gpu, Precision::F64, _) => {
-            "graphics adapters compute in f32; leave out --backend gpu, or --precision f64"
-        }
-        (
-            DeviceChoice::Gpu,
-            _,
-            Request::Listed(_) | Request::Scenes(Sampling { texels: Texels::All, .. }),
-        ) => {
-            return Ok(());
-        }
-        _ => {
-            "graphics adapters compare all texels; leave out --backend gpu, or \
-            --texels, --target-error and --time-budget"
-        }
-    };
-    Err(CommandError::usage(problem))
 }

@@ -96,7 +96,7 @@ enum Subcommands {
 pub fn main() -> ExitCode {
     svbrdf_files::disk::signals::outlive_size_limits();
     // Nothing else writes messages of libraries to stderr.
-    #[cfg(feature = "gpu")]
+    #[cfg(feature = "viewer")]
     if std::env::var_os("RUST_LOG").is_some() {
         env_logger::init();
     }

@@ -2,11 +2,7 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::error::Error;
-use svbrdf_core::image::Image;
 use svbrdf_core::loss::check_same_size;
-use svbrdf_core::material::Material;
-use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::difference::Difference;
@@ -52,10 +48,6 @@ pub struct RenderArgs {
     #[arg(long, value_name = "RANGE", requires = "difference")]
     range: Option<Range>,
 
-    /// Renders on the graphics adapter instead of the CPU
-    #[arg(long)]
-    gpu: bool,
-
     #[command(flatten)]
     comparison: ComparisonArgs,
 }
@@ -69,7 +61,6 @@ struct RenderJob {
     scene: Scene,
     content: PictureContent,
     exposure_ev: f32,
-    on_adapter: bool,
 }
 
 impl RenderArgs {
@@ -86,7 +77,7 @@ impl RenderArgs {
             let problem = "--difference compares predictions with a ground truth; give both";
             return Err(CommandError::usage(problem));
         }
-        let Self { output, rendering: RenderingArgs { scene, exposure }, range, gpu, .. } = self;
+        let Self { output, rendering: RenderingArgs { scene, exposure }, range, .. } = self;
         if let Some(difference) = content.difference {
             let (is_exposed, is_exr) =
                 (difference.kind == Difference::Flip, destination.format() == PictureFormat::Exr);
@@ -97,15 +88,13 @@ impl RenderArgs {
         }
         let scene = scene.scene(session.map(|session| session.scene))?;
         let exposure_ev = exposure.or(session.map(|session| session.exposure_ev)).unwrap_or(0.0);
-        let on_adapter = gpu;
-        Ok(Box::new(RenderJob { comparison, output, destination, scene, content, exposure_ev, on_adapter }))
+        Ok(Box::new(RenderJob { comparison, output, destination, scene, content, exposure_ev }))
     }
 
     /// Refuses the options that maps do not use.
     fn refuse_of_renderings(&self, given: &Given, reason: &str) -> Result<(), CommandError> {
         given.refuse::<RenderingArgs>(reason)?;
-        refuse(self.comparison.convention.is_some(), "convention", reason)?;
-        refuse(self.gpu, "gpu", reason)
+        refuse(self.comparison.convention.is_some(), "convention", reason)
     }
 }
 
@@ -119,28 +108,23 @@ impl Job for RenderJob {
             predictions.iter().try_for_each(|prediction| check_same_size(ground_truth, prediction))?;
         }
         check_heights(&materials)?;
-        let (values, renderer) = self.values(&materials)?;
-        let Self { comparison: ComparisonJob { convention, .. }, destination, scene, exposure_ev, .. } =
-            *self;
-        let Pictures { images, content } = self.content.of_values(values, &convention, exposure_ev);
+        let Self {
+            comparison: ComparisonJob { convention, .. },
+            destination,
+            scene,
+            content,
+            exposure_ev,
+            ..
+        } = *self;
+        let one = |material| {
+            watched("rendering", |progress| content.quantity.image(material, &scene, &convention, progress))
+        };
+        let values = materials.iter().map(one).collect::<Result<_, _>>()?;
+        let Pictures { images, content } = content.of_values(values, &convention, exposure_ev);
         let sources = materials.iter().map(|m| m.name().to_owned()).collect();
+        let renderer = "CPU, f32".to_owned();
         let provenance = Provenance { content, scene, convention, exposure_ev, sources, renderer };
         Ok(stoppable(|progress| destination.write(&images, &provenance, progress))?)
-    }
-}
-
-impl RenderJob {
-    /// The renderings or maps, and the name of the device that rendered them.
-    fn values(&self, materials: &[Material<f32>]) -> Result<(Vec<Image<f32>>, String), Error> {
-        let Self { comparison: ComparisonJob { convention, .. }, scene, content, .. } = self;
-        if self.on_adapter {
-            return rendered_on_adapter(materials, scene, convention);
-        }
-        let one = |material| {
-            watched("rendering", |progress| content.quantity.image(material, scene, convention, progress))
-        };
-        let images = materials.iter().map(one).collect::<Result<_, _>>()?;
-        Ok((images, "CPU, f32".to_owned()))
     }
 }
 
@@ -178,29 +162,4 @@ pub fn difference_of(
         None => Some(kind.default_range()),
     };
     Ok(ColouredDifference { kind, range })
-}
-
-#[cfg(feature = "gpu")]
-fn rendered_on_adapter(
-    materials: &[Material<f32>],
-    scene: &Scene,
-    convention: &Convention,
-) -> Result<(Vec<Image<f32>>, String), Error> {
-    let gpu = svbrdf_gpu::Gpu::headless()?;
-    let renderer = gpu.report.to_string();
-    super::output::exit::tell(&format!("note: {renderer}"));
-    let one = |material| gpu.render(material, scene, convention);
-    Ok((materials.iter().map(one).collect::<Result<_, _>>()?, renderer))
-}
-
-#[cfg(not(feature = "gpu"))]
-fn rendered_on_adapter(
-    _: &[Material<f32>],
-    _: &Scene,
-    _: &Convention,
-) -> Result<(Vec<Image<f32>>, String), Error> {
-    Err(Error::NoAdapter {
-        problem: "this program was built without GPU support".to_owned(),
-        remedy: "leave out --gpu, or build with the feature `gpu`",
-    })
 }

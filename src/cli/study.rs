@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use svbrdf::backend::Adapter;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::text::time;
@@ -18,8 +17,8 @@ use super::output::{CommandError, exit, watched};
 
 /// Measures the time and the error of the loss in many settings, for one pair on this machine
 ///
-/// Computes the loss over 9 to 24,576 scenes, random and Sobol, on all texels and on subsets, in f32 and f64 and on the
-/// graphics adapter, with float, half and 8-bit maps. Errors are relative to a reference over far more scenes. Prints the
+/// Computes the loss over 9 to 24,576 scenes, random and Sobol, on all texels and on subsets, in f32 and f64,
+/// with float, half and 8-bit maps. Errors are relative to a reference over far more scenes. Prints the
 /// cheapest setting for a few target errors. Without GT and PRED: the built-in pair.
 #[derive(Debug, clap::Args)]
 pub struct StudyArgs {
@@ -81,21 +80,9 @@ fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {
 fn measured(opened: &Opened<f32>, convention: Convention) -> Result<Study, CommandError> {
     let (ground_truth, prediction) = (&opened.ground_truth, &opened.predictions[0]);
     check_same_size(ground_truth, prediction)?;
-    let adapter = match Adapter::start() {
-        Ok(adapter) => {
-            exit::tell(&format!("note: the GPU is {}", adapter.name()));
-            Some(adapter)
-        }
-        Err(problem) => {
-            exit::tell(&format!("note: without the GPU: {problem}"));
-            None
-        }
-    };
-    let gpu = adapter.as_ref().map(Adapter::backend);
-    let pair = Pair { ground_truth, prediction, convention, gpu };
+    let pair = Pair { ground_truth, prediction, convention };
     let reference = watched("computing the reference", |progress| study::reference(&pair, progress))?;
     let expected = time(study::expected_seconds(&pair, &reference));
-    let others = if pair.gpu.is_some() { ", and some for the GPU" } else { "" };
-    exit::tell(&format!("note: about {expected} to go{others}"));
+    exit::tell(&format!("note: about {expected} to go"));
     Ok(watched("measuring", |progress| study::measure(&pair, reference, progress, |_| ()))?)
 }

@@ -29,18 +29,16 @@ fn facts() -> [(&'static str, String); 6] {
 }
 
 fn features() -> String {
-    let all = [("viewer", cfg!(feature = "viewer")), ("gpu", cfg!(feature = "gpu"))];
-    let built: Vec<_> = all.into_iter().filter_map(|(name, is_built)| is_built.then_some(name)).collect();
-    if built.is_empty() { "none".to_owned() } else { built.join(", ") }
+    if cfg!(feature = "viewer") { "viewer" } else { "none" }.to_owned()
 }
 
 /// The graphics adapter with its driver, or why there is none.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 fn adapter() -> String {
     svbrdf_gpu::Gpu::headless().map_or_else(|error| format!("none: {error}"), |gpu| gpu.report.to_string())
 }
 
-#[cfg(not(feature = "gpu"))]
+#[cfg(not(feature = "viewer"))]
 fn adapter() -> String {
-    "none: this program was built without GPU support".to_owned()
+    "none: this program was built without the window".to_owned()
 }

@@ -3,7 +3,7 @@
 //! No text names an option of the command line or a control of the window: each of them adds its own advice. That holds for the errors
 //! of the other crates, too; each of them passes those of the crates below it on.
 
-/// The error of every fallible operation of this crate, and of what implements its traits.
+/// The error of every fallible operation of this crate, and of graphics adapters.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -17,8 +17,7 @@ pub enum Error {
 
     /// A convention whose renderer or norm something does not have.
     #[error(
-        "{what} does not have the renderer or the norm of the convention {convention}; choose another convention, or compute \
-        the loss on the processor"
+        "{what} does not have the renderer or the norm of the convention {convention}; choose another convention"
     )]
     NotComputed { what: &'static str, convention: &'static str },
 
@@ -76,11 +75,11 @@ pub enum Error {
         reason: &'static str,
     },
 
-    /// There is no graphics adapter for a [`Backend`](crate::loss::Backend), or none that can do what is asked.
+    /// There is no graphics adapter, or none that can do what is asked.
     #[error("no usable graphics adapter: {problem}; {remedy}")]
     NoAdapter { problem: String, remedy: &'static str },
 
-    /// The graphics adapter of a [`Backend`](crate::loss::Backend), or its driver, refused or failed.
+    /// The graphics adapter or its driver refused or failed.
     #[error("the graphics adapter failed: {problem}; {remedy}")]
     Gpu { problem: String, remedy: &'static str },
 

@@ -5,8 +5,6 @@
 //! texels that are seen, averaged where they are smaller than a pixel, exposed and encoded. So shading is never
 //! computed on filtered maps, and moving the camera costs no shading.
 //!
-//! [`GpuLosses`] is Algorithm 1 in compute shaders, for large jobs on a fast adapter.
-//!
 //! Its shaders are those of [`svbrdf_shaders`]. Bad input and bad hardware never
 //! panic: they are an [`Error::Gpu`](svbrdf_core::error::Error::Gpu) or wait in [`Gpu::take_fault`].
 
@@ -16,7 +14,6 @@ mod codes;
 mod context;
 mod display;
 mod fault;
-mod loss;
 mod packing;
 mod params;
 mod pipeline;
@@ -31,7 +28,6 @@ pub mod uniforms;
 pub use adapter::AdapterReport;
 pub use context::Gpu;
 pub use display::{DisplayPass, Pane, PanePlace, texels_a_pixel};
-pub use loss::GpuLosses;
 pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams, Tiling};
 pub use read_back::read_rgba;
 pub use shading::{Shaded, Shading};

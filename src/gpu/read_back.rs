@@ -118,17 +118,12 @@ pub(super) fn read_buffer(gpu: &Gpu, size: usize) -> Buffer {
 
 /// The bytes of `buffer`, once the device has done all that was submitted.
 pub(super) fn read(gpu: &Gpu, buffer: &Buffer) -> Result<Vec<u8>, Error> {
-    read_after(gpu, buffer, PollType::wait_indefinitely())
-}
-
-/// The bytes of `buffer` after waiting for `ready`, which must include what writes them.
-pub(super) fn read_after(gpu: &Gpu, buffer: &Buffer, ready: PollType) -> Result<Vec<u8>, Error> {
     let (sender, receiver) = mpsc::channel();
     buffer.map_async(wgpu::MapMode::Read, .., move |result| {
         // Nobody listens any more where polling failed.
         let _ = sender.send(result);
     });
-    gpu.device.poll(ready).map_err(|e| failed(format!("waiting for it: {e}")))?;
+    gpu.device.poll(PollType::wait_indefinitely()).map_err(|e| failed(format!("waiting for it: {e}")))?;
     let mapped = receiver.recv().map_err(|_| failed("it never answered".to_owned()))?;
     mapped.map_err(|e| failed(format!("reading its memory: {e}")))?;
     let view = buffer.get_mapped_range(..).map_err(|e| failed(format!("reading its memory: {e}")))?;

@@ -19,7 +19,7 @@ use super::pipeline::{
     CLEAR, Constants, Fullscreen, begin, bind, buffer_type, codes_type, texture_type, uniform_buffer,
 };
 use super::textures::{Maps, descriptor, extent, write};
-use super::uniforms::{GrammarShading, ShadingUniforms};
+use super::uniforms::ShadingUniforms;
 use super::{Gpu, MaterialTextures};
 
 /// The largest 16-bit float.
@@ -36,20 +36,16 @@ pub struct Shading {
 /// The pipelines for maps that are held in one way.
 #[derive(Debug)]
 struct Passes {
-    shaders: &'static MapShaders,
-    maps: &'static [BindingType],
     shading: Fullscreen,
-    /// Of the renderers of the grammar of conventions, compiled when one is drawn.
-    grammar: OnceLock<Fullscreen>,
     reduction: Fullscreen,
 }
 
 impl Passes {
     /// With these shaders, and these bindings of the maps.
-    fn new(gpu: &Gpu, shaders: &'static MapShaders, maps: &'static [BindingType]) -> Self {
+    fn new(gpu: &Gpu, shaders: &'static MapShaders, maps: &[BindingType]) -> Self {
         let shading = pipelines(gpu, &shaders.shade, maps, constants(Quantity::Rendering, false));
         let reduction = pipelines(gpu, &shaders.reduce, maps, reduced(0));
-        Self { shaders, maps, shading, grammar: OnceLock::new(), reduction }
+        Self { shading, reduction }
     }
 }
 
@@ -206,21 +202,9 @@ impl Shading {
             _ => f32::MAX,
         };
         let (stride, size) = (target.stride, target.size);
-        let passes = self.passes(gpu, textures);
-        let (pipelines, buffer) = match params.convention.member {
-            Some(member) if params.quantity == Quantity::Rendering => {
-                let uniforms = GrammarShading::new(&member.terms, &params.scene, largest, stride, size);
-                let grammar = passes.grammar.get_or_init(|| {
-                    let first = constants(Quantity::Rendering, false);
-                    pipelines(gpu, &passes.shaders.grammar, passes.maps, first)
-                });
-                (grammar, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
-            }
-            _ => {
-                let uniforms = ShadingUniforms::new(params, largest, stride, size);
-                (&passes.shading, uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms)))
-            }
-        };
+        let pipelines = &self.passes(gpu, textures).shading;
+        let uniforms = ShadingUniforms::new(params, largest, stride, size);
+        let buffer = uniform_buffer(&gpu.device, bytemuck::bytes_of(&uniforms));
         let group = bind_maps(gpu, pipelines, &buffer, textures);
 
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

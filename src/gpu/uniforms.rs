@@ -6,9 +6,6 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 
 use svbrdf_core::model::brdf::Model;
-use svbrdf_core::model::grammar::RendererTerms;
-use svbrdf_core::model::grammar::shader::{self, Member};
-use svbrdf_core::model::grammar::words::Norm;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 
@@ -78,139 +75,9 @@ pub struct ShadingUniforms {
 impl ShadingUniforms {
     /// For a target whose largest number is `largest`, and every `stride`-th texel along both axes of a material of `size`.
     pub(super) fn new(params: &ShadeParams, largest: f32, stride: usize, size: [usize; 2]) -> Self {
-        let (rays, model) = (SceneUniforms::from(&params.scene), Model::from(&params.convention));
+        let (rays, model) = (SceneUniforms::from(&params.scene), Model::from(&params.convention.drawn()));
         let (stride, size) = (stride as u32, size.map(|side| side as u32));
         Self { rays, model: ModelUniforms::from(&model), largest, stride, size }
-    }
-}
-
-/// `Rays` of grammar.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct GrammarScene {
-    pub view: [f32; 3],
-    pub view_is_point: u32,
-    pub light: [f32; 3],
-    pub light_is_point: u32,
-    pub intensity: [f32; 3],
-    pub falls_off: u32,
-    pub columns: [f32; 2],
-    pub rows: [f32; 2],
-    pub half_extent: f32,
-    pub pad: [u32; 3],
-}
-
-impl GrammarScene {
-    pub(super) fn new(terms: &RendererTerms, scene: &Scene, size: [usize; 2]) -> Self {
-        let SceneUniforms { view, light, .. } = scene.into();
-        let rays = shader::rays(terms, scene.kind == Kind::Near, size);
-        Self {
-            view,
-            view_is_point: rays.view_is_point.into(),
-            light,
-            light_is_point: rays.light_is_point.into(),
-            intensity: rays.intensity,
-            falls_off: rays.falls_off.into(),
-            columns: rays.columns,
-            rows: rays.rows,
-            half_extent: rays.half_extent,
-            pad: [0; 3],
-        }
-    }
-}
-
-/// `Model` of grammar.wgsl: four bytes for each of [`shader::model`].
-pub type GrammarModel = [u32; 52];
-
-/// The terms as the shader reads them.
-pub fn grammar_model(terms: &RendererTerms) -> GrammarModel {
-    let mut model = [0; 52];
-    for (place, (_, member)) in model.iter_mut().zip(shader::model(terms)) {
-        *place = match member {
-            Member::Word(word) => word,
-            Member::Number(number) => number.to_bits(),
-        };
-    }
-    model
-}
-
-/// `Shading` of shade.wgsl with the renderers of grammar.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct GrammarShading {
-    pub rays: GrammarScene,
-    pub model: GrammarModel,
-    pub largest: f32,
-    pub stride: u32,
-    pub size: [u32; 2],
-}
-
-impl GrammarShading {
-    /// As [`ShadingUniforms::new`], by these terms.
-    pub(super) fn new(
-        terms: &RendererTerms,
-        scene: &Scene,
-        largest: f32,
-        stride: usize,
-        size: [usize; 2],
-    ) -> Self {
-        let (rays, model) = (GrammarScene::new(terms, scene, size), grammar_model(terms));
-        Self { rays, model, largest, stride: stride as u32, size: size.map(|side| side as u32) }
-    }
-}
-
-/// `Band` of loss.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct Band {
-    pub model: ModelUniforms,
-    pub size: [u32; 2],
-    pub first: u32,
-    pub texels: u32,
-    pub stride: u32,
-    pub blocks: u32,
-    pub predictions: u32,
-    pub epsilon: f32,
-}
-
-/// `Band` of loss.wgsl with the renderers of grammar.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct GrammarBand {
-    pub model: GrammarModel,
-    pub size: [u32; 2],
-    pub first: u32,
-    pub texels: u32,
-    pub stride: u32,
-    pub blocks: u32,
-    pub predictions: u32,
-    pub epsilon: f32,
-}
-
-impl GrammarBand {
-    pub(super) fn new(band: Band, terms: &RendererTerms) -> Self {
-        let Band { size, first, texels, stride, blocks, predictions, epsilon, .. } = band;
-        Self { model: grammar_model(terms), size, first, texels, stride, blocks, predictions, epsilon }
-    }
-}
-
-/// `LogSum` of log_sum.wgsl and of square_sum.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct LogSum {
-    pub larger: f32,
-    pub smaller: f32,
-    pub exponent: i32,
-}
-
-impl LogSum {
-    /// The sum as a number; 0 exactly where nothing differed.
-    pub(super) fn total(&self, norm: Norm) -> f64 {
-        if norm == Norm::Mse {
-            return f64::from(self.larger);
-        }
-        let ratio = f64::from(self.larger) / f64::from(self.smaller);
-        f64::from(self.exponent) * std::f64::consts::LN_2 + ratio.ln()
     }
 }
 

@@ -7,7 +7,6 @@ use serde_json::Value;
 
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_core::model::grammar::shader::{self, Member, ShaderRays};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::{diverging, heat};
 use svbrdf_core::picture::difference::Difference;
@@ -35,7 +34,6 @@ struct Data<'a> {
     materials: &'a [EncodedMaterial],
     #[serde(flatten)]
     renderer: Renderer,
-    rays: Option<Rays>,
     kinds: BTreeMap<&'a str, Vec<Kind>>,
     colours: BTreeMap<&'a str, Vec<String>>,
     start: Start<'a>,
@@ -45,16 +43,13 @@ struct Data<'a> {
     ground_truth: bool,
 }
 
-/// The uniform `Rays` of near-field and of distant scenes, without light and view. Only the shader of the grammar has it.
-pub(super) type Rays = BTreeMap<&'static str, ShaderRays>;
-
 /// The renderer of a convention: the shaders and their uniforms.
 #[derive(Serialize)]
 pub(super) struct Renderer {
     convention: &'static str,
-    model: BTreeMap<&'static str, f64>,
-    /// The members of `model` that hold whole numbers.
-    words: Vec<&'static str>,
+    /// The convention that is drawn.
+    drawn: &'static str,
+    model: BTreeMap<&'static str, f32>,
     epsilon: f64,
     shaders: BTreeMap<&'static str, Value>,
 }
@@ -63,21 +58,11 @@ impl Renderer {
     /// # Errors
     /// [`Error::Internal`], which the shaders never give.
     pub(super) fn new(convention: &Convention) -> Result<Self, Error> {
-        let mut shaders: BTreeMap<&str, Value> = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
-        let grammar = shaders.remove("grammar");
-        if let (Some(_), Some(shader)) = (convention.member, grammar) {
-            shaders.insert("shade", shader);
-        }
-        let (model, words) = model(convention);
-        Ok(Self { convention: convention.name, model, words, epsilon: convention.epsilon, shaders })
+        let shaders = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
+        let drawn = convention.drawn();
+        let (name, epsilon) = (convention.name, convention.epsilon);
+        Ok(Self { convention: name, drawn: drawn.name, model: model(&drawn), epsilon, shaders })
     }
-}
-
-/// The rays of materials of this size.
-pub(super) fn rays(convention: &Convention, size: [usize; 2]) -> Option<Rays> {
-    let terms = convention.member?.terms;
-    let of = |(kind, is_near)| (kind, shader::rays(&terms, is_near, size));
-    Some([("near", true), ("distant", false)].map(of).into())
 }
 
 pub(super) fn failed(problem: serde_json::Error) -> Error {
@@ -131,11 +116,9 @@ pub(super) fn json(
     offsets: &[f32],
 ) -> Result<String, Error> {
     let Report { convention, .. } = report;
-    let size = materials.first().map_or([1; 2], EncodedMaterial::size);
     let data = Data {
         materials,
         renderer: Renderer::new(convention)?,
-        rays: rays(convention, size),
         kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
         start: start(report, materials),
@@ -146,27 +129,18 @@ pub(super) fn json(
     serde_json::to_string(&data).map_err(failed)
 }
 
-/// The members of `Model` of brdf.wgsl or of grammar.wgsl, and which hold whole numbers.
-fn model(convention: &Convention) -> (BTreeMap<&'static str, f64>, Vec<&'static str>) {
-    if let Some(member) = convention.member {
-        let members = shader::model(&member.terms);
-        let value = |(name, member): &(&'static str, Member)| match member {
-            Member::Word(word) => (*name, f64::from(*word)),
-            Member::Number(number) => (*name, f64::from(*number)),
-        };
-        let words = members.iter().filter(|(_, member)| matches!(member, Member::Word(_)));
-        return (members.iter().map(value).collect(), words.map(|(name, _)| *name).collect());
-    }
+/// The members of `Model` of brdf.wgsl.
+fn model(convention: &Convention) -> BTreeMap<&'static str, f32> {
     let model = Model::<f32>::from(convention);
-    let members = [
+    [
         ("intensity", model.intensity),
         ("roughness_floor", model.roughness_floor),
         ("light_z_floor", model.light_z_floor),
         ("clamp_n_dot_h", f32::from(model.clamp_n_dot_h)),
         ("d_floor", model.d_floor),
         ("g_floor", model.g_floor),
-    ];
-    (members.map(|(name, value)| (name, f64::from(value))).into(), vec!["clamp_n_dot_h"])
+    ]
+    .into()
 }
 
 fn kinds(quantity: Quantity) -> Vec<Kind> {

@@ -1,15 +1,14 @@
 // The figure: its state, the panes of its layout, and what each of them shows.
 
 /**
- * @typedef {Record<string, Record<string, number | number[]>>} Rays  Of near-field and of distant scenes
- * @typedef {{scene: Scene, quantity: string, model: Record<string, number>, rays: Rays | null, epsilon: number}} Shaded
+ * @typedef {{scene: Scene, quantity: string, model: Record<string, number>, epsilon: number}} Shaded
  * @typedef {{material: number, difference: string | null, wipe: number | null}} Pane
  * @typedef {{exposure: number, range: number, clipping: boolean, tiled: boolean, falseColour: boolean}} Shown
  * @typedef {{key: string, name: string, unit: string, signed: boolean, range: number}} Kind
  * @typedef {{scene: Scene, exposure: number, quantity: string, difference: boolean, kinds: Record<string, string>,
  *   ranges: Record<string, number>, layout: string, prediction: number, projection: string, zoom: number,
  *   pan: [number, number], framing: Framing | null, wipe: number, drag: string, peek: boolean, tiled: boolean, falseColour: boolean, clipping: boolean}} State
- * @typedef {{materials: StoredMaterial[], model: Record<string, number>, words: string[], rays: Rays | null, epsilon: number, convention: string,
+ * @typedef {{materials: StoredMaterial[], model: Record<string, number>, epsilon: number, convention: string, drawn: string,
  *   kinds: Record<string, Kind[]>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
  *   start: Partial<State>, scenes: {scene: Scene, exposure: number}[], offsets: number[], groundTruth: boolean}} Data
  */
@@ -34,7 +33,7 @@ class Figure {
     this.canvas = canvas;
     this.data = data;
     this.materials = materials;
-    this.shading = new Shading(canvas, data.shaders, materials, data.words);
+    this.shading = new Shading(canvas, data.shaders, materials);
     this.grid = { width: materials[0].width, height: materials[0].height };
     /** @type {(() => void)[]} Called after every frame. */
     this.watchers = [];
@@ -78,7 +77,7 @@ class Figure {
   /** What is shaded. @returns {Shaded} */
   how() {
     const { scene, quantity } = this.state;
-    return { scene, quantity, model: this.data.model, rays: this.data.rays, epsilon: this.data.epsilon };
+    return { scene, quantity, model: this.data.model, epsilon: this.data.epsilon };
   }
 
   /** The stops by which a pane is brightened beside the first one. @param {Pane} pane */

@@ -149,8 +149,9 @@ fn worst_scenes(
     let outcome = &findings.loss.outcome;
     for ranked in &findings.worst {
         let scene = ranked.scene;
-        let exposure = exposure(report.materials[0], &scene, &report.convention);
-        let picture = pictures::thumbnail(small, &scene, &report.convention, exposure, THUMBNAILS, progress)?;
+        let drawn = report.convention.drawn();
+        let exposure = exposure(report.materials[0], &scene, &drawn);
+        let picture = pictures::thumbnail(small, &scene, &drawn, exposure, THUMBNAILS, progress)?;
         let losses: Vec<String> = outcome
             .losses
             .iter()

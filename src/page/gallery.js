@@ -1,8 +1,8 @@
 // The gallery of a ranking: a drag over any picture moves the light of all of them.
 
 /**
- * @typedef {{material: StoredMaterial, exposure: number, rays: Rays | null}} Relit
- * @typedef {{pictures: (Relit | null)[], scene: Scene, model: Record<string, number>, words: string[], epsilon: number,
+ * @typedef {{material: StoredMaterial, exposure: number}} Relit
+ * @typedef {{pictures: (Relit | null)[], scene: Scene, model: Record<string, number>, epsilon: number,
  *   shaders: Record<string, ShaderText>}} GalleryData
  * @typedef {{image: HTMLImageElement, canvas: HTMLCanvasElement, relit: Relit, maps: "asked" | Maps | null, key: string}} Picture
  */
@@ -21,7 +21,7 @@ class Gallery {
     this.isLive = false;
     this.requested = false;
     this.canvas = document.createElement("canvas");
-    this.shading = new Shading(this.canvas, data.shaders, [], data.words);
+    this.shading = new Shading(this.canvas, data.shaders, []);
     /** @type {Picture[]} */
     this.pictures = [...root.querySelectorAll("img")].flatMap((image) => {
       const relit = data.pictures[Number(image.dataset.picture)];
@@ -141,12 +141,12 @@ class Gallery {
   /** @param {Picture} picture @param {number} index @param {number} width @param {number} height in physical pixels */
   drawOne(picture, index, width, height) {
     const { canvas: gl, scene, data: { model, epsilon } } = this;
-    const { canvas, relit: { exposure, rays } } = picture;
+    const { canvas, relit: { exposure } } = picture;
     if (gl.width < width || gl.height < height) [gl.width, gl.height] = [Math.max(gl.width, width), Math.max(gl.height, height)];
     const camera = this.camera(picture, width / height);
     const shown = { exposure, range: 1, clipping: false, tiled: false, falseColour: false };
     const pane = { material: index, difference: null, wipe: null };
-    this.shading.pane(pane, { scene, quantity: "rendering", model, rays, epsilon }, camera, { x: 0, y: 0, width, height }, shown);
+    this.shading.pane(pane, { scene, quantity: "rendering", model, epsilon }, camera, { x: 0, y: 0, width, height }, shown);
     if (canvas.width !== width || canvas.height !== height) [canvas.width, canvas.height] = [width, height];
     [picture.image.hidden, canvas.hidden] = [true, false];
     const context = canvas.getContext("2d");

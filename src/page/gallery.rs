@@ -9,7 +9,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_files::Error;
 
-use super::data::{Rays, Renderer, failed, rays};
+use super::data::{Renderer, failed};
 use super::encode::EncodedMaterial;
 
 /// Light and view of pictures and figures.
@@ -25,7 +25,6 @@ pub(super) struct Relit {
     material: EncodedMaterial,
     /// In stops.
     exposure: f32,
-    rays: Option<Rays>,
 }
 
 /// The room for maps in a page, which several threads fill.
@@ -37,19 +36,13 @@ impl Room {
     ///
     /// # Errors
     /// As [`EncodedMaterial::new`].
-    pub(super) fn take(
-        &self,
-        material: &Material<f32>,
-        convention: &Convention,
-        exposure: f32,
-    ) -> Result<Option<Relit>, Error> {
+    pub(super) fn take(&self, material: &Material<f32>, exposure: f32) -> Result<Option<Relit>, Error> {
         if self.is_full() {
             return Ok(None);
         }
         let material = EncodedMaterial::new(&sparse(material, SIDE)?)?;
         self.0.fetch_add(material.bytes(), Ordering::Relaxed);
-        let rays = rays(convention, material.size());
-        Ok(Some(Relit { material, exposure, rays }))
+        Ok(Some(Relit { material, exposure }))
     }
 
     /// Whether all maps together take too much.
@@ -98,8 +91,6 @@ pub(super) fn json(pictures: &[&Option<Relit>], convention: &Convention) -> Resu
 
 #[cfg(test)]
 mod tests {
-    use svbrdf_core::model::convention::PRINTED;
-
     use super::*;
 
     fn material(width: usize, height: usize) -> Material<f32> {
@@ -124,8 +115,8 @@ mod tests {
     #[test]
     fn a_full_page_takes_no_more_maps() {
         let room = Room::default();
-        assert!(room.take(&material(8, 8), &PRINTED, 0.0).unwrap().is_some());
+        assert!(room.take(&material(8, 8), 0.0).unwrap().is_some());
         room.0.fetch_add(MOST_BYTES, Ordering::Relaxed);
-        assert!(room.is_full() && room.take(&material(8, 8), &PRINTED, 0.0).unwrap().is_none());
+        assert!(room.is_full() && room.take(&material(8, 8), 0.0).unwrap().is_none());
     }
 }

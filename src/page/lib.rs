@@ -99,9 +99,10 @@ impl Report<'_> {
         let small: Vec<&Material<f32>> = small.iter().collect();
         let content = self.content();
         let view = &self.view;
-        let offsets = exposure::offsets(&small, &view.scene, &self.convention);
+        let drawn = self.convention.drawn();
+        let offsets = exposure::offsets(&small, &view.scene, &drawn);
         let exposures: Vec<f32> = offsets.iter().map(|offset| view.exposure_ev + offset).collect();
-        let still = pictures::still(&small, content, &view.scene, &self.convention, &exposures, STILL)?;
+        let still = pictures::still(&small, content, &view.scene, &drawn, &exposures, STILL)?;
         let (sections, scenes) = findings::sections(self, &small, progress)?;
         let frame = Document::bytes_without_body(STYLE, SCRIPT);
         let fixed = frame + PAGE.len() + still.len() + sections.len() + 64 * 1024;
@@ -180,7 +181,10 @@ impl Report<'_> {
         };
         let names: Vec<String> = self.materials.iter().zip(offsets).map(name).collect();
         let epsilon = self.convention.epsilon;
-        format!("In reading order: {}. Shown: {}.", names.join(", "), escaped(&self.content().text(epsilon)))
+        let drawn = self.convention.drawn().name;
+        let drawn = if drawn == self.convention.name { String::new() } else { format!(" Drawn as {drawn}.") };
+        let content = self.content().text(epsilon);
+        format!("In reading order: {}. Shown: {}.{drawn}", names.join(", "), escaped(&content))
     }
 
     fn header(&self, reduced_to: Option<[usize; 2]>) -> String {

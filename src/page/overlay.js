@@ -56,6 +56,12 @@ class Overlay {
 
   /** @param {Pane} pane */
   title(pane) {
+    const { state, data: { convention, drawn } } = this.figure;
+    return `${this.content(pane)}${state.quantity === "rendering" && drawn !== convention ? `, drawn as ${drawn}` : ""}`;
+  }
+
+  /** @param {Pane} pane */
+  content(pane) {
     const { material, difference, wipe } = pane;
     const { materials, state, data } = this.figure;
     const name = materials[material].name;

@@ -162,17 +162,18 @@ fn view(
 ) -> Result<MaterialView, Error> {
     let materials: Vec<&Material<f32>> = all.iter().flatten().collect();
     let small = pictures::reduced(&materials, RENDERED)?;
-    let exposure_ev = exposure(&small[0], &SCENE, convention);
+    let drawn = convention.drawn();
+    let exposure_ev = exposure(&small[0], &SCENE, &drawn);
     let rows = pictures::Rows { width, columns: 1 };
     let mut small = small.iter();
     let picture = |one: &Option<Material<f32>>| {
         let Some(small) = one.as_ref().and_then(|_| small.next()) else { return Ok(None) };
-        pictures::thumbnail(&[small], &SCENE, convention, exposure_ev, rows, &progress.part()).map(Some)
+        pictures::thumbnail(&[small], &SCENE, &drawn, exposure_ev, rows, &progress.part()).map(Some)
     };
     let pictures = all.iter().map(picture).collect::<Result<Vec<_>, Error>>()?;
     let Some((path, room)) = figure else { return Ok(MaterialView { pictures, ..MaterialView::default() }) };
     let relit = all.iter().map(|one| match one {
-        Some(material) => room.take(material, convention, exposure_ev),
+        Some(material) => room.take(material, exposure_ev),
         None => Ok(None),
     });
     let relit = relit.collect::<Result<_, _>>()?;

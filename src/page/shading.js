@@ -20,7 +20,7 @@ const BACKGROUND = [0.141, 0.149, 0.165];
 
 /** The members of a uniform that hold whole numbers. */
 const WHOLE = new Set([
-  "stride", "size", "corner", "rays.near", "rays.view_is_point", "rays.light_is_point", "rays.falls_off", "quantity", "mode", "difference", "encoding", "show_clipping",
+  "stride", "size", "corner", "rays.near", "model.clamp_n_dot_h", "quantity", "mode", "difference", "encoding", "show_clipping",
   "tiling", "repeated", "false_colour", "nearest", "kind",
 ]);
 
@@ -28,13 +28,12 @@ const WHOLE = new Set([
 const isLitAsPlane = ({ quantity, scene }) => quantity === "rendering" && scene.kind === "near";
 
 class Shading {
-  /** @param {HTMLCanvasElement} canvas @param {Record<string, ShaderText>} shaders @param {Maps[]} materials @param {string[]} words */
-  constructor(canvas, shaders, materials, words) {
+  /** @param {HTMLCanvasElement} canvas @param {Record<string, ShaderText>} shaders @param {Maps[]} materials */
+  constructor(canvas, shaders, materials) {
     const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, preserveDrawingBuffer: false });
     if (!gl) throw new Error("this browser has no WebGL 2");
     this.gl = gl;
     this.materials = materials;
-    this.whole = new Set([...WHOLE, ...words.map((name) => `model.${name}`)]);
     const whole = gl.getExtension("EXT_color_buffer_float") !== null;
     if (!whole && !gl.getExtension("EXT_color_buffer_half_float")) {
       throw new Error("this graphics adapter renders no floating-point numbers");
@@ -129,7 +128,7 @@ class Shading {
       for (const [member, value] of Object.entries(uniforms[variable])) {
         [value].flat().forEach((number, i) => {
           const at = places[member] + 4 * i;
-          if (this.whole.has(member)) bytes.setUint32(at, number, true);
+          if (WHOLE.has(member)) bytes.setUint32(at, number, true);
           else bytes.setFloat32(at, number, true);
         });
       }
@@ -164,7 +163,7 @@ class Shading {
    * The texels of a material, or the cells of its plane, shaded unless they are already.
    * @param {number} index @param {Shaded} how @param {boolean} repeated
    */
-  shade(index, { scene, quantity, model, rays }, repeated = false) {
+  shade(index, { scene, quantity, model }, repeated = false) {
     const { maps } = this.uploaded[index];
     const { shaded, size } = this.targetsOf(index, repeated);
     const { width, height } = this.materials[index];
@@ -174,7 +173,7 @@ class Shading {
     const isNear = scene.kind === "near";
     const shading = {
       "rays.view": isNear ? scene.view : unit(scene.view), "rays.light": isNear ? scene.light : unit(scene.light),
-      ...Object.fromEntries(Object.entries(rays?.[scene.kind] ?? { near: isNear ? 1 : 0 }).map(([name, value]) => [`rays.${name}`, value])),
+      "rays.near": isNear ? 1 : 0,
       ...Object.fromEntries(Object.entries(model).map(([name, value]) => [`model.${name}`, value])),
       largest: this.largest, stride: 1, size: [width, height],
     };

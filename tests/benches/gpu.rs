@@ -1,6 +1,6 @@
-//! The graphics adapter: sending a material, shading it, showing it, and the loss. Every answer is asserted.
+//! The graphics adapter: sending a material, shading it, and showing it. Every answer is asserted.
 //!
-//! A shaded or shown picture is waited for, not read back; a loss is read back, and sends its materials each time.
+//! A shaded or shown picture is waited for, not read back.
 
 #![allow(clippy::expect_used, clippy::panic, reason = "a benchmark may panic")]
 
@@ -10,14 +10,13 @@ mod support;
 
 use divan::counter::ItemsCount;
 
-use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render;
-use svbrdf_gpu::{Encoding, Gpu, GpuLosses, MaterialTextures, ShadeParams, Shaded, Shading};
+use svbrdf_gpu::{Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 
 const SIDES: [usize; 3] = [256, 1024, 2048];
 /// Materials of a side, as floats or as codes.
@@ -32,7 +31,7 @@ const MATERIALS: [(usize, Held); 6] = {
         (c, Held::Codes),
     ]
 };
-/// Most that a mean over a picture or a loss may be off the CPU's in f32, relative.
+/// Most that a mean over a picture may be off the CPU's in f32, relative.
 const TOLERANCE: f64 = 1e-5;
 /// Lit from a corner, seen from above.
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.6, 0.5, 1.0] };
@@ -157,32 +156,4 @@ fn display_reduced(bencher: divan::Bencher<'_, '_>, side: usize) {
     let want = mean.map(|x| 255.0 * svbrdf_core::picture::tone::srgb_encode(x));
     let got = shown.at(0, 0).map(f32::from);
     assert!(got.iter().zip(want).all(|(got, want)| (got - want).abs() <= 1.0), "{got:?}, not {want:?}");
-}
-
-#[divan::bench(args = SIDES, sample_count = 10)]
-fn loss(bencher: divan::Bencher<'_, '_>, side: usize) {
-    let gpu = support::gpu();
-    let losses = GpuLosses::new(gpu).expect("compiled");
-    let (sampling, progress) = (Sampling::default(), Progress::default());
-    let scenes = sampling.near + sampling.distant;
-    let (ground_truth, prediction) = (support::bumpy(side, side), flipped(side));
-    let on_cpu =
-        Comparison::new(&ground_truth, &[&prediction], PRINTED).expect("of one size").without_pilot();
-    let on_gpu = on_cpu.clone().on(&losses);
-    let run = |comparison: &Comparison<'_, f32>| {
-        let outcome = comparison.run(&Request::Scenes(sampling), &progress).expect("computed");
-        outcome.losses[0].estimate.mean
-    };
-    let expected = run(&on_cpu);
-    bencher.counter(ItemsCount::new(side * side * scenes)).bench_local(|| {
-        assert_close(run(&on_gpu), expected);
-    });
-}
-
-/// The material with its texels in reverse order.
-fn flipped(side: usize) -> Material<f32> {
-    let mut planes = support::bumpy(side, side).planes().clone();
-    let colours = [&mut planes.normal, &mut planes.diffuse, &mut planes.specular];
-    colours.into_iter().flatten().chain([&mut planes.roughness]).for_each(|plane| plane.reverse());
-    Material::new("flipped", side, side, planes).expect("valid")
 }

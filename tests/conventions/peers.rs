@@ -3,11 +3,9 @@
 use std::path::Path;
 
 use glam::DVec3;
-use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::grammar::words::{Norm, NormalY};
 use svbrdf_core::model::grammar::{Description, LossTerms, Point, RendererTerms};
 use svbrdf_core::model::named_conventions as named;
-use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_files::arrays::{self, Array, Arrays};
 use svbrdf_needs::needs;
 
@@ -209,55 +207,26 @@ fn a_planted_fault_is_seen_in_every_peer() {
 }
 
 #[derive(serde::Deserialize)]
-pub struct Subset {
-    pub points: Vec<StoredPoint>,
-    pub peers: std::collections::BTreeMap<String, Vec<Option<[f64; 3]>>>,
+struct Subset {
+    points: Vec<StoredPoint>,
+    peers: std::collections::BTreeMap<String, Vec<Option<[f64; 3]>>>,
 }
 
 #[derive(Debug, serde::Deserialize)]
-pub struct StoredPoint {
-    pub normal: [f64; 3],
-    pub light: [f64; 3],
-    pub view: [f64; 3],
-    pub diffuse: [f64; 3],
-    pub specular: [f64; 3],
-    pub roughness: f64,
+struct StoredPoint {
+    normal: [f64; 3],
+    light: [f64; 3],
+    view: [f64; 3],
+    diffuse: [f64; 3],
+    specular: [f64; 3],
+    roughness: f64,
     base_color: [f64; 3],
     metallic: f64,
 }
 
 /// 20 of the points with the radiances of the named conventions.
-pub fn subset() -> Subset {
+fn subset() -> Subset {
     serde_json::from_str(include_str!("peers.json")).unwrap()
-}
-
-/// The two materials, the nine scenes and the loss of a convention by its authors' code.
-pub fn convention_and_peer(name: &str) -> ([Material<f64>; 2], Vec<Scene>, f64) {
-    let materials = file("materials");
-    let plane = |which: &str, map: &str, channels: usize, c: usize| -> Vec<f64> {
-        materials[&format!("{which}{map}")].values.iter().skip(c).step_by(channels).copied().collect()
-    };
-    let material = |which: &str| {
-        let rgb = |map: &str| [0, 1, 2].map(|c| plane(which, map, 3, c));
-        let planes = Planes {
-            normal: rgb("n"),
-            diffuse: rgb("d"),
-            specular: rgb("s"),
-            roughness: plane(which, "r", 1, 0),
-        };
-        Material::new(which, SIDE, SIDE, planes).unwrap()
-    };
-    let scenes = |list: &str, kind| {
-        let of = |ends: &[f64]| Scene {
-            kind,
-            view: std::array::from_fn(|c| ends[c]),
-            light: std::array::from_fn(|c| ends[3 + c]),
-        };
-        materials[list].values.chunks(6).map(of).collect::<Vec<_>>()
-    };
-    let scenes = [scenes("near", Kind::Near), scenes("distant", Kind::Distant)].concat();
-    let peer = ALL.iter().find(|(known, _)| *known == name).unwrap().1;
-    (["a_", "b_"].map(material), scenes, file(peer)["loss_fixed"].values[0])
 }
 
 /// The named conventions at 20 points, the last 4 extreme ones, without `../shared`.

@@ -122,7 +122,7 @@ fn defects_of_the_fused_kernel_are_seen() {
     held(Rung::Fused, &peaks, |b| rungs::projecting(b).unwrap()).expect_err("no cross product");
 }
 
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 #[svbrdf_needs::needs(adapter)]
 #[test]
 fn defects_of_the_gpu_are_seen() {

@@ -80,7 +80,7 @@ pub fn fused(level: Level, batch: &Batch) -> Option<Vec<Rgb>> {
 }
 
 /// The shader, for each batch; `None` where there is no adapter.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub fn on_gpu(batches: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
     use svbrdf_core::model::convention;
 
@@ -102,7 +102,7 @@ pub fn on_gpu(batches: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
     Some(values)
 }
 
-#[cfg(not(feature = "gpu"))]
+#[cfg(not(feature = "viewer"))]
 pub fn on_gpu(_: &[Batch]) -> Option<Vec<Vec<Rgb>>> {
     None
 }

@@ -89,7 +89,7 @@ fn the_distribution_integrates_to_1_in_the_fused_kernel() {
     }
 }
 
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 #[svbrdf_needs::needs(adapter)]
 #[test]
 fn the_distribution_integrates_to_1_on_the_gpu() {

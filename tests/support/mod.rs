@@ -5,13 +5,12 @@ pub mod compare;
 pub mod desktop;
 pub mod exr;
 pub mod fixtures;
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub mod gpu;
 pub mod losses;
 pub mod pictures;
 pub mod png;
 pub mod points;
-pub mod spread;
 pub mod surfaces;
 pub mod surroundings;
 pub mod textures;

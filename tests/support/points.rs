@@ -10,11 +10,11 @@ use svbrdf_core::model::brdf::{self, Model, Texel};
 pub const U: f64 = 1.0 / (1 << 24) as f64;
 
 /// A texel, and the directions w_l and w_v of any length.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub type Point = (Texel<f32>, [f32; 3], [f32; 3]);
 
 /// `count` points whose parts are now random, now at an edge of the domain, in every combination.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub fn points(seed: u64, count: usize) -> Vec<Point> {
     let mut generator = Generator::new(seed, 0);
     (0..count).map(|_| generator.point()).collect()
@@ -96,7 +96,7 @@ impl Generator {
         (exact + self.direction() * off).normalize()
     }
 
-    #[cfg(feature = "gpu")]
+    #[cfg(feature = "viewer")]
     fn point(&mut self) -> Point {
         let (n, l) = (self.normal(), self.direction());
         let v = self.partner(n, l);
@@ -113,7 +113,7 @@ impl Generator {
 }
 
 /// A point in f64, exactly.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub fn exact((texel, w_l, w_v): &Point) -> (Texel<f64>, DVec3, DVec3) {
     let texel = Texel {
         normal: texel.normal.as_dvec3(),

@@ -32,11 +32,11 @@ pub const NORMALIZATION_F32: f64 = 1e-5; // measured: 1.1e-7
 /// As [`NORMALIZATION_F64`], from radiances of the fused kernel.
 pub const NORMALIZATION_FUSED: f64 = 1e-5; // measured: 1.1e-7
 /// As [`NORMALIZATION_F64`], from radiances of the shader.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub const NORMALIZATION_GPU: f64 = 1e-5; // measured: 1.6e-7 (lavapipe)
 
 /// The shader's cells of the repeated plane against f64: relative, of radiances of at least 1e-3.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub const PLANE: f64 = 2e-5; // measured: 2.8e-6 (lavapipe)
 
 /// Reciprocity: the relative change of the reflectance when light and view are swapped, in units of u. Only v.h and
@@ -72,41 +72,14 @@ pub const POINT_ULPS: f64 = 8.0;
 /// The same for whole renderings on the GPU, where the shader also computes positions and directions.
 ///
 /// Measured: 2.9 needed on lavapipe, whose divisions are correctly rounded; Vulkan allows 2.5 units in the last place.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub const RENDERING_ULPS: f64 = 16.0;
-
-/// Renderings of the grammar in f32 against f64: ulps of 2^-24 that normals, roughness, light and view may be off by.
-pub const SPREAD_ULPS: f64 = 8.0;
-/// Ulps of the value itself: exp2 and pow of an adapter are off by 3 + 2 |x| of them.
-pub const VALUE_ULPS: f64 = 48.0;
-/// The same of an encoded value: logarithms of adapters are off by more than 1e-6.
-pub const ENCODED_ULPS: f64 = 256.0;
-/// The bound in units of the largest change of ten such inputs.
-///
-/// Worst measured on lavapipe: 0.67 of the bound (guided-2020 by the grammar); 0.30 in a member without a name.
-pub const SPREAD: f64 = 8.0;
 
 /// Levels of 255 that a pixel of the screen may be off: rounding, at most half a level each way.
 ///
 /// Measured: 1.
-#[cfg(feature = "gpu")]
+#[cfg(feature = "viewer")]
 pub const SCREEN_LEVELS: u8 = 1;
-/// GPU loss against the f64 one, relative: golden cases and built-in materials, any convention; required 1e-5.
-/// Worst measured on lavapipe 4.0e-8; Vulkan allows hardware coarser divisions, square roots and powers.
-#[cfg(feature = "gpu")]
-pub const GPU_LOSS: f64 = 1e-6;
-
-/// The same, single scenes, and materials of a few texels. Worst measured on lavapipe 8.0e-8.
-#[cfg(feature = "gpu")]
-pub const GPU_LOSS_SCENE: f64 = 3e-6;
-
-/// GPU losses of the grammar's conventions against f64, relative: mean and single scenes, log L1.
-#[cfg(feature = "gpu")]
-pub const GRAMMAR_GPU_LOSS: [f64; 2] = [1e-6, 3e-6]; // measured: 6.4e-8, 1.1e-7 (lavapipe)
-/// The same, of mean squares: the brightest highlights make them, whose radiances are off by as much.
-#[cfg(feature = "gpu")]
-pub const GRAMMAR_GPU_SQUARE: [f64; 2] = [1e-5, 3e-5]; // measured: 8.8e-8, 6.3e-7 (lavapipe)
-
 /// Fused f32 loss against the plain f64 one, relative, any convention and instruction set: random materials with
 /// r >= 1/255 and the golden cases. Worst measured 3.4e-8 (metal_a against pyramids_a); required 1e-6.
 pub const FUSED_LOSS: f64 = 3e-7;
@@ -122,8 +95,6 @@ pub const FUSED_PEAK: f64 = 3e-7;
 pub const FUSED_EXTREME: f64 = 1e-5;
 /// Errors of losses below it are taken relative to it: the logarithms' arguments are f32, whose rounding stays.
 pub const FUSED_LEAST: f64 = 0.02;
-/// Fused mean squares against f64 ones, relative: the brightest highlights make them, whose radiances are off by as much.
-pub const FUSED_SQUARE: f64 = 1e-5; // measured: 4.4e-7, of a scene 7.1e-7
 /// Single texels of fused renderings against f64, in the unit of POINT_ULPS: its reciprocal roots are estimates with
 /// one Newton step, off by 4 of them. Worst measured: 8.5.
 pub const FUSED_ULPS: f64 = 16.0;

@@ -438,8 +438,6 @@ class FewScenes(Record):
     """None where the scenes were listed."""
     texels: int | Literal["all"]
     """The number of random texels in each scene, or "all"."""
-    backend: str
-    """What computed them: `cpu` or `gpu`."""
     interval95_from: Literal["pilot", "scenes"]
     differences: tuple[Difference, ...]
     """One per prediction but the first, in these scenes."""
@@ -481,8 +479,6 @@ class LossReport(Report):
     epsilon: float
     precision: str
     """`f32` or `f64`."""
-    backend: str
-    """What computed the losses: `cpu` or `gpu`."""
     size: tuple[int, int]
     """Width and height in texels."""
     near: int

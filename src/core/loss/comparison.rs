@@ -46,9 +46,6 @@ pub struct Comparison<'a, T> {
 
 /// What computes the loss of each scene.
 pub trait Backend<T>: Debug + Sync {
-    /// `cpu` or `gpu`: what reports call it.
-    fn name(&self) -> &'static str;
-
     /// For each prediction of `comparison` the loss of each of `scenes`: the mean over texels and RGB of
     /// `|ln(R_gt + epsilon) - ln(R_pred + epsilon)|`.
     ///
@@ -56,7 +53,7 @@ pub trait Backend<T>: Debug + Sync {
     /// `scenes` are usable, at least one. The result does not depend on the number of threads.
     ///
     /// # Errors
-    /// [`Error::Cancelled`], and [`Error::Gpu`] where a graphics adapter fails or is asked for a part of the texels.
+    /// [`Error::Cancelled`].
     ///
     /// # Panics
     /// Where there is no such texel, or none, as indexing a slice does.
@@ -103,14 +100,14 @@ pub(super) fn by_prediction(predictions: usize, per_scene: &[Vec<f64>]) -> Vec<V
     (0..predictions).map(|p| per_scene.iter().map(|losses| losses[p]).collect()).collect()
 }
 
-/// A precision that has a backend on the processor.
+/// A precision that losses are computed in.
 pub trait Compute: Real {
     /// The fastest one.
     fn cpu() -> &'static dyn Backend<Self>;
 }
 
 impl<'a, T: Compute> Comparison<'a, T> {
-    /// Compares `predictions` with `ground_truth` on the processor.
+    /// Compares `predictions` with `ground_truth`.
     ///
     /// # Errors
     /// [`Error::SizesDiffer`].
@@ -148,7 +145,7 @@ impl<'a, T> Comparison<'a, T> {
     }
 
     /// The same comparison, of materials that hold a part of the texels of a larger `grid`: their texel i is at `texels[i]` of it, as
-    /// row * width + column. Losses are over the texels that they hold. Backends on the processor take these.
+    /// row * width + column. Losses are over the texels that they hold.
     #[must_use]
     pub fn at(self, grid: Grid, texels: &'a [usize]) -> Self {
         Self { places: Some((grid, texels)), ..self }

@@ -81,9 +81,7 @@ impl Pilot {
         if enough {
             return Ok(None);
         }
-        // Adapters compare all texels only.
-        let comparison = comparison.clone().on(T::cpu());
-        let subsets = Subsets::new(&comparison, sampling);
+        let subsets = Subsets::new(comparison, sampling);
         let probe = Probe { comparison, sampling: *sampling, subsets, progress };
         let pilot = probe.pilot(1)?;
         if pilot.losses.iter().all(|loss| loss.freedom >= FREEDOM) {
@@ -144,7 +142,7 @@ fn without_noise([a, b]: &Halves) -> Vec<f64> {
 
 /// What a pilot is made with.
 struct Probe<'a, T> {
-    comparison: Comparison<'a, T>,
+    comparison: &'a Comparison<'a, T>,
     sampling: Sampling,
     subsets: Subsets,
     progress: &'a Progress,
@@ -188,13 +186,13 @@ impl<T: Compute> Probe<'_, T> {
         let scenes = Sampler::Sobol.scenes(seed, near, distant, self.comparison.convention());
         let progress = self.progress.part();
         let shared = |texels: &Vec<usize>| {
-            self.comparison.backend().scene_losses(&self.comparison, &scenes, Some(texels), &progress)
+            self.comparison.backend().scene_losses(self.comparison, &scenes, Some(texels), &progress)
         };
         let paired = |a: Vec<Vec<f64>>, b: Vec<Vec<f64>>| a.into_iter().zip(b).map(|(a, b)| [a, b]).collect();
         match &self.subsets {
             Subsets::PerScene => {
                 let sampling = Sampling { near, distant, seed, sampler: texels, ..self.sampling };
-                let losses = scene_losses(&self.comparison, &sampling, [0, 0], &scenes, &progress)?;
+                let losses = scene_losses(self.comparison, &sampling, [0, 0], &scenes, &progress)?;
                 Ok(paired(losses.clone(), losses))
             }
             Subsets::Shared { halves: [first, second], share } => {

@@ -1,4 +1,4 @@
-//! Algorithm 1 as it is written: the reference, in any precision.
+//! Algorithm 1 as it is written: the reference, in any precision, and the loss by the members of the grammar.
 
 use rayon::prelude::*;
 
@@ -10,12 +10,12 @@ use crate::model::brdf::Model;
 use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
-use crate::render::{render_sample, render_texel};
+use crate::render::radiance;
 
 /// Rows are summed within blocks of this many texels, and blocks in order: threads never change a sum.
 const TEXELS_PER_BLOCK: usize = 4096;
 
-/// The plain loss on the processor: one texel and scene after the other.
+/// The plain loss: one texel and scene after the other. Members of the grammar are rendered in f64, and all logarithms are.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Plain;
 
@@ -26,10 +26,6 @@ impl Compute for f64 {
 }
 
 impl<T: Real> Backend<T> for Plain {
-    fn name(&self) -> &'static str {
-        "cpu"
-    }
-
     fn scene_losses(
         &self,
         comparison: &Comparison<'_, T>,
@@ -39,9 +35,8 @@ impl<T: Real> Backend<T> for Plain {
     ) -> Result<Vec<Vec<f64>>, Error> {
         let ground_truth = comparison.ground_truth();
         let predictions = comparison.predictions();
-        let model = Model::from(comparison.convention());
         let convention = comparison.convention();
-        let (epsilon, norm) = (T::of(convention.epsilon), convention.norm());
+        let (model, epsilon, norm) = (Model::from(convention), convention.epsilon, convention.norm());
         let logs = norm == Norm::LogL1;
         let is_squared = matches!(norm, Norm::Mse | Norm::Rmse);
         let (grid, places) = comparison.places();
@@ -57,13 +52,13 @@ impl<T: Real> Backend<T> for Plain {
                 let range = block * TEXELS_PER_BLOCK..texels.min((block + 1) * TEXELS_PER_BLOCK);
                 let rays = scene.rays();
                 let range = range.map(|at| listed.map_or(at, |texels| texels[at]));
-                let radiance = |material: &Material<T>, texel: usize| {
+                let value = |material: &Material<T>, texel: usize| {
                     let place = places.map_or(texel, |places| places[texel]);
-                    let radiance = render_sample(&material.texel(texel), &model, &rays, grid, place);
+                    let radiance = radiance(&material.texel(texel), &model, &rays, grid, place);
                     if logs { radiance.map(|radiance| (radiance + epsilon).ln()) } else { radiance }
                 };
-                let difference = |a: T, b: T| if is_squared { (a - b) * (a - b) } else { (a - b).abs() };
-                let sums = block_sums(ground_truth, predictions, range, radiance, difference);
+                let difference = |a: f64, b: f64| if is_squared { (a - b) * (a - b) } else { (a - b).abs() };
+                let sums = block_sums(ground_truth, predictions, range, value, difference);
                 progress.step()?;
                 Ok(sums)
             })
@@ -99,8 +94,9 @@ pub(super) fn texel_means(
     let mean = |prediction: &Material<f32>, column: usize, row: usize| {
         let mut sums = [0.0; 3];
         for rays in &rays {
-            let [a, b] =
-                [ground_truth, prediction].map(|m| render_texel(m, &model, rays, column, row).map(f64::from));
+            let place = row * ground_truth.width() + column;
+            let [a, b] = [ground_truth, prediction]
+                .map(|m| radiance(&m.texel(place), &model, rays, ground_truth.grid(), place));
             (0..3).for_each(|c| sums[c] += term(a[c], b[c]));
         }
         sums.map(|sum| (sum / scenes.len() as f64) as f32)
@@ -116,21 +112,21 @@ pub(super) fn texel_means(
     predictions.iter().map(of).collect()
 }
 
-/// For each prediction the sum of the differences of what `log_radiance` gives over `texels` and RGB.
+/// For each prediction the sum of the differences of what `value` gives over `texels` and RGB.
 fn block_sums<T: Real>(
     ground_truth: &Material<T>,
     predictions: &[&Material<T>],
     texels: impl Iterator<Item = usize>,
-    log_radiance: impl Fn(&Material<T>, usize) -> [T; 3],
-    difference: impl Fn(T, T) -> T,
+    value: impl Fn(&Material<T>, usize) -> [f64; 3],
+    difference: impl Fn(f64, f64) -> f64,
 ) -> Vec<f64> {
     let mut sums = vec![0.0; predictions.len()];
     for index in texels {
-        let expected = log_radiance(ground_truth, index);
+        let expected = value(ground_truth, index);
         for (sum, prediction) in sums.iter_mut().zip(predictions) {
-            let got = log_radiance(prediction, index);
+            let got = value(prediction, index);
             for (a, b) in expected.into_iter().zip(got) {
-                *sum += difference(a, b).f64();
+                *sum += difference(a, b);
             }
         }
     }

@@ -19,8 +19,7 @@ impl<T: Compute> Comparison<'_, T> {
     /// The result does not depend on the number of threads.
     ///
     /// # Errors
-    /// [`Error::SceneCount`], [`Error::UnusableScene`], [`Error::Cancelled`], and [`Error::Gpu`] from a graphics
-    /// adapter.
+    /// [`Error::SceneCount`], [`Error::UnusableScene`], [`Error::Cancelled`].
     pub fn run(&self, request: &Request, progress: &Progress) -> Result<Outcome, Error> {
         match request {
             Request::Scenes(sampling) => {
@@ -38,13 +37,13 @@ impl<T: Compute> Comparison<'_, T> {
         }
     }
 
-    /// The losses over all scenes, each known to +-1% at 95% confidence, on the processor: what a loss over a few scenes
+    /// The losses over all scenes, each known to +-1% at 95% confidence: what a loss over a few scenes
     /// estimates. `seed` names the scenes that it takes. With the most scenes that there may be, the intervals may be wider.
     ///
     /// # Errors
     /// [`Error::UnusableScene`], [`Error::Cancelled`].
     pub fn over_all_scenes(&self, seed: u64, progress: &Progress) -> Result<Outcome, Error> {
-        self.clone().on(T::cpu()).run(&Request::Accuracy { target: ALL_SCENES_TARGET, seed }, progress)
+        self.run(&Request::Accuracy { target: ALL_SCENES_TARGET, seed }, progress)
     }
 
     /// As [`Comparison::run`]; `update` sees outcomes over growing numbers of scenes, the final one at last.

@@ -41,13 +41,15 @@ pub struct Convention {
     pub member: Option<&'static Member>,
 }
 
-/// A member of the grammar that is rendered by its own terms, on the processor.
+/// A member of the grammar that is rendered by its own terms, in f64 on the processor.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Member {
     pub terms: RendererTerms,
     pub norm: Norm,
     /// Whether its near-field scenes are sampled, too; otherwise all are distant.
     pub has_near: bool,
+    /// That of [`PRINTED`] and [`GUIDED_2020`] whose terms differ in fewest from its own: what adapters and pages draw in its place.
+    pub nearest: &'static Convention,
 }
 
 /// Lower end of the uniform u1 of Algorithm 2.
@@ -113,6 +115,11 @@ impl Default for Convention {
 }
 
 impl Convention {
+    /// What adapters and pages draw: the convention itself, or the nearest one of a member.
+    pub fn drawn(&self) -> Self {
+        self.member.map_or(*self, |member| *member.nearest)
+    }
+
     /// How renderings are compared.
     pub fn norm(&self) -> Norm {
         match self.member {

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
-use super::convention::{self, Convention, Member, PRINTED};
+use super::convention::{self, Convention, GUIDED_2020, Member, PRINTED};
 use super::grammar::words::Norm;
 use super::grammar::{Description, LossTerms, RendererTerms, SceneTerms};
 use crate::error::Error;
@@ -149,7 +149,10 @@ impl TryFrom<&Description> for Convention {
                 format!("[[scenes]] u1: expected 0 <= low <= high < 1, found [{}, {}]", c.u1_min, c.u1_max);
             return Err(Error::BadConvention { problem });
         }
-        c.member = Some(interned(Member { terms: described.terms, norm: described.loss.norm, has_near }));
+        let terms = described.terms;
+        let differences = |model: &Self| terms.differences(&Description::from(model).terms).len();
+        let nearest = if differences(&GUIDED_2020) < differences(&PRINTED) { &GUIDED_2020 } else { &PRINTED };
+        c.member = Some(interned(Member { terms, norm: described.loss.norm, has_near, nearest }));
         Ok(c)
     }
 }

@@ -58,8 +58,8 @@ pub fn render<T: Real>(
     Ok(Image { width, height, pixels })
 }
 
-/// What [`render`] computes, in f32 and, where the kernel has the renderer, many times faster, with the widest instruction set of the
-/// machine.
+/// What [`render`] computes, in f32 and many times faster, with the widest instruction set of the machine; a member of the grammar as
+/// [`render`] does.
 ///
 /// Within the rounding of a handful of f32 operations, and the same bits for any number of threads. Where R does not
 /// fit f32, it is 2^126.
@@ -72,7 +72,7 @@ pub fn render_f32(
     convention: &Convention,
     progress: &Progress,
 ) -> Result<Image<f32>, Error> {
-    if !simd::has(convention) {
+    if convention.member.is_some() {
         return render(material, scene, convention, progress);
     }
     simd::render_at(simd::Level::best(), material, scene, convention, progress)
@@ -108,7 +108,7 @@ fn member_point<T: Real>(
     Point { normal, diffuse, specular, roughness, base_color, metallic, light, view }
 }
 
-/// The radiance of a texel by the terms of the grammar, in f64; 0 where they divide 0 by 0.
+/// The radiance of a texel by the terms of the grammar; 0 where they divide 0 by 0, and the largest number where they divide by 0.
 #[cold]
 fn member_radiance<T: Real>(
     terms: &RendererTerms,
@@ -116,10 +116,10 @@ fn member_radiance<T: Real>(
     grid: Grid,
     rays: &Rays<T>,
     place: [usize; 2],
-) -> [T; 3] {
+) -> [f64; 3] {
     let point = member_point(terms, &widened(texel), grid, rays, place);
     let radiance = terms.radiance(&point, rays.kind() == Kind::Near);
-    radiance.map(|x| if x.is_nan() { T::zero() } else { T::of(x).min(T::max_value()) })
+    radiance.map(|x| if x.is_nan() { 0.0 } else { x.min(f64::MAX) })
 }
 
 /// The terms of the texel in column `column` of row `row` of a grid.
@@ -162,10 +162,22 @@ pub fn render_sample<T: Real>(
     grid: Grid,
     place: usize,
 ) -> [T; 3] {
+    radiance(texel, model, rays, grid, place).map(|x| T::of(x).min(T::max_value()))
+}
+
+/// As [`render_sample`]: Algorithm 3 in the precision `T`, a member of the grammar in f64.
+#[inline]
+pub fn radiance<T: Real>(
+    texel: &Texel<T>,
+    model: &Model<T>,
+    rays: &Rays<T>,
+    grid: Grid,
+    place: usize,
+) -> [f64; 3] {
     let [column, row] = [place % grid.width, place / grid.width];
     if let Some(member) = model.member {
         return member_radiance(&member.terms, texel, grid, rays, [column, row]);
     }
     let (w_l, w_v) = rays.from_texel(grid.position(column, row));
-    brdf::render(model, texel, w_l, w_v)
+    brdf::render(model, texel, w_l, w_v).map(T::f64)
 }

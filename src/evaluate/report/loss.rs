@@ -24,8 +24,6 @@ pub struct LossReport {
     pub epsilon: f64,
     /// `f32` or `f64`.
     pub precision: &'static str,
-    /// What computed the losses: `cpu` or `gpu`.
-    pub backend: &'static str,
     /// Width and height in texels.
     pub size: [usize; 2],
     #[serde(flatten)]
@@ -85,8 +83,6 @@ pub enum AllTexels {
 pub(super) struct FewScenes {
     #[serde(flatten)]
     pub sampled: SampledScenes,
-    /// What computed them: `cpu` or `gpu`.
-    backend: &'static str,
     interval95_from: IntervalSource,
     /// One per prediction but the first, in these scenes.
     differences: Vec<Difference>,
@@ -152,7 +148,6 @@ impl LossReport {
             convention: convention.name,
             epsilon: convention.epsilon,
             precision: T::NAME,
-            backend: comparison.backend().name(),
             size,
             sampled: SampledScenes::of(&outcome, size),
             interval95_from: outcome.interval_source(),
@@ -166,7 +161,7 @@ impl LossReport {
         }
     }
 
-    /// The answer of `comparison` to `question`. An accuracy and a time are computed on the CPU.
+    /// The answer of `comparison` to `question`.
     ///
     /// # Errors
     /// As [`Comparison::run`].
@@ -192,9 +187,9 @@ impl LossReport {
                 few_scenes_losses: few.losses.unwrap_or_default(),
             });
         }
-        let Self { sampled, backend, interval95_from, differences, outcome, .. } = few;
+        let Self { sampled, interval95_from, differences, outcome, .. } = few;
         let scenes = outcome.scenes;
-        let few_scenes = Some(FewScenes { sampled, backend, interval95_from, differences, scenes });
+        let few_scenes = Some(FewScenes { sampled, interval95_from, differences, scenes });
         Self { few_scenes, ..self }
     }
 

@@ -7,7 +7,7 @@ use super::missed::missed_by_any;
 use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
 
-fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 24] {
+fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 23] {
     [
         ("prediction", "prediction", |(_, result)| result.prediction.as_str().into()),
         ("loss", "loss", |(_, result)| result.loss.into()),
@@ -25,7 +25,6 @@ fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 24] {
         ("sampler", "", |(report, _)| report.sampled.sampler.map(|sampler| sampler.to_string()).into()),
         ("texels", "", |(report, _)| report.sampled.texels.into()),
         ("precision", "", |(report, _)| report.precision.into()),
-        ("backend", "", |(report, _)| report.backend.into()),
         ("target_error", "", |(report, _)| report.target_error.into()),
         ("target_reached", "", |(report, _)| report.target_reached.into()),
         ("path", "", |(_, result)| result.path.clone().into()),
@@ -75,10 +74,10 @@ impl LossReport {
 
 impl Report for LossReport {
     fn heading(&self) -> String {
-        let Self { convention, epsilon, ground_truth, size, precision, backend, outcome, .. } = self;
+        let Self { convention, epsilon, ground_truth, size, precision, outcome, .. } = self;
         let [width, height] = size;
         format!(
-            "rendering loss against {ground_truth}, {width} x {height} texels, {precision} on the {backend}\n\
+            "rendering loss against {ground_truth}, {width} x {height} texels, {precision}\n\
              convention {convention}, epsilon {epsilon}\n{}",
             scenes_line(outcome.sampling.as_ref(), &outcome.scenes, *size)
         )

@@ -15,7 +15,7 @@
 //! let prediction = Material::uniform("too rough", 64, 64, &texel(0.7))?;
 //! let comparison = Comparison::new(&truth, &[&prediction], Convention::default())?;
 //! let report = LossReport::answer(&comparison, &Question::default(), &Progress::default())?;
-//! assert!(report.text().starts_with("rendering loss against truth, 64 x 64 texels, f32 on the cpu"));
+//! assert!(report.text().starts_with("rendering loss against truth, 64 x 64 texels, f32"));
 //! assert!(report.csv()?.starts_with("prediction,loss,standard_error,"));
 //! # Ok::<(), svbrdf_evaluate::Error>(())
 //! ```

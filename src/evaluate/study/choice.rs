@@ -14,13 +14,6 @@ const ON_ALL: usize = 9;
 const MORE: usize = 1024;
 const FEW: usize = 128;
 
-/// The device that computes the loss.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Device {
-    Cpu,
-    Gpu,
-}
-
 /// One setting of everything that trades time for accuracy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Choice {
@@ -29,7 +22,6 @@ pub struct Choice {
     pub sampler: Sampler,
     pub texels: Texels,
     pub precision: Precision,
-    pub backend: Device,
     /// How the maps are stored in files.
     pub maps: Depth,
 }
@@ -42,20 +34,18 @@ pub enum Family {
     MoreTexels,
     FewTexels,
     F64,
-    Gpu,
     HalfMaps,
     EightBitMaps,
 }
 
 impl Default for Choice {
-    /// The fewest Sobol scenes, in f32 on the CPU.
+    /// The fewest Sobol scenes, in f32.
     fn default() -> Self {
         Self {
             scenes: 3,
             sampler: Sampler::Sobol,
             texels: Texels::All,
             precision: Precision::F32,
-            backend: Device::Cpu,
             maps: Depth::Float,
         }
     }
@@ -87,15 +77,13 @@ impl Choice {
             Texels::Sampled(count) => format!(" --texels {count}"),
         };
         let precision = if self.precision == Precision::F64 { " --precision f64" } else { "" };
-        let backend = if self.backend == Device::Gpu { " --backend gpu" } else { "" };
-        format!("{sampler}--near {} --distant {}{texels}{precision}{backend}", self.near(), self.distant())
+        format!("{sampler}--near {} --distant {}{texels}{precision}", self.near(), self.distant())
     }
 
     pub fn family(&self) -> Family {
         match *self {
             Self { maps: Depth::Half, .. } => Family::HalfMaps,
             Self { maps: Depth::Eight | Depth::Sixteen, .. } => Family::EightBitMaps,
-            Self { backend: Device::Gpu, .. } => Family::Gpu,
             Self { precision: Precision::F64, .. } => Family::F64,
             Self { texels: Texels::Sampled(FEW), .. } => Family::FewTexels,
             Self { texels: Texels::Sampled(_), .. } => Family::MoreTexels,
@@ -104,20 +92,19 @@ impl Choice {
         }
     }
 
-    /// The choice over the same scenes that is measured over many seeds: f32 on the CPU with float maps.
+    /// The choice over the same scenes that is measured over many seeds: f32 with float maps.
     pub(super) fn base(self) -> Self {
-        Self { precision: Precision::F32, backend: Device::Cpu, maps: Depth::Float, ..self }
+        Self { precision: Precision::F32, maps: Depth::Float, ..self }
     }
 }
 
 impl Family {
     /// In the order of measurement: those over many seeds first.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::FewTexels,
         Self::MoreTexels,
         Self::Sobol,
         Self::Random,
-        Self::Gpu,
         Self::F64,
         Self::HalfMaps,
         Self::EightBitMaps,
@@ -130,7 +117,6 @@ impl Family {
             Self::MoreTexels => "Sobol, 1024 texels each",
             Self::FewTexels => "Sobol, 128 texels each",
             Self::F64 => "Sobol, f64",
-            Self::Gpu => "Sobol, GPU",
             Self::HalfMaps => "Sobol, half maps",
             Self::EightBitMaps => "Sobol, 8-bit maps",
         }
@@ -144,7 +130,6 @@ impl Family {
             Self::MoreTexels => [86, 180, 233],
             Self::FewTexels => [0, 114, 178],
             Self::F64 => [130, 130, 130],
-            Self::Gpu => [230, 159, 0],
             Self::HalfMaps | Self::EightBitMaps => [204, 121, 167],
         }
     }
@@ -159,7 +144,6 @@ impl Family {
             Self::MoreTexels => (Choice { texels: Texels::Sampled(MORE), ..base }, SOBOL),
             Self::FewTexels => (Choice { texels: Texels::Sampled(FEW), ..base }, SOBOL),
             Self::F64 => (Choice { precision: Precision::F64, ..base }, on_all),
-            Self::Gpu => (Choice { backend: Device::Gpu, ..base }, on_all),
             Self::HalfMaps => (Choice { maps: Depth::Half, ..base }, on_all),
             Self::EightBitMaps => (Choice { maps: Depth::Eight, ..base }, on_all),
         };

@@ -2,21 +2,20 @@
 
 use std::path::Path;
 
-use crate::study::{Device, Point, Study};
+use crate::study::{Point, Study};
 use svbrdf_core::loss::Precision;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
 use svbrdf_files::disk::atomic::Destination;
 
-const CSV_HEADING: [&str; 15] = [
+const CSV_HEADING: [&str; 14] = [
     "scenes",
     "near",
     "distant",
     "sampler",
     "texels",
     "precision",
-    "backend",
     "maps",
     "seconds",
     "error",
@@ -52,10 +51,9 @@ pub fn write(study: &Study, destination: &Destination<()>, progress: &Progress) 
     })
 }
 
-fn csv_row(p: &Point) -> [String; 15] {
+fn csv_row(p: &Point) -> [String; 14] {
     let c = &p.choice;
     let precision = if c.precision == Precision::F64 { "f64" } else { "f32" };
-    let backend = if c.backend == Device::Gpu { "gpu" } else { "cpu" };
     let short = |number: f64| format!("{number:.4e}");
     [
         c.scenes.to_string(),
@@ -64,7 +62,6 @@ fn csv_row(p: &Point) -> [String; 15] {
         c.sampler.to_string(),
         c.texels.to_string(),
         precision.to_owned(),
-        backend.to_owned(),
         c.maps.name().to_owned(),
         short(p.seconds),
         short(p.error),

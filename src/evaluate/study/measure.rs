@@ -7,7 +7,7 @@ use super::pair::Pair;
 use super::result::{Point, Reference, Study};
 use crate::error::Error;
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::{Backend, Comparison, Compute, Estimate, Outcome, Request, Sampling, Texels};
+use svbrdf_core::loss::{Comparison, Compute, Estimate, Outcome, Request, Sampling, Texels};
 use svbrdf_core::material::{Depth, Material};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
@@ -32,7 +32,7 @@ const SEEDS_WORK: usize = 1 << 28;
 const LEAST_TEXELS: usize = 1 << 11;
 /// Longest loss of a choice, in seconds; choices above it are not measured.
 const LONGEST: f64 = 3.0;
-/// The same for other precisions, backends and maps, whose errors need few runs.
+/// The same for other precisions and maps, whose errors need few runs.
 const LONGEST_VARIANT: f64 = 0.7;
 /// The time of a loss in f64, in times of one in f32, and that of a texel of a random subset, in times of one of a whole map: roughly,
 /// for what is told beforehand.
@@ -42,18 +42,17 @@ const WHOLE: f64 = 14.0;
 const VARIANT_RUNS: usize = 3;
 const VARIANT_TIME: f64 = 0.4;
 
-/// Computes the loss of a sampling in the precision and with the backend and maps of a family.
+/// Computes the loss of a sampling in the precision and with the maps of a family.
 type Kernel<'a> = Box<dyn Fn(&Sampling, &Progress) -> Result<Outcome, CoreError> + 'a>;
 
 /// The loss of one prediction over sampled scenes.
 fn outcome<T: Compute>(
-    backend: &dyn Backend<T>,
     [ground_truth, prediction]: [&Material<T>; 2],
     convention: Convention,
     sampling: &Sampling,
     progress: &Progress,
 ) -> Result<Outcome, CoreError> {
-    let comparison = Comparison::new(ground_truth, &[prediction], convention)?.on(backend).without_pilot();
+    let comparison = Comparison::new(ground_truth, &[prediction], convention)?.without_pilot();
     comparison.run(&Request::Scenes(*sampling), progress)
 }
 
@@ -102,7 +101,7 @@ impl<'a> Bench<'a> {
         self.progress.begin(Family::ALL.into_iter().flat_map(|family| self.plan(family)).sum());
     }
 
-    /// About how long the families on the CPU take, in seconds, by the time of the reference.
+    /// About how long the families take, in seconds, by the time of the reference.
     pub(super) fn expected_seconds(&self, reference: &Reference) -> f64 {
         let all = self.pair.ground_truth.width() * self.pair.ground_truth.height();
         let cost = |texels| match texels {
@@ -115,38 +114,19 @@ impl<'a> Bench<'a> {
             let seconds = factor * rate * choice.scenes as f64 * cost(choice.texels);
             if seconds > longest(&choice) { 0.0 } else { seconds * self.runs(&choice, seconds) as f64 }
         };
-        let families =
-            Family::ALL.into_iter().filter(|family| *family != Family::Gpu && !self.is_on_all(*family));
+        let families = Family::ALL.into_iter().filter(|family| !self.is_on_all(*family));
         families.flat_map(Family::choices).map(of_choice).sum()
     }
 
-    /// Measures the choices of a family until one would take too long. A failing adapter loses its own points only.
+    /// Measures the choices of a family until one would take too long.
     pub(super) fn family(
         &mut self,
         family: Family,
         study: &mut Study,
         update: &mut impl FnMut(&Study),
     ) -> Result<(), Error> {
-        match self.measure(family, study, update) {
-            Err(problem)
-                if matches!(problem.core(), Some(CoreError::Gpu { .. } | CoreError::NoAdapter { .. })) =>
-            {
-                study.left_out.push(format!("{}: {problem}", family.name()));
-                update(study);
-                Ok(())
-            }
-            result => result,
-        }
-    }
-
-    fn measure(
-        &mut self,
-        family: Family,
-        study: &mut Study,
-        update: &mut impl FnMut(&Study),
-    ) -> Result<(), Error> {
         let plan = self.plan(family);
-        if family == Family::Gpu && self.pair.gpu.is_none() || self.is_on_all(family) {
+        if self.is_on_all(family) {
             return Ok(self.progress.advance(plan.iter().sum())?);
         }
         let kernel = kernel(&self.pair, family)?;
@@ -184,7 +164,7 @@ impl<'a> Bench<'a> {
         Ok(seconds / WARMING_SCENES as f64)
     }
 
-    /// Progress of each choice of a family: approximate work, in scenes in f32 on the CPU.
+    /// Progress of each choice of a family: approximate work, in scenes in f32.
     fn plan(&self, family: Family) -> Vec<u64> {
         let runs = |choice: &Choice| if *choice == choice.base() { self.seeds(choice) } else { 1 };
         let cost = |choice: Choice| choice.scenes * self.texels(&choice) * runs(&choice) / LEAST_TEXELS;
@@ -265,23 +245,20 @@ fn longest(choice: &Choice) -> f64 {
 
 /// The kernel of a family, on materials converted to its precision and depth.
 fn kernel<'a>(pair: &Pair<'a>, family: Family) -> Result<Kernel<'a>, Error> {
-    let Pair { ground_truth, prediction, convention, gpu } = *pair;
+    let Pair { ground_truth, prediction, convention } = *pair;
     let of_files = |depth| -> Result<Kernel<'a>, Error> {
         let [truth, prediction] =
             [ground_truth.after_round_trip(depth)?, prediction.after_round_trip(depth)?];
-        Ok(Box::new(move |s, p| outcome(f32::cpu(), [&truth, &prediction], convention, s, p)))
+        Ok(Box::new(move |s, p| outcome([&truth, &prediction], convention, s, p)))
     };
-    Ok(match (family, gpu) {
-        (Family::Gpu, Some(gpu)) => {
-            Box::new(move |s, p| outcome(gpu, [ground_truth, prediction], convention, s, p))
-        }
-        (Family::F64, _) => {
+    Ok(match family {
+        Family::F64 => {
             let [truth, prediction] = [ground_truth.cast::<f64>(), prediction.cast()];
-            Box::new(move |s, p| outcome(f64::cpu(), [&truth, &prediction], convention, s, p))
+            Box::new(move |s, p| outcome([&truth, &prediction], convention, s, p))
         }
-        (Family::HalfMaps, _) => of_files(Depth::Half)?,
-        (Family::EightBitMaps, _) => of_files(Depth::Eight)?,
-        _ => Box::new(move |s, p| outcome(f32::cpu(), [ground_truth, prediction], convention, s, p)),
+        Family::HalfMaps => of_files(Depth::Half)?,
+        Family::EightBitMaps => of_files(Depth::Eight)?,
+        _ => Box::new(move |s, p| outcome([ground_truth, prediction], convention, s, p)),
     })
 }
 

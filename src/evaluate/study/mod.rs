@@ -12,7 +12,6 @@
 //!     ground_truth: &Material::uniform("truth", 64, 64, &texel(0.6))?,
 //!     prediction: &Material::uniform("too rough", 64, 64, &texel(0.7))?,
 //!     convention: Convention::default(),
-//!     gpu: None,
 //! };
 //! let study = study::run(&pair, &Progress::default(), |_| ())?;
 //! if let Some(point) = study.cheapest(0.01) {
@@ -34,7 +33,7 @@ pub mod plot;
 mod result;
 pub mod text;
 
-pub use choice::{Choice, Device, Family};
+pub use choice::{Choice, Family};
 pub use pair::Pair;
 pub use result::{Point, Reference, Study};
 
@@ -51,7 +50,7 @@ pub fn reference(pair: &Pair<'_>, progress: &Progress) -> Result<Reference, Erro
     Bench::new(pair, progress).reference()
 }
 
-/// About how long [`measure`] takes on the CPU, in seconds.
+/// About how long [`measure`] takes, in seconds.
 pub fn expected_seconds(pair: &Pair<'_>, reference: &Reference) -> f64 {
     Bench::new(pair, &Progress::default()).expected_seconds(reference)
 }

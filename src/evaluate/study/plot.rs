@@ -179,7 +179,6 @@ fn marker<B: DrawingBackend, C>(
         Family::MoreTexels => (5, -0.25, 6.0, 1.0),
         Family::FewTexels => (4, 0.0, 6.0, 1.0),
         Family::Random => (3, -0.25, 6.0, 1.0),
-        Family::Gpu => (4, 0.125, 6.0, 1.0),
         Family::F64 => (3, 0.25, 6.0, 1.0),
         Family::HalfMaps => (4, 0.0, 10.0, 0.0),
         Family::EightBitMaps => (4, 0.125, 11.0, 0.0),

@@ -31,11 +31,11 @@ pub struct Point {
     pub seconds: f64,
     /// Root mean square of (loss - reference) / reference over `seeds`.
     pub error: f64,
-    /// Mean relative difference from f32 on the CPU and float maps over the same scenes.
+    /// Mean relative difference from f32 and float maps over the same scenes.
     pub shift: f64,
     /// The number of seeds of `error`.
     pub seeds: usize,
-    /// The number of runs. Where it is below `seeds`, the other losses are those of f32 on the CPU with float maps over the
+    /// The number of runs. Where it is below `seeds`, the other losses are those of f32 with float maps over the
     /// same scenes, plus `shift`.
     pub runs: usize,
     /// Whether the point is on the Pareto front: every choice that is as fast is less accurate by more than 1%. The depth of

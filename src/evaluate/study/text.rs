@@ -51,7 +51,7 @@ impl Study {
         lines.join("\n") + "\n"
     }
 
-    /// The cost and effect of other precisions, backends and depths of maps, at the most scenes that they were run with.
+    /// The cost and effect of other precisions and depths of maps, at the most scenes that they were run with.
     pub fn variants(&self) -> Vec<String> {
         let line = |family: Family| {
             let of_family = |p: &&Point| p.choice.family() == family && p.choice != p.choice.base();

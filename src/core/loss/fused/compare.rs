@@ -1,6 +1,6 @@
-//! The sum of |ln a - ln b| over many numbers, with one logarithm at the end; and that of (a - b)^2.
+//! The sum of |ln a - ln b| over many numbers, with one logarithm at the end.
 //!
-//! The first equals ln(product of max(a, b)) - ln(product of min(a, b)). Mantissas are multiplied, exponents added as integers.
+//! It equals ln(product of max(a, b)) - ln(product of min(a, b)). Mantissas are multiplied, exponents added as integers.
 
 use fearless_simd::{Simd, prelude::*};
 
@@ -22,14 +22,6 @@ pub(super) trait Differences<S: Simd> {
     fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance);
 }
 
-/// Differences that are added up over all texels.
-pub(super) trait Sum<S: Simd>: Differences<S> + Clone {
-    fn new(simd: S) -> Self;
-
-    /// The sum over all lanes.
-    fn total(&self) -> f64;
-}
-
 /// Running products, one per lane. Each factor rounds once, so n factors are off by about sqrt(n) 4e-8.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LogProducts<S: Simd> {
@@ -41,6 +33,23 @@ pub(super) struct LogProducts<S: Simd> {
 }
 
 impl<S: Simd> LogProducts<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        let one = V::<S>::splat(simd, 1.0);
+        Self { larger: one, smaller: one, exponent: Bits::<S>::splat(simd, 0) }
+    }
+
+    /// The sum over all lanes.
+    #[inline(always)]
+    pub(super) fn total(&self) -> f64 {
+        let (mut product, mut exponent) = (1.0, 0);
+        for lane in 0..V::<S>::LEN {
+            product *= f64::from(self.larger[lane]) / f64::from(self.smaller[lane]);
+            exponent += i64::from(self.exponent[lane].cast_signed());
+        }
+        exponent as f64 * std::f64::consts::LN_2 + product.ln()
+    }
+
     #[inline(always)]
     fn multiply(&mut self, larger: V<S>, smaller: V<S>) {
         self.larger *= larger;
@@ -61,24 +70,6 @@ impl<S: Simd> LogProducts<S> {
     fn of_lane(&self, lane: usize) -> f64 {
         let ratio = f64::from(self.larger[lane]) / f64::from(self.smaller[lane]);
         f64::from(self.exponent[lane].cast_signed()) * std::f64::consts::LN_2 + ratio.ln()
-    }
-}
-
-impl<S: Simd> Sum<S> for LogProducts<S> {
-    #[inline(always)]
-    fn new(simd: S) -> Self {
-        let one = V::<S>::splat(simd, 1.0);
-        Self { larger: one, smaller: one, exponent: Bits::<S>::splat(simd, 0) }
-    }
-
-    #[inline(always)]
-    fn total(&self) -> f64 {
-        let (mut product, mut exponent) = (1.0, 0);
-        for lane in 0..V::<S>::LEN {
-            product *= f64::from(self.larger[lane]) / f64::from(self.smaller[lane]);
-            exponent += i64::from(self.exponent[lane].cast_signed());
-        }
-        exponent as f64 * std::f64::consts::LN_2 + product.ln()
     }
 }
 
@@ -106,47 +97,6 @@ impl<S: Simd> Differences<S> for LogProducts<S> {
             products.normalize();
         }
         *self = products;
-    }
-}
-
-/// The sum of squares.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Squares(f64);
-
-impl<S: Simd> Sum<S> for Squares {
-    #[inline(always)]
-    fn new(_: S) -> Self {
-        Self(0.0)
-    }
-
-    #[inline(always)]
-    fn total(&self) -> f64 {
-        self.0
-    }
-}
-
-impl<S: Simd> Differences<S> for Squares {
-    /// The squares of a tile of differences below 2^21 fit a float, and few are added in f32.
-    #[inline(always)]
-    fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
-        if SAFE {
-            for (a, b) in a.0.iter().zip(&b.0) {
-                for (a, b) in a.values().iter().zip(b.values()) {
-                    self.0 += (f64::from(*a) - f64::from(*b)).powi(2);
-                }
-            }
-            return;
-        }
-        let mut sums = [V::<S>::splat(simd, 0.0); 3];
-        for i in 0..vectors::<S>() {
-            for (c, sum) in sums.iter_mut().enumerate() {
-                let difference = a.0[c].load(simd, i) - b.0[c].load(simd, i);
-                *sum = difference.mul_add(difference, *sum);
-            }
-        }
-        for lane in 0..V::<S>::LEN {
-            self.0 += sums.iter().map(|sum| f64::from(sum[lane])).sum::<f64>();
-        }
     }
 }
 

@@ -7,8 +7,7 @@ use glam::DVec3;
 use super::rows::TexelRows;
 use crate::loss::comparison::Comparison;
 use crate::material::Material;
-use crate::model::grammar::words::Norm;
-use crate::render::simd::kernel::Kernel;
+use crate::model::convention::Convention;
 use crate::render::simd::shade::ShadingParams;
 use crate::render::simd::size::TEXELS_PER_BLOCK;
 use crate::render::simd::tile::{GridAxes, TexelSpan};
@@ -17,7 +16,7 @@ use crate::render::simd::tile::{GridAxes, TexelSpan};
 pub(super) struct LossInputs<'a> {
     pub(super) ground_truth: &'a Material<f32>,
     pub(super) predictions: &'a [&'a Material<f32>],
-    pub(super) kernel: Kernel,
+    pub(super) convention: &'a Convention,
     pub(super) params: ShadingParams,
     pub(super) axes: GridAxes,
     /// The largest distance of a texel from the middle.
@@ -37,11 +36,7 @@ pub(super) struct LossInputs<'a> {
 }
 
 impl<'a> LossInputs<'a> {
-    pub(super) fn new(
-        comparison: &'a Comparison<'_, f32>,
-        listed: Option<&'a [usize]>,
-        kernel: Kernel,
-    ) -> Self {
+    pub(super) fn new(comparison: &'a Comparison<'_, f32>, listed: Option<&'a [usize]>) -> Self {
         let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
         let (grid, places) = comparison.places();
         let texels = listed.map_or(ground_truth.width() * ground_truth.height(), <[usize]>::len);
@@ -50,11 +45,8 @@ impl<'a> LossInputs<'a> {
         Self {
             ground_truth,
             predictions,
-            params: match kernel.norm {
-                Norm::LogL1 => ShadingParams::from(&kernel),
-                _ => ShadingParams::without_epsilon(&kernel),
-            },
-            kernel,
+            convention: comparison.convention(),
+            params: ShadingParams::from(comparison.convention()),
             axes: match listed.or(places) {
                 None => GridAxes::from(grid),
                 Some(_) => GridAxes::without_runs(grid),

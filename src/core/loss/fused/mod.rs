@@ -21,11 +21,9 @@ use rayon::prelude::*;
 use super::comparison::{Backend, Comparison, Compute, by_prediction};
 use super::plain::{self, Plain};
 use crate::error::Error;
-use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::simd::Level;
-use crate::render::simd::kernel::Kernel;
 use inputs::LossInputs;
 use pass::LossTile;
 use rows::TexelRows;
@@ -34,7 +32,7 @@ use sums::SCENES_PER_GROUP;
 /// The most sums held in memory at a time.
 const MAX_SUMS: usize = 1 << 20;
 
-/// The loss on the processor in f32, many times faster than [`Plain`](super::Plain).
+/// The loss in f32, many times faster than [`Plain`](super::Plain), which computes it for members of the grammar.
 ///
 /// Within a relative 1e-6 of f64 on materials with a roughness of at least 1/255. A light or a view within 1e-18 of
 /// the plane is rendered as if it were that far above it; R that does not fit f32, as the largest number.
@@ -56,19 +54,13 @@ impl Fused {
         scenes: &[Scene],
         progress: &Progress,
     ) -> Result<Vec<Vec<[f32; 3]>>, Error> {
-        let of_logs = |kernel: &Kernel| kernel.norm == Norm::LogL1;
-        let Some(kernel) = kernel(comparison).filter(of_logs) else {
+        if comparison.convention().member.is_some() {
             return plain::texel_means(comparison, scenes, progress);
-        };
+        }
         let level = self.level.unwrap_or_else(Level::best);
-        let inputs = LossInputs::new(comparison, None, kernel);
+        let inputs = LossInputs::new(comparison, None);
         inputs.texel_means(level, scenes, progress)
     }
-}
-
-/// What the kernel computes; `None` where it does not have the renderer with the norm.
-fn kernel(comparison: &Comparison<'_, f32>) -> Option<Kernel> {
-    Kernel::of(comparison.convention()).filter(Kernel::has_norm)
 }
 
 impl Compute for f32 {
@@ -78,10 +70,6 @@ impl Compute for f32 {
 }
 
 impl Backend<f32> for Fused {
-    fn name(&self) -> &'static str {
-        "cpu"
-    }
-
     fn scene_losses(
         &self,
         comparison: &Comparison<'_, f32>,
@@ -93,11 +81,11 @@ impl Backend<f32> for Fused {
         if predictions.is_empty() {
             return Ok(Vec::new());
         }
-        let Some(kernel) = kernel(comparison) else {
+        if comparison.convention().member.is_some() {
             return Plain.scene_losses(comparison, scenes, texels, progress);
-        };
+        }
         let level = self.level.unwrap_or_else(Level::best);
-        let inputs = LossInputs::new(comparison, texels, kernel);
+        let inputs = LossInputs::new(comparison, texels);
         let groups: usize = scenes.len().div_ceil(SCENES_PER_GROUP);
         progress.begin((groups * inputs.blocks) as u64);
         let per_batch = SCENES_PER_GROUP * (MAX_SUMS / (SCENES_PER_GROUP * inputs.blocks)).max(1);
@@ -116,9 +104,9 @@ impl Backend<f32> for Fused {
         progress: &Progress,
     ) -> Result<Vec<Vec<f64>>, Error> {
         let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
-        let Some(kernel) = kernel(comparison) else {
+        if comparison.convention().member.is_some() {
             return Plain.losses_on_own_texels(comparison, scenes, texels, progress);
-        };
+        }
         let level = self.level.unwrap_or_else(Level::best);
         progress.begin(scenes.len() as u64);
         let materials: Vec<_> = [ground_truth].into_iter().chain(predictions.iter().copied()).collect();
@@ -130,7 +118,7 @@ impl Backend<f32> for Fused {
         let rows = TexelRows::of(&materials, listed);
         let of_scene = |tile: &mut LossTile, (index, scene)| {
             let texels = texels(index);
-            let inputs = LossInputs::new(comparison, Some(&texels), kernel);
+            let inputs = LossInputs::new(comparison, Some(&texels));
             let inputs = LossInputs { rows: rows.as_ref(), ..inputs };
             progress.step().map(|()| inputs.losses_of_scene(level, tile, scene))
         };

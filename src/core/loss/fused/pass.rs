@@ -36,12 +36,7 @@ impl LossTile {
     }
 
     #[inline(always)]
-    pub(super) fn fill<S: Lanes, const SMITH: bool>(
-        &mut self,
-        simd: S,
-        inputs: &LossInputs<'_>,
-        span: &TexelSpan<'_>,
-    ) {
+    pub(super) fn fill<S: Lanes>(&mut self, simd: S, inputs: &LossInputs<'_>, span: &TexelSpan<'_>) {
         match (inputs.places, span) {
             (None, span) => self.positions.fill(&inputs.axes, span),
             (Some(places), TexelSpan::Range(range)) => {
@@ -53,7 +48,7 @@ impl LossTile {
                 self.positions.fill(&inputs.axes, &TexelSpan::Listed(&self.places));
             }
         }
-        let ShadingParams { roughness_floor: floor, narrow, smith, .. } = inputs.params;
+        let ShadingParams { roughness_floor: floor, narrow, .. } = inputs.params;
         let terms = std::iter::once(&mut self.ground_truth).chain(&mut self.predictions);
         let materials = std::iter::once(&inputs.ground_truth).chain(inputs.predictions);
         let gathered = match (inputs.rows, span) {
@@ -68,13 +63,13 @@ impl LossTile {
                 Some(span) => (self.gathered.planes(index), span),
                 None => (material.planes(), span),
             };
-            terms.fill::<S, SMITH>(simd, planes, span, floor, narrow, smith);
+            terms.fill(simd, planes, span, floor, narrow);
         }
     }
 
     /// Adds the differences in one scene to the sums of the predictions. `distant` is the geometry of a distant scene.
     #[inline(always)]
-    pub(super) fn add<S: Lanes, const SMITH: bool, D: Differences<S>>(
+    pub(super) fn add<S: Lanes, D: Differences<S>>(
         &mut self,
         simd: S,
         params: &ShadingParams,
@@ -83,7 +78,7 @@ impl LossTile {
         sums: &mut [D],
     ) {
         match distant {
-            Some(geometry) => self.add_with::<S, SMITH, D>(
+            Some(geometry) => self.add_with(
                 simd,
                 params,
                 scene,
@@ -93,8 +88,8 @@ impl LossTile {
                 |_, _| geometry,
             ),
             None => {
-                let is_short = self.geometry.fill::<S, SMITH>(simd, scene, &self.positions);
-                self.add_with::<S, SMITH, D>(
+                let is_short = self.geometry.fill(simd, scene, &self.positions);
+                self.add_with(
                     simd,
                     params,
                     scene,
@@ -108,7 +103,7 @@ impl LossTile {
     }
 
     #[inline(always)]
-    fn add_with<S: Lanes, const SMITH: bool, D: Differences<S>>(
+    fn add_with<S: Lanes, D: Differences<S>>(
         &mut self,
         simd: S,
         params: &ShadingParams,
@@ -119,7 +114,7 @@ impl LossTile {
     ) {
         let tile = &self.geometry;
         let (expected, predicted) = (&mut self.expected, &mut self.predicted);
-        let expected_is_small = expected.render::<S, SMITH>(
+        let expected_is_small = expected.render(
             simd,
             params,
             scene,
@@ -129,7 +124,7 @@ impl LossTile {
             |i| geometry(tile, i),
         );
         for (terms, sum) in self.predictions.iter().zip(sums) {
-            let predicted_is_small = predicted.render::<S, SMITH>(
+            let predicted_is_small = predicted.render(
                 simd,
                 params,
                 scene,

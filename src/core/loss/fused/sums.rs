@@ -3,11 +3,10 @@
 use fearless_simd::{Fallback, Simd};
 use rayon::prelude::*;
 
-use super::compare::{LogProducts, Squares, Sum};
+use super::compare::LogProducts;
 use super::inputs::LossInputs;
 use super::pass::LossTile;
 use crate::error::Error;
-use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 use crate::render::simd::geometry::KernelScene;
@@ -67,42 +66,34 @@ impl LossInputs<'_> {
 
     /// The scenes as the kernel takes them.
     pub(super) fn kernel_scenes(&self, scenes: &[Scene]) -> Vec<KernelScene> {
-        scenes.iter().map(|scene| KernelScene::new(scene, &self.kernel, self.reach)).collect()
+        scenes.iter().map(|scene| KernelScene::new(scene, self.convention, self.reach)).collect()
     }
 
     /// The sums of one block: for each scene, for each prediction.
     fn block_at(&self, level: Level, tile: &mut LossTile, scenes: &[KernelScene], block: usize) -> Vec<f64> {
-        match (self.kernel.smith, self.kernel.norm) {
-            (Some(_), _) => {
-                dispatch!(level, simd => self.block::<_, true, LogProducts<_>>(simd, tile, scenes, block))
-            }
-            (None, Norm::LogL1) => {
-                dispatch!(level, simd => self.block::<_, false, LogProducts<_>>(simd, tile, scenes, block))
-            }
-            (None, _) => dispatch!(level, simd => self.block::<_, false, Squares>(simd, tile, scenes, block)),
-        }
+        dispatch!(level, simd => self.block(simd, tile, scenes, block))
     }
 
     #[inline(always)]
-    fn block<S: Lanes, const SMITH: bool, D: Sum<S>>(
+    fn block<S: Lanes>(
         &self,
         simd: S,
         tile: &mut LossTile,
         scenes: &[KernelScene],
         block: usize,
     ) -> Vec<f64> {
-        let mut sums = vec![D::new(simd); scenes.len() * self.predictions.len()];
+        let mut sums = vec![LogProducts::new(simd); scenes.len() * self.predictions.len()];
         let distant: Vec<_> = scenes.iter().map(|scene| scene.distant(simd)).collect();
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         self.look_up_pages(simd, end);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
-            tile.fill::<S, SMITH>(simd, self, &self.span(start..end.min(start + TEXELS)));
+            tile.fill(simd, self, &self.span(start..end.min(start + TEXELS)));
             for (i, sums) in sums.chunks_mut(self.predictions.len()).enumerate() {
                 self.prefetch_part(simd, start + AHEAD, i, scenes.len());
-                tile.add::<S, SMITH, D>(simd, &self.params, &scenes[i], distant[i], sums);
+                tile.add(simd, &self.params, &scenes[i], distant[i], sums);
             }
         }
-        sums.iter().map(D::total).collect()
+        sums.iter().map(LogProducts::total).collect()
     }
 
     /// Prefetches a part of the tile at `start`. All `parts` calls together prefetch all of it, spread over the scenes.

@@ -28,14 +28,7 @@ impl LossInputs<'_> {
             .map_init(
                 || LossTile::new(self.predictions.len()),
                 |tile, block| {
-                    let means = match self.params.smith {
-                        None => {
-                            dispatch!(level, simd => self.block_means::<_, false>(simd, tile, &scenes, block))
-                        }
-                        Some(_) => {
-                            dispatch!(level, simd => self.block_means::<_, true>(simd, tile, &scenes, block))
-                        }
-                    };
+                    let means = dispatch!(level, simd => self.block_means(simd, tile, &scenes, block));
                     progress.step()?;
                     Ok(means)
                 },
@@ -47,7 +40,7 @@ impl LossInputs<'_> {
 
     /// For each prediction the means of the texels of one block.
     #[inline(always)]
-    fn block_means<S: Lanes, const SMITH: bool>(
+    fn block_means<S: Lanes>(
         &self,
         simd: S,
         tile: &mut LossTile,
@@ -60,10 +53,10 @@ impl LossInputs<'_> {
         let end = self.texels.min((block + 1) * TEXELS_PER_BLOCK);
         for start in (block * TEXELS_PER_BLOCK..end).step_by(TEXELS) {
             let span = start..end.min(start + TEXELS);
-            tile.fill::<S, SMITH>(simd, self, &self.span(span.clone()));
+            tile.fill(simd, self, &self.span(span.clone()));
             sums.fill(TexelLogProducts::new(simd));
             for (scene, distant) in scenes.iter().zip(&distant) {
-                tile.add::<S, SMITH, _>(simd, &self.params, scene, *distant, &mut sums);
+                tile.add(simd, &self.params, scene, *distant, &mut sums);
             }
             for (means, sums) in means.iter_mut().zip(&sums) {
                 let mean = |texel| sums.of_texel(texel).map(|sum| (sum / scenes.len() as f64) as f32);

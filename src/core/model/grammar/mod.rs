@@ -5,7 +5,6 @@
 mod description;
 mod radiance;
 mod scenes;
-pub mod shader;
 pub mod words;
 
 use serde::{Deserialize, Serialize};

@@ -3,9 +3,9 @@
 use fearless_simd::{Simd, prelude::*};
 use glam::DVec3;
 
-use super::kernel::Kernel;
 use super::lanes::{Lanes, V, neg_mul_add, vec3};
 use super::tile::{Positions, TilePlane, vectors};
+use crate::model::convention::Convention;
 use crate::model::scene::{Kind, Scene};
 
 /// Least height of a light or view above the plane, so that f32 can square and invert it. Lower ones are moved to it.
@@ -14,8 +14,6 @@ const LEAST_HEIGHT: f64 = 1e-18;
 const SHORT_SQUARE: f32 = 4.0;
 /// Added to |q|^2, so that it is positive where light and view are opposite. Far below the rounding of q there.
 const LEAST_SQUARE: f32 = 1e-18;
-/// Largest light scale that falls off: NoL times it fits a float.
-const LARGEST_LIGHT_SCALE: f32 = 4e37;
 
 /// The geometry of a vector of texels.
 ///
@@ -41,39 +39,23 @@ pub(crate) struct KernelScene {
     near: bool,
     light: [f32; 3],
     view: [f32; 3],
-    /// Intensity / (4 pi L.z) for the near light at L, intensity / (2 pi l.z) for the distant one; intensity / (2 pi) for one that
-    /// falls off.
+    /// Intensity / (4 pi L.z) for the near light at L, intensity / (2 pi l.z) for the distant one.
     light_scale: f32,
     /// The largest light scale that the convention's floor of l.z allows.
     light_scale_limit: f32,
     /// The largest light scale of any texel.
     pub(crate) largest_light_scale: f32,
-    /// Least v.h; 0 without a limit.
-    cosine_floor: f32,
 }
 
 impl KernelScene {
     /// `reach`: the largest distance of a texel from the origin.
-    pub(crate) fn new(scene: &Scene, kernel: &Kernel, reach: f64) -> Self {
+    pub(crate) fn new(scene: &Scene, convention: &Convention, reach: f64) -> Self {
         let above_plane = |p: [f64; 3]| {
             let p = if scene.kind == Kind::Near { p } else { DVec3::from(p).normalize().to_array() };
             DVec3::from([p[0], p[1], p[2].max(LEAST_HEIGHT)])
         };
         let (light, view) = (above_plane(scene.light), above_plane(scene.view));
         let near = scene.kind == Kind::Near;
-        if let Some(smith) = &kernel.smith {
-            let light_scale = smith.intensities[usize::from(!near)] / std::f64::consts::TAU;
-            return Self {
-                near: true,
-                light: light.to_array().map(|c| c as f32),
-                view: view.to_array().map(|c| c as f32),
-                light_scale: light_scale as f32,
-                light_scale_limit: LARGEST_LIGHT_SCALE,
-                largest_light_scale: (light_scale / (light.z * light.z)) as f32,
-                cosine_floor: smith.cosine_floor as f32,
-            };
-        }
-        let convention = &kernel.limits;
         let intensity = convention.intensity / std::f64::consts::TAU;
         let light_scale = intensity / light.z;
         let limit = intensity / convention.light_z_floor.max(1e-30);
@@ -85,7 +67,6 @@ impl KernelScene {
             light_scale: if near { light_scale / 2.0 } else { light_scale } as f32,
             light_scale_limit: limit as f32,
             largest_light_scale: (light_scale * farthest).min(limit) as f32,
-            cosine_floor: 0.0,
         }
     }
 
@@ -98,7 +79,7 @@ impl KernelScene {
         let light = vec3!(C => V::<S>::splat(simd, 2.0 * self.light[C]));
         let view = vec3!(C => V::<S>::splat(simd, 2.0 * self.view[C]));
         let light_scale = V::<S>::splat(simd, self.light_scale.min(self.light_scale_limit));
-        let (square, fresnel_weight) = half_way::<S, false>(simd, sum(light, view), light_scale);
+        let (square, fresnel_weight) = half_way(simd, sum(light, view));
         Some(Geometry { light, view, square, fresnel_weight, light_scale })
     }
 
@@ -111,7 +92,6 @@ impl KernelScene {
             view: vec3!(C => splat(self.view[C])),
             light_scale: splat(self.light_scale),
             light_scale_limit: splat(self.light_scale_limit),
-            cosine_floor: splat(self.cosine_floor),
         }
     }
 }
@@ -122,25 +102,17 @@ struct NearScene<F> {
     view: [F; 3],
     light_scale: F,
     light_scale_limit: F,
-    cosine_floor: F,
 }
 
 /// (2 l, 2 v, light scale) of a near-field scene at a vector of texels.
 #[inline(always)]
-fn near<S: Lanes, const SMITH: bool>(
-    simd: S,
-    scene: &NearScene<V<S>>,
-    x: V<S>,
-    y: V<S>,
-) -> ([V<S>; 3], [V<S>; 3], V<S>) {
+fn near<S: Lanes>(simd: S, scene: &NearScene<V<S>>, x: V<S>, y: V<S>) -> ([V<S>; 3], [V<S>; 3], V<S>) {
     let from_texel = |p: [V<S>; 3]| [p[0] - x, p[1] - y, p[2]];
     let (to_light, to_view) = (from_texel(scene.light), from_texel(scene.view));
     let light_square = dot(to_light, to_light);
     let per_light = twice_rsqrt(simd, light_square);
     let per_view = twice_rsqrt(simd, dot(to_view, to_view));
-    let light_scale =
-        if SMITH { scene.light_scale / light_square } else { light_square * per_light * scene.light_scale };
-    let light_scale = light_scale.min(scene.light_scale_limit);
+    let light_scale = (light_square * per_light * scene.light_scale).min(scene.light_scale_limit);
     (vec3!(C => to_light[C] * per_light), vec3!(C => to_view[C] * per_view), light_scale)
 }
 
@@ -163,17 +135,11 @@ pub(crate) fn sum<S: Simd, F: SimdFloat<S>>(a: [F; 3], b: [F; 3]) -> [F; 3] {
     vec3!(C => a[C] + b[C])
 }
 
-/// (|q|^2, Schlick's power): the fifth one of the `SMITH` renderer, whose v.h is at least the floor.
+/// (|q|^2, Schlick's power).
 #[inline(always)]
-fn half_way<S: Lanes, const SMITH: bool>(simd: S, q: [V<S>; 3], cosine_floor: V<S>) -> (V<S>, V<S>) {
+fn half_way<S: Lanes>(simd: S, q: [V<S>; 3]) -> (V<S>, V<S>) {
     let least = V::<S>::splat(simd, LEAST_SQUARE);
     let square = q[2].mul_add(q[2], q[1].mul_add(q[1], q[0].mul_add(q[0], least)));
-    if SMITH {
-        let v_dot_h = (square.sqrt() * 0.25).max(cosine_floor);
-        let rest = (V::<S>::splat(simd, 1.0) - v_dot_h).max(V::<S>::splat(simd, 0.0));
-        let second = rest * rest;
-        return (square, second * second * rest);
-    }
     (square, exp2(simd, fresnel_power(simd, square)))
 }
 
@@ -245,16 +211,11 @@ impl TileGeometry {
     ///
     /// Returns whether a q of the tile is short.
     #[inline(always)]
-    pub(crate) fn fill<S: Lanes, const SMITH: bool>(
-        &mut self,
-        simd: S,
-        scene: &KernelScene,
-        positions: &Positions,
-    ) -> bool {
+    pub(crate) fn fill<S: Lanes>(&mut self, simd: S, scene: &KernelScene, positions: &Positions) -> bool {
         let scene = scene.splat(simd);
         for i in 0..vectors::<S>() {
             let (light, view, light_scale) =
-                near::<S, SMITH>(simd, &scene, positions.x.load(simd, i), positions.y.load(simd, i));
+                near(simd, &scene, positions.x.load(simd, i), positions.y.load(simd, i));
             for c in 0..3 {
                 self.light[c].store::<S>(i, light[c]);
                 self.view[c].store::<S>(i, view[c]);
@@ -265,7 +226,7 @@ impl TileGeometry {
         for i in 0..vectors::<S>() {
             let light = TilePlane::load_three(&self.light, simd, i);
             let view = TilePlane::load_three(&self.view, simd, i);
-            let (square, fresnel_weight) = half_way::<S, SMITH>(simd, sum(light, view), scene.cosine_floor);
+            let (square, fresnel_weight) = half_way(simd, sum(light, view));
             shortest = shortest.min(square);
             self.square.store::<S>(i, square);
             self.fresnel_weight.store::<S>(i, fresnel_weight);

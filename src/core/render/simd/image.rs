@@ -5,7 +5,6 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::geometry::{KernelScene, TileGeometry, is_short};
-use super::kernel::Kernel;
 use super::lanes::{Lanes, Level, dispatch};
 use super::shade::{ShadingParams, TileRadiance};
 use super::size::{AHEAD, TEXELS, TEXELS_PER_BLOCK};
@@ -17,10 +16,10 @@ use crate::model::convention::Convention;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 
-/// [`crate::render::render_f32`] with a given instruction set.
+/// [`crate::render::render_f32`] with a given instruction set, of a convention that is no member.
 ///
 /// # Errors
-/// [`Error::UnusableScene`], [`Error::Cancelled`]; [`Error::NotComputed`] where the kernel does not have the renderer.
+/// [`Error::UnusableScene`], [`Error::Cancelled`].
 pub fn render_at(
     level: Level,
     material: &Material<f32>,
@@ -29,21 +28,15 @@ pub fn render_at(
     progress: &Progress,
 ) -> Result<Image<f32>, Error> {
     scene.check_usable()?;
-    let kernel =
-        &Kernel::of(convention).ok_or_else(|| Error::not_by("the kernel in f32", convention.name))?;
     let (width, height) = (material.width(), material.height());
     let mut pixels = vec![[0.0; 3]; width * height];
-    let inputs = ImageInputs::new(material, scene, kernel);
+    let inputs = ImageInputs::new(material, scene, convention);
     progress.begin(pixels.len().div_ceil(TEXELS_PER_BLOCK) as u64);
     pixels.par_chunks_mut(TEXELS_PER_BLOCK).enumerate().try_for_each_init(
         || ImageTile::ZERO,
         |tile, (block, pixels)| {
             let start = block * TEXELS_PER_BLOCK;
-            if inputs.params.smith.is_some() {
-                dispatch!(level, simd => inputs.block::<_, true>(simd, tile, start, pixels));
-            } else {
-                dispatch!(level, simd => inputs.block::<_, false>(simd, tile, start, pixels));
-            }
+            dispatch!(level, simd => inputs.block(simd, tile, start, pixels));
             progress.step()
         },
     )?;
@@ -61,30 +54,24 @@ struct ImageInputs<'a> {
 }
 
 impl<'a> ImageInputs<'a> {
-    fn new(material: &'a Material<f32>, scene: &Scene, kernel: &Kernel) -> Self {
+    fn new(material: &'a Material<f32>, scene: &Scene, convention: &Convention) -> Self {
         let grid = material.grid();
         Self {
             material: material.planes(),
             planes: material.planes().all().collect(),
-            params: ShadingParams::without_epsilon(kernel),
+            params: ShadingParams::without_epsilon(convention),
             axes: GridAxes::from(grid),
-            scene: KernelScene::new(scene, kernel, grid.position::<DVec3>(0, 0).length()),
+            scene: KernelScene::new(scene, convention, grid.position::<DVec3>(0, 0).length()),
         }
     }
 
     /// Renders the texels from `start` on into `pixels`.
     #[inline(always)]
-    fn block<S: Lanes, const SMITH: bool>(
-        &self,
-        simd: S,
-        tile: &mut ImageTile,
-        start: usize,
-        pixels: &mut [[f32; 3]],
-    ) {
+    fn block<S: Lanes>(&self, simd: S, tile: &mut ImageTile, start: usize, pixels: &mut [[f32; 3]]) {
         for (i, pixels) in pixels.chunks_mut(TEXELS).enumerate() {
             let at = start + i * TEXELS;
             prefetch::<S, TEXELS>(simd, &self.planes, at + AHEAD);
-            tile.render::<S, SMITH>(simd, self, &TexelSpan::Range(at..at + pixels.len()));
+            tile.render(simd, self, &TexelSpan::Range(at..at + pixels.len()));
             tile.copy_to(pixels);
         }
     }
@@ -107,17 +94,11 @@ impl ImageTile {
     };
 
     #[inline(always)]
-    fn render<S: Lanes, const SMITH: bool>(
-        &mut self,
-        simd: S,
-        inputs: &ImageInputs<'_>,
-        span: &TexelSpan<'_>,
-    ) {
+    fn render<S: Lanes>(&mut self, simd: S, inputs: &ImageInputs<'_>, span: &TexelSpan<'_>) {
         let (params, scene) = (&inputs.params, &inputs.scene);
-        let ShadingParams { roughness_floor, narrow, smith, .. } = *params;
-        self.terms.fill::<S, SMITH>(simd, inputs.material, span, roughness_floor, narrow, smith);
+        self.terms.fill(simd, inputs.material, span, params.roughness_floor, params.narrow);
         if let Some(geometry) = scene.distant(simd) {
-            self.radiance.render::<S, SMITH>(
+            self.radiance.render(
                 simd,
                 params,
                 scene,
@@ -129,9 +110,9 @@ impl ImageTile {
             return;
         }
         self.positions.fill(&inputs.axes, span);
-        let is_short = self.geometry.fill::<S, SMITH>(simd, scene, &self.positions);
+        let is_short = self.geometry.fill(simd, scene, &self.positions);
         let geometry = &self.geometry;
-        self.radiance.render::<S, SMITH>(
+        self.radiance.render(
             simd,
             params,
             scene,

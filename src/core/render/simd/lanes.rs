@@ -4,7 +4,7 @@
 use fearless_simd::{Fallback, Simd, prelude::*};
 
 #[cfg(target_arch = "x86_64")]
-use fearless_simd::x86::{Avx2, Avx512, Sse2, Sse4_2};
+use fearless_simd::x86::{Avx2, Avx512};
 
 /// Floats in a cache line.
 pub(crate) const FLOATS_PER_LINE: usize = 16;
@@ -100,10 +100,8 @@ macro_rules! estimate {
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use super::*;
-    use std::arch::x86_64::{__m128, __m256, __m512};
+    use std::arch::x86_64::{__m256, __m512};
 
-    estimate!(Sse2, __m128, _mm_rsqrt_ps);
-    estimate!(Sse4_2, __m128, _mm_rsqrt_ps);
     estimate!(Avx2, __m256, _mm256_rsqrt_ps);
     estimate!(Avx512, __m512, _mm512_rsqrt14_ps);
 }
@@ -125,10 +123,6 @@ impl Level {
             fearless_simd::Level::Avx512(_) => "avx512",
             #[cfg(target_arch = "x86_64")]
             fearless_simd::Level::Avx2(_) => "avx2",
-            #[cfg(target_arch = "x86_64")]
-            fearless_simd::Level::Sse4_2(_) => "sse4.2",
-            #[cfg(target_arch = "x86_64")]
-            fearless_simd::Level::Sse2(_) => "sse2",
             #[cfg(target_arch = "aarch64")]
             fearless_simd::Level::Neon(_) => "neon",
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
@@ -144,8 +138,6 @@ impl Level {
         let best = fearless_simd::Level::new();
         #[cfg(target_arch = "x86_64")]
         all.extend([
-            ("sse2", best.as_sse2().map(|s| Self(s.level()))),
-            ("sse4.2", best.as_sse4_2().map(|s| Self(s.level()))),
             ("avx2", best.as_avx2().map(|s| Self(s.level()))),
             ("avx512", best.as_avx512().map(|s| Self(s.level()))),
         ]);
@@ -172,16 +164,6 @@ macro_rules! dispatch {
                 #[inline(always)]
                 || $call,
             ),
-            #[cfg(target_arch = "x86_64")]
-            fearless_simd::Level::Sse4_2($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $call,
-            ),
-            #[cfg(target_arch = "x86_64")]
-            fearless_simd::Level::Sse2($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $call,
-            ),
             #[cfg(target_arch = "aarch64")]
             fearless_simd::Level::Neon($simd) => $simd.vectorize(
                 #[inline(always)]
@@ -189,10 +171,6 @@ macro_rules! dispatch {
             ),
             #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
             fearless_simd::Level::WasmSimd128($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $call,
-            ),
-            fearless_simd::Level::Fallback($simd) => $simd.vectorize(
                 #[inline(always)]
                 || $call,
             ),

@@ -6,7 +6,6 @@
 
 pub(crate) mod geometry;
 mod image;
-pub mod kernel;
 pub(crate) mod lanes;
 pub(crate) mod shade;
 pub(crate) mod size;
@@ -14,10 +13,3 @@ pub(crate) mod tile;
 
 pub use image::render_at;
 pub use lanes::Level;
-
-use crate::model::convention::Convention;
-
-/// Whether the kernel has the renderer of a convention.
-pub fn has(convention: &Convention) -> bool {
-    kernel::Kernel::of(convention).is_some()
-}

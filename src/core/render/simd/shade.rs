@@ -1,4 +1,4 @@
-//! Algorithm 3, or the `SMITH` renderer of `kernel`, over a tile: the radiance plus epsilon, from the terms of a material and the geometry of a scene.
+//! Algorithm 3 over a tile: the radiance plus epsilon, from the terms of a material and the geometry of a scene.
 //!
 //! There are three ways to compute it. The fast path is right where no width a = rough^2 is below [`NARROW`], no q is
 //! short, and no highlight overflows. The careful path takes a cross product for the denominator of D and a dot product of
@@ -8,9 +8,9 @@
 use fearless_simd::prelude::*;
 
 use super::geometry::{Geometry, KernelScene, cross, dot, sum};
-use super::kernel::{Kernel, Smith};
 use super::lanes::{Lanes, V, neg_mul_add, vec3};
 use super::tile::{MaterialTerms, TilePlane, vectors};
+use crate::model::convention::Convention;
 
 /// Largest highlight and light scale of the fast and the careful path. Above, a tile takes the overflow-safe path.
 const FAST_LIMIT: f32 = 1_048_576.0;
@@ -34,8 +34,6 @@ pub(crate) struct Clamps {
     behind: f32,
     d_floor: f32,
     g_floor: f32,
-    /// Least cosine of the `SMITH` renderer.
-    cosine_floor: f32,
 }
 
 /// The numbers of a convention that shading needs.
@@ -46,37 +44,26 @@ pub(crate) struct ShadingParams {
     pub(crate) roughness_floor: f32,
     /// A tile with a smaller GGX width takes the careful path.
     pub(crate) narrow: f32,
-    /// What the diffuse term of the `SMITH` renderer has of the Fresnel term: 1 or 0.
-    fresnel_share: f32,
-    pub(crate) smith: Option<Smith>,
 }
 
 impl ShadingParams {
     /// Those of a convention with an epsilon of 0: the radiance itself.
-    pub(crate) fn without_epsilon(kernel: &Kernel) -> Self {
-        Self { epsilon: 0.0, ..Self::from(kernel) }
+    pub(crate) fn without_epsilon(convention: &Convention) -> Self {
+        Self { epsilon: 0.0, ..Self::from(convention) }
     }
 }
 
-impl From<&Kernel> for ShadingParams {
-    fn from(Kernel { limits: c, smith, .. }: &Kernel) -> Self {
+impl From<&Convention> for ShadingParams {
+    fn from(c: &Convention) -> Self {
         let clamps = Clamps {
             any: c.clamp_n_dot_h || c.d_floor > 0.0 || c.g_floor > 0.0,
             behind: if c.clamp_n_dot_h { 0.0 } else { f32::NEG_INFINITY },
             d_floor: c.d_floor as f32,
             g_floor: (2.0 * c.g_floor) as f32,
-            cosine_floor: smith.map_or(0.0, |smith| smith.cosine_floor) as f32,
         };
         // A floor of the denominator of D bounds it as a^2 does.
         let narrow = if clamps.d_floor < NARROW * NARROW { NARROW } else { 0.0 };
-        Self {
-            clamps,
-            epsilon: c.epsilon as f32,
-            roughness_floor: c.roughness_floor as f32,
-            narrow,
-            fresnel_share: smith.map_or(0.0, |smith| f32::from(smith.is_weighted)),
-            smith: *smith,
-        }
+        Self { clamps, epsilon: c.epsilon as f32, roughness_floor: c.roughness_floor as f32, narrow }
     }
 }
 
@@ -91,7 +78,7 @@ impl TileRadiance {
     /// a second time on the overflow-safe path. `geometry(i)` is the geometry of vector i, `is_short` whether a q of the
     /// tile is short.
     #[inline(always)]
-    pub(crate) fn render<S: Lanes, const SMITH: bool>(
+    pub(crate) fn render<S: Lanes>(
         &mut self,
         simd: S,
         params: &ShadingParams,
@@ -100,21 +87,20 @@ impl TileRadiance {
         is_short: bool,
         geometry: impl Fn(usize) -> Geometry<V<S>>,
     ) -> bool {
-        // The `SMITH` renderer has limits.
-        let is_clamped = SMITH || params.clamps.any;
+        let is_clamped = params.clamps.any;
         let below_limit = match (is_clamped, terms.is_narrow || is_short) {
-            (false, false) => self.fill::<S, SMITH, false, false, false>(simd, params, terms, &geometry),
-            (false, true) => self.fill::<S, SMITH, false, true, false>(simd, params, terms, &geometry),
-            (true, false) => self.fill::<S, SMITH, true, false, false>(simd, params, terms, &geometry),
-            (true, true) => self.fill::<S, SMITH, true, true, false>(simd, params, terms, &geometry),
+            (false, false) => self.fill::<S, false, false, false>(simd, params, terms, &geometry),
+            (false, true) => self.fill::<S, false, true, false>(simd, params, terms, &geometry),
+            (true, false) => self.fill::<S, true, false, false>(simd, params, terms, &geometry),
+            (true, true) => self.fill::<S, true, true, false>(simd, params, terms, &geometry),
         };
         if below_limit && scene.largest_light_scale <= FAST_LIMIT {
             return true;
         }
         if is_clamped {
-            self.fill::<S, SMITH, true, true, true>(simd, params, terms, &geometry);
+            self.fill::<S, true, true, true>(simd, params, terms, &geometry);
         } else {
-            self.fill::<S, SMITH, false, true, true>(simd, params, terms, &geometry);
+            self.fill::<S, false, true, true>(simd, params, terms, &geometry);
         }
         false
     }
@@ -123,7 +109,7 @@ impl TileRadiance {
     ///
     /// Returns whether every highlight is a number and at most [`FAST_LIMIT`].
     #[inline(always)]
-    fn fill<S: Lanes, const SMITH: bool, const CLAMPED: bool, const CAREFUL: bool, const SAFE: bool>(
+    fn fill<S: Lanes, const CLAMPED: bool, const CAREFUL: bool, const SAFE: bool>(
         &mut self,
         simd: S,
         params: &ShadingParams,
@@ -133,23 +119,12 @@ impl TileRadiance {
         let mut highlights = V::<S>::splat(simd, 0.0);
         for i in 0..vectors::<S>() {
             let geometry = geometry(i);
-            let (lobe, e) =
-                lobe::<S, SMITH, CLAMPED, CAREFUL, SAFE>(simd, &params.clamps, terms, &geometry, i);
+            let (lobe, e) = lobe::<S, CLAMPED, CAREFUL, SAFE>(simd, &params.clamps, terms, &geometry, i);
             // The sum of positive numbers is at least the largest, and NaN or infinite if any one is.
             highlights += lobe;
             // (s (1 - w) + w) lobe + (lambert E + epsilon): only one operation waits for the lobe, which comes last.
             let weight = geometry.fresnel_weight;
             let rest = V::<S>::splat(simd, 1.0) - weight;
-            // 1 - F is (1 - s) (1 - w).
-            let e = if SMITH {
-                e * neg_mul_add::<S>(
-                    weight,
-                    V::<S>::splat(simd, params.fresnel_share),
-                    V::<S>::splat(simd, 1.0),
-                )
-            } else {
-                e
-            };
             for c in 0..3 {
                 let fresnel = terms.specular[c].load(simd, i).mul_add(rest, weight);
                 let diffuse = terms.lambert[c].load(simd, i).mul_add(e, V::<S>::splat(simd, params.epsilon));
@@ -167,7 +142,7 @@ impl TileRadiance {
 /// pi D = (a |q|^2 / (|n x q|^2 + a^2 (n . q)^2))^2. |n x q| is the length of what is left of q without its part along
 /// n, where the path is not `CAREFUL`.
 #[inline(always)]
-fn lobe<S: Lanes, const SMITH: bool, const CLAMPED: bool, const CAREFUL: bool, const SAFE: bool>(
+fn lobe<S: Lanes, const CLAMPED: bool, const CAREFUL: bool, const SAFE: bool>(
     simd: S,
     clamps: &Clamps,
     terms: &MaterialTerms,
@@ -193,21 +168,7 @@ fn lobe<S: Lanes, const SMITH: bool, const CLAMPED: bool, const CAREFUL: bool, c
     let mut factor_l = n_dot_l.mul_add(terms.one_minus_k.load(simd, i), a);
     let mut factor_v = n_dot_v.mul_add(terms.one_minus_k.load(simd, i), a);
     let peak = a * geometry.square;
-    if SMITH {
-        let (square, floor) = (geometry.square, clamps.cosine_floor);
-        let (least, ahead) = (square * (floor * floor), n_dot_q.max(splat(0.0)));
-        let a2 = a * a;
-        d = (ahead * ahead)
-            .simd_lt(least)
-            .select(least.mul_add(a2 - 1.0, square), d)
-            .max(square * clamps.d_floor);
-        // G1 / (2 cosine) is 1 / (cosine + sqrt(cosine^2 (1 - a^2) + a^2)); cosines are doubled here.
-        let factor = |along: V<S>| {
-            let twice = along.max(splat(2.0 * floor));
-            (twice + (twice * twice).mul_add(splat(1.0) - a2, a2 * 4.0).sqrt()) * 0.5
-        };
-        (factor_l, factor_v) = (factor(along_l), factor(along_v));
-    } else if CLAMPED {
+    if CLAMPED {
         let square = geometry.square;
         d = n_dot_q.simd_lt(splat(clamps.behind)).select(square, d).max(square * clamps.d_floor);
         factor_l = factor_l.max(splat(clamps.g_floor));

@@ -3,7 +3,6 @@
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
-use super::kernel::Smith;
 use super::lanes::{Lanes, V, vec3};
 use super::size::TEXELS;
 use crate::material::{Grid, Planes};
@@ -109,7 +108,7 @@ pub(crate) struct MaterialTerms {
     /// 1 - k.
     pub(crate) one_minus_k: TilePlane,
     pub(crate) specular: [TilePlane; 3],
-    /// d (1 - s); d where the `SMITH` renderer does not weight it.
+    /// d (1 - s).
     pub(crate) lambert: [TilePlane; 3],
 }
 
@@ -126,14 +125,13 @@ impl MaterialTerms {
     /// Computes the terms of the texels `span`. The rest of the tile gets n = 0, so that R = 0 in every material and
     /// it adds nothing to a loss. A tile is narrow where an a is below `narrow`.
     #[inline(always)]
-    pub(crate) fn fill<S: Simd, const SMITH: bool>(
+    pub(crate) fn fill<S: Simd>(
         &mut self,
         simd: S,
         planes: &Planes<f32>,
         span: &TexelSpan<'_>,
         roughness_floor: f32,
         narrow: f32,
-        smith: Option<Smith>,
     ) {
         for (tile, plane) in self.normal.iter_mut().zip(&planes.normal) {
             tile.fill(simd, plane, span, 0.0);
@@ -145,16 +143,9 @@ impl MaterialTerms {
         for channel in 0..3 {
             let (specular, lambert) = (&mut self.specular[channel], &mut self.lambert[channel]);
             specular.fill(simd, &planes.specular[channel], span, 0.0);
-            if SMITH && let Some(constant) = smith.and_then(|smith| smith.specular) {
-                specular.0.fill(constant as f32);
-            }
             let diffuse = lambert.source(&planes.diffuse[channel], span, 0.0);
             for i in 0..vectors::<S>() {
                 let diffuse = lambert.load_from(simd, diffuse, i);
-                if SMITH && smith.is_some_and(|smith| !smith.is_weighted) {
-                    lambert.store::<S>(i, diffuse);
-                    continue;
-                }
                 lambert.store::<S>(i, diffuse * (V::<S>::splat(simd, 1.0) - specular.load(simd, i)));
             }
         }

@@ -82,9 +82,8 @@ impl StudyJob {
         let [ground_truth, prediction] = [0, prediction + 1].map(|index| materials.all[index].read.clone());
         let convention = *convention;
         let job = Job::stream(waker, Progress::default(), move |worker| {
-            // The window computes its loss on the CPU.
             let (ground_truth, prediction) = (ground_truth.material(), prediction.material());
-            let pair = Pair { ground_truth, prediction, convention, gpu: None };
+            let pair = Pair { ground_truth, prediction, convention };
             let study = study::run(&pair, &worker.progress, |study| {
                 // Where the window has dropped this job, its progress ends the work.
                 let _ = worker.replace(study.clone());

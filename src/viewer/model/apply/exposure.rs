@@ -24,7 +24,8 @@ pub fn follow(model: &mut Model) {
         (AutoExposure::Once, Exposed::Pending) => true,
     };
     if is_due {
-        let ev = exposure::automatic(ground_truth.material(), &model.view.scene, &model.view.convention());
+        let convention = model.view.convention().drawn();
+        let ev = exposure::automatic(ground_truth.material(), &model.view.scene, &convention);
         model.view.exposure_ev = ev.clamp(-STOPS, STOPS);
     }
     if is_due || model.exposed == Exposed::Restored {

@@ -285,13 +285,12 @@ fn summary(latest: &KeyedLosses) -> String {
         None => "listed",
     };
     format!(
-        "convention {}, epsilon {}, {sampler} scenes{}, {} on the {}",
+        "convention {}, epsilon {}, {sampler} scenes{}, {}",
         report.convention,
         report.epsilon,
         // The one that was asked for: a first estimate has scenes of another one.
         latest.key.query.request.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
         report.precision,
-        report.backend,
     )
 }
 

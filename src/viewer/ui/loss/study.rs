@@ -165,7 +165,6 @@ fn markers(family: Family, places: Vec<[f64; 2]>, dark: bool) -> Points<'static>
         Family::MoreTexels => (MarkerShape::Right, 5.5, true),
         Family::FewTexels => (MarkerShape::Diamond, 5.5, true),
         Family::Random => (MarkerShape::Up, 5.5, true),
-        Family::Gpu => (MarkerShape::Square, 5.5, true),
         Family::F64 => (MarkerShape::Down, 5.5, true),
         Family::HalfMaps => (MarkerShape::Diamond, 7.0, false),
         Family::EightBitMaps => (MarkerShape::Square, 8.0, false),

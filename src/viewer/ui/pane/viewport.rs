@@ -256,7 +256,7 @@ impl Viewport {
                 &reduced(gpu.reduction(), grid, gpu.gpu.report.max_texture_side as usize),
             );
         } else if let Some(text) = hint(scenery, self.pane_pixels()) {
-            paint_hint(&painter, rect, text);
+            paint_hint(&painter, rect, &text);
         }
     }
 
@@ -379,16 +379,21 @@ fn reduced(stride: usize, grid: Grid, limit: usize) -> String {
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.
-fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<&'static str> {
+fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<String> {
     let state = scenery.state;
     let grid = scenery.materials.first()?.grid();
     if framing::visible_share(state, grid, pane) < framing::NEARLY_LOST {
-        return Some("F fits the material");
+        return Some("F fits the material".to_owned());
+    }
+    let (convention, drawn) = (state.convention().name, state.convention().drawn().name);
+    if state.display.quantity == Quantity::Rendering && drawn != convention {
+        return Some(format!("drawn as {drawn}"));
     }
     let [x, y, z] = state.scene.view;
     let steep = z > STEEP * (x * x + y * y + z * z).sqrt();
     let perspective = state.display.projection == Projection::Perspective;
-    (perspective && steep).then_some("Perspective from straight above: right-drag to tilt")
+    let text = "Perspective from straight above: right-drag to tilt";
+    (perspective && steep).then(|| text.to_owned())
 }
 
 /// Says why there is no material.
