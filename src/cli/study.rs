@@ -1,13 +1,13 @@
 //! `svbrdf study`: speed against accuracy.
 
+use std::io::Write as _;
 use std::path::PathBuf;
 
 use svbrdf_core::loss::check_same_size;
-use svbrdf_core::model::convention::Convention;
-use svbrdf_core::text::time;
-use svbrdf_evaluate::study::{self, Pair, Study};
-use svbrdf_evaluate::study::{csv as study_csv, plot};
+use svbrdf_evaluate::study::{self, Pair};
+use svbrdf_files::disk::atomic::Destination;
 use svbrdf_files::disk::inputs::check_output;
+use svbrdf_files::export::figure::FigureDestination;
 
 use super::args::{ComparisonArgs, Given};
 use super::job::materials::Opened;
@@ -17,16 +17,15 @@ use super::output::{CommandError, exit, watched};
 
 /// Measures the time and the error of the loss in many settings, for one pair on this machine
 ///
-/// Computes the loss over 9 to 24,576 scenes, random and Sobol, on all texels and on subsets, in f32 and f64,
-/// with float, half and 8-bit maps. Errors are relative to a reference over far more scenes. Prints the
-/// cheapest setting for a few target errors. Without GT and PRED: the built-in pair.
+/// Computes the loss over 9 to 24,576 scenes, random and Sobol, on all texels and on subsets. Errors are relative to a
+/// reference over far more scenes. Prints the cheapest setting for a few target errors. Without GT and PRED: the built-in pair.
 #[derive(Debug, clap::Args)]
 pub struct StudyArgs {
     /// Writes all points to a CSV file
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Plots error against time to an .svg or .png file
+    /// Plots error against time to a .pdf, .svg or .png file
     #[arg(long, value_name = "FILE")]
     plot: Option<PathBuf>,
 
@@ -52,15 +51,22 @@ impl StudyArgs {
 /// Measures, prints the summary to stdout and writes the files.
 impl Job for StudyJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison, output, plot: picture } = *self;
-        let plot = picture.as_deref().map(plot::destination).transpose()?;
-        let table = output.as_deref().map(study_csv::destination).transpose()?;
-        let opened = comparison.materials.open::<f32>()?;
-        output.iter().chain(&picture).try_for_each(|output| check_output(output))?;
-        let study = measured(&opened, comparison.convention)?;
+        let Self { comparison: ComparisonJob { materials, convention, .. }, output, plot } = *self;
+        let figure = plot.as_deref().map(FigureDestination::new).transpose()?;
+        let format = |extension: &str| (extension == "csv").then_some(());
+        let table =
+            output.as_deref().map(|path| Destination::among(path, format, "extension of a table", ".csv"));
+        let table = table.transpose()?;
+        let Opened { ground_truth, predictions, .. } = &materials.open::<f32>()?;
+        output.iter().chain(&plot).try_for_each(|output| check_output(output))?;
+        check_same_size(ground_truth, &predictions[0])?;
+        let pair = Pair { ground_truth, prediction: &predictions[0], convention };
+        let study = watched("measuring", |progress| study::run(&pair, progress))?;
+        let rows = study.table().csv()?;
         stoppable(|progress| {
-            table.map_or(Ok(()), |table| study_csv::write(&study, &table, progress))?;
-            plot.map_or(Ok(()), |plot| plot::write(&study, &plot, progress))
+            table.map_or(Ok(()), |table| table.replace(progress, |file| file.write_all(rows.as_bytes())))?;
+            let entries = [("svbrdf:shows", study.title())];
+            figure.map_or(Ok(()), |figure| figure.write(&study.figure(), &entries, progress))
         })?;
         Ok(exit::put_text(&study.summary())?)
     }
@@ -75,14 +81,4 @@ fn check_predictions(materials: &MaterialJob) -> Result<(), CommandError> {
             if count == 0 { "give one after it" } else { "leave out the others" }
         ))),
     }
-}
-
-fn measured(opened: &Opened<f32>, convention: Convention) -> Result<Study, CommandError> {
-    let (ground_truth, prediction) = (&opened.ground_truth, &opened.predictions[0]);
-    check_same_size(ground_truth, prediction)?;
-    let pair = Pair { ground_truth, prediction, convention };
-    let reference = watched("computing the reference", |progress| study::reference(&pair, progress))?;
-    let expected = time(study::expected_seconds(&pair, &reference));
-    exit::tell(&format!("note: about {expected} to go"));
-    Ok(watched("measuring", |progress| study::measure(&pair, reference, progress, |_| ()))?)
 }

@@ -74,7 +74,7 @@ const REFUSALS: [(&str, i32, &str); 65] = [
     ("study gt.png", 64, "one prediction"),
     ("study gt.png a.png b.png", 64, "found 2; leave out the others"),
     ("study gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
-    ("study gt.png a.png --plot study.jpg", 64, ".svg, .png"),
+    ("study gt.png a.png --plot study.jpg", 64, ".pdf, .svg, .png"),
     ("study gt.png a.png --plot no/study.svg", 1, "create the folder"),
     ("study gt.png a.png -o no/study.csv", 1, "create the folder"),
     ("render gt.png --difference -o out.png", 64, "prediction"),

@@ -104,8 +104,6 @@ pub const FUSED_ULPS: f64 = 16.0;
 pub const STUDY_ERROR: f64 = 1e-5; // measured: 7.0e-8
 /// The reference of a study against a loss over other scenes and all texels, in the measured error of such losses.
 pub const STUDY_REFERENCE: f64 = 4.0; // measured: 0.85
-/// What stored maps move a loss by, as a share of the loss: f32 against f64.
-pub const STUDY_SHIFT: f64 = 1e-6; // measured: 1.7e-8
 /// The largest relative error of an f32 rung at a well-conditioned point, where one ulp (2 u) of a number of the input
 /// changes the result by 1e-4 at most: kappa u <= 5e-5, and 16 kappa u, the bound of [`GOLDEN_POINTS`], is 8e-4. Rounded
 /// up, since several numbers round.

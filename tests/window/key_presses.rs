@@ -2,7 +2,7 @@
 
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_viewer::model::Model;
-use svbrdf_viewer::model::command::LossCommand;
+use svbrdf_viewer::model::command::WindowCommand;
 use svbrdf_viewer::model::view::state::{AutoExposure, Layout, Projection};
 use svbrdf_viewer::ui::input::keys;
 
@@ -103,13 +103,13 @@ fn undo_and_redo_go_through_the_changes() {
 #[test]
 fn escape_closes_an_open_drop_down_and_nothing_else() {
     let mut window = built_in();
-    apply(&mut window, LossCommand::ShowStudy(true));
+    apply(&mut window, WindowCommand::ShowHelp(true));
     window.get_by_role_and_label(Role::ComboBox, "Convention").click();
     window.run_steps(4);
     window.get_by_label("guided-2020");
     press(&mut window, egui::Key::Escape);
     assert!(window.query_by_label("guided-2020").is_none(), "the drop-down is closed");
-    window.get_by_label("Cancel study");
+    assert!(window.state().parts.model.help);
     press(&mut window, egui::Key::Escape);
-    assert!(window.query_by_label("Cancel study").is_none(), "then the study");
+    assert!(!window.state().parts.model.help, "then the help");
 }

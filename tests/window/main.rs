@@ -36,7 +36,6 @@ mod screenshots;
 mod sizes;
 mod soak;
 mod stillness;
-mod study;
 mod texels;
 mod training;
 mod view;

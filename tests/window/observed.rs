@@ -5,7 +5,6 @@ use svbrdf_core::material::Material;
 use svbrdf_core::picture::statistics::{Distributions, Statistics};
 use svbrdf_evaluate::diagnose::Diagnosis;
 use svbrdf_evaluate::photograph::PhotographComparison;
-use svbrdf_evaluate::study::Study;
 use svbrdf_evaluate::why::{Attribution, RankedScene, Worst};
 
 use svbrdf_viewer::app::App;
@@ -17,8 +16,6 @@ use svbrdf_viewer::model::message::Message;
 pub trait Observed {
     /// The losses of the predictions, once they are complete for the current materials and settings.
     fn losses(&self) -> Option<&[Loss]>;
-    /// The study of the chosen pair as far as it has got, and whether it is complete.
-    fn study(&self) -> Option<(&Study, bool)>;
     /// The statistics of each prediction's difference in the panes, once they are up to date.
     fn difference_statistics(&self) -> Option<&[Option<Statistics>]>;
     /// The statistics, histograms and automatic range of the difference in the panes, once they are up to date.
@@ -66,15 +63,6 @@ pub trait Observed {
 impl Observed for App {
     fn losses(&self) -> Option<&[Loss]> {
         self.parts.jobs.loss.finished(&self.parts.model.materials, &self.parts.model.loss_query())
-    }
-
-    fn study(&self) -> Option<(&Study, bool)> {
-        let (study, current) = self.parts.jobs.study.measured(
-            &self.parts.model.materials,
-            self.parts.model.view.display.prediction,
-            &self.parts.model.view.convention(),
-        )?;
-        current.then_some((study, self.parts.jobs.study.job().is_none()))
     }
 
     fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {

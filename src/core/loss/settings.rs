@@ -202,13 +202,6 @@ impl LossSettings {
     pub fn question(&self) -> Question {
         Question::from(self.request()).beside_few_scenes(self.seed)
     }
-
-    /// These settings with the numbers, sampler and texels of `sampling`; the seed stays.
-    #[must_use]
-    pub fn with_sampling(&self, sampling: Sampling) -> Self {
-        let Sampling { near, distant, sampler, texels, .. } = sampling;
-        Self { ask: Ask::Scenes, near, distant, sampler, texels, ..self.clone() }
-    }
 }
 
 #[cfg(test)]

@@ -72,19 +72,12 @@ fn read(parts: &mut Parts, request: ReadRequest) {
 
 fn carry_out_on_losses(parts: &mut Parts, effect: LossEffect) {
     let (model, jobs) = (&parts.model, &mut parts.jobs);
-    let (waker, materials, view) = (&jobs.waker, &model.materials, &model.view);
+    let (waker, materials) = (&jobs.waker, &model.materials);
     match effect {
         LossEffect::Compute => jobs.loss.start(waker, materials, &model.loss_query()),
         LossEffect::Cancel => jobs.loss.cancel(),
-        LossEffect::StartStudy => {
-            jobs.study.start(waker, materials, view.display.prediction, &view.convention());
-        }
-        LossEffect::EnsureStudy => {
-            jobs.study.ensure(waker, materials, view.display.prediction, &view.convention());
-        }
-        LossEffect::CancelStudy => jobs.study.cancel(),
         LossEffect::FindWorst => {
-            if let Some(pair) = ComparedPair::of(&materials.all, view) {
+            if let Some(pair) = ComparedPair::of(&materials.all, &model.view) {
                 jobs.why.search.start(waker, &pair, model.settings.loss.seed);
             }
         }

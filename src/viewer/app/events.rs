@@ -16,8 +16,6 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
     take_materials(parts);
     dataset::take(parts);
     dataset::show(parts);
-    let error = parts.jobs.study.poll();
-    parts.model.report(error.map(Message::Failed));
     let fault = parts.gpu.as_ref().and_then(|gpu| gpu.gpu.take_fault());
     parts.model.report(fault.map(|fault| Message::Failed(fault.into())));
     take_saved(parts);

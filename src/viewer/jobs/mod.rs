@@ -31,7 +31,6 @@ use browse::Browsed;
 use dataset::DatasetJobs;
 use loss::LossJob;
 use loss::scene::SceneLossJob;
-use loss::study::StudyJob;
 use panes::PaneJobs;
 use photograph::PhotographJobs;
 use reading::opening::Openings;
@@ -56,7 +55,6 @@ pub struct Jobs {
     pub training: TrainingJobs,
     pub loss: LossJob,
     pub scene_loss: SceneLossJob,
-    pub study: StudyJob,
     pub order: OrderJob<OrderKey>,
     pub why: WhyJobs,
     pub panes: PaneJobs,

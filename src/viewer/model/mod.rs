@@ -63,8 +63,6 @@ pub struct Model {
     pub swapped: bool,
     /// Whether the help is open.
     pub help: bool,
-    /// Whether the study is open.
-    pub study: bool,
     /// Whether it is asked if the order of the predictions, or of the methods, survives other questions.
     pub asks_order: bool,
     /// Whether the side panel is open where the window is narrow.

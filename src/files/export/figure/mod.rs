@@ -103,6 +103,7 @@ mod tests {
     fn figure() -> Figure {
         let mut figure = Figure::new([100.0, 50.0], 4.0);
         figure.picture([80.0, 5.0], [2.5, 1.5], picture());
+        figure.stroke(vec![[60.0, 40.0], [90.0, 40.0], [90.0, 30.0]], 2.0, [200, 0, 0]);
         for (line, text) in (0..).zip(TEXTS) {
             let style = TextStyle { size: 7.0, ink: [10, 20, 30], anchor: Anchor::Left };
             figure.text([2.0, 10.0 * f64::from(line)], 95.0, text, style);
@@ -117,6 +118,11 @@ mod tests {
         let of = |name: &'static str| document.descendants().filter(move |node| node.has_tag_name(name));
         assert_eq!(of("text").filter_map(|node| node.text()).collect::<Vec<_>>(), TEXTS);
         assert_eq!(of("desc").next().unwrap().text(), Some("svbrdf:shows: a < b\n"));
+        let line = of("path").next().unwrap();
+        assert_eq!(
+            ["d", "stroke", "stroke-width"].map(|name| line.attribute(name).unwrap()),
+            ["M60.000 40.000L90.000 40.000L90.000 30.000", "#c80000", "2.000"]
+        );
         let root = document.root_element();
         assert_eq!(
             [root.attribute("width"), root.attribute("viewBox")],
@@ -177,6 +183,7 @@ mod tests {
         let bytes = pdf::bytes(&figure(), &[]).unwrap();
         let pdf: String = bytes.iter().copied().map(char::from).collect();
         assert_eq!(texts_of(&pdf), TEXTS);
+        assert!(pdf.contains("2 w\n60 10 m\n90 10 l\n90 20 l\nS"), "a line, from below");
         assert!(pdf.contains("/MediaBox [0 0 100 50]") && pdf.contains("/FontFile2"), "{}", pdf.len());
         // A subset of the font, and the compressed data of a PNG.
         assert!(bytes.len() < 40_000, "{} bytes", bytes.len());
@@ -212,6 +219,13 @@ mod tests {
         let at = |x: usize, y: usize| image.pixels[y * image.width + x];
         for (i, pixel) in picture().pixels.iter().enumerate() {
             assert_eq!(at(320 + i % 10, 20 + i / 10), *pixel, "{i}");
+        }
+        // Both lines with their corner and round ends, and nothing beside them.
+        for (x, y) in [(241, 157), (300, 163), (357, 160), (363, 121), (363, 163), (360, 117)] {
+            assert_eq!(at(x, y), [200, 0, 0], "{x} {y}");
+        }
+        for (x, y) in [(235, 157), (300, 154), (300, 165), (354, 121), (366, 121), (360, 114), (364, 117)] {
+            assert_eq!(at(x, y), [255; 3], "{x} {y}");
         }
         let ink = |left: usize, right: usize| {
             (0..image.height).any(|y| (left..right).any(|x| at(x, y) != [255; 3]))

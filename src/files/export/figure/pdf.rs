@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::io;
 
 use ab_glyph::Font as _;
-use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
+use pdf_writer::types::{CidFontType, FontFlags, LineCapStyle, LineJoinStyle, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 use subsetter::GlyphRemapper;
 use svbrdf_core::image::Image;
 
 use super::font::{self, FILE, FONT, Placed};
-use super::layout::Figure;
+use super::layout::{Figure, Stroke};
 use crate::export::png;
 use crate::export::provenance::{Entries, Provenance};
 
@@ -79,6 +79,16 @@ fn content<'a>(figure: &'a Figure, used: &mut Used<'a>) -> Vec<u8> {
         let ([x, y], [wide, high]) = (picture.at, picture.size);
         let place = [wide, 0.0, 0.0, high, x, height - y - high].map(|number| number as f32);
         content.save_state().transform(place).x_object(Name(name(number).as_bytes())).restore_state();
+    }
+    content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
+    for Stroke { points, width, ink } in &figure.strokes {
+        let [r, g, b] = ink.map(|channel| f32::from(channel) / 255.0);
+        content.set_stroke_rgb(r, g, b).set_line_width(*width as f32);
+        for (number, [x, y]) in points.iter().enumerate() {
+            let [x, y] = [*x as f32, (height - y) as f32];
+            let _ = if number == 0 { content.move_to(x, y) } else { content.line_to(x, y) };
+        }
+        content.stroke();
     }
     for text in &figure.texts {
         let [r, g, b] = text.style.ink.map(|channel| f32::from(channel) / 255.0);

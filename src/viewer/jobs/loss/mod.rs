@@ -2,7 +2,6 @@
 
 pub mod phase;
 pub mod scene;
-pub mod study;
 
 use std::time::{Duration, Instant};
 

@@ -43,12 +43,6 @@ fn apply_to_loss(model: &mut Model, command: LossCommand) -> Vec<Effect> {
             model.asks_order = on;
             return Vec::new();
         }
-        LossCommand::ShowStudy(on) => {
-            model.study = on;
-            Effect::Loss(if on { LossEffect::EnsureStudy } else { LossEffect::CancelStudy })
-        }
-        LossCommand::StartStudy => Effect::Loss(LossEffect::StartStudy),
-        LossCommand::CancelStudy => Effect::Loss(LossEffect::CancelStudy),
         LossCommand::SetAuto(on) => {
             settings.auto_loss = on;
             return Vec::new();
@@ -59,10 +53,6 @@ fn apply_to_loss(model: &mut Model, command: LossCommand) -> Vec<Effect> {
         }
         LossCommand::SortByLoss(on) => {
             settings.sort_losses = on;
-            return Vec::new();
-        }
-        LossCommand::UseSampling(sampling) => {
-            settings.loss = settings.loss.with_sampling(sampling);
             return Vec::new();
         }
         LossCommand::RemoveFileScenes => {

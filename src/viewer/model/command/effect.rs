@@ -72,16 +72,11 @@ pub enum Effect {
     SetScale(f32),
 }
 
-/// An effect on the jobs of the loss, of the study and of the search for the worst scene.
+/// An effect on the jobs of the loss and of the search for the worst scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LossEffect {
     Compute,
     Cancel,
-    /// Starts a study anew.
-    StartStudy,
-    /// Starts a study unless it is there.
-    EnsureStudy,
-    CancelStudy,
     FindWorst,
     CancelSearch,
 }

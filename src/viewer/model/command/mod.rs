@@ -11,7 +11,7 @@ pub mod photograph;
 pub use dataset::DatasetCommand;
 pub use photograph::PhotographCommand;
 
-use svbrdf_core::loss::{LossSettings, Sampling};
+use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::difference::Difference;
@@ -167,7 +167,7 @@ pub enum DisplayCommand {
     Redo,
 }
 
-/// The loss and the study.
+/// The loss.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LossCommand {
     Compute,
@@ -179,13 +179,8 @@ pub enum LossCommand {
     SortByLoss(bool),
     /// Puts the losses on the clipboard as text.
     Copy,
-    ShowStudy(bool),
     /// Whether it is asked if the order of the predictions, or of the methods, survives other questions.
     AskOrder(bool),
-    StartStudy,
-    CancelStudy,
-    /// Sets the loss to the scenes and texels of a point of the study.
-    UseSampling(Sampling),
     /// Removes the scenes of the file that was opened.
     RemoveFileScenes,
 }

@@ -9,7 +9,6 @@ use std::path::PathBuf;
 
 use eframe::egui;
 
-use super::loss::study::StudyWindow;
 use crate::error::Error;
 use crate::jobs::browse::Browsed;
 use crate::jobs::displayed::Displayed;
@@ -40,9 +39,6 @@ impl Dialogs {
     /// Draws the dialogs.
     pub fn ui(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Vec<Command> {
         let (model, mut commands) = (displayed.model, Vec::new());
-        if model.study {
-            commands.extend(StudyWindow::new(displayed).ui(ctx));
-        }
         if let Some(dialog) = &mut self.open {
             commands.extend(dialog.ui(ctx, &model.recent));
         }

@@ -38,7 +38,6 @@ fn escape(displayed: Displayed<'_>, dialogs: &Dialogs) -> Command {
         () if dialogs.open.is_some() => WindowCommand::ShowOpen(false).into(),
         () if dialogs.save.is_some() => WindowCommand::ShowSave(false).into(),
         () if model.photograph.edits_corners() => PhotographCommand::EditCorners(false).into(),
-        () if model.study => LossCommand::ShowStudy(false).into(),
         () if model.dataset.sheet.is_open => DatasetCommand::ShowSheet(false).into(),
         () if model.inspection.is_armed => InspectionCommand::Arm(false).into(),
         () if model.inspection.region.is_some() => InspectionCommand::SetRegion(None).into(),

@@ -1,6 +1,5 @@
-//! Tab *Loss*: settings and results of the loss, training runs, and the study.
+//! Tab *Loss*: settings and results of the loss, and training runs.
 
 pub mod panel;
 pub mod results;
-pub mod study;
 pub mod training;

@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use super::top::TopBar;
-use crate::model::command::{Command, DatasetCommand, LossCommand, PhotographCommand, WindowCommand};
+use crate::model::command::{Command, DatasetCommand, PhotographCommand, WindowCommand};
 use crate::model::dataset::DatasetState;
 use crate::model::dataset::list::ListView;
 
@@ -16,13 +16,6 @@ impl TopBar<'_> {
             self.of_dataset(ui, open.noun(), commands);
             ui.separator();
         }
-        let study = ui.add_enabled(self.has_predictions, egui::Button::new("Study: time against error..."));
-        let hover = "Measure the time and error of settings of the loss, for this pair on this machine";
-        if study.on_hover_text(hover).clicked() {
-            commands.push(LossCommand::ShowStudy(true).into());
-            ui.close();
-        }
-        ui.separator();
         let (text, hover, command) = if self.has_photograph {
             ("Close photograph", "Compare with the ground truth again", PhotographCommand::Close)
         } else {

@@ -26,7 +26,6 @@ pub struct TopBar<'a> {
     pub swapped: bool,
     /// Size of text and controls.
     pub scale: f32,
-    pub has_predictions: bool,
     /// Whether renderings are compared with a photograph.
     pub has_photograph: bool,
     pub dataset: &'a DatasetState,
@@ -42,7 +41,6 @@ impl<'a> TopBar<'a> {
             side_panel: model.side_panel(),
             swapped: model.swapped,
             scale: model.settings.ui_scale,
-            has_predictions: !model.materials.predictions().is_empty(),
             has_photograph: model.photograph.source().is_some(),
             dataset: &model.dataset,
         }
