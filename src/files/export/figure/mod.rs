@@ -103,7 +103,7 @@ mod tests {
     fn figure() -> Figure {
         let mut figure = Figure::new([100.0, 50.0], 4.0);
         figure.picture([80.0, 5.0], [2.5, 1.5], picture());
-        figure.stroke(vec![[60.0, 40.0], [90.0, 40.0], [90.0, 30.0]], 2.0, [200, 0, 0]);
+        figure.stroke(vec![[84.0, 40.0], [96.0, 40.0], [96.0, 30.0]], 2.0, [200, 0, 0]);
         for (line, text) in (0..).zip(TEXTS) {
             let style = TextStyle { size: 7.0, ink: [10, 20, 30], anchor: Anchor::Left };
             figure.text([2.0, 10.0 * f64::from(line)], 95.0, text, style);
@@ -121,7 +121,7 @@ mod tests {
         let line = of("path").next().unwrap();
         assert_eq!(
             ["d", "stroke", "stroke-width"].map(|name| line.attribute(name).unwrap()),
-            ["M60.000 40.000L90.000 40.000L90.000 30.000", "#c80000", "2.000"]
+            ["M84.000 40.000L96.000 40.000L96.000 30.000", "#c80000", "2.000"]
         );
         let root = document.root_element();
         assert_eq!(
@@ -183,7 +183,7 @@ mod tests {
         let bytes = pdf::bytes(&figure(), &[]).unwrap();
         let pdf: String = bytes.iter().copied().map(char::from).collect();
         assert_eq!(texts_of(&pdf), TEXTS);
-        assert!(pdf.contains("2 w\n60 10 m\n90 10 l\n90 20 l\nS"), "a line, from below");
+        assert!(pdf.contains("2 w\n84 10 m\n96 10 l\n96 20 l\nS"), "a line, from below");
         assert!(pdf.contains("/MediaBox [0 0 100 50]") && pdf.contains("/FontFile2"), "{}", pdf.len());
         // A subset of the font, and the compressed data of a PNG.
         assert!(bytes.len() < 40_000, "{} bytes", bytes.len());
@@ -221,10 +221,12 @@ mod tests {
             assert_eq!(at(320 + i % 10, 20 + i / 10), *pixel, "{i}");
         }
         // Both lines with their corner and round ends, and nothing beside them.
-        for (x, y) in [(241, 157), (300, 163), (357, 160), (363, 121), (363, 163), (360, 117)] {
+        for (x, y) in [(337, 157), (360, 163), (381, 160), (387, 121), (386, 162), (384, 117)] {
             assert_eq!(at(x, y), [200, 0, 0], "{x} {y}");
         }
-        for (x, y) in [(235, 157), (300, 154), (300, 165), (354, 121), (366, 121), (360, 114), (364, 117)] {
+        for (x, y) in
+            [(331, 157), (360, 154), (360, 165), (387, 163), (378, 121), (390, 121), (384, 114), (388, 117)]
+        {
             assert_eq!(at(x, y), [255; 3], "{x} {y}");
         }
         let ink = |left: usize, right: usize| {
