@@ -27,8 +27,6 @@ pub struct Found {
     /// About what, the choice, why, how certain.
     assumptions: Vec<[String; 4]>,
     files: Vec<PathBuf>,
-    /// The read options, with those of the sidecar file, as JSON.
-    options: String,
 }
 
 /// Reads a material; `options` are those of a sidecar file, as JSON.
@@ -79,12 +77,11 @@ fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>, Storage) -> CoreMa
     let assumptions = read.assumptions.iter();
     let assumptions = assumptions
         .map(|a| [a.what.name(), &a.chosen, &a.why.to_string(), certainty(a.certainty)].map(str::to_owned));
-    let (options, storage) = (serde_json::to_string(&read.options), read.storage());
+    let storage = read.storage();
     Ok(Found {
         assumptions: assumptions.collect(),
         notes: read.notes.iter().map(ToString::to_string).collect(),
         files: read.files,
-        options: options.map_err(|e| crate::errors::Error::new_err(e.to_string()))?,
         material: material(read.material, storage),
     })
 }

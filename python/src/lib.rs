@@ -12,7 +12,6 @@ mod errors;
 mod files;
 mod loss;
 mod material;
-mod metrics;
 mod model;
 mod page;
 mod photo;
@@ -44,7 +43,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(analysis::analysis, module)?)?;
     module.add_function(wrap_pyfunction!(why::map, module)?)?;
     module.add_function(wrap_pyfunction!(why::diagnose, module)?)?;
-    module.add_function(wrap_pyfunction!(metrics::matfusion, module)?)?;
     module.add_function(wrap_pyfunction!(photo::photo, module)?)?;
     module.add_function(wrap_pyfunction!(dataset::rank_dataset, module)?)?;
     module.add_function(wrap_pyfunction!(page::page, module)?)?;

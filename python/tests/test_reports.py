@@ -56,7 +56,6 @@ CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
         ["--lights", "flash", "--fov", "30"],
         lambda gt, p: svbrdf.loss(gt, p, scenes=svbrdf.named_scenes("flash", fov=30)),
     ),
-    "metrics of a protocol": (["--protocol", "matfusion"], lambda gt, p: svbrdf.metrics(gt, p, protocol="matfusion")),
     "photo": (
         ["--flash", "--fov", "45", "--falloff"],
         lambda photo, p: svbrdf.photo(photo, p, flash=True, fov=45.0, falloff=True),
@@ -100,19 +99,6 @@ def test_maps_of_8_bits_have_the_floor_of_the_command_line(program: str, tmp_pat
     assert "floor" in str(compute(paths[0], paths[1]))
     arrays = [svbrdf.Material(**maps(13, 11, seed)) for seed in range(3)]
     assert "floor" not in str(svbrdf.rank(arrays[0], arrays[1:])), "arrays resolve every loss"
-
-
-def test_a_protocol_takes_files_with_their_options_and_no_scenes(materials: Materials) -> None:
-    ground_truth, predictions = materials
-    flipped = svbrdf.read(predictions[0], normal_y="down")
-    changed, same = (svbrdf.metrics(ground_truth, p, protocol="matfusion") for p in (flipped, predictions[0]))
-    assert changed.results[0].metrics != same.results[0].metrics
-    with pytest.raises(ValueError, match="found a Material of arrays"):
-        svbrdf.metrics(svbrdf.Material(**maps(13, 11)), predictions, protocol="matfusion")
-    with pytest.raises(ValueError, match="near: not used with protocol"):
-        svbrdf.metrics(ground_truth, predictions, near=2, protocol="matfusion")
-    with pytest.raises(ValueError, match="exposure: not used with protocol"):
-        svbrdf.metrics(ground_truth, predictions, exposure=0, protocol="matfusion")
 
 
 def is_cell(got: Any, cell: str) -> bool:

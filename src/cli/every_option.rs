@@ -13,7 +13,7 @@ use super::output::CommandError;
 use super::{Cli, Subcommands};
 
 /// The subcommands with arguments that select a mode; options are added to these. `@` stands for the folder of the fixture.
-const MODES: [&str; 63] = [
+const MODES: [&str; 62] = [
     "loss @gt.png @a.png",
     "loss @gt.png @a.png --near 4 --sampler sobol",
     "loss @gt.png @a.png --target-error 30%",
@@ -62,7 +62,6 @@ const MODES: [&str; 63] = [
     "map @gt.png @a.png -o @x.png --over views",
     "metrics @gt.png @a.png",
     "metrics @gt.png @a.png --lights flash-9",
-    "metrics @gt.png @a.png --protocol matfusion",
     "conform @answer.npz",
     "conform --points @probe.npz",
     "info @gt.png",
@@ -97,7 +96,7 @@ const OF_PHOTOGRAPHS: [(&str, &[&str]); 3] = [
 
 /// Values of the options, by option, or by subcommand and option where it means another thing there.
 #[rustfmt::skip]
-const VALUES: [(&str, &str); 62] = [
+const VALUES: [(&str, &str); 60] = [
     ("about", "@about.toml"), ("text-pt", "9"), ("width-mm", "120"), ("capture", "@cap"), ("clip", "0.2"), ("columns", "roughness"),
     ("convention", "guided-2020"), ("corners", "0,0 7,0 7,7 0,7"), ("crop", "1,1,3,3"), ("depth", "16"),
     ("distance-tail", "0.001%"), ("distant", "5"), ("exposure", "1"), ("fail-above", "0.0001"),
@@ -106,8 +105,8 @@ const VALUES: [(&str, &str); 62] = [
     ("map", "roughness=@gray.png"), ("max-size", "1kB"), ("metrics metrics", "psnr"), ("near", "3"), ("output", "@y.png"),
     ("over", "lights"), ("photo", "@photo.png"), ("photo difference", "absolute"),
     ("photo exposure", "photograph"), ("pick", "mean"), ("plot", "@x.svg"), ("precision", "f64"),
-    ("preset", "gao"), ("protocol", "matfusion"), ("range", "0.125"), ("read", "albedo=gamma2.2"),
-    ("render difference", ""), ("renderings", "@written"), ("repeat", "@b.png"), ("resize-to", "6"),
+    ("preset", "gao"), ("range", "0.125"), ("read", "albedo=gamma2.2"),
+    ("render difference", ""), ("repeat", "@b.png"), ("resize-to", "6"),
     ("results", "@kept"), ("sampler", "random"), ("scene", "@one.json"), ("scene-number", "0"),
     ("scenes", "@two.json"), ("seed", "5"), ("shard", "1/2"), ("show", "diffuse"), ("side", "5"),
     ("target-error", "25%"), ("texels", "3"), ("time-budget", "1ms"), ("top", "3"), ("transfer", "linear"),

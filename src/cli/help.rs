@@ -74,11 +74,7 @@ const GROUPS: [(&str, &[Entry]); 4] = [
             (
                 "metrics",
                 "RMSE, L1, angles, PSNR, SSIM and FLIP",
-                &[
-                    "gt.png a.png b.png --format csv",
-                    "gt.png a.png --metrics psnr,ssim11",
-                    "gt.png a.png --protocol matfusion",
-                ],
+                &["gt.png a.png b.png --format csv", "gt.png a.png --metrics psnr,ssim11"],
             ),
             (
                 "photo",

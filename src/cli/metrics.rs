@@ -9,24 +9,19 @@ use svbrdf_evaluate::report::MetricsReport;
 use super::analysis::AnalysisJob;
 use super::args::scenes::SceneArgs;
 use super::args::values::stops;
-use super::args::{ComparisonArgs, Given, offered, refuse};
-use super::job::{ComparisonJob, Job, NewJob};
-use super::output::CommandError;
+use super::args::{ComparisonArgs, Given, offered};
+use super::job::{ComparisonJob, NewJob};
 use super::output::report::ReportFormat;
-use super::protocol::{self, ProtocolArgs};
 
 /// Prints metrics of maps and renderings, each with its convention in its name
 ///
 /// Root mean square and mean absolute differences, PSNR and SSIM of the four maps and of renderings, the same of base colour and
-/// metallic, angles between normals, and FLIP of renderings. docs/metrics.md defines each. With --protocol: those of a published evaluation, as
-/// its released code computes them. Without GT and PRED: the built-in materials.
+/// metallic, angles between normals, and FLIP of renderings. docs/metrics.md defines each. Without GT and PRED: the
+/// built-in materials.
 #[derive(Debug, clap::Args)]
 pub struct MetricsArgs {
     #[command(flatten)]
     scenes: SceneArgs,
-
-    #[command(flatten)]
-    protocol: ProtocolArgs,
 
     /// Metrics to compute, by words of their names: psnr, roughness, flip, ... [default: all]
     #[arg(long, value_name = "WORDS,...", value_delimiter = ',')]
@@ -45,32 +40,10 @@ pub struct MetricsArgs {
     comparison: ComparisonArgs,
 }
 
-#[derive(Debug)]
-struct ProtocolJob {
-    comparison: ComparisonJob,
-    protocol: ProtocolArgs,
-    format: ReportFormat,
-}
-
 impl MetricsArgs {
     pub fn job(self, given: &Given) -> NewJob {
-        let Self { scenes, protocol, metrics, exposure, format, comparison: args } = self;
+        let Self { scenes, metrics, exposure, format, comparison: args } = self;
         let comparison = ComparisonJob::with_predictions(&args, given)?;
-        if protocol.protocol.is_some() {
-            let reason = "a protocol has its own scenes, convention and exposure";
-            given.refuse::<SceneArgs>(reason)?;
-            refuse(args.convention.is_some(), "convention", reason)?;
-            refuse(exposure.is_some(), "exposure", reason)?;
-            refuse(!metrics.is_empty(), "metrics", "a protocol has its own metrics")?;
-            let resizes = args.materials.reading.resize_to.is_some();
-            refuse(resizes, "resize-to", "a protocol compares materials as they are")?;
-            if comparison.session.is_some() {
-                let problem = "a protocol takes the files of materials; name them instead of a session";
-                return Err(CommandError::usage(problem));
-            }
-            return Ok(Box::new(ProtocolJob { comparison, protocol, format }));
-        }
-        refuse(protocol.renderings.is_some(), "renderings", "only a --protocol writes renderings")?;
         let metrics = MetricSelection::try_from(metrics)?;
         let analysis = AnyAnalysis::of::<MetricsReport>();
         let (request, options) = (
@@ -78,12 +51,5 @@ impl MetricsArgs {
             json!({ "exposure": exposure.unwrap_or(0.0), "metrics": metrics }),
         );
         Ok(Box::new(AnalysisJob { analysis, comparison, request, options, format }))
-    }
-}
-
-/// Prints the metrics of a protocol to stdout.
-impl Job for ProtocolJob {
-    fn run(self: Box<Self>) -> Result<(), CommandError> {
-        protocol::run(&self.protocol, &self.comparison.materials, self.format)
     }
 }

@@ -17,7 +17,6 @@ mod map;
 mod metrics;
 mod output;
 mod photo;
-mod protocol;
 mod rank;
 mod render;
 mod report;

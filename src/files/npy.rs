@@ -74,22 +74,13 @@ impl Header {
         self.shape.iter().try_fold(1_u64, |product, &side| product.checked_mul(side))
     }
 
-    /// The first bytes of a file of 32-bit floats, low byte first, with the last index fastest.
-    pub fn of_floats(shape: &[usize]) -> Vec<u8> {
-        Self::bytes("<f4", shape)
-    }
-
-    /// That of 64-bit floats.
+    /// The first bytes of a file of 64-bit floats, low byte first, with the last index fastest.
     pub fn of_doubles(shape: &[usize]) -> Vec<u8> {
-        Self::bytes("<f8", shape)
-    }
-
-    fn bytes(kind: &str, shape: &[usize]) -> Vec<u8> {
         let mut sides = shape.iter().map(usize::to_string).collect::<Vec<_>>().join(", ");
         if shape.len() == 1 {
             sides.push(',');
         }
-        let mut text = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({sides}), }}");
+        let mut text = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({sides}), }}");
         let before = MAGIC.len() + 4;
         let padding = ALIGNMENT - (before + text.len() + 1) % ALIGNMENT;
         text.extend(std::iter::repeat_n(' ', padding));
@@ -174,14 +165,14 @@ mod tests {
     #[test]
     fn a_written_header_is_read_as_it_was_and_aligned() {
         for shape in [&[2, 3, 4][..], &[5], &[1_000_000_007, 1, 65536, 3]] {
-            let bytes = Header::of_floats(shape);
+            let bytes = Header::of_doubles(shape);
             assert_eq!(bytes.len() % ALIGNMENT, 0);
             let header = Header::read(bytes.as_slice()).unwrap();
             assert_eq!(header.shape, shape.iter().map(|&side| side as u64).collect::<Vec<_>>());
-            assert_eq!((header.kind.as_str(), header.is_fortran, header.is_big_endian), ("f4", false, false));
+            assert_eq!((header.kind.as_str(), header.is_fortran, header.is_big_endian), ("f8", false, false));
         }
         assert_eq!(
-            Header { shape: vec![u64::MAX, 2], ..Header::read(Header::of_floats(&[1]).as_slice()).unwrap() }
+            Header { shape: vec![u64::MAX, 2], ..Header::read(Header::of_doubles(&[1]).as_slice()).unwrap() }
                 .count(),
             None
         );

@@ -15,7 +15,7 @@ fn help_shows_examples_and_exit_codes() {
 }
 
 /// Command lines, their status, and what they are told.
-const REFUSALS: [(&str, i32, &str); 65] = [
+const REFUSALS: [(&str, i32, &str); 59] = [
     ("loss gt.png a.png --convention other", 64, "guided-2020"),
     ("loss gt.png a.png --precision f16", 64, "f32, f64"),
     ("loss gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
@@ -46,12 +46,6 @@ const REFUSALS: [(&str, i32, &str); 65] = [
     ("loss gt.png a.png --texels 64", 64, "not with texels 64"),
     ("render gt.png -o x.png --exposure nan", 64, "number of stops"),
     ("render gt.png big.png -o x.png", 1, "one by one"),
-    ("metrics --protocol matfusion gt.png big.png", 1, "sizes differ"),
-    ("metrics --protocol matfusion gt.png a.png --near 3", 64, "exposure; leave out --near"),
-    ("metrics --protocol matfusion gt.png a.png --exposure 1", 64, "leave out --exposure"),
-    ("metrics gt.png a.png --renderings out", 64, "--protocol"),
-    ("metrics gt.png a.png --near 3 --renderings out", 64, "only a --protocol writes renderings"),
-    ("metrics --protocol other gt.png a.png", 64, "matfusion"),
     ("metrics gt.png a.png --exposure nan", 64, "stops"),
     ("rank gt.png a.png --metrics", 64, "svbrdf metrics"),
     ("blame gt.png", 64, "no prediction"),

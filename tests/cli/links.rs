@@ -66,7 +66,7 @@ fn nothing_that_was_read_is_replaced_by_another_name() {
     }
 }
 
-/// Files whose names the program chooses: figures, renderings of a protocol, saved options, results.
+/// Files whose names the program chooses: figures, saved options, results.
 #[test]
 fn what_nobody_named_is_not_written_through_a_link() {
     let (folder, set) = (folder(), data_set());
@@ -77,7 +77,6 @@ fn what_nobody_named_is_not_written_through_a_link() {
     for (at, args, written) in [
         (set.path(), figures.as_str(), "page-figures/0001-m0.html"),
         (set.path(), &results, &result),
-        (folder.path(), "metrics gt.png a.png --protocol matfusion --renderings out", "out/0_gt.npy"),
         (folder.path(), "info a.png --read roughness=gloss --save", "a.svbrdf.json"),
     ] {
         succeed(at, args);

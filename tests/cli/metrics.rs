@@ -1,57 +1,8 @@
-//! Metrics of maps, over data sets, and of published evaluations.
+//! Metrics of maps, and over data sets.
 
 use std::fs;
 
-use super::{assert_has, assert_refused, data_set, folder, json_of, rows_of, succeed, text};
-
-#[test]
-fn the_protocol_of_matfusion_compares_values_as_stored() {
-    let folder = tempfile::tempdir().unwrap();
-    let of = |name: &str| folder.path().join(name);
-    // Normals that are not of unit length.
-    let truth = [[128, 140, 250], [200, 100, 50], [100; 3], [12, 20, 30]];
-    let prediction = [[140, 120, 240], [180, 130, 60], [120; 3], [30, 25, 10]];
-    for (name, tiles) in [("gt.png", truth), ("a.png", prediction)] {
-        super::write_tiles(&of(name), 12, |x, _| tiles[x as usize / 12]);
-    }
-    let args = "metrics --protocol matfusion gt.png a.png --read order=ndrs --read albedo=gamma2.2 --read normal-y=up --read roughness=r";
-    let found = json_of(folder.path(), args);
-    assert_eq!(found["protocol"], "matfusion");
-    let rmse = |map: usize, decode: fn(f64) -> f64| {
-        let value = |x: u8| decode(f64::from(x) / 255.0);
-        let squares = (0..3).map(|c| (value(truth[map][c]) - value(prediction[map][c])).powi(2));
-        (squares.sum::<f64>() / 3.0).sqrt()
-    };
-    let gamma = |x: f64| x.powf(2.2);
-    for (name, expected) in [
-        ("matfusion_rmse_normals", rmse(0, |x| x)),
-        ("matfusion_rmse_diffuse", rmse(1, gamma)),
-        ("matfusion_rmse_roughness", rmse(2, |x| x)),
-        ("matfusion_rmse_specular", rmse(3, gamma)),
-    ] {
-        let got = found["results"][0]["metrics"][name].as_f64().unwrap();
-        assert!((got - expected).abs() < 1e-12, "{name}: {got}, not {expected}");
-    }
-    assert!(succeed(folder.path(), args).contains("matfusion_l1_rerender"));
-    // A preset that says for which renderer diffuse was made does not change it here.
-    assert_eq!(json_of(folder.path(), &format!("{args} --preset matfusion"))["results"], found["results"]);
-
-    succeed(folder.path(), &format!("{args} --renderings out"));
-    for name in ["0_gt.npy", "1_a.npy"] {
-        let bytes = fs::read(of("out").join(name)).unwrap();
-        assert!(bytes.starts_with(b"\x93NUMPY\x01\x00"));
-        let end = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-        let header = text(&bytes[10..end]);
-        assert_eq!(
-            header.trim_end(),
-            "{'descr': '<f4', 'fortran_order': False, 'shape': (128, 12, 12, 3), }"
-        );
-        let values: Vec<f32> =
-            bytes[end..].as_chunks().0.iter().map(|&value| f32::from_le_bytes(value)).collect();
-        assert_eq!((end % 64, values.len()), (0, 128 * 12 * 12 * 3));
-        assert!(values.iter().all(|x| (0.0..=1.0).contains(x)) && values.iter().any(|&x| x > 0.1));
-    }
-}
+use super::{assert_has, assert_refused, data_set, folder, json_of, rows_of, succeed};
 
 #[test]
 fn metrics_of_renderings_have_intervals_and_an_exposure() {
@@ -91,13 +42,7 @@ fn words_choose_the_metrics() {
     assert!(chosen == expected && chosen.len() > 8, "{chosen:?}");
     let maps = succeed(folder.path(), "metrics gt.png a.png --metrics l1_roughness");
     assert!(maps.contains("l1_roughness") && !maps.contains("scenes"), "nothing is rendered: {maps}");
-    assert_refused(
-        folder.path(),
-        &[
-            ("metrics gt.png a.png --metrics lpips", 64, "unknown metric `lpips`"),
-            ("metrics gt.png a.png --protocol matfusion --metrics psnr", 64, "leave out --metrics"),
-        ],
-    );
+    assert_refused(folder.path(), &[("metrics gt.png a.png --metrics lpips", 64, "unknown metric `lpips`")]);
 }
 
 #[test]

@@ -41,8 +41,6 @@ class Asked:
         given = () if is_none else listed(predictions, "predictions")
         self.predictions = [opened(prediction, precision) for prediction in given]
         materials = [self.ground_truth, *self.predictions]
-        self.options = [material._options for material in materials]
-        """Those that each material was read with; None for one of arrays."""
         self._options = {
             "names": names(self.ground_truth, self.predictions),
             "paths": [material.path for material in materials],

@@ -74,7 +74,6 @@ loss: Callable[..., Views]
 rank: Callable[..., Views]
 analysis: Callable[..., Views]
 diagnose: Callable[..., Views]
-matfusion: Callable[..., Views]
 map: Callable[..., MapItems]
 
 def photo(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> PhotoItems: ...

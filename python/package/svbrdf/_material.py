@@ -57,7 +57,6 @@ class Material:
     """What reading it noticed."""
     assumptions: tuple[Assumption, ...] = ()
     """What reading it assumed."""
-    _options: str | None = None
     _files: tuple[Source, ...] = ()
 
     def __init__(
@@ -241,7 +240,6 @@ def read(
         found = _core.read(path, json.dumps(options), precision, strict, report)
     material = Material._of(found["material"])
     material.path = os.fspath(path)
-    material._options = found["options"]
     material._files = tuple(found["files"])
     material.notes = tuple(found["notes"])
     material.assumptions = tuple(Assumption(*fields) for fields in found["assumptions"])

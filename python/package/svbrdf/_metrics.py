@@ -3,10 +3,10 @@
 import json
 import math
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Literal
 
 from . import _core
-from ._asked import Asked, Predictions, Scenes, answered, check_unused
+from ._asked import Asked, Predictions, Scenes, answered
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._reports import MetricsReport
@@ -24,12 +24,9 @@ def metrics(
     convention: str | None = None,
     exposure: float | None = None,
     metrics: Sequence[str] = (),
-    protocol: Literal["matfusion"] | None = None,
     progress: bool | Progress = False,
 ) -> MetricsReport:
     """Metrics of maps and renderings: root mean square and mean absolute differences, angles, PSNR, SSIM and FLIP.
-
-    With `protocol`, what the released code of a publication computes, without neural networks.
 
     >>> import svbrdf
     >>> ground_truth, blurred, _ = svbrdf.built_in()
@@ -38,20 +35,11 @@ def metrics(
     0.0
 
     `metrics` are words of the names of those to compute, such as "psnr" or "rmse_roughness"; all where not given.
-    `exposure` is that of the renderings in stops, before they are clipped, 0 where not given. The protocol "matfusion"
-    is that of Sartor and Peers 2023, score.py; it takes files, since normals are compared as stored, and neither
-    scenes nor a convention or an exposure. Scenes are those of `svbrdf.scenes`, the other args and errors those of
-    `svbrdf.loss`.
+    `exposure` is that of the renderings in stops, before they are clipped, 0 where not given. Scenes are those of
+    `svbrdf.scenes`, the other args and errors those of `svbrdf.loss`.
     """
-    choice: dict[str, Any] = {"near": near, "distant": distant, "seed": seed, "sampler": sampler, "scenes": scenes}
-    if protocol is not None:
-        if protocol != "matfusion":
-            raise ValueError(f"protocol: expected 'matfusion', found {protocol!r}")
-        check_unused("protocol", **choice, convention=convention, exposure=exposure, metrics=list(metrics) or None)
-        asked = Asked(ground_truth, predictions, convention="printed", precision="f64")
-        return answered(MetricsReport, _core.matfusion, asked, "rendering", progress, asked.options)
     if exposure is not None and not math.isfinite(exposure):
         raise ValueError(f"exposure: expected a finite number of stops, found {exposure}")
-    asked = Asked(ground_truth, predictions, convention=convention or "printed", **choice)
+    asked = Asked(ground_truth, predictions, convention=convention or "printed", near=near, distant=distant, seed=seed, sampler=sampler, scenes=scenes)
     options = json.dumps({"exposure": exposure or 0.0, "metrics": list(metrics)})
     return answered(MetricsReport, _core.analysis, asked, "rendering", progress, "metrics", options)

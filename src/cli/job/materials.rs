@@ -65,11 +65,6 @@ impl MaterialJob {
         Ok(Self { sources, paths: args.paths().cloned().collect(), resize_to, strict, verbose })
     }
 
-    /// The ground truth, then the predictions.
-    pub fn sources(&self) -> &[MaterialSource] {
-        &self.sources
-    }
-
     /// The number of predictions.
     pub fn predictions(&self) -> usize {
         self.sources.len() - 1

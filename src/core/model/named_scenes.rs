@@ -7,7 +7,7 @@ use super::scene::{Kind, Scene};
 use crate::error::Error;
 
 /// Distance of the light and the camera in the evaluation of MatFusion from the centre of the material, whose half width is 1.
-pub const MATFUSION_DISTANCE: f64 = 2.41;
+const MATFUSION_DISTANCE: f64 = 2.41;
 
 /// A set of scenes with a name.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,14 +1,12 @@
 //! Differences of maps and of renderings beside the loss, each with its convention in its name: `docs/metrics.md` defines them.
 
 mod maps;
-mod matfusion;
 mod pictures;
 mod renderings;
 mod selection;
 mod ssim;
 
 pub use maps::of_maps;
-pub use matfusion::{matfusion_renderings, of_matfusion};
 pub use pictures::{PictureMetrics, of_pictures};
 pub use renderings::{RenderedScenes, of_renderings};
 pub use selection::MetricSelection;

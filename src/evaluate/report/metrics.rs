@@ -19,15 +19,10 @@ use svbrdf_core::progress::Progress;
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MetricsReport {
     ground_truth: String,
-    /// The convention of the renderings; `None` for those of a protocol.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    convention: Option<&'static str>,
-    /// The exposure of the renderings in stops; `None` for those of a protocol.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    exposure_ev: Option<f32>,
-    /// The published evaluation.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    protocol: Option<&'static str>,
+    /// The convention of the renderings.
+    convention: &'static str,
+    /// The exposure of the renderings in stops.
+    exposure_ev: f32,
     /// The lines above the text's table.
     #[serde(skip)]
     heading: String,
@@ -64,31 +59,16 @@ impl MetricsReport {
             }
             false => String::new(),
         };
+        let entry = |(prediction, metrics): (String, Vec<Metric>)| {
+            let known = metrics.iter().filter_map(|metric| Some((metric.name, metric.interval95?)));
+            Metrics { prediction, intervals95: known.collect(), metrics }
+        };
         Self {
             ground_truth: compared.ground_truth.clone(),
-            convention: Some(compared.convention),
-            exposure_ev: Some(rendered.exposure_ev),
-            protocol: None,
+            convention: compared.convention,
+            exposure_ev: rendered.exposure_ev,
             heading: compared.heading("metrics") + &renderings,
-            results: entries(results),
-        }
-    }
-
-    /// The metrics of MatFusion's evaluation against a ground truth of `size` (width, height).
-    pub fn matfusion(
-        ground_truth: &str,
-        [width, height]: [usize; 2],
-        results: Vec<(String, Vec<Metric>)>,
-    ) -> Self {
-        let heading =
-            format!("metrics of MatFusion's score.py against {ground_truth}, {width} x {height} texels\n");
-        Self {
-            ground_truth: ground_truth.to_owned(),
-            convention: None,
-            exposure_ev: None,
-            protocol: Some("matfusion"),
-            heading,
-            results: entries(results),
+            results: results.into_iter().map(entry).collect(),
         }
     }
 }
@@ -106,7 +86,6 @@ impl Report for MetricsReport {
             table.push(prediction.clone(), metrics.iter().map(|metric| metric.value.into()));
             let intervals = || metrics.iter().map(|metric| metric.interval95);
             match reader {
-                _ if self.protocol.is_some() => {}
                 Reader::Person => table.push("95%".to_owned(), intervals().map(Cell::from)),
                 Reader::Program => {
                     table.push(format!("{prediction} interval95_low"), intervals().map(Cell::low));
@@ -116,14 +95,6 @@ impl Report for MetricsReport {
         }
         table
     }
-}
-
-fn entries(results: Vec<(String, Vec<Metric>)>) -> Vec<Metrics> {
-    let entry = |(prediction, metrics): (String, Vec<Metric>)| {
-        let known = metrics.iter().filter_map(|metric| Some((metric.name, metric.interval95?)));
-        Metrics { prediction, intervals95: known.collect(), metrics }
-    };
-    results.into_iter().map(entry).collect()
 }
 
 fn by_name<S: Serializer>(metrics: &[Metric], serializer: S) -> Result<S::Ok, S::Error> {

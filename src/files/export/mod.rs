@@ -2,7 +2,6 @@
 
 mod exr;
 pub mod figure;
-mod npy;
 mod png;
 mod provenance;
 pub mod strip;
@@ -10,7 +9,6 @@ pub mod strip;
 use std::path::Path;
 
 pub use crate::disk::atomic::{Destination, check_place, write_text};
-pub use npy::write_npy;
 pub use provenance::{Entries, Provenance};
 
 use svbrdf_core::image::Image;

@@ -54,7 +54,7 @@ pub use record::{
 
 use sha2::{Digest as _, Sha256};
 
-use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
@@ -124,22 +124,6 @@ impl<'a> MaterialPath<'a> {
         }
         read.files.iter().for_each(|file| inputs::protect(file));
         Ok(read)
-    }
-
-    /// The planes of the material and their (width, height), as [`Self::read`], but with normals of the lengths that are stored, and,
-    /// without an option, diffuse as stored, whatever renderer it was made for: what the released code of a publication reads.
-    ///
-    /// # Errors
-    /// As [`Self::read`]. Values are not checked as those of a [`Material`] are.
-    pub fn planes_as_stored<T: Real>(&self, progress: &Progress) -> Result<(Planes<T>, [usize; 2]), Error> {
-        let energy = self.options.energy.or(Some(Energy::Scaled));
-        let scaled = Self { options: ReadOptions { energy, ..self.options }, ..*self };
-        let LocatedPath { used, located, .. } = scaled.located()?;
-        let options = &used.options.with_preset();
-        let stored = stored(located, options, progress)?;
-        let evidence = gather::evidences(&stored, options);
-        let mut linear = interpret::interpret(stored, evidence, options)?;
-        Ok((assemble::planes(&mut linear, options), linear.size))
     }
 
     /// What its reading depends on.
