@@ -42,8 +42,7 @@ pub struct ReportArgs {
     #[arg(long)]
     figure: bool,
 
-    /// Adds whether the order of the predictions survives other conventions, exposures, resolutions, scenes and measures, as
-    /// `svbrdf rank --robust` tells
+    /// Adds whether the order of the predictions survives other conventions, epsilons and scenes, as `svbrdf rank --robust` tells
     #[arg(long, conflicts_with = "figure")]
     robust: bool,
 

@@ -32,7 +32,7 @@ pub struct RankArgs {
     #[arg(long, requires = "ground_truth")]
     pub pairs: bool,
 
-    /// Asks whether the order survives other conventions, epsilons, exposures, resolutions, scenes and measures
+    /// Asks whether the order survives other conventions, epsilons and scenes
     #[arg(long)]
     pub robust: bool,
 

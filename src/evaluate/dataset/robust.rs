@@ -87,24 +87,21 @@ impl DatasetAnswers {
     }
 }
 
-/// The answers to each question that all materials have one to, as means over them, with paired intervals over them.
+/// The answers to each question as means over the materials, with paired intervals over them.
 fn over_materials(all: &[Vec<Answered>]) -> Vec<Answered> {
-    let over = |first: &Answered| {
-        let of = |material: &Vec<Answered>| {
-            material.iter().find(|one| one.question == first.question).map(|one| one.scores.clone())
-        };
-        let scores: Vec<Vec<f64>> = all.iter().map(of).collect::<Option<_>>()?;
+    let over = |(place, first): (usize, &Answered)| {
+        let scores: Vec<&[f64]> = all.iter().map(|material| material[place].scores.as_slice()).collect();
         let methods = 0..first.scores.len();
         let paired = |a: usize, b: usize| scores.iter().map(|one| one[a] - one[b]).collect::<Vec<_>>();
         let mean = |a: usize| scores.iter().map(|one| one[a]).sum::<f64>() / scores.len() as f64;
         let row = |a: usize| methods.clone().map(|b| interval_of_mean(&paired(a, b))).collect();
-        Some(Answered {
+        Answered {
             question: first.question.clone(),
             scores: methods.clone().map(mean).collect(),
             differences: methods.clone().map(row).collect(),
-        })
+        }
     };
-    all.first().into_iter().flatten().filter_map(over).collect()
+    all.first().into_iter().flatten().enumerate().map(over).collect()
 }
 
 /// The answers about a material, or why it cannot be asked about.

@@ -12,7 +12,7 @@ use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
 use crate::robust::{Answered, RobustInput};
 
-/// Whether the order of predictions survives other conventions, exposures, resolutions, scenes and measures.
+/// Whether the order of predictions survives other conventions, epsilons and scenes.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RobustReport {
     #[serde(flatten)]

@@ -25,7 +25,7 @@ pub fn fold<K: Clone + PartialEq>(ui: &mut egui::Ui, asks: bool, job: &OrderJob<
         }
         Ok(None) => {}
     });
-    let hover = "The order under other conventions, epsilons, exposures, resolutions, scenes and measures, as `svbrdf rank --robust` prints it";
+    let hover = "The order under other conventions, epsilons and scenes, as `svbrdf rank --robust` prints it";
     let clicked = header.header_response.on_hover_text(hover).clicked();
     clicked.then(|| LossCommand::AskOrder(!asks).into())
 }
