@@ -3,7 +3,6 @@
 mod attribution;
 mod directions;
 mod texels;
-mod worst;
 
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::Convention;

@@ -20,8 +20,6 @@
 //! ```
 
 mod attribution;
-#[cfg(test)]
-mod brute_force;
 mod cloud;
 mod error_map;
 mod hemisphere;

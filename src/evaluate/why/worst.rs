@@ -295,3 +295,32 @@ impl CubePoint {
         Self { at: std::array::from_fn(bound), ..self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnose::tests::materials::{generated, with};
+    use svbrdf_core::model::convention::PRINTED;
+
+    /// The largest loss of 7,200 distant scenes with light and view as low as they are sampled, in mirror directions of each other:
+    /// highlights of smooth materials are narrower there than the gaps between sampled scenes.
+    #[test]
+    fn narrow_highlights_at_grazing_angles_are_found() {
+        let scene = |i: usize| {
+            let azimuth = i as f64 / 7200.0;
+            Scene::distant_from_point([1.0, azimuth, 1.0, (azimuth + 0.5).rem_euclid(1.0)], &PRINTED)
+        };
+        let scenes: Vec<Scene> = (0..7200).map(scene).collect();
+        let smooth =
+            |seed| with(&generated(seed, 32), |planes| planes.roughness.iter_mut().for_each(|r| *r *= 0.4));
+        for pair in [[0, 6], [3, 6], [0, 8], [1, 8], [3, 8], [5, 10]] {
+            let [truth, prediction] = pair.map(smooth);
+            let progress = Progress::default();
+            let found = worst(&truth, &prediction, &PRINTED, 0, TAIL, &progress).unwrap();
+            let comparison = Comparison::new(&truth, &[&prediction], PRINTED).unwrap();
+            let losses = f32::cpu().scene_losses(&comparison, &scenes, None, &progress).unwrap().remove(0);
+            let ratio = found.loss / losses.into_iter().fold(0.0, f64::max);
+            assert!(ratio > 0.99, "{pair:?}: {ratio}");
+        }
+    }
+}
