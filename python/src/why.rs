@@ -38,8 +38,7 @@ pub fn diagnose(
         })
     });
     let diagnoses = of_each.collect::<PyResult<_>>()?;
-    let (compared, seams) = (Compared::new(truth, &convention), diagnosis::seams(truth));
-    Views::new(&DiagnoseReport::new(compared, seed, floor, seams, diagnoses))
+    Views::new(&DiagnoseReport::new(Compared::new(truth, &convention), seed, floor, diagnoses))
 }
 
 /// The loss that a ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of

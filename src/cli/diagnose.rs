@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use svbrdf_core::material::Material;
-use svbrdf_evaluate::diagnose::{Storage, diagnose, seams};
+use svbrdf_evaluate::diagnose::{Storage, diagnose};
 use svbrdf_evaluate::report::{Compared, DiagnoseReport};
 
 use super::args::floor::FloorArgs;
@@ -68,7 +68,7 @@ impl Job for DiagnoseJob {
         };
         let diagnoses = opened.predictions.iter().zip(storages).map(one).collect::<Result<Vec<_>, _>>()?;
         let compared = Compared::new(truth, convention);
-        let report = DiagnoseReport::new(compared, seed, floor, seams(truth), diagnoses);
+        let report = DiagnoseReport::new(compared, seed, floor, diagnoses);
         Ok(exit::put(&format.write(&report)?)?)
     }
 }

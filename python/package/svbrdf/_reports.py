@@ -25,7 +25,6 @@ __all__ = [
     "Estimate",
     "FewScenes",
     "Finding",
-    "Indistinguishable",
     "Loss",
     "LossReport",
     "MapShare",
@@ -48,14 +47,11 @@ __all__ = [
     "RankedPrediction",
     "ReadPhotograph",
     "ReadingSummary",
-    "Remaining",
     "Remark",
     "Repetition",
     "RobustReport",
-    "Rung",
     "ScenesLoss",
     "ScenesReport",
-    "Seam",
     "TermDifference",
     "Worst",
     "WorstReport",
@@ -124,25 +120,6 @@ class TermDifference(Record):
     """Largest relative change of a radiance where this term alone is that of the convention; None where it is not one of radiance."""
 
 
-class Indistinguishable(Record):
-    """A term of which the points do not tell the value."""
-
-    term: str
-    fitting: tuple[str, ...]
-    """Values that fit equally well."""
-
-
-class Remaining(Record):
-    """What remains at a point."""
-
-    point: int
-    """Its row."""
-    channel: int
-    """0 to 2: red, green, blue."""
-    relative: float | None
-    """Relative to the prediction; None where that is 0."""
-
-
 class ConformReport(Report):
     """Whether a renderer conforms to a convention, and in which terms it differs."""
 
@@ -158,16 +135,10 @@ class ConformReport(Report):
     """The member of the grammar that is nearest, which is not the renderer; None where the renderer is known."""
     differences: tuple[TermDifference, ...]
     """From the convention; of the nearest member where the verdict is unknown."""
-    indistinguishable: tuple[Indistinguishable, ...]
-    """RendererTerms of which these points do not tell the value."""
     residual: float
     """Root mean square of what remains, relative to the radiances."""
-    noise: float
-    """Relative noise that is seen."""
     storage: str
     """How precisely the radiances are stored."""
-    largest: tuple[Remaining, ...]
-    """The points with the largest residuals for their condition numbers."""
     points: int
     """The number of points."""
 
@@ -337,45 +308,24 @@ class DatasetReport(Report):
 class Finding(Record):
     """The loss under a hypothesis, such as another exposure or another direction of y."""
 
-    hypothesis: Literal["normal_y", "normal_x", "albedo_encoding", "diffuse_encoding", "specular_encoding", "roughness", "channels", "energy", "exposure", "exposure_rgb", "shift", "subtexel", "symmetry", "resampling", "ground_truth"]
+    hypothesis: Literal["normal_y", "normal_x", "albedo_encoding", "diffuse_encoding", "specular_encoding", "roughness", "channels", "energy", "exposure", "exposure_rgb", "shift", "symmetry", "ground_truth"]
     value: float | tuple[float, float, float] | tuple[float, float] | str
     """The value with the least loss in the pilot."""
     unit: str | None
-    loss: float | None
-    """The loss under the hypothesis; None where it has none."""
+    loss: float
+    """The loss under the hypothesis."""
     interval95: tuple[float, float] | None
     """The 95% confidence interval of this loss."""
-    share: float | None
+    share: float
     """The part of the loss that disappears under the hypothesis, paired by scenes; negative where the loss grows."""
     share_interval95: tuple[float, float] | None
     """The 95% confidence interval of the share, from the paired differences."""
-    p: float | None
-    """The probability of such a fall where there is none, corrected for the number of hypotheses (Holm); None: not tested."""
+    p: float
+    """The probability of such a fall where there is none, corrected for the number of hypotheses (Holm)."""
     marked: bool
     """Whether the loss falls significantly and by at least 10% beside the corrections of the other marked findings. Never where the loss is below the floor."""
     remedy: str | None
     """What `--read` takes to correct the reading: `name:normal-y=down`."""
-
-
-class Rung(Record):
-    """The loss between averages over blocks of texels, and the roughness of these blocks."""
-
-    side: int
-    """Columns and rows of a block: 2^k."""
-    loss: float
-    """The mean over scenes, blocks and RGB of `|ln(<p> + epsilon) - ln(<g> + epsilon)|`."""
-    roughness: tuple[float, float]
-    """The `filtered_roughness` of the ground truth and of the prediction."""
-
-
-class Seam(Record):
-    """The border of a map that is repeated."""
-
-    map: Literal["normal", "diffuse", "specular", "roughness"]
-    across: str
-    """"columns": the last column beside the first one; "rows": the last row above the first one."""
-    rank: float
-    """The share of the neighbouring columns (or rows) that differ as much as those across the border do, the border included: small means a visible seam."""
 
 
 class Diagnosis(Record):
@@ -390,10 +340,6 @@ class Diagnosis(Record):
     explained: float | None
     """The part of the loss that disappears under all marked findings together; None without marks."""
     findings: tuple[Finding, ...]
-    ladder: tuple[Rung, ...]
-    """The loss between averages over larger and larger blocks."""
-    seams: tuple[Seam, ...]
-    """Those of the prediction."""
 
 
 class DiagnoseReport(Report):
@@ -408,8 +354,6 @@ class DiagnoseReport(Report):
     """The loss that the ground truth cannot resolve."""
     captures: int | None
     """The number of captures of the ground truth that the floor is the mean loss between; None: it is that of rounding."""
-    seams: tuple[Seam, ...]
-    """The seams of the ground truth."""
     predictions: tuple[Diagnosis, ...]
     """One per prediction."""
 
@@ -550,14 +494,12 @@ class MetricsReport(Report):
     """Metrics of maps and renderings, each with its convention in its name: docs/metrics.md defines them."""
 
     ground_truth: str
+    convention: str
+    """The convention of the renderings."""
+    exposure_ev: float
+    """The exposure of the renderings in stops."""
     results: tuple[Metrics, ...]
     """One per prediction."""
-    convention: str | None
-    """The convention of the renderings; None for those of a protocol."""
-    exposure_ev: float | None
-    """The exposure of the renderings in stops; None for those of a protocol."""
-    protocol: str | None
-    """The published evaluation."""
 
 
 class ReadPhotograph(Record):
@@ -746,7 +688,7 @@ class AskedQuestion(Record):
 
 
 class RobustReport(Report):
-    """Whether the order of predictions survives other conventions, exposures, resolutions, scenes and measures."""
+    """Whether the order of predictions survives other conventions, epsilons and scenes."""
 
     ground_truth: str
     convention: str

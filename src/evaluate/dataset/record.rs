@@ -275,7 +275,7 @@ impl From<&Finding> for Mark {
             hypothesis: finding.hypothesis.name().to_owned(),
             // Numbers and names have a value.
             value: serde_json::to_value(&finding.value).unwrap_or_default(),
-            share: finding.share.unwrap_or(0.0),
+            share: finding.share,
             remedy: finding.remedy.map(|remedy| remedy.to_string()),
         }
     }

@@ -25,8 +25,8 @@ pub(super) fn findings(
         finding(proposal, &paired, scenes)
     };
     let mut findings: Vec<Finding> = proposals.iter().map(finding).collect();
-    let p = holm(&findings.iter().map(|finding| finding.p.unwrap_or(1.0)).collect::<Vec<_>>());
-    findings.iter_mut().zip(p).for_each(|(finding, p)| finding.p = Some(p));
+    let p = holm(&findings.iter().map(|finding| finding.p).collect::<Vec<_>>());
+    findings.iter_mut().zip(p).for_each(|(finding, p)| finding.p = p);
     Ok(findings)
 }
 
@@ -39,11 +39,11 @@ fn finding(proposal: &Proposal, paired: &Paired, scenes: &[Scene]) -> Finding {
         hypothesis: proposal.hypothesis,
         value: proposal.value.clone(),
         unit: proposal.hypothesis.unit(),
-        loss: Some(loss.mean),
+        loss: loss.mean,
         interval95: loss.interval95,
-        share: Some(share(fall.mean)),
+        share: share(fall.mean),
         share_interval95: share_interval(paired, scenes),
-        p: Some(one_sided(&fall)),
+        p: one_sided(&fall),
         marked: false,
         certain: false,
         alternative: None,

@@ -5,8 +5,6 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::ladder::Rung;
-use super::seams::Seam;
 use svbrdf_core::loss::Estimate;
 use svbrdf_files::changes::Change;
 use svbrdf_files::changes::Remedy;
@@ -22,12 +20,8 @@ pub enum Hypothesis {
     ExposureRgb,
     /// A displacement by whole texels.
     Shift,
-    /// The displacement by parts of a texel that a parabola suggests: not tested.
-    Subtexel,
     /// Maps mirrored or turned.
     Symmetry,
-    /// Detail smaller than 2 texels: not tested.
-    Resampling,
     NormalY,
     NormalX,
     AlbedoEncoding,
@@ -42,13 +36,11 @@ pub enum Hypothesis {
 
 impl Hypothesis {
     /// In the order of the lines.
-    const ALL: [Self; 15] = [
+    const ALL: [Self; 13] = [
         Self::Exposure,
         Self::ExposureRgb,
         Self::Shift,
-        Self::Subtexel,
         Self::Symmetry,
-        Self::Resampling,
         Self::NormalY,
         Self::NormalX,
         Self::AlbedoEncoding,
@@ -79,9 +71,7 @@ impl Hypothesis {
             Self::Exposure => "exposure",
             Self::ExposureRgb => "exposure_rgb",
             Self::Shift => "shift",
-            Self::Subtexel => "subtexel",
             Self::Symmetry => "symmetry",
-            Self::Resampling => "resampling",
             Self::NormalY => "normal_y",
             Self::NormalX => "normal_x",
             Self::AlbedoEncoding => "albedo_encoding",
@@ -98,7 +88,7 @@ impl Hypothesis {
     pub fn unit(self) -> Option<&'static str> {
         match self {
             Self::Exposure | Self::ExposureRgb => Some("stops"),
-            Self::Shift | Self::Subtexel | Self::Resampling => Some("texels"),
+            Self::Shift => Some("texels"),
             _ => None,
         }
     }
@@ -108,7 +98,7 @@ impl Hypothesis {
 #[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Value {
-    /// The stops that the prediction would have to be brightened by; a number of texels.
+    /// The stops that the prediction would have to be brightened by.
     Number(f64),
     /// Stops of red, green and blue.
     Numbers([f64; 3]),
@@ -118,14 +108,13 @@ pub enum Value {
     Name(&'static str),
 }
 
-/// Numbers have two decimals, texels none where they are whole; `0.40`, `-0.05 -0.03 -0.03`, `3 -2`, `flipped`.
+/// Numbers have two decimals, texels none; `0.40`, `-0.05 -0.03 -0.03`, `3 -2`, `flipped`.
 impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(number) => f.write_str(&hundredths(*number)),
             Self::Numbers(numbers) => f.write_str(&numbers.map(hundredths).join(" ")),
-            Self::Displacement([x, y]) if x.fract() == 0.0 && y.fract() == 0.0 => write!(f, "{x} {y}"),
-            Self::Displacement(displacement) => f.write_str(&displacement.map(hundredths).join(" ")),
+            Self::Displacement([x, y]) => write!(f, "{x} {y}"),
             Self::Name(name) => f.write_str(name),
         }
     }
@@ -144,16 +133,16 @@ pub struct Finding {
     /// The value with the least loss in the pilot.
     pub value: Value,
     pub unit: Option<&'static str>,
-    /// The loss under the hypothesis; `None` where it has none.
-    pub loss: Option<f64>,
+    /// The loss under the hypothesis.
+    pub loss: f64,
     /// The 95% confidence interval of this loss.
     pub interval95: Option<[f64; 2]>,
     /// The part of the loss that disappears under the hypothesis, paired by scenes; negative where the loss grows.
-    pub share: Option<f64>,
+    pub share: f64,
     /// The 95% confidence interval of the share, from the paired differences.
     pub share_interval95: Option<[f64; 2]>,
-    /// The probability of such a fall where there is none, corrected for the number of hypotheses (Holm); `None`: not tested.
-    pub p: Option<f64>,
+    /// The probability of such a fall where there is none, corrected for the number of hypotheses (Holm).
+    pub p: f64,
     /// Whether the loss falls significantly and by at least 10% beside the corrections of the other marked findings. Never where
     /// the loss is below the floor.
     pub marked: bool,
@@ -166,7 +155,7 @@ pub struct Finding {
     /// The option of reading that corrects it; a report writes it as an option of the command line.
     #[serde(skip)]
     pub remedy: Option<Remedy>,
-    /// What is changed with the value; `None` where it changes nothing, or is not tested.
+    /// What is changed with the value; `None` where it changes nothing.
     #[serde(skip)]
     pub change: Option<Change>,
 }
@@ -182,10 +171,6 @@ pub struct Diagnosis {
     pub explained: Option<f64>,
     /// In the order of [`Hypothesis`].
     pub findings: Vec<Finding>,
-    /// From single texels to the largest blocks.
-    pub ladder: Vec<Rung>,
-    /// Those of the prediction.
-    pub seams: Vec<Seam>,
 }
 
 impl Finding {
@@ -214,7 +199,7 @@ impl Diagnosis {
     /// The marked findings, the largest share first.
     pub fn marked(&self) -> impl Iterator<Item = &Finding> {
         let mut marked: Vec<_> = self.findings.iter().filter(|finding| finding.marked).collect();
-        marked.sort_by(|a, b| b.share.unwrap_or(0.0).total_cmp(&a.share.unwrap_or(0.0)));
+        marked.sort_by(|a, b| b.share.total_cmp(&a.share));
         marked.into_iter()
     }
 }
@@ -227,7 +212,6 @@ mod tests {
     fn what_rounds_to_0_has_no_sign() {
         let numbers = [-0.004, -0.0, 0.004, -0.006].map(|number| Value::Number(number).to_string());
         assert_eq!(numbers, ["0.00", "0.00", "0.00", "-0.01"]);
-        assert_eq!(Value::Displacement([-0.001, 1.25]).to_string(), "0.00 1.25");
         assert_eq!(Value::Numbers([-0.001, 0.2, -1.0]).to_string(), "0.00 0.20 -1.00");
     }
 }

@@ -1,7 +1,7 @@
 //! Proposals: each hypothesis with the value that fits best in the scenes of a pilot.
 
 use super::finding::{Hypothesis, Value};
-use super::shift::{Fit, Interior, candidates};
+use super::shift::{Fit, candidates};
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
 use svbrdf_files::changes::Change;
@@ -25,10 +25,10 @@ impl Proposal {
         Self { hypothesis, value, change: Some(change), remedy: None }
     }
 
-    /// All hypotheses in the order of their lines, with the values that have the least loss in `pilot`; and the displacement by parts
-    /// of a texel. `fits` are those of the pair of `pilot`.
-    pub(super) fn all(pilot: &Trials<'_>, fits: &[Fit]) -> Result<(Vec<Self>, Value), Error> {
-        let (shift, subtexel) = shift(pilot, fits)?;
+    /// All hypotheses in the order of their lines, with the values that have the least loss in `pilot`. `fits` are those of the pair of
+    /// `pilot`.
+    pub(super) fn all(pilot: &Trials<'_>, fits: &[Fit]) -> Result<Vec<Self>, Error> {
+        let shift = shift(pilot, fits)?;
         let fitted = |hypothesis| -> Result<Self, Error> {
             Ok(Self::exposure(pilot.best_exposure(&[], hypothesis == Hypothesis::ExposureRgb)?, hypothesis))
         };
@@ -39,7 +39,7 @@ impl Proposal {
             let best = best(pilot, readings.iter().filter_map(|reading| reading.change))?;
             all.push(readings.swap_remove(best));
         }
-        Ok((all, subtexel))
+        Ok(all)
     }
 
     pub(super) fn exposure(stops: [f64; 3], hypothesis: Hypothesis) -> Self {
@@ -115,16 +115,12 @@ fn best(pilot: &Trials<'_>, changes: impl Iterator<Item = Change>) -> Result<usi
     Ok(least.map_or(0, |(index, _)| index))
 }
 
-/// The displacement of the prediction by whole texels with the least loss, and that by parts of a texel.
-pub(super) fn shift(pilot: &Trials<'_>, fits: &[Fit]) -> Result<(Proposal, Value), Error> {
+/// The displacement of the prediction by whole texels with the least loss.
+fn shift(pilot: &Trials<'_>, fits: &[Fit]) -> Result<Proposal, Error> {
     let candidates = candidates(fits);
     let ratios = ratios(pilot, &candidates)?;
     let least = candidates.into_iter().zip(ratios).min_by(|a, b| a.1.total_cmp(&b.1));
-    let (shift, ratio) = least.filter(|(_, ratio)| *ratio < 1.0).unwrap_or(([0, 0], 1.0));
-    let proposal = Proposal::shift(shift);
-    let subtexel = subtexel(pilot, shift, ratio)?;
-    let subtexel = subtexel.map_or_else(|| proposal.value.clone(), Value::Displacement);
-    Ok((proposal, subtexel))
+    Ok(Proposal::shift(least.filter(|(_, ratio)| *ratio < 1.0).map_or([0, 0], |(shift, _)| shift)))
 }
 
 /// The losses after shifts by the losses before, on the texels that both have.
@@ -134,17 +130,4 @@ fn ratios(pilot: &Trials<'_>, shifts: &[[i32; 2]]) -> Result<Vec<f64>, Error> {
         if mean(&paired.before) > 0.0 { mean(&paired.after) / mean(&paired.before) } else { 1.0 }
     };
     Ok(pilot.losses(&trials)?.iter().map(ratio).collect())
-}
-
-/// The vertex of the parabolas through the losses at a shift, where the `centre` is, and at its neighbours; `None` where the map has no
-/// room for them.
-fn subtexel(pilot: &Trials<'_>, [x, y]: [i32; 2], centre: f64) -> Result<Option<[f64; 2]>, Error> {
-    let neighbours = [[x - 1, y], [x + 1, y], [x, y - 1], [x, y + 1]];
-    let [left, right, above, below] = ratios(pilot, &neighbours)?[..] else { return Ok(None) };
-    let vertex = |before: f64, after: f64| {
-        let curvature = before - 2.0 * centre + after;
-        if curvature > 0.0 { (0.5 * (before - after) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
-    };
-    let has_room = !Interior::new(pilot.pair.ground_truth.size(), [x.abs() + 1, y.abs() + 1]).is_empty();
-    Ok(has_room.then(|| [f64::from(x) + vertex(left, right), f64::from(y) + vertex(above, below)]))
 }

@@ -2,12 +2,10 @@
 
 use super::evaluation::findings;
 use super::explanation::explain;
-use super::finding::{Diagnosis, Finding, Hypothesis, Value};
-use super::ladder::{Rung, ladder};
+use super::finding::Diagnosis;
 use super::marking::Marking;
 use super::pair::Pair;
 use super::proposals::Proposal;
-use super::seams::seams;
 use super::shift::Correlations;
 use super::trials::Trials;
 use svbrdf_core::error::Error;
@@ -28,8 +26,6 @@ pub(super) const EVALUATION: [usize; 3] = [SCENES[0], SCENES[1], 2048];
 const SEARCH: [usize; 3] = [16, 8, 2048];
 /// What the seed of the pilot differs by.
 const PILOT_SEED: u64 = 0x7069_6c6f_7400_0000;
-/// Near-field and distant scenes of the ladder.
-const LADDER: [usize; 2] = [16, 8];
 /// The steps of `progress`.
 const STEPS: u64 = 4;
 
@@ -54,7 +50,7 @@ pub fn diagnose(
     let search = trials(SEARCH, seed ^ PILOT_SEED)?;
     let correlations = Correlations::new([ground_truth, prediction], pilot.sampling.seed);
     let fits = correlations.fits(None)?;
-    let (mut proposals, subtexel) = Proposal::all(&pilot, &fits)?;
+    let mut proposals = Proposal::all(&pilot, &fits)?;
     progress.step()?;
     let unchanged = evaluation.unchanged()?;
     let loss = Estimate::of_sampled(Sampler::Sobol, &evaluation.scenes, &unchanged.before);
@@ -70,42 +66,12 @@ pub fn diagnose(
     }
     progress.step()?;
     let name = prediction.name().to_owned();
-    let mut findings = findings(&evaluation, &proposals, &unchanged)?;
-    let scenes = Sampler::Sobol.scenes(seed, LADDER[0], LADDER[1], convention);
-    let ladder = ladder(ground_truth, prediction, &scenes, convention, &progress.part())?;
+    let findings = findings(&evaluation, &proposals, &unchanged)?;
     progress.step()?;
-    findings.insert(3, untested(Hypothesis::Subtexel, subtexel, None));
-    findings.insert(5, resampling(&ladder));
-    let seams = seams(prediction);
-    let mut diagnosis = Diagnosis { prediction: name, loss, explained: None, findings, ladder, seams };
+    let mut diagnosis = Diagnosis { prediction: name, loss, explained: None, findings };
     let marking =
         Marking { search: &search, pilot: &pilot, evaluation: &evaluation, hypotheses: proposals.len() };
     marking.mark(&mut diagnosis, explained, resolvable)?;
     progress.step()?;
     Ok(diagnosis)
-}
-
-/// A line without a test.
-fn untested(hypothesis: Hypothesis, value: Value, losses: Option<[f64; 2]>) -> Finding {
-    Finding {
-        hypothesis,
-        value,
-        unit: hypothesis.unit(),
-        loss: losses.map(|[_, after]| after),
-        interval95: None,
-        share: losses.map(|[before, after]| if before > 0.0 { 1.0 - after / before } else { 0.0 }),
-        share_interval95: None,
-        p: None,
-        marked: false,
-        certain: false,
-        alternative: None,
-        remedy: None,
-        change: None,
-    }
-}
-
-/// The part of the loss that is due to detail smaller than 2 texels.
-fn resampling(ladder: &[Rung]) -> Finding {
-    let losses = ladder.get(1).map(|half| [ladder[0].loss, half.loss]);
-    untested(Hypothesis::Resampling, Value::Number(2.0), losses)
 }

@@ -32,7 +32,7 @@ pub fn sentence(diagnosis: &Diagnosis, floor: Option<&Estimate>) -> String {
 
 /// What a finding would lower the loss by, and its cause where the share is at least 50%.
 pub fn sentence_of(finding: &Finding) -> String {
-    let share = 100.0 * finding.share.unwrap_or(0.0);
+    let share = 100.0 * finding.share;
     // A small share is no evidence of a cause.
     let cause = if share >= LIKELY_CAUSE { cause(finding) } else { None };
     let cause = cause.map(|cause| format!(": {cause}")).unwrap_or_default();

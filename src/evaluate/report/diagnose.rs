@@ -6,11 +6,8 @@ use serde::Serialize;
 use super::Report;
 use super::heading::{Compared, floor_line};
 use super::table::{Cell, Field, Reader, Table};
-use crate::diagnose::{self, Finding, Rung, Seam, Value, sentence};
+use crate::diagnose::{self, Finding, Value, sentence};
 use svbrdf_core::loss::Estimate;
-
-/// Largest rank of a seam that is printed.
-const SEAM: f64 = 0.05;
 
 /// The diagnosis of each prediction: docs/diagnose.md describes each line.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -22,8 +19,6 @@ pub struct DiagnoseReport {
     floor: Estimate,
     /// The number of captures of the ground truth that the floor is the mean loss between; `None`: it is that of rounding.
     captures: Option<usize>,
-    /// The seams of the ground truth.
-    seams: Vec<Seam>,
     /// One per prediction.
     predictions: Vec<Diagnosis>,
 }
@@ -40,10 +35,6 @@ struct Diagnosis {
     /// The part of the loss that disappears under all marked findings together; `None` without marks.
     explained: Option<f64>,
     findings: Vec<ReportedFinding>,
-    /// The loss between averages over larger and larger blocks.
-    ladder: Vec<Rung>,
-    /// Those of the prediction.
-    seams: Vec<Seam>,
 }
 
 /// The loss under a hypothesis, such as another exposure or another direction of y.
@@ -65,47 +56,20 @@ impl DiagnoseReport {
         compared: Compared,
         seed: u64,
         (floor, captures): (Estimate, Option<usize>),
-        seams: Vec<Seam>,
         diagnoses: Vec<diagnose::Diagnosis>,
     ) -> Self {
         let predictions = diagnoses.into_iter().map(|one| Diagnosis::new(one, &compared, &floor)).collect();
-        Self { compared, seed, floor, captures, seams, predictions }
+        Self { compared, seed, floor, captures, predictions }
     }
 
-    fn text_of(&self, diagnosis: &Diagnosis) -> String {
+    fn text_of(diagnosis: &Diagnosis) -> String {
         let [mean, _, interval] = diagnosis.loss.texts();
-        let rungs: [Field<Rung>; 4] = [
-            ("", "block", |rung| format!("{0} x {0}", rung.side).into()),
-            ("", "loss", |rung| rung.loss.into()),
-            ("", "roughness, ground truth", |rung| Cell::Digits(4, rung.roughness[0])),
-            ("", "roughness, prediction", |rung| Cell::Digits(4, rung.roughness[1])),
-        ];
         format!(
-            "{}\n\n{}: loss {mean}, 95% {interval}\n\n{}\n{}{}",
+            "{}\n\n{}: loss {mean}, 95% {interval}\n\n{}",
             diagnosis.sentence,
             diagnosis.prediction,
             Table::fields(&fields(), diagnosis.rows(), Reader::Person).text(),
-            Table::fields(&rungs, &diagnosis.ladder, Reader::Person).text(),
-            self.seams_line(diagnosis)
         )
-    }
-
-    /// The visible seams, where there are any.
-    fn seams_line(&self, diagnosis: &Diagnosis) -> String {
-        let visible = |seams: &[Seam]| {
-            let name = |seam: &Seam| format!("{} {} (rank {:.3})", seam.map.name(), seam.across, seam.rank);
-            seams.iter().filter(|seam| seam.rank <= SEAM).map(name).collect::<Vec<_>>().join(", ")
-        };
-        let line = |name: &str, seams: String| {
-            if seams.is_empty() { seams } else { format!("seams of {name} if it is repeated: {seams}\n") }
-        };
-        let truth = line(&self.compared.ground_truth, visible(&self.seams));
-        let prediction = line(&diagnosis.prediction, visible(&diagnosis.seams));
-        if truth.is_empty() && prediction.is_empty() {
-            String::new()
-        } else {
-            format!("\n{truth}{prediction}")
-        }
     }
 }
 
@@ -121,9 +85,9 @@ fn fields<'a>() -> [Field<(&'a str, &'a ReportedFinding)>; 14] {
         }),
         ("value", "", |(_, one)| cell(&one.finding.value)),
         ("unit", "", |(_, one)| one.finding.unit.into()),
-        ("loss", "loss", |(_, one)| Cell::or(one.finding.loss, "-")),
+        ("loss", "loss", |(_, one)| one.finding.loss.into()),
         ("interval95_low interval95_high", "95% interval", |(_, one)| Cell::or(one.finding.interval95, "-")),
-        ("share", "share", |(_, one)| one.finding.share.map_or(Cell::Missing("-"), Cell::Share)),
+        ("share", "share", |(_, one)| Cell::Share(one.finding.share)),
         ("share_interval95_low share_interval95_high", "", |(_, one)| one.finding.share_interval95.into()),
         ("p", "", |(_, one)| one.finding.p.into()),
         ("marked", "", |(_, one)| one.finding.marked.into()),
@@ -154,8 +118,6 @@ impl Diagnosis {
             prediction: found.prediction,
             loss: found.loss,
             explained: found.explained,
-            ladder: found.ladder,
-            seams: found.seams,
         }
     }
 }
@@ -181,9 +143,8 @@ impl Report for DiagnoseReport {
         )
     }
 
-    /// With ladder and seams below the table of each prediction.
     fn text(&self) -> String {
-        let texts: Vec<String> = self.predictions.iter().map(|diagnosis| self.text_of(diagnosis)).collect();
+        let texts: Vec<String> = self.predictions.iter().map(Self::text_of).collect();
         format!("{}\n{}", self.heading(), texts.join("\n"))
     }
 

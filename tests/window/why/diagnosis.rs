@@ -90,7 +90,7 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
     assert_eq!(hypotheses, [Hypothesis::NormalY]);
     let all = lines(&window);
     assert_eq!(all.len(), found.findings.len(), "{all:?}");
-    let share = 100.0 * found.marked().next().unwrap().share.unwrap();
+    let share = 100.0 * found.marked().next().unwrap().share;
     assert_eq!(all[0], format!("Normal Y flipped: {share:.1}% of the loss, marked"));
     assert!(all[1..].iter().all(|line| !line.ends_with("marked")), "{all:?}");
     window.get_by_label_contains("Reading the normals with Y down would lower the loss by");
@@ -116,8 +116,7 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
     window.get_by_label("No error of exposure, alignment or reading explains 10% of the loss.");
     assert!(!has(&window, "Read with"));
     let found = window.state().diagnosis().unwrap();
-    let shares =
-        found.findings.iter().filter(|finding| finding.p.is_some()).filter_map(|finding| finding.share);
+    let shares = found.findings.iter().map(|finding| finding.share);
     let most = 100.0 * shares.fold(f64::NEG_INFINITY, f64::max);
     let first = lines(&window);
     assert!(

@@ -2,9 +2,8 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads its own files")]
 
+mod floors;
 mod follow;
-mod ladders;
 pub(crate) mod materials;
 mod planted;
-mod shifts;
 mod statistics;

@@ -33,7 +33,7 @@ fn shifts() {
         let found = found(&truth, &shifted(&truth, shift), &Storage::default());
         assert_eq!(only(&found), (Hypothesis::Shift, Value::Displacement(shift.map(f64::from))));
         let finding = found.marked().next().unwrap();
-        assert!(finding.loss.unwrap() < 1e-6 && finding.share.unwrap() > 0.999, "{finding:?}");
+        assert!(finding.loss < 1e-6 && finding.share > 0.999, "{finding:?}");
     }
 }
 
@@ -58,7 +58,7 @@ fn the_share_of_a_shift_is_that_of_all_texels() {
     let texels = Interior::new([side; 2], [-2, 0]).texels();
     let losses = f32::cpu().scene_losses(&comparison, &scenes, Some(&texels), &Progress::default()).unwrap();
     let [before, after] = [0, 1].map(|of: usize| losses[of].iter().sum::<f64>());
-    let (share, expected) = (finding.share.unwrap(), 1.0 - after / before);
+    let (share, expected) = (finding.share, 1.0 - after / before);
     assert!((share - expected).abs() < 0.005 && expected < 0.99, "{share}, of all texels {expected}");
 }
 
@@ -235,7 +235,7 @@ fn a_map_in_another_encoding_is_found_alone_and_on_either_side() {
         let pair = [&wrong, &truth];
         let of_truth = diagnose(pair, [read_as, &encoded], &PRINTED, 0.0, 1, &Progress::default()).unwrap();
         let marked: Vec<_> = of_truth.marked().collect();
-        assert!(marked.len() == 1 && marked[0].share.unwrap() > 0.99, "{marked:#?}");
+        assert!(marked.len() == 1 && marked[0].share > 0.99, "{marked:#?}");
         let option = marked[0].command_option(["gt", "ours"]);
         let text = sentence(&of_truth, None);
         let names_truth = option.as_ref().is_some_and(|option| *option == format!("--read gt:{remedy}"));

@@ -244,7 +244,7 @@ impl<'a> TopBar<'a> {
         let face = shaped(icons::ICON_MENU.codepoint, false);
         let (menu, _) = MenuButton::from_button(face).config(config).ui(ui, |ui| self.menu(ui, commands));
         menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
-        menu.on_hover_text("Study, photograph, theme, size of the window's text");
+        menu.on_hover_text("Photograph, theme, size of the window's text");
         let panel = button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(self.side_panel));
         if panel.on_hover_text("Side panel (B)").clicked() {
             commands.push(WindowCommand::ToggleSidePanel.into());

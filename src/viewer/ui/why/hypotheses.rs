@@ -80,15 +80,13 @@ impl HypothesisLines<'_> {
     }
 }
 
-/// The marked findings, or else the tested one that explains most.
+/// The marked findings, or else the one that explains most.
 fn first(findings: &[Finding]) -> Vec<&Finding> {
     let marked: Vec<&Finding> = findings.iter().filter(|finding| finding.marked).collect();
     if !marked.is_empty() {
         return marked;
     }
-    let tested = findings.iter().filter(|finding| finding.p.is_some());
-    let share = |finding: &Finding| finding.share.unwrap_or(f64::NEG_INFINITY);
-    tested.max_by(|a, b| share(a).total_cmp(&share(b))).or(findings.first()).into_iter().collect()
+    findings.iter().max_by(|a, b| a.share.total_cmp(&b.share)).into_iter().collect()
 }
 
 /// The change that the pane of the prediction can show.
@@ -149,18 +147,13 @@ fn has_maps(change: Change) -> bool {
 fn details(ui: &mut egui::Ui, finding: &Finding, change: Option<Change>, is_shown: bool) {
     let unit = finding.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
     ui.strong(format!("{}: {}{unit}", label(finding.hypothesis), value_text(finding)));
-    if let Some(loss) = finding.loss {
-        let range = |interval: Option<[f64; 2]>, text: &dyn Fn(f64) -> String| {
-            interval.map(|[low, high]| format!(", 95% {} to {}", text(low), text(high))).unwrap_or_default()
-        };
-        ui.label(format!("Loss {}{}", digits(loss), range(finding.interval95, &digits)));
-        let interval = range(finding.share_interval95, &percent);
-        ui.label(format!("{} of the loss disappears{interval}", share(finding)));
-    }
-    match finding.p {
-        Some(p) => ui.label(format!("p = {p:.2e}, corrected for all hypotheses")),
-        None => ui.label("Reported, not tested"),
+    let range = |interval: Option<[f64; 2]>, text: &dyn Fn(f64) -> String| {
+        interval.map(|[low, high]| format!(", 95% {} to {}", text(low), text(high))).unwrap_or_default()
     };
+    ui.label(format!("Loss {}{}", digits(finding.loss), range(finding.interval95, &digits)));
+    let interval = range(finding.share_interval95, &percent);
+    ui.label(format!("{} of the loss disappears{interval}", share(finding)));
+    ui.label(format!("p = {:.2e}, corrected for all hypotheses", finding.p));
     match (finding.change, change) {
         (_, Some(change)) if is_shown => {
             ui.label(format!("Click to show the prediction itself, not {change}"))
@@ -179,13 +172,13 @@ fn value_text(finding: &Finding) -> String {
 /// The value with its unit where there is room.
 fn value(finding: &Finding) -> String {
     match (finding.hypothesis, finding.unit) {
-        (Hypothesis::ExposureRgb | Hypothesis::Subtexel, _) | (_, None) => value_text(finding),
+        (Hypothesis::ExposureRgb, _) | (_, None) => value_text(finding),
         (_, Some(unit)) => format!("{} {unit}", value_text(finding)),
     }
 }
 
 pub fn share(finding: &Finding) -> String {
-    finding.share.map_or_else(String::new, percent)
+    percent(finding.share)
 }
 
 fn percent(share: f64) -> String {
@@ -200,9 +193,7 @@ pub fn label(hypothesis: Hypothesis) -> &'static str {
         Hypothesis::Exposure => "Exposure",
         Hypothesis::ExposureRgb => "Exposure, RGB",
         Hypothesis::Shift => "Shift",
-        Hypothesis::Subtexel => "Shift, fractions",
         Hypothesis::Symmetry => "Symmetry",
-        Hypothesis::Resampling => "Resampling",
         Hypothesis::NormalY => "Normal Y",
         Hypothesis::NormalX => "Normal X",
         Hypothesis::AlbedoEncoding => "Colour encoding",
