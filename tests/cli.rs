@@ -30,7 +30,6 @@ mod scenes;
 mod schema;
 mod session;
 mod sidecar;
-mod steps;
 mod stopped;
 mod study;
 mod why;

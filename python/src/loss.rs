@@ -31,7 +31,7 @@ pub fn loss(
             answer(py, &asked, &materials, progress)
         }
     }?;
-    Views::new(&report.read_from(asked.paths, Vec::new()))
+    Views::new(&report.read_from(asked.paths))
 }
 
 /// The answer for the first of `materials` as the ground truth and the others as predictions.

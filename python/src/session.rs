@@ -28,7 +28,7 @@ pub fn session(
             Some(options) => read_options(&options)?,
             None => Sidecar::load(&path).map_err(exception)?.options,
         };
-        Ok(SessionMaterial { name: None, path: Some(path), built_in: None, read, fit: false, steps: false })
+        Ok(SessionMaterial { name: None, path: Some(path), built_in: None, read, fit: false })
     };
     let materials = materials.into_iter().map(entry).collect::<PyResult<_>>()?;
     Session::new(materials, scene, convention.text(), 0.0).text(&path).map_err(exception)

@@ -18,8 +18,7 @@ use super::output::{CommandError, exit, target, watched};
 /// texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of scenes and
 /// texels; it is unknown with a single scene of a kind. Without a number of scenes: the loss over all scenes to +-1%, and the loss
 /// over the 6 + 3 scenes of the papers. With --near or --distant: the loss over exactly these scenes. A session has settings of
-/// its own. A folder of training steps, such as NAME_step000100.png or epoch_12/, stands for all its steps. Without GT and PRED: the
-/// built-in materials. docs/loss.md defines the loss.
+/// its own. Without GT and PRED: the built-in materials. docs/loss.md defines the loss.
 #[derive(Debug, clap::Args)]
 #[command(mut_arg("near", |arg| arg.help(
     "Number of near-field scenes, random and on all texels [default: as many as +-1% needs; with --distant two for each distant one]")))]
@@ -63,21 +62,18 @@ pub struct LossArgs {
 #[derive(Debug)]
 struct LossJob {
     comparison: ComparisonJob,
-    /// The number of the step of each prediction.
-    steps: Vec<Option<u64>>,
     question: Question,
     precision: Precision,
     format: ReportFormat,
 }
 
 impl LossArgs {
-    pub fn job(mut self, given: &Given) -> NewJob {
-        let steps = self.comparison.materials.expand_steps()?;
+    pub fn job(self, given: &Given) -> NewJob {
         let comparison = ComparisonJob::with_predictions(&self.comparison, given)?;
         let Self { scenes, texels, target_error, time_budget, precision, format, .. } = self;
         let options = LossOptions { texels, target_error, time_budget, ..scenes.options()? };
         let question = SessionSettings::question(comparison.session.as_ref(), &options)?;
-        Ok(Box::new(LossJob { comparison, steps, question, precision, format }))
+        Ok(Box::new(LossJob { comparison, question, precision, format }))
     }
 }
 
@@ -90,7 +86,7 @@ impl Job for LossJob {
         };
         let materials = self.comparison.materials;
         let paths = materials.paths.iter().map(|path| Some(path.display().to_string())).collect();
-        let report = report.read_from(paths, self.steps);
+        let report = report.read_from(paths);
         exit::put(&self.format.write(&report)?)?;
         target::warn_of(report.missed(), materials.strict)
     }

@@ -30,7 +30,6 @@ pub mod samples;
 pub mod scene_file;
 pub mod session;
 pub mod source;
-pub mod steps;
 pub mod write;
 
 pub use error::{Error, Guess, OutputProblem};

@@ -21,7 +21,6 @@ use crate::error::Error;
 use crate::read::{MaterialPath, Read, ReadOptions};
 use crate::samples;
 use crate::session::SessionMaterial;
-use crate::steps::RunId;
 
 /// Where a material is.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,9 +43,6 @@ pub struct MaterialSource {
     pub chosen: Option<ReadOptions>,
     /// Whether the material is resized to the ground truth.
     pub fit: bool,
-    /// The training run that it is a step of, where all steps of the run are at hand. The folder of the run in place of the path of a
-    /// step is the newest step.
-    pub run: Option<RunId>,
 }
 
 impl MaterialSource {
@@ -61,15 +57,14 @@ impl MaterialSource {
     }
 
     fn at(place: Place) -> Self {
-        Self { name: None, place, options: ReadOptions::AUTO, chosen: None, fit: false, run: None }
+        Self { name: None, place, options: ReadOptions::AUTO, chosen: None, fit: false }
     }
 
     /// An entry of a session, which alone specifies how the material is read.
     pub fn of_session(entry: &SessionMaterial) -> Self {
-        let SessionMaterial { name, path, built_in, read: options, fit, steps } = entry.clone();
+        let SessionMaterial { name, path, built_in, read: options, fit } = entry.clone();
         let Some(path) = path else { return Self { name, fit, ..Self::built_in(built_in.unwrap_or(0)) } };
-        let run = RunId::of_step(&path).filter(|_| steps).map(|(run, _)| run);
-        Self { name, place: Place::Path(path), options, chosen: Some(options), fit, run }
+        Self { name, place: Place::Path(path), options, chosen: Some(options), fit }
     }
 
     /// Its path; empty for a built-in material.
@@ -94,21 +89,6 @@ impl MaterialSource {
             Some(name) => Read { material: read.material.renamed(name.clone()), ..read },
             None => read,
         })
-    }
-
-    /// The source in a set of materials, which has a training run and not one of its steps.
-    pub fn of_set(&self) -> Self {
-        let whole = self.run.as_ref().map(|run| Place::Path(run.folder.clone()));
-        Self { place: whole.unwrap_or_else(|| self.place.clone()), ..self.clone() }
-    }
-
-    /// The name of its material, which was read from `path`; `None` for that of its files.
-    pub fn material_name(&self, path: &Path) -> Option<String> {
-        let (Some(run), Some((_, number))) = (&self.run, RunId::of_step(path)) else {
-            return self.name.clone();
-        };
-        let name = self.name.as_ref().unwrap_or(&run.name).clone();
-        Some(RunId { name, ..run.clone() }.step_name(number))
     }
 
     /// The names that it may have once it is read, found without its pixels; at least one.

@@ -25,8 +25,7 @@ fn pictures() -> Vec<Vec<u8>> {
 
 fn session() -> String {
     let path = Some("packed.png".into());
-    let material =
-        SessionMaterial { name: None, path, built_in: None, read: OPTIONS, fit: true, steps: true };
+    let material = SessionMaterial { name: None, path, built_in: None, read: OPTIONS, fit: true };
     let folder = tempdir().unwrap();
     let file: SceneFile = serde_json::from_str(SCENES).unwrap();
     let session = Session::new(vec![material], file.scenes[0], "printed".to_owned(), 0.5);

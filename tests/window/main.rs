@@ -37,7 +37,6 @@ mod sizes;
 mod soak;
 mod stillness;
 mod texels;
-mod training;
 mod view;
 mod why;
 

@@ -1,6 +1,6 @@
 //! What the tests read of a window.
 
-use svbrdf_core::loss::{Estimate, Loss};
+use svbrdf_core::loss::Loss;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::statistics::{Distributions, Statistics};
 use svbrdf_evaluate::diagnose::Diagnosis;
@@ -8,7 +8,6 @@ use svbrdf_evaluate::photograph::PhotographComparison;
 use svbrdf_evaluate::why::{Attribution, RankedScene, Worst};
 
 use svbrdf_viewer::app::App;
-use svbrdf_viewer::jobs::training::RunView;
 use svbrdf_viewer::jobs::why::ComparedPair;
 use svbrdf_viewer::model::message::Message;
 
@@ -42,10 +41,6 @@ pub trait Observed {
     fn worst(&self) -> Option<&Worst>;
     /// Whether the worst scene is being searched.
     fn is_searching(&self) -> bool;
-    /// The training runs in the window: the place of the prediction, the numbers of the steps, and the step that is shown.
-    fn training_runs(&self) -> Vec<(usize, Vec<u64>, u64)>;
-    /// The losses of the steps of the run in this place, as far as they are known.
-    fn step_losses(&self, index: usize) -> Vec<Option<Result<Estimate, String>>>;
     /// The names of the materials, the ground truth first.
     fn names(&self) -> Vec<String>;
     /// The materials in the window, the ground truth first.
@@ -127,26 +122,6 @@ impl Observed for App {
 
     fn is_searching(&self) -> bool {
         self.parts.jobs.why.search.busy().is_some()
-    }
-
-    fn training_runs(&self) -> Vec<(usize, Vec<u64>, u64)> {
-        let views = self
-            .parts
-            .jobs
-            .training
-            .views(&self.parts.model.materials.all, self.parts.model.training.requested.as_ref());
-        let numbers = |view: &RunView<'_>| view.run.steps.iter().map(|step| step.number).collect();
-        views.iter().map(|view| (view.index, numbers(view), view.number)).collect()
-    }
-
-    fn step_losses(&self, index: usize) -> Vec<Option<Result<Estimate, String>>> {
-        let views = self
-            .parts
-            .jobs
-            .training
-            .views(&self.parts.model.materials.all, self.parts.model.training.requested.as_ref());
-        let view = views.iter().find(|view| view.index == index);
-        view.map_or(Vec::new(), |view| view.losses.iter().map(|loss| loss.cloned()).collect())
     }
 
     fn names(&self) -> Vec<String> {

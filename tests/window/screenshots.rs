@@ -11,7 +11,7 @@ use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::generate;
 use svbrdf_files::scene_file::PhotographLight;
-use svbrdf_viewer::model::command::{DatasetCommand, MaterialsCommand, PhotographCommand, TrainingCommand};
+use svbrdf_viewer::model::command::{DatasetCommand, MaterialsCommand, PhotographCommand};
 
 use super::materials::{SIDE, materials, strip};
 use super::*;
@@ -78,7 +78,6 @@ fn the_pictures_of_the_readme() {
     wait(&mut window, "its statistics", |app| app.difference_statistics().is_some());
     write(&mut window, "why.jpg");
 
-    training();
     photographed();
 }
 
@@ -105,45 +104,6 @@ fn the_picture_of_a_diagnosis() {
     wait(&mut window, "the attribution", |app| app.attribution().is_some());
     wait(&mut window, "the thumbnails", |app| app.listed_scenes().is_some());
     write(&mut window, "diagnosis.jpg");
-}
-
-/// Writes the steps of a training: strips of the ground truth whose normals and roughness are off by less and less.
-fn write_steps(folder: &Path, name: &str, start: f64, settles: f64) {
-    let (truth, wrong) = (generate::ground_truth(), generate::wrong_roughness(&generate::ground_truth()));
-    let blurred = generate::blurred_normals(&truth);
-    let [truth, wrong, blurred] = [truth, wrong, blurred].map(|planes| generate::pack(&planes));
-    for number in 1..=10_u32 {
-        // A course with a little noise, of which some steps are a setback.
-        let off =
-            start * ((-f64::from(number) / 3.0).exp() + settles) * (1.0 + 0.12 * f64::from(number * 7 % 5));
-        let mixed = |i: usize| {
-            let [t, w, b] = [truth[i], wrong[i], blurred[i]].map(f64::from);
-            (t + off * (w - t) + off * (b - t)).clamp(0.0, 255.0).round() as u8
-        };
-        let picture = image::RgbImage::from_raw(4 * SIDE, SIDE, (0..truth.len()).map(mixed).collect());
-        picture.unwrap().save(folder.join(format!("run/{name}_step{:06}.png", 500 * number))).unwrap();
-    }
-}
-
-/// Two training runs, one of them at an earlier step.
-fn training() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::create_dir(folder.path().join("run")).unwrap();
-    let [truth, run] = ["worn tiles.png", "run"].map(|name| folder.path().join(name));
-    strip().save(&truth).unwrap();
-    write_steps(folder.path(), "baseline", 0.9, 0.25);
-    write_steps(folder.path(), "ours", 1.0, 0.05);
-    let mut window = on_files([truth, run]);
-    window.set_size(SIZE);
-    wait(&mut window, "both runs", |app| app.names().len() == 3 && app.training_runs().len() == 2);
-    apply(&mut window, MaterialsCommand::SetWatch(true));
-    apply(&mut window, TrainingCommand::Show { index: 1, number: 2000 });
-    wait(&mut window, "the step", |app| app.names()[1].contains("step 2000"));
-    window.get_by_label("Light and view").click();
-    window.run_steps(12);
-    let known = |app: &App, slot| app.step_losses(slot).iter().all(Option::is_some);
-    wait(&mut window, "the losses", |app| known(app, 1) && known(app, 2) && app.losses().is_some());
-    write(&mut window, "training.jpg");
 }
 
 /// Nine materials with two methods: the sheet under one light, and the losses of the methods.

@@ -407,8 +407,6 @@ class Loss(Record):
     few_scenes_losses: tuple[float, ...] | None
     """The loss of each of the few scenes, in their order."""
     few_scenes_standard_error: float | None
-    step: int | None
-    """The step of the training run that it is."""
 
 
 class LossReport(Report):

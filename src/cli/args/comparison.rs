@@ -9,7 +9,6 @@ use svbrdf_core::model::named_conventions;
 use svbrdf_files::Error;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::source::MaterialSource;
-use svbrdf_files::steps::{RunId, runs_in};
 
 use super::floor::FloorArgs;
 use super::reading::{FormerSideArgs, PairReadingArgs, Side, StatementArgs};
@@ -147,33 +146,6 @@ impl MaterialArgs {
                 ..source
             })
             .collect())
-    }
-
-    /// Puts the steps of training runs in the place of each prediction that is a folder of them. Returns the number of the step of
-    /// each prediction.
-    ///
-    /// # Errors
-    /// Where a folder cannot be listed.
-    pub fn expand_steps(&mut self) -> Result<Vec<Option<u64>>, Error> {
-        let mut expanded = Vec::new();
-        for given in std::mem::take(&mut self.predictions) {
-            let runs = if given.path.is_dir() { runs_in(&given.path)? } else { Vec::new() };
-            if runs.is_empty() {
-                expanded.push((given.clone(), None));
-            }
-            for run in runs {
-                let named = |number| {
-                    given.name.clone().map(|name| RunId { name, ..run.id.clone() }.step_name(number))
-                };
-                let steps = run.steps.iter().map(|step| {
-                    (NamedPath { name: named(step.number), path: step.path.clone() }, Some(step.number))
-                });
-                expanded.extend(steps);
-            }
-        }
-        let (paths, steps) = expanded.into_iter().unzip();
-        self.predictions = paths;
-        Ok(steps)
     }
 
     /// The paths as given: the ground truth, then the predictions.

@@ -19,8 +19,7 @@ use crate::cli::output::{CommandError, exit};
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
 ///
 /// All predictions are rendered in the same scenes. Paired differences tell which are worse than the best; predictions of one group
-/// cannot be told from its best. Patterns such as 'out/*.png' are expanded; a folder of training steps, such as NAME_step000100.png or
-/// epoch_12/, stands for all its steps. With --dataset, GT and every PRED are folders: their materials are matched by name, and every
+/// cannot be told from its best. Patterns such as 'out/*.png' are expanded. With --dataset, GT and every PRED are folders: their materials are matched by name, and every
 /// PRED is a method. With --pairs, GT is a CSV table with the columns ground_truth, prediction and, where needed, method and material.
 #[derive(Debug, clap::Args)]
 pub struct RankArgs {

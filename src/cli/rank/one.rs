@@ -25,7 +25,7 @@ struct OneJob {
     output: OutputArgs,
 }
 
-pub fn job(mut args: RankArgs, given: &Given) -> NewJob {
+pub fn job(args: RankArgs, given: &Given) -> NewJob {
     let reason = "only a data set (--dataset, --pairs) has kept results, parts, samples, metrics and marks here; `svbrdf metrics` and \
         `svbrdf diagnose` print those of one material";
     given.refuse::<DataSetArgs>(reason)?;
@@ -35,7 +35,6 @@ pub fn job(mut args: RankArgs, given: &Given) -> NewJob {
         return Err(CommandError::usage(problem));
     }
     args.output.check(args.comparison.materials.paths())?;
-    args.comparison.materials.expand_steps()?;
     let comparison = ComparisonJob::with_predictions(&args.comparison, given)?;
     let (target_error, seed) = args.scenes.target_and_seed();
     let RankArgs { floor: FloorArgs { repeats }, scenes, fail_above, output, robust, .. } = args;

@@ -107,9 +107,6 @@ pub(super) struct PredictionLoss {
     pub prediction: String,
     /// Where it was read from.
     pub path: Option<String>,
-    /// The step of the training run that it is.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub step: Option<u64>,
     pub loss: f64,
     /// Due to the sampling of scenes and texels; `None` where a kind has a single scene.
     pub standard_error: Option<f64>,
@@ -193,17 +190,13 @@ impl LossReport {
         Self { few_scenes, ..self }
     }
 
-    /// The same report of materials that were read from `paths`, the ground truth first, and of the `steps` of a training run: empty, or
-    /// `None` for others.
+    /// The same report of materials that were read from `paths`, the ground truth first.
     #[must_use]
-    pub fn read_from(mut self, paths: Vec<Option<String>>, steps: Vec<Option<u64>>) -> Self {
+    pub fn read_from(mut self, paths: Vec<Option<String>>) -> Self {
         let mut paths = paths.into_iter();
         self.ground_truth_path = paths.next().flatten();
         for (result, path) in self.results.iter_mut().zip(paths) {
             result.path = path;
-        }
-        for (result, step) in self.results.iter_mut().zip(steps) {
-            result.step = step;
         }
         self
     }
@@ -229,7 +222,6 @@ impl PredictionLoss {
         Self {
             prediction: prediction.clone(),
             path: None,
-            step: None,
             loss: estimate.mean,
             standard_error: estimate.standard_error,
             interval95: estimate.interval95,

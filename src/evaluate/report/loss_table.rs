@@ -35,7 +35,6 @@ fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 23] {
             result.few_scenes.as_ref().map(|few| few.few_scenes_loss).into()
         }),
         ("few_scenes_low few_scenes_high", "", |(_, result)| few_scenes(result).into()),
-        ("step", "", |(_, result)| result.step.into()),
     ]
 }
 

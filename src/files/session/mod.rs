@@ -71,9 +71,6 @@ pub struct SessionMaterial {
     /// Whether it is resized to the ground truth.
     #[serde(default)]
     pub fit: bool,
-    /// Whether it is a step of a training run whose other steps the window has at hand.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub steps: bool,
 }
 
 impl Session {
@@ -205,7 +202,6 @@ mod tests {
             built_in: None,
             read,
             fit: true,
-            steps: false,
         };
         let scene = Scene { kind: Kind::Distant, view: [0.1, 0.2, 1.0], light: [0.3, 0.1, 0.7] };
         Session::new(paths.iter().map(material).collect(), scene, "guided-2020".to_owned(), -0.5)

@@ -14,7 +14,7 @@ use svbrdf_files::scene_file::{self, PhotographLight};
 use svbrdf_files::session::Session;
 
 use super::parts::Parts;
-use super::{dataset, saving, training};
+use super::{dataset, saving};
 use crate::jobs::browse;
 use crate::jobs::why::ComparedPair;
 use crate::jobs::work::job::Job;
@@ -47,9 +47,6 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::ReadSession(paths) => read_session(parts, &paths),
         Effect::OpenPhotograph { photograph, light } => open_photograph(parts, photograph, light.as_ref()),
         Effect::SaveAssumptions(index) => save_assumptions(parts, index),
-        Effect::RescanTraining => parts.jobs.training.scan.again(),
-        Effect::ShowStep { index, number } => training::show_step(parts, index, number),
-        Effect::MoveStep(by) => training::move_step(parts, by),
         Effect::Loss(effect) => carry_out_on_losses(parts, effect),
         Effect::Dialog(effect) => carry_out_on_dialogs(parts, effect),
         Effect::Save(request) => saving::save_file(parts, ctx, request),

@@ -2,8 +2,8 @@
 
 use eframe::egui;
 
+use super::dataset;
 use super::parts::Parts;
-use super::{dataset, training};
 use crate::jobs::reading::watch::FileChange;
 use crate::model::material::problem::MaterialProblem;
 use crate::model::message::Message;
@@ -26,7 +26,6 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
     } else {
         parts.jobs.watch.stop();
     }
-    training::follow(parts);
 }
 
 fn take_materials(parts: &mut Parts) {

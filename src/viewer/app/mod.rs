@@ -7,7 +7,6 @@ pub mod events;
 pub mod parts;
 pub mod saving;
 pub mod storage;
-pub mod training;
 
 use std::time::Duration;
 

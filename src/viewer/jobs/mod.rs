@@ -13,7 +13,6 @@ pub mod photograph;
 pub mod reading;
 pub mod report;
 pub mod saving;
-pub mod training;
 pub mod why;
 pub mod work;
 
@@ -37,7 +36,6 @@ use reading::opening::Openings;
 use reading::read::MaterialReader;
 use reading::upload::Uploads;
 use reading::watch::FileWatch;
-use training::TrainingJobs;
 use why::WhyJobs;
 use work::job::Job;
 use work::order::{OrderJob, OrderKey};
@@ -52,7 +50,6 @@ pub struct Jobs {
     pub uploads: Uploads,
     pub openings: Openings,
     pub watch: FileWatch,
-    pub training: TrainingJobs,
     pub loss: LossJob,
     pub scene_loss: SceneLossJob,
     pub order: OrderJob<OrderKey>,

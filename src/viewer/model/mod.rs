@@ -28,7 +28,6 @@ use history::History;
 use inspection::Inspection;
 use material::list::MaterialList;
 use material::photograph::PhotographState;
-use material::training::TrainingState;
 use message::Message;
 use message::list::MessageList;
 use settings::Settings;
@@ -50,7 +49,6 @@ pub struct Model {
     pub materials: MaterialList,
     pub dataset: DatasetState,
     pub photograph: PhotographState,
-    pub training: TrainingState,
     pub inspection: Inspection,
     /// The inspected texels of a session whose materials are being read.
     pub inspected_later: Option<Inspection>,

@@ -16,7 +16,6 @@ use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 use svbrdf_files::session::window::{SessionInspection, SessionWindow};
 use svbrdf_files::session::{Session, SessionMaterial};
-use svbrdf_files::steps::RunId;
 
 use super::Model;
 use super::command::effect::Effect;
@@ -29,7 +28,6 @@ use super::material::request::{ReadRequest, Target};
 use super::message::Message;
 use super::ranges::bring_into_range;
 use super::view::state::ViewState;
-use crate::model::material::source::sources;
 use crate::model::settings::options::ViewerOptions;
 use svbrdf_files::source::{MaterialSource, Place};
 
@@ -45,8 +43,7 @@ impl Model {
             (None, None) if options.dataset.is_some() => None,
             (None, None) => Some(ReadRequest::built_in()),
             (None, Some(ground_truth)) => {
-                let predictions = sources(options.predictions);
-                let all: Vec<_> = std::iter::once(ground_truth).chain(predictions).collect();
+                let all: Vec<_> = std::iter::once(ground_truth).chain(options.predictions).collect();
                 let many = OpenDataset::of_many(&all, self.materials.rules);
                 match many.filter(|_| options.photograph.is_none()) {
                     Some(open) => {
@@ -92,14 +89,12 @@ impl Model {
                 Place::BuiltIn(number) => (None, Some(*number)),
             };
             let read = if built_in.is_some() { ReadOptions::AUTO } else { one.read.record.options };
-            let steps = one.read.source.run.is_some();
             SessionMaterial {
                 name: one.read.source.name.clone(),
                 path,
                 built_in,
                 read,
                 fit: one.read.source.fit,
-                steps,
             }
         });
         let view = &self.view;
@@ -174,8 +169,6 @@ impl Model {
         let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
         self.photograph.set(session.photograph.clone(), stamp);
         let sources: Vec<_> = session.materials.iter().map(MaterialSource::of_session).collect();
-        // They show the step that was saved, whatever has come since.
-        self.training.pinned.extend(sources.iter().filter_map(|source| source.run.clone()));
         self.materials.restore(&sources)
     }
 
@@ -213,16 +206,11 @@ impl Model {
     }
 }
 
-/// The files of a comparison; of a training run, whichever step is shown.
+/// The files of a comparison.
 fn compared_files(session: &Session) -> Vec<PathBuf> {
     // Of a data set, whichever material is shown.
     if let Some(dataset) = &session.dataset {
         return dataset.paths().cloned().collect();
     }
-    let file = |material: &SessionMaterial| {
-        let path = material.path.clone()?;
-        let run = RunId::of_step(&path).filter(|_| material.steps);
-        Some(run.map_or(path, |(run, _)| run.folder))
-    };
-    session.materials.iter().filter_map(file).collect()
+    session.materials.iter().filter_map(|material| material.path.clone()).collect()
 }

@@ -7,7 +7,6 @@ use svbrdf_files::read::Certainty;
 
 use super::dataset::DatasetUi;
 use super::loss::panel::LossPanel;
-use super::loss::training::TrainingPanel;
 use super::materials::panel::MaterialsPanel;
 use super::panels::light_and_view::ScenePanel;
 use super::photograph::card::PhotographCard;
@@ -126,13 +125,6 @@ fn loss_tab(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
         commands.extend(order::fold(ui, model.asks_order, &jobs.order));
     }
     commands.extend(unsure_reading(ui, displayed));
-    let training = TrainingPanel {
-        runs: jobs.training.views(&model.materials.all, model.training.requested.as_ref()),
-        chosen: model.view.display.prediction,
-        watch: model.settings.watch,
-        busy: jobs.training.losses.busy(),
-    };
-    commands.extend(training.ui(ui));
     commands
 }
 

@@ -1,6 +1,4 @@
 //! Opening: materials that are read one after the other. Each is taken over as soon as it has been read.
-//!
-//! Of a folder of training steps each run is a material.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,7 +8,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_gpu::Gpu;
 
-use super::read::{MaterialReader, read_with_retries, runs_of};
+use super::read::{MaterialReader, read_with_retries};
 use super::upload::{Uploaded, Uploads};
 use crate::error::Error;
 use crate::jobs::work::job::{Job, Worker};
@@ -144,12 +142,6 @@ impl Opening {
         let parts = Arc::new(items.iter().map(|_| whole.part()).collect::<Vec<_>>());
         let current = Arc::new(AtomicUsize::new(0));
         let work = OpeningWork {
-            // The ground truth is one material, and so is a material that is read again.
-            alone: match &target {
-                Target::Everything => 1,
-                Target::Predictions => 0,
-                Target::Again(_) => items.len(),
-            },
             // Where something is displayed already, a draft is of no use.
             upload: if matches!(target, Target::Again(_)) { Uploaded::all } else { Uploaded::start },
             gpu: gpu.cloned(),
@@ -197,8 +189,6 @@ impl Opening {
 
 /// What the worker of an opening works with.
 struct OpeningWork {
-    /// How many of the first items are one material each, and never all runs of a folder.
-    alone: usize,
     upload: fn(&Gpu, &Material<f32>) -> Uploaded,
     gpu: Option<Gpu>,
     /// The progress of each item.
@@ -247,11 +237,6 @@ impl OpeningWork {
             self.current.store(index, Ordering::Relaxed);
             match item {
                 Item::Loaded(loaded) => output.worker.report((Arrival::Loaded(loaded), None))?,
-                Item::Read(source) if index >= self.alone => {
-                    runs_of(*source)
-                        .into_iter()
-                        .try_for_each(|one| self.read(one, index, &mut reader, output))?;
-                }
                 Item::Read(source) => self.read(*source, index, &mut reader, output)?,
             }
         }
@@ -297,7 +282,7 @@ mod tests {
         rests.send((read, uploaded.clone())).unwrap();
         drop(rests);
         let (parts, current) = (Arc::default(), Arc::default());
-        let work = OpeningWork { alone: 1, upload: Uploaded::start, gpu: Some(gpu), parts, current };
+        let work = OpeningWork { upload: Uploaded::start, gpu: Some(gpu), parts, current };
         let job: Job<(), Uploading> = Job::stream(&Waker::default(), Progress::default(), move |worker| {
             worker.progress.cancel();
             work.send_rests(rest, worker);

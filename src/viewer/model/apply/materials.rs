@@ -39,10 +39,7 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
             model.dataset.is_stale = true;
             vec![Effect::ReadCaseAgain(model.dataset.wanted)]
         }
-        MaterialsCommand::Reload => {
-            let readings = materials.reload(None).into_iter().map(Effect::Read);
-            readings.chain([Effect::RescanTraining]).collect()
-        }
+        MaterialsCommand::Reload => materials.reload(None).into_iter().map(Effect::Read).collect(),
         MaterialsCommand::ReadAs { index, read } => {
             materials.read_as(index, read).map(Effect::Read).into_iter().collect()
         }
@@ -95,10 +92,8 @@ fn open(model: &mut Model, paths: Vec<PathBuf>, replace: bool, read: ReadOptions
         return vec![Effect::OpenMany(Box::new(many))];
     }
     let target = if replace { Target::Everything } else { Target::Predictions };
-    let (first, predictions) = paths.split_at(usize::from(replace).min(paths.len()));
     let material = |path: &PathBuf| MaterialSource::path(path.clone(), read);
-    let predictions = sources(predictions.iter().map(material).collect());
-    let sources = first.iter().map(material).chain(predictions).collect();
+    let sources = paths.iter().map(material).collect();
     vec![Effect::ReadForDialog(ReadRequest::new(sources, target))]
 }
 
@@ -107,9 +102,7 @@ fn many(model: &Model, paths: &[PathBuf], replace: bool, read: ReadOptions) -> O
     let open = if replace { &[][..] } else { &model.materials.all };
     let present = open.iter().map(|one| one.read.source.clone());
     let new = paths.iter().map(|path| MaterialSource::path(path.clone(), read));
-    let mut all = present.chain(new);
-    let truth = all.next()?;
-    let all: Vec<_> = std::iter::once(truth).chain(sources(all.collect())).collect();
+    let all: Vec<_> = present.chain(new).collect();
     let is_possible = model.dataset.open.is_none() && model.photograph.source().is_none();
     OpenDataset::of_many(&all, model.materials.rules).filter(|_| is_possible)
 }

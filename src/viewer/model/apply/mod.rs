@@ -7,7 +7,6 @@ mod inspection;
 mod materials;
 mod photograph;
 mod scene;
-mod training;
 pub mod undo;
 
 use super::Model;
@@ -26,7 +25,6 @@ impl Model {
             Command::Window(command) => apply_to_window(self, command),
             Command::Inspection(command) => inspection::apply(self, command),
             Command::Why(command) => apply_to_why(self, command),
-            Command::Training(command) => training::apply(self, command),
             Command::Photograph(command) => photograph::apply(self, command),
             Command::Dataset(command) => dataset::apply(self, command),
         }

@@ -43,15 +43,6 @@ pub enum Effect {
     },
     /// Saves the assumptions specified for the material at this index in a sidecar file, and reads it again.
     SaveAssumptions(usize),
-    /// Looks for training steps again in all folders.
-    RescanTraining,
-    /// Shows the step of this number of the training run at this index.
-    ShowStep {
-        index: usize,
-        number: u64,
-    },
-    /// Goes this many steps on in the training run of the chosen prediction.
-    MoveStep(isize),
     Loss(LossEffect),
     Dialog(DialogEffect),
     /// Writes to a file.

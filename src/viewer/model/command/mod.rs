@@ -38,7 +38,6 @@ pub enum Command {
     Window(WindowCommand),
     Inspection(InspectionCommand),
     Why(WhyCommand),
-    Training(TrainingCommand),
     Photograph(PhotographCommand),
     Dataset(DatasetCommand),
 }
@@ -247,17 +246,6 @@ pub enum WhyCommand {
     CancelSearch,
 }
 
-/// The steps of training runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TrainingCommand {
-    /// Shows the step of this number of the run at this index.
-    Show { index: usize, number: u64 },
-    /// Goes this many steps on in the run of the chosen prediction; stops at either end.
-    Move(isize),
-    /// Opens the step that is shown at this index as a prediction of its own.
-    Keep(usize),
-}
-
 impl From<DatasetCommand> for Command {
     fn from(command: DatasetCommand) -> Self {
         Self::Dataset(command)
@@ -267,12 +255,6 @@ impl From<DatasetCommand> for Command {
 impl From<PhotographCommand> for Command {
     fn from(command: PhotographCommand) -> Self {
         Self::Photograph(command)
-    }
-}
-
-impl From<TrainingCommand> for Command {
-    fn from(command: TrainingCommand) -> Self {
-        Self::Training(command)
     }
 }
 

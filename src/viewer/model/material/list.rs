@@ -67,17 +67,14 @@ impl MaterialList {
 
     /// What it takes to open this set of materials again.
     pub fn sources(&self) -> Vec<MaterialSource> {
-        self.all.iter().map(|one| one.read.reopened().of_set()).collect()
+        self.all.iter().map(|one| one.read.reopened()).collect()
     }
 
     /// The request that makes these the materials in the window. Those that are there already are not read again.
     pub fn restore(&self, sources: &[MaterialSource]) -> ReadRequest {
         let mut there = self.all.clone();
-        let is = |material: &LoadedMaterial, source: &MaterialSource| {
-            let there = material.read.reopened();
-            there == *source || there.of_set() == *source
-        };
-        let item = |source: &MaterialSource| match there.iter().position(|one| is(one, source)) {
+        let item = |source: &MaterialSource| match there.iter().position(|one| one.read.reopened() == *source)
+        {
             Some(index) => Item::Loaded(there.remove(index)),
             None => Item::Read(Box::new(source.clone())),
         };
@@ -175,11 +172,6 @@ impl MaterialList {
     pub fn reload(&self, only: Option<&[usize]>) -> Vec<ReadRequest> {
         let is_wanted = |index: &usize| only.is_none_or(|only| only.contains(index));
         (0..self.all.len()).filter(is_wanted).filter_map(|index| self.again(index, |_| {})).collect()
-    }
-
-    /// The request that reads the step at `path` of the training run at `index`.
-    pub fn read_step(&self, index: usize, path: PathBuf) -> Option<ReadRequest> {
-        self.again(index, |source| source.place = Place::Path(path))
     }
 
     /// The request that reads the material at `index` again with these options alone.

@@ -7,4 +7,3 @@ pub mod problem;
 pub mod read;
 pub mod request;
 pub mod source;
-pub mod training;

@@ -7,7 +7,6 @@ use svbrdf_core::material::Material;
 use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read::{Note, Read};
-use svbrdf_files::steps::RunId;
 
 use svbrdf_files::source::{MaterialSource, Place};
 
@@ -85,12 +84,6 @@ impl ReadMaterial {
         Self { id: MaterialId::new(&[]), source, record, storage, stamps: Vec::new() }
     }
 
-    /// The training run that it is a step of, and the number of the step.
-    pub fn step(&self) -> Option<(&RunId, u64)> {
-        let (_, number) = RunId::of_step(self.path())?;
-        Some((self.source.run.as_ref()?, number))
-    }
-
     /// What it takes to open it again.
     pub fn reopened(&self) -> MaterialSource {
         let Read { options, saved, .. } = self.record;
@@ -124,9 +117,6 @@ impl Rules {
     ) -> Result<ReadMaterial, Error> {
         if self.strict {
             read.refuse_guesses(path)?;
-        }
-        if let Some(name) = source.material_name(path) {
-            read.material = read.material.renamed(name);
         }
         source.fit |= self.fit;
         let from = read.material.size();

@@ -199,7 +199,6 @@ mod tests {
             built_in: None,
             read: ReadOptions::AUTO,
             fit: false,
-            steps: false,
         };
         let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.0, 0.0, 2.0] };
         let of = |paths: &[&str]| {

@@ -3,8 +3,7 @@
 use eframe::egui::{self, Key, Modifiers};
 
 use crate::model::command::{
-    Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand, TrainingCommand,
-    WindowCommand,
+    Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
 };
 
 use crate::model::view::state::AutoExposure;
@@ -50,7 +49,6 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
         &[
             ("1 .. 9", "choose the prediction"),
             ("Ctrl + Up / Down", "previous / next prediction"),
-            (", / .", "previous / next step of a training run"),
             ("G (hold)", "show the ground truth in every pane"),
             ("X", "swap prediction and ground truth"),
             ("C", "layout: side by side, wipe, single"),
@@ -190,8 +188,6 @@ fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
         (none, Key::I, InspectionCommand::TogglePinHere.into()),
         (none, Key::Q, InspectionCommand::Arm(true).into()),
         (none, Key::F1, WindowCommand::ShowHelp(true).into()),
-        (none, Key::Comma, TrainingCommand::Move(-1).into()),
-        (none, Key::Period, TrainingCommand::Move(1).into()),
         (none, Key::Escape, now.escape.clone()),
     ];
     let digits =

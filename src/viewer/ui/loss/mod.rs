@@ -1,5 +1,4 @@
-//! Tab *Loss*: settings and results of the loss, and training runs.
+//! Tab *Loss*: settings and results of the loss.
 
 pub mod panel;
 pub mod results;
-pub mod training;
