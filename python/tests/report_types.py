@@ -73,8 +73,8 @@ SCENES = {
 OF_THE_PACKAGE = ("metrics",)
 """The package has functions of its own for these, with further arguments."""
 SCALARS = {"string": "str", "integer": "int", "number": "float", "boolean": "bool", "null": "None"}
-WITH_ARRAYS = ("MapReport", "PhotoReport")
-"""The package adds their arrays."""
+WITH_ARRAYS = ("MapReport",)
+"""The package adds its arrays."""
 OTHERS = ("info",)
 """Reports of the command line alone: the package has `Material.assumptions` and `Material.notes`."""
 

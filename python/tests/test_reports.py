@@ -57,8 +57,8 @@ CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
         lambda gt, p: svbrdf.loss(gt, p, scenes=svbrdf.named_scenes("flash", fov=30)),
     ),
     "photo": (
-        ["--flash", "--fov", "45", "--falloff"],
-        lambda photo, p: svbrdf.photo(photo, p, flash=True, fov=45.0, falloff=True),
+        ["--view", "0,0,2", "--light", "0,0,2", "--falloff"],
+        lambda photo, p: svbrdf.photo(photo, p, scene=svbrdf.Scene("near", (0, 0, 2), (0, 0, 2)), falloff=True),
     ),
 }
 
@@ -233,65 +233,22 @@ def test_equal_materials_have_an_infinite_psnr_which_is_none_in_the_dictionary(m
     assert math.isinf(frame.loc["psnr_rendering_clipped_linear"].iloc[0])
 
 
-def test_a_photograph_has_differences_as_arrays_and_a_scene(materials: Materials, tmp_path: Path) -> None:
-    photo = photograph(materials)
-    scene = svbrdf.Scene("near", (0, 0, 2), (0, 0, 2))
-    report = svbrdf.photo(photo, [materials[0], *materials[1]], scene=scene, difference="absolute")
-    assert report.results[0].material == "gt"
-    assert report.scenes == (scene,)
-    for result, values in zip(report.results, report.differences, strict=True):
-        assert values.shape == (13, 11, 3)
-        absolute = result.photographs[0].absolute
-        assert absolute is not None
-        assert np.nanmean(values) == pytest.approx(absolute.mean, rel=1e-5)
-    path = tmp_path / "scenes.json"
-    listed = [{"kind": "near", "view": [0, 0, z], "light": [0, 0, z]} for z in (2, 3)]
-    path.write_text(json.dumps({"scenes": listed}))
-    by_file = svbrdf.photo(photo, materials[0], scene=path, scene_number=0)
-    assert by_file.results[0] == report.results[0]
-    with pytest.raises(ValueError, match="a photograph has one of its 2 scenes: give its number, 0 to 1"):
-        svbrdf.photo(photo, materials[0], scene=path)
-    with pytest.raises(ValueError, match="expected either scene, or flash with fov"):
-        svbrdf.photo(photo, materials[0])
-    with pytest.raises(ValueError, match="exposure and hold_out: expected only with a capture"):
-        svbrdf.photo(photo, materials[0], scene=scene, hold_out=["5"])
-    with pytest.raises(ValueError, match="flash and fov: expected both or neither"):
-        svbrdf.photo(photo, materials[0], flash=True)
-    with pytest.raises(svbrdf.Error, match="unknown difference `angle`; use one of: log, absolute, relative"):
-        svbrdf.photo(photo, materials[0], scene=scene, difference="angle")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="corners: expected 4, found 2"):
-        svbrdf.photo(photo, materials[0], scene=scene, corners=[(0, 0), (1, 1)])
-
-
-@pytest.fixture
-def captured(materials: Materials, tmp_path: Path) -> Path:
-    """A capture of the ground truth in six scenes, the third photograph of which is twice as bright."""
+def test_a_list_of_photographs_is_that_of_the_command_line(program: str, materials: Materials, tmp_path: Path) -> None:
+    """Six scenes of the ground truth, the third photograph of which is twice as bright."""
     listed = []
     for k in range(6):
         scene = svbrdf.Scene("near", (0.0, 0.0, 2.0), (0.2 * k - 0.5, 0.1 * k, 2.0))
         np.save(tmp_path / f"{k}.npy", (2 if k == 2 else 1) * svbrdf.render(materials[0], scene))
         listed.append({"file": f"{k}.npy", "scene": scene._asdict()})
     (tmp_path / "capture.json").write_text(json.dumps({"photographs": listed}))
-    return tmp_path
-
-
-def test_a_capture_is_that_of_the_command_line(program: str, materials: Materials, captured: Path) -> None:
     paths = [materials[0], *materials[1]]
-    report = svbrdf.photo(captured, paths, hold_out=["5.npy"])
+    report = svbrdf.photo(tmp_path, paths)
     right = report.results[0]
     assert (right.material, right.factor, report.notes) == ("gt", 1.0, ())
-    assert [one.outlier.exposure for one in right.photographs] == [k == 2 for k in range(6)]
-    assert [(means.photographs, means.count) for means in right.means] == [("fitted", 5), ("held out", 1)]
-    assert report.photographs[5].held_out
+    assert [one.log == 0 for one in right.photographs] == [k != 2 for k in range(6)]
     assert report.scenes[1].light == (-0.3, 0.1, 2.0)
-    assert_is_printed(report, program, "photo", "--capture", captured, *paths, "--hold-out", "5")
-    each = svbrdf.photo(captured / "capture.json", paths[0], exposure="photograph")
-    assert each.results[0].photographs[2].factor == pytest.approx(0.5)
-    with pytest.raises(svbrdf.Error, match=r"unknown photograph `7`; use one of: 0\.npy, 1\.npy"):
-        svbrdf.photo(captured, paths, hold_out=["7"])
-    with pytest.raises(svbrdf.Error, match="unknown exposure `none`; use one of: capture, photograph"):
-        svbrdf.photo(captured, paths, exposure="none")  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="clip: expected a number above 0, found 0"):
-        svbrdf.photo(captured, paths, clip=0)
-    with pytest.raises(ValueError, match="corners and falloff: expected only with a single photograph"):
-        svbrdf.photo(captured, paths, falloff=True)
+    assert_is_printed(report, program, "photo", tmp_path, *paths)
+    with pytest.raises(ValueError, match="expected a scene, or a list of photographs"):
+        svbrdf.photo(tmp_path / "0.npy", paths)
+    with pytest.raises(ValueError, match="falloff and transfer: expected only with a single photograph"):
+        svbrdf.photo(tmp_path, paths, falloff=True)

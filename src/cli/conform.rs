@@ -7,8 +7,9 @@ use svbrdf_core::model::scene::SceneFile;
 use svbrdf_evaluate::conform::{Answer, probe_materials, probes};
 use svbrdf_evaluate::report::ConformReport;
 use svbrdf_files::disk::atomic::{self, Destination};
+use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::export::PictureFormat;
-use svbrdf_files::read::{PhotographOptions, Transfer, read_photograph};
+use svbrdf_files::read::{Transfer, read_photograph};
 use svbrdf_files::{Error, arrays, convention};
 
 use super::args::comparison::names;
@@ -139,7 +140,6 @@ fn read(path: &Path, metallic: Option<bool>) -> Result<Answer, Error> {
     if !path.is_dir() {
         return Answer::new(&arrays::read(path)?, metallic).map_err(problem);
     }
-    let options = PhotographOptions { transfer: Some(Transfer::Linear), ..PhotographOptions::default() };
     let rendering = |number: usize| {
         let names = ["exr", "png"].map(|ending| format!("{number}/radiance.{ending}"));
         let file = names.iter().map(|name| path.join(name)).find(|file| file.exists());
@@ -149,7 +149,8 @@ fn read(path: &Path, metallic: Option<bool>) -> Result<Answer, Error> {
                 names.join(" or ")
             ))
         };
-        Ok(read_photograph(&file.ok_or_else(missing)?, &options)?.image)
+        let file = NamedFile::by_user(file.ok_or_else(missing)?);
+        Ok(read_photograph(&file, Some(Transfer::Linear))?.image)
     };
     let renderings = (0..probe_materials().len()).map(rendering).collect::<Result<Vec<_>, Error>>()?;
     Answer::of_pictures(&renderings, metallic).map_err(problem)

@@ -16,11 +16,7 @@ const GROUPS: [(&str, &[Entry]); 4] = [
             (
                 "view",
                 "opens materials, or methods over a data set, in the window",
-                &[
-                    "gt.png a.png b.png",
-                    "--dataset gt/ ours/ theirs/",
-                    "gt.png a.png --photo photo.jpg --flash --fov 45",
-                ],
+                &["gt.png a.png b.png", "--dataset gt/ ours/ theirs/", "gt.png a.png --photo photo.png"],
             ),
             (
                 "render",
@@ -79,11 +75,7 @@ const GROUPS: [(&str, &[Entry]); 4] = [
             (
                 "photo",
                 "how renderings differ from photographs",
-                &[
-                    "photo.jpg a.png b.png --flash --fov 45",
-                    "photo.jpg a.png --scene scene.json -o difference.png",
-                    "--capture card_blue/ a.png b.png",
-                ],
+                &["photo.png a.png b.png --view 0,0,2.4 --light 0,0,2.4", "card_blue/ a.png b.png"],
             ),
             (
                 "conform",
@@ -141,23 +133,21 @@ type Entry = (&'static str, &'static str, &'static [&'static str]);
 
 /// Options that the short help leaves out, of a command or of all.
 #[rustfmt::skip]
-const RARE: [(&str, &[&str]); 8] = [
+const RARE: [(&str, &[&str]); 7] = [
     ("", &["sampler", "precision", "repeats", "renderings", "max_size"]),
     ("loss", &["texels", "time_budget", "fov"]),
     ("rank", &["fov", "shard", "pick", "fail_above", "figures"]),
     ("strip", &["fov", "results", "range", "lights", "pairs", "convention", "scenes"]),
     ("report", &["robust", "layout"]),
     ("metrics", &["fov"]),
-    ("photo", &["exposure", "hold_out", "scene_number", "transfer", "clip", "falloff", "difference"]),
-    ("view", &["scene_number", "corners", "transfer", "clip", "falloff", "target_error", "seed", "results"]),
+    ("view", &["target_error", "seed", "results"]),
 ];
 
 /// The options of the headings of several commands.
 #[rustfmt::skip]
-const HEADED: [(&str, &[&str]); 3] = [
+const HEADED: [(&str, &[&str]); 2] = [
     ("Scenes", &["target_error", "time_budget", "near", "distant", "seed", "sampler", "texels", "scenes", "lights", "fov"]),
     ("Light and view", &["view", "light", "distant", "exposure"]),
-    ("Photograph", &["capture", "exposure", "hold_out", "scene", "scene_number", "flash", "fov", "corners", "transfer", "clip", "falloff"]),
 ];
 
 const MORE: &str = "All options: --help. Options of reading files: svbrdf help reading.";

@@ -5,19 +5,13 @@ use std::path::PathBuf;
 #[cfg(feature = "viewer")]
 use svbrdf_core::loss::FileScenes;
 #[cfg(feature = "viewer")]
-use svbrdf_core::model::scene::Scene;
-#[cfg(feature = "viewer")]
 use svbrdf_evaluate::dataset::DatasetReading;
 #[cfg(feature = "viewer")]
 use svbrdf_files::Error;
 use svbrdf_files::convention::ChosenConvention;
-use svbrdf_files::photograph::Capture;
-#[cfg(feature = "viewer")]
-use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 
-use super::args::photograph::{PhotoReadingArgs, PhotoSceneArgs};
 use super::args::scenes::AccuracyArgs;
 use super::args::{Given, MaterialArgs, refuse};
 use super::job::{Job, NewJob};
@@ -31,17 +25,9 @@ use super::rank::cases;
     scenes of the loss")))]
 #[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
 pub struct ViewArgs {
-    /// Photograph, or folder of a capture, in the place of the ground truth
-    ///
-    /// Of a capture its folder, or the file that lists its photographs.
+    /// Rectified photograph in the place of the ground truth, or a folder of them, or the file that lists them
     #[arg(long, value_name = "FILE")]
     photo: Option<PathBuf>,
-
-    #[command(flatten)]
-    photo_scene: PhotoSceneArgs,
-
-    #[command(flatten)]
-    photo_reading: PhotoReadingArgs,
 
     #[command(flatten)]
     dataset: DatasetArgs,
@@ -109,16 +95,6 @@ impl ViewArgs {
             Some(path) if Session::is_named(path) => materials.refuse_of_session(given)?,
             Some(_) => (),
         }
-        if is_dataset {
-            let reason = "the materials of a data set are not compared with a photograph";
-            given.refuse::<PhotoSceneArgs>(reason)?;
-            given.refuse::<PhotoReadingArgs>(reason)?;
-        }
-        if self.photo.as_deref().is_some_and(Capture::is_named) {
-            let reason = "a capture lists the lights and views of its photographs, and how they are read";
-            given.refuse::<PhotoSceneArgs>(reason)?;
-            given.refuse::<PhotoReadingArgs>(reason)?;
-        }
         Ok(Box::new(ViewJob {
             #[cfg(feature = "viewer")]
             options: self.options()?,
@@ -168,7 +144,6 @@ impl ViewArgs {
             let (dataset, convention) = (Some(Box::new(dataset_of(self)?)), self.convention.clone());
             return Ok(svbrdf::ViewerOptions { dataset, convention, strict, ..Default::default() });
         }
-        let photograph = photograph_of(self)?;
         let materials = &mut self.materials;
         let scenes = take_scenes(materials)?;
         let session = session::given(materials)?;
@@ -176,7 +151,7 @@ impl ViewArgs {
         let mut sources = if has_sources { materials.sources()? } else { Vec::new() }.into_iter();
         Ok(svbrdf::ViewerOptions {
             session,
-            photograph,
+            photograph: self.photo.take(),
             convention: self.convention.clone(),
             scenes,
             strict: materials.reading.both.strict,
@@ -199,15 +174,6 @@ fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
     dataset.settings.diagnose = losses.diagnose;
     dataset.reading = cases::reading(&args.materials.reading, dataset.methods())?;
     Ok(dataset)
-}
-
-/// The photograph, and its light and view where they are specified.
-#[cfg(feature = "viewer")]
-fn photograph_of(args: &ViewArgs) -> Result<Option<(SessionPhotograph, Option<Scene>)>, Error> {
-    let photograph = args.photo.clone().map(|path| args.photo_reading.photograph(path));
-    let opened =
-        photograph.map(|one| scene_file::open_photograph(one, args.photo_scene.specified().as_ref()));
-    opened.transpose()
 }
 
 /// Takes the scene file out of `materials`, and reads it.

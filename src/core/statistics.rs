@@ -1,6 +1,4 @@
-//! Order statistics: the one definition of a quantile and of a median; outliers.
-
-use statrs::distribution::{ContinuousCDF, StudentsT};
+//! Order statistics: the one definition of a quantile and of a median.
 
 use crate::math::real::Real;
 
@@ -23,49 +21,9 @@ pub fn median<T: Real>(values: &mut [T]) -> Option<f64> {
     quantile(values, 0.5)
 }
 
-/// The standard deviation of a normal distribution over its median absolute deviation.
-const DEVIATION: f64 = 1.4826;
-/// The efficiency of the median absolute deviation: the share of values that a standard deviation as exact would take.
-const EFFICIENCY: f64 = 0.37;
-
-/// The distance from the median, in median absolute deviations, that at most 5% of sets of `count` normal values exceed anywhere: the
-/// quantile of Student's t by Bonferroni, with the degrees of freedom of the deviation. `count` is at least 2.
-pub fn outlier_limit(count: usize) -> f64 {
-    let freedom = EFFICIENCY * count.saturating_sub(1).max(1) as f64;
-    let probability = 1.0 - 0.05 / (2 * count.max(1)) as f64;
-    DEVIATION * StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |t| t.inverse_cdf(probability))
-}
-
 #[cfg(test)]
 mod tests {
-    use rand::rngs::ChaCha8Rng;
-    use rand::{RngExt as _, SeedableRng as _};
-
     use super::*;
-
-    #[test]
-    fn at_most_5_percent_of_normal_sets_have_an_outlier() {
-        let mut generator = ChaCha8Rng::seed_from_u64(3);
-        let mut normal = || {
-            let [u, v] = [(); 2].map(|()| generator.random::<f64>());
-            (-2.0 * (1.0 - u).ln()).sqrt() * (std::f64::consts::TAU * v).cos()
-        };
-        for count in [5, 6, 9, 20, 50] {
-            let mut rate = |limit: f64| {
-                let has_outlier = |_: &usize| {
-                    let values: Vec<f64> = (0..count).map(|_| normal()).collect();
-                    let middle = median(&mut values.clone()).unwrap();
-                    let far: Vec<f64> = values.iter().map(|value| (value - middle).abs()).collect();
-                    let deviation = median(&mut far.clone()).unwrap();
-                    far.iter().any(|far| *far > limit * deviation)
-                };
-                (0..2000).filter(has_outlier).count() as f64 / 2000.0
-            };
-            let [found, fixed] = [outlier_limit(count), 3.5 * DEVIATION].map(&mut rate);
-            assert!(found > 0.001 && found <= 0.05, "{count}: {found}");
-            assert!(fixed > 0.06, "a planted fault, the same limit for any count: {count}: {fixed}");
-        }
-    }
 
     #[test]
     fn quantiles_are_those_of_numpy() {

@@ -10,7 +10,7 @@ use svbrdf_files::Error as FilesError;
 pub enum Error {
     /// No factor brings a photograph to the exposure of a rendering.
     #[error(
-        "the exposure of the photograph cannot be fitted to {name}: {problem}; check light, view and corners, or take \
+        "the exposure of the photograph cannot be fitted to {name}: {problem}; check light and view, or take \
         another photograph"
     )]
     NoExposure { name: String, problem: String },

@@ -115,16 +115,9 @@ pub enum Error {
     BadArrays { path: PathBuf, problem: String },
 
     /// A capture cannot be used: a folder of photographs with their lights and views.
-    #[error("{} is not a usable capture: {problem}; expected a folder with capture.json, or with the JSON or \
-        text files of a MaterialGAN capture", path.display())]
+    #[error("{} is not a usable capture: {problem}; expected capture.json, or render.json of MaterialGAN, or the \
+        folder of one", path.display())]
     BadCapture { path: PathBuf, problem: String },
-
-    /// The corners of the plane in a photograph make no sense.
-    #[error(
-        "the corners of the plane cannot be used: {problem}; give the top left, top right, bottom right and bottom left \
-        corner of the material in the photograph, in pixels"
-    )]
-    UnusableCorners { problem: String },
 
     /// Two values of one option.
     #[error("{option} is specified twice; leave out one")]

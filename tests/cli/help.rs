@@ -6,7 +6,7 @@ use std::fs;
 use super::{svbrdf, text};
 
 /// The headings of help pages.
-const HEADINGS: &str = "Usage:|Arguments:|Options:|Look:|Compare:|Explain:|Prepare:|Scenes:|Light and view:|Photograph:|Reading materials:|Files:|\
+const HEADINGS: &str = "Usage:|Arguments:|Options:|Look:|Compare:|Explain:|Prepare:|Scenes:|Light and view:|Reading materials:|Files:|\
     Environment:|Example:|Examples:|Exit codes:";
 
 /// The help page of a subcommand, which is named by its path from the program.

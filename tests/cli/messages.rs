@@ -8,7 +8,7 @@ use tempfile::TempDir;
 use super::{fail, folder};
 
 /// Mistakes, with the exit code and the words that tell what was expected, what was found, or what to do.
-const MISTAKES: [(&str, i32, &str); 43] = [
+const MISTAKES: [(&str, i32, &str); 42] = [
     // A file of another kind, or of none.
     ("loss empty.png a.png", 1, "expected an image, found an empty file; copy or write it again"),
     ("loss one.json a.png", 64, "one.json is not a material: a list of scenes is given as --scenes FILE"),
@@ -31,12 +31,7 @@ const MISTAKES: [(&str, i32, &str); 43] = [
     ("loss gone.svbrdf-session.json", 1, "note: the session gone.svbrdf-session.json names the materials"),
     ("conform gt.png", 1, "expected an npz file, as numpy.savez writes it, found no archive"),
     ("conform nothing", 1, "render each material of `svbrdf conform --points FOLDER` into its folder"),
-    ("photo --capture nothing a.png", 1, "nothing is not a usable capture: it holds no list of photographs"),
-    (
-        "photo gt.png a.png --scene one.json --scene-number 5",
-        1,
-        "there is no scene 5: it has one scene, number 0",
-    ),
+    ("photo . a.png", 1, ". is not a usable capture: it has neither of these files"),
     ("convert gt.png none/x/", 1, "cannot write none/x/: its folder does not exist; create the folder first"),
     ("convert gt.png none/x.png", 1, "its folder does not exist; create the folder first, or name another"),
     // Data sets.

@@ -36,7 +36,7 @@ fn documents(at: &Path, picture: &str) -> Vec<(&'static str, &'static str)> {
     let capture = json!({"photographs": [{"file": picture, "scene": scene}]});
     fs::write(of("capture.json"), capture.to_string()).unwrap();
     vec![
-        ("capture.json", "photo --capture in gt.png"),
+        ("capture.json", "photo in gt.png"),
         ("m.gltf", "info in/m.gltf"),
         ("m.mtl", "info in/m.mtl"),
         ("m.mtlx", "info in/m.mtlx"),

@@ -1,6 +1,7 @@
 //! Seeds of the fuzz targets in `tests/fuzz/`, and the inputs that these have found, which stay tests.
 
 use svbrdf_core::model::scene::SceneFile;
+use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::photograph::Capture;
 use svbrdf_files::read::read_photograph;
 use svbrdf_files::scene_file;
@@ -13,8 +14,8 @@ use crate::scene_files::mtl;
 const SCENES: &str = r#"{"scenes": [{"light": [0.1, 0.2, 1.5], "view": [0, 0, 2], "kind": "near"},
     {"light": [0.1, 0.2, 1.5e0], "view": [-0.3, 0, 2], "kind": "distant"}]}"#;
 
-const CAPTURE: &str = r#"{"falloff": true, "transfer": "srgb", "clip": 0.98, "photographs": [{"file": "packed.png",
-    "scene": {"kind": "near", "view": [0, 0, 2], "light": [0.1, 0.2, 1.5]}, "corners": [[0, 0], [4, 0], [4, 4], [0, 4]]}]}"#;
+const CAPTURE: &str = r#"{"falloff": true, "transfer": "srgb", "photographs": [{"file": "packed.png",
+    "scene": {"kind": "near", "view": [0, 0, 2], "light": [0.1, 0.2, 1.5]}}]}"#;
 
 const CALIBRATION: &str = r#"{"target_dir": "target", "im_size": 6.8, "idx": [1, 0], "camera_pos": [[-3, 3, 16], [0, 3, 16]],
     "light_pos": [[-3, 3, 16], [0, 3, 16]], "light_pow": [1500, 1500, 1500]}"#;
@@ -64,7 +65,7 @@ fn open(target: &str, folder: &Path, bytes: &[u8]) -> Result<(), Error> {
     let material = |path: &Path, options| read::<f32>(path, options, &Progress::default()).map(drop);
     match target {
         "picture" => read_bytes::<f32>("fuzzed", bytes, &STRIP).map(drop),
-        "photograph" => read_photograph(&put("fuzzed.png"), &Default::default()).map(drop),
+        "photograph" => read_photograph(&NamedFile::by_user(put("fuzzed.png")), None).map(drop),
         "capture" => Capture::read(&put("fuzzed.json")).map(drop),
         "scene_file" => scene_file::read(&put("fuzzed.json")).map(drop),
         "session" => Session::read(&put("fuzzed.svbrdf-session.json")).map(drop),

@@ -130,11 +130,6 @@ const NONE: f64 = f64::INFINITY;
 
 /// |the sum of the Shapley values - the loss| over the loss, with losses of scenes in f32, which are added in f64.
 pub const SHAPLEY_SUM: f64 = 1e-12; // measured: 4.4e-16, on the built-in materials
-/// A photograph in perspective of 8 to 10 pixels a texel, averaged over each texel, against the rendering at the middle of the texel:
-/// the mean log difference. The curvature of a highlight of r = 0.35 within a texel, and the bilinear samples, remain.
-pub const PHOTOGRAPH_LOG: f64 = 1e-3;
-/// The fitted exposure of the same photograph: relative.
-pub const PHOTOGRAPH_FACTOR: f64 = 1e-3;
 /// A value of the error map, which is of the order of 1, against renderings in f32 and logarithms in f64.
 pub const ERROR_MAP_TEXEL: f64 = 2e-6; // the test prints what it measures
 

@@ -6,7 +6,6 @@
 mod assumptions;
 mod bar;
 mod convention_files;
-mod corners;
 mod crash;
 mod damaged;
 mod dataset;
@@ -14,7 +13,6 @@ mod differences;
 mod fields;
 mod files;
 mod files_tab;
-mod filmstrip;
 mod flip;
 mod gestures;
 mod key_presses;

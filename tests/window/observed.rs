@@ -23,10 +23,6 @@ pub trait Observed {
     fn difference_range(&self) -> f64;
     /// Every material against the photograph, where the panes compare with one and it is there.
     fn against_photograph(&self) -> Option<&[PhotographComparison]>;
-    /// The corners of the material in the photograph; `None` for the whole picture, or without a photograph.
-    fn photograph_corners(&self) -> Option<[[f64; 2]; 4]>;
-    /// The number of photographs in the filmstrip, once they have been read.
-    fn filmstrip_length(&self) -> Option<usize>;
     /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.
     fn displayed_materials(&self) -> Vec<(&str, &Material<f32>)>;
     /// The latest losses of the predictions in one scene, and whether it is the current one.
@@ -76,16 +72,6 @@ impl Observed for App {
 
     fn against_photograph(&self) -> Option<&[PhotographComparison]> {
         self.parts.displayed().photographs().map(|all| all.comparisons.as_slice())
-    }
-
-    fn photograph_corners(&self) -> Option<[[f64; 2]; 4]> {
-        self.parts.model.photograph.source().and_then(|source| source.corners).map(|corners| corners.0)
-    }
-
-    fn filmstrip_length(&self) -> Option<usize> {
-        let svbrdf_viewer::app::parts::Parts { model, jobs, .. } = &self.parts;
-        let displayed = jobs.photograph.displayed(&model.photograph, self.parts.displayed().materials())?;
-        displayed.filmstrip.map(|strip| strip.count())
     }
 
     fn displayed_materials(&self) -> Vec<(&str, &Material<f32>)> {

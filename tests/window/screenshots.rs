@@ -2,18 +2,11 @@
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf_core::model::convention::PRINTED;
-use svbrdf_core::picture::tone::to_display;
-use svbrdf_core::progress::Progress;
-use svbrdf_core::render::render_f32;
-use svbrdf_evaluate::photograph::flash;
-use svbrdf_files::photograph::{Corners, SessionPhotograph};
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::generate;
-use svbrdf_files::scene_file::PhotographLight;
-use svbrdf_viewer::model::command::{DatasetCommand, MaterialsCommand, PhotographCommand};
+use svbrdf_viewer::model::command::{DatasetCommand, MaterialsCommand};
 
-use super::materials::{SIDE, materials, strip};
+use super::materials::{SIDE, strip};
 use super::*;
 
 /// Size of a picture, in pixels.
@@ -77,8 +70,6 @@ fn the_pictures_of_the_readme() {
     wait(&mut window, "the mixture", |app| app.displayed_materials()[1].0.contains("only its normal"));
     wait(&mut window, "its statistics", |app| app.difference_statistics().is_some());
     write(&mut window, "why.jpg");
-
-    photographed();
 }
 
 /// The built-in ground truth with Y of its normals in the other direction, diagnosed.
@@ -146,62 +137,4 @@ fn the_picture_of_a_data_set() {
     });
     rest(&mut window, 40);
     write(&mut window, "dataset.jpg");
-}
-
-/// A photograph of the ground truth from the side, on a gray table, and the corners of the material in it.
-fn photograph_from_the_side(folder: &Path) -> (PathBuf, [[f64; 2]; 4]) {
-    const WIDTH: u32 = 900;
-    const HEIGHT: u32 = 760;
-    /// Samples along the side of the material.
-    const SAMPLES: usize = 1600;
-    let corners = [[190.0, 90.0], [790.0, 60.0], [840.0, 650.0], [100.0, 690.0]];
-    let rendering =
-        render_f32(&materials()[0], &flash(45.0).unwrap(), &PRINTED, &Progress::default()).unwrap();
-    let gray = |x: u32, y: u32| 92 + ((x * 13 + y * 7) % 11) as u8;
-    let mut picture = image::RgbImage::from_fn(WIDTH, HEIGHT, |x, y| image::Rgb([gray(x, y); 3]));
-    // The projective map of the unit square to the corners (Heckbert 1989).
-    let [[x0, y0], [x1, y1], [x2, y2], [x3, y3]]: [[f64; 2]; 4] = corners;
-    let ([dx1, dy1], [dx2, dy2]) = ([x1 - x2, y1 - y2], [x3 - x2, y3 - y2]);
-    let (sx, sy) = (x0 - x1 + x2 - x3, y0 - y1 + y2 - y3);
-    let determinant = dx1 * dy2 - dx2 * dy1;
-    let (g, h) = ((sx * dy2 - dx2 * sy) / determinant, (dx1 * sy - sx * dy1) / determinant);
-    for i in 0..SAMPLES * SAMPLES {
-        let [s, t] = [i % SAMPLES, i / SAMPLES].map(|n| (n as f64 + 0.5) / SAMPLES as f64);
-        let w = g * s + h * t + 1.0;
-        let x = ((x1 - x0 + g * x1) * s + (x3 - x0 + h * x3) * t + x0) / w;
-        let y = ((y1 - y0 + g * y1) * s + (y3 - y0 + h * y3) * t + y0) / w;
-        let [column, row] = [s, t].map(|at| (at * generate::SIDE as f64) as usize);
-        let colour = to_display(rendering.pixels[row * generate::SIDE + column], 0.6);
-        picture.put_pixel(x as u32, y as u32, image::Rgb(colour));
-    }
-    let path = folder.join("photo.png");
-    picture.save(&path).unwrap();
-    (path, corners)
-}
-
-/// The photograph, with handles on the corners of the material, beside the materials.
-fn photographed() {
-    let folder = tempfile::tempdir().unwrap();
-    let (path, corners) = photograph_from_the_side(folder.path());
-    let mut window = built_in();
-    window.set_size(SIZE);
-    let photograph = SessionPhotograph { path, corners: Some(Corners(corners)), ..Default::default() };
-    let light = Some(PhotographLight::Flash { fov_degrees: 45.0 });
-    apply(&mut window, PhotographCommand::Open { photograph, light });
-    window.get_by_label("Light and view").click();
-    wait(&mut window, "the photograph", |app| app.against_photograph().is_some());
-    window.get_by_label("Corners of the material").click();
-    press(&mut window, egui::Key::D);
-    wait(&mut window, "the differences", |app| app.difference_statistics().is_some());
-    // Until the photograph as it was taken is there, its place is black.
-    let pane = window.get_by_label("Corner pane").rect();
-    let middle = |window: &mut Window<'_>| {
-        let seen = pixels(window, pane);
-        seen.get_pixel(seen.width() / 2, seen.height() / 3).0
-    };
-    while middle(&mut window)[..3] == [0; 3] {
-        window.step();
-        std::thread::sleep(std::time::Duration::from_millis(20));
-    }
-    write(&mut window, "photograph.jpg");
 }

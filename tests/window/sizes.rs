@@ -125,9 +125,6 @@ fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
 fn a_photograph_is_drawn_at_every_size_and_scale() {
     let (mut window, _folder) = super::photograph::opened();
     check(&mut window, "a photograph");
-    click(&mut window, "Corners of the material");
-    window.run_steps(8);
-    check(&mut window, "its corners");
 }
 
 #[needs(adapter)]

@@ -47,7 +47,7 @@ const GENERATED: [Generated; 12] = [
     },
     Generated {
         name: "pictures",
-        files: "assets/pictures/{window,why,where,diagnosis,photograph,dataset}.jpg",
+        files: "assets/pictures/{window,why,where,diagnosis,dataset}.jpg",
         script: "cargo test --package window-tests screenshots -- --ignored",
     },
     Generated {

@@ -25,7 +25,7 @@ from ._loss import loss, rank
 from ._material import Material, built_in, read, write
 from ._metrics import metrics
 from ._page import Figure, figure, report
-from ._photo import PhotoReport, photo
+from ._photo import photo
 from ._report import Record, Report
 from ._reports import *  # noqa: F403
 from ._scenes import CONVENTIONS, Convention, Scene, named_scenes, read_scenes, render, sample_scenes
@@ -41,7 +41,6 @@ __all__ = [
     "Figure",
     "MapReport",
     "Material",
-    "PhotoReport",
     "Record",
     "Report",
     "Scene",

@@ -65,10 +65,6 @@ class MapItems(TypedDict):
     standard_errors: list[bytearray]
     directions: bytearray | None
 
-class PhotoItems(TypedDict):
-    views: Views
-    differences: list[tuple[tuple[int, int], bytearray]]
-
 # Of a ground truth, its predictions, the arguments that comparisons have in common and further ones, the progress last.
 loss: Callable[..., Views]
 rank: Callable[..., Views]
@@ -76,7 +72,7 @@ analysis: Callable[..., Views]
 diagnose: Callable[..., Views]
 map: Callable[..., MapItems]
 
-def photo(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> PhotoItems: ...
+def photo(materials: Sequence[CoreMaterial], asked: Mapping[str, Any], progress: Report) -> Views: ...
 def rank_dataset(asked: Mapping[str, Any], progress: Report) -> Views: ...
 
 class PageItems(TypedDict):

@@ -37,11 +37,9 @@ __all__ = [
     "MetricSummary",
     "Metrics",
     "MetricsReport",
-    "PhotoMeans",
     "PhotoMeasure",
-    "PhotoOutlier",
+    "PhotoReport",
     "PhotoResult",
-    "PhotoStatistics",
     "PredictionResult",
     "RankReport",
     "RankedPrediction",
@@ -508,40 +506,6 @@ class ReadPhotograph(Record):
     size: tuple[int, int]
     """Width and height in pixels."""
     transfer: Literal["linear", "srgb", "gamma2.2"]
-    corners: tuple[tuple[float, float], tuple[float, float], tuple[float, float], tuple[float, float]]
-    """Top left, top right, bottom right and bottom left of the material, in pixels."""
-    held_out: bool
-    """Whether the exposure of the capture is not fitted to it."""
-
-
-class PhotoMeans(Record):
-    """The means over a group of photographs, each with its interval over photographs; None where no photograph has the measure."""
-
-    photographs: str
-    """`all`, `fitted` or `held out`."""
-    count: int
-    """The number of photographs."""
-    log: Estimate | None
-    rmse: Estimate | None
-    ssim: Estimate | None
-
-
-class PhotoStatistics(Record):
-    """A difference over the texels that are not clipped."""
-
-    mean: float
-    median: float
-    p95: float
-    """The 95th percentile."""
-
-
-class PhotoOutlier(Record):
-    """In what a photograph differs from the others of its capture."""
-
-    exposure: bool
-    """The exposure that fits it alone: brighter or darker than the others."""
-    difference: bool
-    """Its log difference: larger than of the others."""
 
 
 class PhotoMeasure(Record):
@@ -549,40 +513,32 @@ class PhotoMeasure(Record):
 
     photograph: str
     """The name of the photograph."""
-    factor: float | None
-    """What the photograph was multiplied by; None where no factor fits."""
-    exposure_ev: float | None
-    """The factor in stops."""
-    own_exposure_ev: float | None
-    """The factor that fits this photograph alone, in stops; None where none does."""
-    log: PhotoStatistics | None
-    absolute: PhotoStatistics | None
-    relative: PhotoStatistics | None
+    log: float | None
+    """The mean log difference."""
     rmse: float | None
     """The root mean square difference of sRGB values."""
     ssim: float | None
     """The SSIM of sRGB values."""
-    texels: int
     clipped: int
     """The number of texels that are left out."""
-    outlier: PhotoOutlier
 
 
 class PhotoResult(Record):
-    """A material against all photographs."""
+    """A material against all photographs; its measures are the means over photographs."""
 
     material: str
     """The name of the material."""
     size: tuple[int, int]
     """Width and height in texels."""
-    factor: float | None
-    """The factor on all photographs: the median of rendering / photograph. None where each has its own."""
-    exposure_ev: float | None
+    factor: float
+    """The factor on all photographs: the median of rendering / photograph."""
+    exposure_ev: float
     """The factor in stops."""
-    declared_ev: float | None
-    """The stops by which it exceeds the factor that the power of the light gives."""
-    means: tuple[PhotoMeans, ...]
-    """Over all photographs, or where some are held out, over the others and over these."""
+    log: float | None
+    rmse: float | None
+    ssim: float | None
+    clipped: float
+    """The share of the texels that are left out."""
     photographs: tuple[PhotoMeasure, ...]
     """In the order of the capture."""
 
@@ -590,23 +546,17 @@ class PhotoResult(Record):
 class PhotoReport(Report):
     """Materials against photographs. Its JSON is a scene file, too."""
 
-    capture: str | None
-    """The path of the capture; None: a single photograph."""
-    file: str | None
-    """The file that lists the photographs."""
+    path: str
+    """The path of the photograph, or of what lists several."""
     photographs: tuple[ReadPhotograph, ...]
     """In the order of the capture."""
     falloff: bool
     """Whether the falloff of the light is divided out of the photographs."""
-    exposure: Literal["capture", "photograph"]
-    """What one factor is fitted to."""
-    declared_factor: float | None
-    """The factor that the power of the light gives."""
     convention: str
     """The name of the convention."""
     epsilon: float
     results: tuple[PhotoResult, ...]
-    """The smallest mean log difference first: over the held-out photographs, or over all."""
+    """The smallest mean log difference first."""
     scenes: tuple[Scene, ...]
     """Of the photographs."""
     notes: tuple[str, ...]

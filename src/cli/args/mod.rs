@@ -5,7 +5,6 @@ pub mod floor;
 pub mod given;
 pub mod named_path;
 pub mod offered;
-pub mod photograph;
 pub mod reading;
 pub mod scenes;
 pub mod trust;

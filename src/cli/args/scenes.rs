@@ -219,6 +219,11 @@ pub struct OneSceneArgs {
 }
 
 impl OneSceneArgs {
+    /// Whether light and view are specified.
+    pub fn is_specified(&self) -> bool {
+        self.view.is_some() && self.light.is_some()
+    }
+
     /// The scene; `saved` is that of a session.
     ///
     /// # Errors

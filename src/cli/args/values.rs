@@ -80,11 +80,6 @@ pub fn triple(text: &str) -> Result<[f64; 3], String> {
     numbers(text).ok_or_else(|| format!("expected three numbers like 0.4,-0.5,1.2, found `{text}`"))
 }
 
-/// A place in a picture.
-pub fn pair(text: &str) -> Result<[f64; 2], String> {
-    numbers(text).ok_or_else(|| format!("expected two numbers like 120,80.5, found `{text}`"))
-}
-
 /// `N` finite numbers with commas between them.
 fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let finite = |part: &str| part.trim().parse().ok().filter(|number: &f64| number.is_finite());
@@ -108,12 +103,6 @@ pub fn bytes(text: &str) -> Result<usize, String> {
 pub fn degrees(text: &str) -> Result<f64, String> {
     let angle = text.parse().ok().filter(|angle| (0.1..=179.0).contains(angle));
     angle.ok_or_else(|| format!("expected an angle of 0.1 to 179 degrees, found `{text}`"))
-}
-
-/// A finite number above 0.
-pub fn positive(text: &str) -> Result<f64, String> {
-    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
-    value.ok_or_else(|| format!("expected a number above 0, found `{text}`"))
 }
 
 /// The difference that has the last colour.
@@ -183,12 +172,8 @@ mod tests {
     }
 
     #[test]
-    fn corners_angles_and_limits_are_numbers_in_their_ranges() {
-        assert_eq!(pair("12,-3.5"), Ok([12.0, -3.5]));
-        assert!(["1", "1,2,3", "a,b", ""].iter().all(|wrong| pair(wrong).is_err()));
+    fn angles_are_numbers_in_their_range() {
         assert_eq!(degrees("45"), Ok(45.0));
         assert!(["0", "180", "-3", "nan", "wide"].iter().all(|wrong| degrees(wrong).is_err()));
-        assert_eq!(positive("0.98"), Ok(0.98));
-        assert!(["0", "-1", "inf", "x"].iter().all(|wrong| positive(wrong).is_err()));
     }
 }

@@ -7,7 +7,7 @@ use super::missed::missed_by_any;
 use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
 
-fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 23] {
+fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 22] {
     [
         ("prediction", "prediction", |(_, result)| result.prediction.as_str().into()),
         ("loss", "loss", |(_, result)| result.loss.into()),

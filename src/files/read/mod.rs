@@ -40,13 +40,12 @@ pub use gather::map_report::MapContent;
 pub use locate::is_prefix;
 pub use locate::sidecar::Sidecar;
 pub use located::binding::Binding;
-pub(crate) use names::Label;
 pub use options::extensions::EXTENSIONS;
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
     Roughness, TileGrid, Workflow,
 };
-pub use photograph::{Photograph, PhotographOptions, Transfer, read_named_photograph, read_photograph};
+pub use photograph::{Photograph, Transfer, read_photograph};
 pub use record::{
     Assumption, Certainty, Evidence, Gray, Note, Reason, SpecifiedBy, StorageConvention, Subject, Unused,
     What,

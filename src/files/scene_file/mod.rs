@@ -1,9 +1,8 @@
-//! Files of scenes: the project's own, and the captures of MaterialGAN; and the one scene of a photograph.
+//! Files of scenes: the project's own, and the captures of MaterialGAN.
 
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::loss::FileScenes;
-use svbrdf_core::model::named_scenes::flash;
 use svbrdf_core::model::scene::{Scene, SceneFile};
 use svbrdf_core::text::of_json;
 
@@ -11,7 +10,7 @@ use crate::disk::atomic::Destination;
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
-use crate::photograph::{Calibration, Capture, SessionPhotograph};
+use crate::photograph::Calibration;
 use crate::read::Sidecar;
 use crate::session::Session;
 
@@ -69,69 +68,6 @@ pub fn read_one(paths: &[PathBuf]) -> Result<Option<FileScenes>, Error> {
         [path] => read_named(path).map(Some),
         [first, second, ..] => Err(Error::SeveralSceneFiles { first: first.clone(), second: second.clone() }),
     }
-}
-
-/// Where light and view of a photograph come from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PhotographLight {
-    /// A flash at the camera: the angle that the width of the material spans there.
-    Flash {
-        fov_degrees: f64,
-    },
-    Scene(Scene),
-    /// A scene of a file; its number, from 0, where the file has several.
-    File {
-        path: PathBuf,
-        number: Option<usize>,
-    },
-}
-
-impl PhotographLight {
-    /// Light and view.
-    ///
-    /// # Errors
-    /// As [`flash`] and [`read`], and [`Error::BadScene`] where the file has no scene of that number.
-    pub fn scene(&self) -> Result<Scene, Error> {
-        let (path, number) = match self {
-            Self::Flash { fov_degrees } => return Ok(flash(*fov_degrees)?),
-            Self::Scene(scene) => return Ok(*scene),
-            Self::File { path, number } => (path, number),
-        };
-        let scenes = read(path)?;
-        let found = scenes.get(number.unwrap_or(0)).filter(|_| number.is_some() || scenes.len() == 1);
-        found.copied().ok_or_else(|| {
-            let last = scenes.len() - 1;
-            let problem = match number {
-                Some(number) if last == 0 => {
-                    format!("there is no scene {number}: it has one scene, number 0")
-                }
-                Some(number) => {
-                    format!("there is no scene {number}: its scenes have the numbers 0 to {last}")
-                }
-                None => format!(
-                    "a photograph has one of its {} scenes: give its number, 0 to {last}",
-                    scenes.len()
-                ),
-            };
-            Error::BadScene { path: path.clone(), problem }
-        })
-    }
-}
-
-/// The photograph that the path of `photograph` leads to, with its light and view, `None` without a light: where that is a capture,
-/// the first of it, in its own.
-///
-/// # Errors
-/// As [`Capture::read`] and [`PhotographLight::scene`].
-pub fn open_photograph(
-    photograph: SessionPhotograph,
-    light: Option<&PhotographLight>,
-) -> Result<(SessionPhotograph, Option<Scene>), Error> {
-    if !Capture::is_named(&photograph.path) {
-        return Ok((photograph, light.map(PhotographLight::scene).transpose()?));
-    }
-    let (first, scene) = Capture::read(&photograph.path)?.session_photograph(0).unzip();
-    Ok((first.unwrap_or(photograph), scene))
 }
 
 fn parse(text: &str) -> Result<Vec<Scene>, String> {

@@ -3,7 +3,6 @@
 pub mod dataset;
 pub mod window;
 
-use std::iter;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -107,13 +106,7 @@ impl Session {
             return Err(bad("expected at least one material, found none".to_owned()));
         }
         if let Some(photograph) = &mut session.photograph {
-            photograph
-                .read
-                .check()
-                .map_err(|problem| bad(format!("the photograph cannot be read: {problem}")))?;
             photograph.path = named(&photograph.path, path)?;
-            photograph.capture =
-                photograph.capture.as_ref().map(|capture| named(capture, path)).transpose()?;
         }
         for name in session.dataset.iter_mut().flat_map(SessionDataset::paths_mut) {
             *name = named(name, path)?;
@@ -132,10 +125,7 @@ impl Session {
     pub fn outside(&self, path: &Path) -> Vec<&Path> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let materials = self.materials.iter().filter_map(|material| material.path.as_deref());
-        let photograph = self.photograph.iter();
-        let photograph = photograph
-            .flat_map(|photograph| std::iter::once(&photograph.path).chain(&photograph.capture))
-            .map(PathBuf::as_path);
+        let photograph = self.photograph.iter().map(|photograph| photograph.path.as_path());
         let dataset = self.dataset.iter().flat_map(SessionDataset::paths).map(PathBuf::as_path);
         materials.chain(photograph).chain(dataset).filter(|file| is_outside(file, folder)).collect()
     }
@@ -155,9 +145,7 @@ impl Session {
             material.path = material.path.as_ref().map(|path| relative(&absolute(path), &folder));
         }
         if let Some(photograph) = &mut session.photograph {
-            for path in iter::once(&mut photograph.path).chain(&mut photograph.capture) {
-                *path = relative(&absolute(path), &folder);
-            }
+            photograph.path = relative(&absolute(&photograph.path), &folder);
         }
         for path in session.dataset.iter_mut().flat_map(SessionDataset::paths_mut) {
             *path = relative(&absolute(path), &folder);
@@ -168,9 +156,6 @@ impl Session {
             if let Some(read) = material["read"].as_object_mut() {
                 read.retain(|_, option| !option.is_null());
             }
-        }
-        if let Some(read) = value.pointer_mut("/photograph/read").and_then(Value::as_object_mut) {
-            read.retain(|_, option| !option.is_null());
         }
         Ok(format!("{value:#}\n"))
     }
@@ -189,8 +174,7 @@ fn named(name: &Path, session: &Path) -> Result<PathBuf, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::photograph::Corners;
-    use crate::read::{Albedo, PhotographOptions, Transfer};
+    use crate::read::{Albedo, Transfer};
     use std::fs;
     use svbrdf_core::model::scene::Kind;
 
@@ -208,9 +192,7 @@ mod tests {
     }
 
     fn photograph(path: PathBuf) -> SessionPhotograph {
-        let read = PhotographOptions { transfer: Some(Transfer::Srgb), ..PhotographOptions::default() };
-        let corners = Some(Corners([[1.0, 2.0], [90.5, 1.0], [88.0, 70.0], [3.0, 69.0]]));
-        SessionPhotograph { path, read, corners, falloff: true, capture: None }
+        SessionPhotograph { path, transfer: Some(Transfer::Srgb), falloff: true }
     }
 
     #[test]

@@ -8,9 +8,7 @@ use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::Error as FilesError;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::disk::open::allow_outside;
-use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::photograph::SessionPhotograph;
-use svbrdf_files::scene_file::{self, PhotographLight};
+use svbrdf_files::photograph::Capture;
 use svbrdf_files::session::Session;
 
 use super::parts::Parts;
@@ -23,7 +21,6 @@ use crate::model::inspection;
 use crate::model::material::request::ReadRequest;
 use crate::model::message::Message;
 use crate::ui::dialogs::open::OpenDialog;
-use crate::ui::dialogs::photograph::PhotographDialog;
 use crate::ui::dialogs::save::SaveDialog;
 
 /// Carries out what a command has done outside of the model: the only place that does.
@@ -45,7 +42,7 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::ReadCaseAgain(case) => dataset::read_again(parts, case),
         Effect::RestoreDataset(session) => dataset::restore(parts, *session),
         Effect::ReadSession(paths) => read_session(parts, &paths),
-        Effect::OpenPhotograph { photograph, light } => open_photograph(parts, photograph, light.as_ref()),
+        Effect::OpenPhotograph(path) => open_photograph(parts, path),
         Effect::SaveAssumptions(index) => save_assumptions(parts, index),
         Effect::Loss(effect) => carry_out_on_losses(parts, effect),
         Effect::Dialog(effect) => carry_out_on_dialogs(parts, effect),
@@ -89,10 +86,6 @@ fn carry_out_on_dialogs(parts: &mut Parts, effect: DialogEffect) {
         DialogEffect::ShowSave(kind) => {
             let has_dataset = parts.model.dataset.open.is_some();
             dialogs.save = kind.map(|kind| SaveDialog::new(kind, has_dataset));
-        }
-        DialogEffect::ShowPhotograph(on) => dialogs.photograph = on.then(PhotographDialog::default),
-        DialogEffect::FillPhotograph(path) => {
-            dialogs.photograph.iter_mut().for_each(|dialog| dialog.fill(&path));
         }
         DialogEffect::Browse(what) => {
             // Where what is open came from.
@@ -143,13 +136,13 @@ fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
     }
 }
 
-/// Compares renderings with a photograph, under its light and view.
-fn open_photograph(parts: &mut Parts, photograph: SessionPhotograph, light: Option<&PhotographLight>) {
-    match (scene_file::open_photograph(photograph, light), &mut parts.ui.dialogs.photograph) {
-        (Ok((photograph, scene)), _) => {
-            parts.ui.dialogs.photograph = None;
-            let stamp = Stamp::of(&photograph.path);
-            parts.model.show_photograph(photograph, stamp, scene);
+/// Compares renderings with the photograph at `path`, or with the first of the list there, under its light and view.
+fn open_photograph(parts: &mut Parts, path: PathBuf) {
+    let capture = Capture::is_named(&path).then(|| Capture::read(&path)).transpose();
+    match (capture, &mut parts.ui.dialogs.open) {
+        (Ok(capture), _) => {
+            parts.ui.dialogs.open = None;
+            parts.model.open_photograph(path, capture);
         }
         (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
         (Err(error), None) => parts.model.report([Message::Failed(error.into())]),

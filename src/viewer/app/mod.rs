@@ -20,7 +20,6 @@ use storage::Storage;
 
 use super::jobs::Jobs;
 use super::jobs::displayed::Displayed;
-use super::jobs::follow::DisplayedParts;
 use super::jobs::work::waker::Waker;
 use super::model::Model;
 use super::model::apply::{exposure, undo};
@@ -151,14 +150,10 @@ impl App {
         if let Some(ground_truth) = self.parts.model.materials.ground_truth() {
             self.parts.model.inspection.keep_within(ground_truth.material().size());
         }
-        let parts = DisplayedParts {
-            longest_texture: ctx.input(|i| i.max_texture_side),
-            dataset: self.parts.ui.dataset.displayed.clone(),
-        };
-        let findings = self.parts.jobs.follow(&self.parts.model, parts);
+        let findings = self.parts.jobs.follow(&self.parts.model, &self.parts.ui.dataset.displayed);
         self.parts.model.report(findings.errors.into_iter().map(Message::Failed));
         if let Some(error) = findings.photograph_error {
-            self.parts.model.photograph.set(None, None);
+            self.parts.model.photograph.set(None);
             self.parts.model.report([Message::Failed(error)]);
         }
         match findings.worst {

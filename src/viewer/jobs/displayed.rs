@@ -21,8 +21,7 @@ use crate::model::view::state::ViewState;
 pub struct Displayed<'a> {
     pub model: &'a Model,
     pub jobs: &'a Jobs,
-    /// Whether this is a picture that is saved: with a caption, without controls, and a photograph as it is compared even
-    /// while its corners are edited.
+    /// Whether this is a picture that is saved: with a caption and without controls.
     pub is_picture: bool,
 }
 
@@ -63,9 +62,7 @@ impl<'a> Displayed<'a> {
     pub fn photograph(self) -> Option<DisplayedPhotograph<'a>> {
         let is_rendering = self.view().display.quantity == Quantity::Rendering && !self.view().is_computed();
         let photograph = self.jobs.photograph.displayed(&self.model.photograph, self.materials());
-        let mut photograph = photograph.filter(|_| is_rendering && !self.materials().is_empty())?;
-        photograph.corners = photograph.corners.filter(|_| !self.is_picture);
-        Some(photograph)
+        photograph.filter(|_| is_rendering && !self.materials().is_empty())
     }
 
     /// The photograph beside every material, where the panes compare renderings with one and it is there.

@@ -12,28 +12,19 @@ use crate::error::Error;
 use crate::model::Model;
 use crate::model::settings::Tab;
 
-/// What the window displays, as far as jobs depend on it.
-#[derive(Clone, Debug, Default)]
-pub struct DisplayedParts {
-    /// Longest side of a texture.
-    pub longest_texture: usize,
-    /// What is in sight of a data set.
-    pub dataset: DisplayedCases,
-}
-
 /// What the jobs have found since the last frame.
 #[derive(Debug, Default)]
 pub struct JobFindings {
     pub errors: Vec<Error>,
-    /// Why the open photograph cannot be read.
+    /// Why the open photograph cannot be read or compared.
     pub photograph_error: Option<Error>,
     /// The end of the search for the worst scene.
     pub worst: Option<Result<Worst, Error>>,
 }
 
 impl Jobs {
-    /// Takes over results, and computes what `model` needs now.
-    pub fn follow(&mut self, model: &Model, parts: DisplayedParts) -> JobFindings {
+    /// Takes over results, and computes what `model` needs now, with `in_sight` of a data set.
+    pub fn follow(&mut self, model: &Model, in_sight: &DisplayedCases) -> JobFindings {
         let mut findings = JobFindings::default();
         self.follow_losses(model);
         self.follow_order(model, &mut findings);
@@ -42,10 +33,10 @@ impl Jobs {
             self.uploads.send_missing(&self.waker, gpu, &model.materials.all);
         }
         self.follow_why(model, &mut findings);
-        self.follow_panes(model, &parts, &mut findings);
+        self.follow_panes(model, &mut findings);
         let range = Displayed::of(model, self).range();
         let Self { waker, gpu, dataset, .. } = self;
-        findings.errors.extend(dataset.follow(waker, gpu.as_ref(), model, &parts.dataset, range));
+        findings.errors.extend(dataset.follow(waker, gpu.as_ref(), model, in_sight, range));
         let Self { uploads, openings, panes, dataset, .. } = self;
         let is_here = |id| model.materials.all.iter().chain(&panes.displayed).any(|one| one.id() == id);
         uploads.keep_only(|id| is_here(id) || openings.hold(id) || dataset.cases.hold(id));
@@ -96,7 +87,7 @@ impl Jobs {
         findings.worst = why.poll_search(&work);
     }
 
-    fn follow_panes(&mut self, model: &Model, parts: &DisplayedParts, findings: &mut JobFindings) {
+    fn follow_panes(&mut self, model: &Model, findings: &mut JobFindings) {
         let (view, settings) = (&model.view, &model.settings);
         let has_photograph = Displayed::of(model, self).photograph().is_some();
         let computed = Displayed::of(model, self).computed_maps().cloned();
@@ -104,12 +95,10 @@ impl Jobs {
         let averages = differences && view.is_error_map();
         let Self { waker, gpu, panes, photograph, .. } = self;
         let work = JobContext { waker, gpu: gpu.as_ref(), materials: &panes.displayed, view };
-        let [unreadable, error] = photograph.follow(&work, &model.photograph, parts.longest_texture);
-        findings.photograph_error = unreadable;
+        findings.photograph_error = photograph.follow(&work, &model.photograph);
         let of_ground_truth = differences && !averages && !has_photograph;
         let errors = [
             panes.region.follow(&work, model.inspection.region, computed.as_ref()),
-            error,
             panes.difference.follow(&work, of_ground_truth),
             panes.error_map.follow(&work, averages, settings.loss.listed_scenes()),
         ];

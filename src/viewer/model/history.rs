@@ -20,7 +20,7 @@ pub struct Moment {
     pub materials: Vec<MaterialSource>,
     /// The scenes of a file, where the loss is over them.
     pub scenes: Option<FileScenes>,
-    /// The photograph that renderings are compared with, and its corners.
+    /// The photograph that renderings are compared with.
     pub photograph: Option<SessionPhotograph>,
 }
 

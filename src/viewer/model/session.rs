@@ -5,13 +5,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use svbrdf_core::loss::ALL_SCENES_TARGET;
-use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::dataset::{Method, Source};
 use svbrdf_files::convention::ChosenConvention;
-use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::photograph::SessionPhotograph;
+use svbrdf_files::photograph::{Capture, SessionPhotograph};
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 use svbrdf_files::session::window::{SessionInspection, SessionWindow};
@@ -59,13 +57,11 @@ impl Model {
         }
         // After a session, which may have others.
         options.convention.into_iter().for_each(|convention| self.use_convention(convention));
-        if let Some((photograph, scene)) = options.photograph {
-            let stamp = Stamp::of(&photograph.path);
-            self.show_photograph(photograph, stamp, scene);
-        }
         options.scenes.into_iter().for_each(|file| self.use_scenes(file));
         let of_session = options.session.and_then(|session| session.dataset).map(Box::new);
-        request.map(Effect::Read).into_iter().chain(of_session.map(Effect::RestoreDataset)).collect()
+        let photograph = options.photograph.map(Effect::OpenPhotograph);
+        let effects = request.map(Effect::Read).into_iter().chain(of_session.map(Effect::RestoreDataset));
+        effects.chain(photograph).collect()
     }
 
     /// Takes a data set as what is open. What could be undone belongs to the last materials.
@@ -101,11 +97,10 @@ impl Model {
         let convention = view.convention.text();
         let mut session = Session::new(materials.collect(), view.scene, convention, view.exposure_ev);
         let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
-        session.photograph = self.photograph.source().map(|source| SessionPhotograph {
-            path: absolute(&source.path),
-            capture: source.capture.as_ref().map(absolute),
-            ..source.clone()
-        });
+        session.photograph = self
+            .photograph
+            .source()
+            .map(|source| SessionPhotograph { path: absolute(&source.path), ..source.clone() });
         let (display, loss) = (Some(view.display.clone()), Some(self.settings.loss.clone()));
         let inspection =
             Some(SessionInspection::from(&self.inspection)).filter(|one| *one != Default::default());
@@ -166,26 +161,14 @@ impl Model {
         }
         let out_of_range = bring_into_range(self).map(Message::Warning);
         self.report(out_of_range);
-        let stamp = session.photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
-        self.photograph.set(session.photograph.clone(), stamp);
+        self.photograph.set(session.photograph.clone());
         let sources: Vec<_> = session.materials.iter().map(MaterialSource::of_session).collect();
         self.materials.restore(&sources)
     }
 
-    /// Compares renderings with a photograph, whose file has this stamp; `None` for the scene keeps light and view.
-    pub fn show_photograph(
-        &mut self,
-        photograph: SessionPhotograph,
-        stamp: Option<Stamp>,
-        scene: Option<Scene>,
-    ) {
-        self.photograph.set(Some(photograph), stamp);
-        self.view.scene = scene.unwrap_or(self.view.scene);
-        self.compare_with_photograph();
-    }
-
-    /// Shows what is compared with a photograph: renderings in one scene.
-    pub(super) fn compare_with_photograph(&mut self) {
+    /// Compares renderings with the photograph at `path`, in one scene; with the first of a capture under its light and view.
+    pub fn open_photograph(&mut self, path: PathBuf, capture: Option<Capture>) {
+        self.view.scene = self.photograph.open(path, capture).unwrap_or(self.view.scene);
         self.view.display.quantity = Quantity::Rendering;
         if self.view.is_computed() {
             // Of the ground truth: there are no photographs of all scenes, and FLIP is not computed beside one.

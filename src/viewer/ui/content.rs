@@ -6,11 +6,10 @@ use svbrdf_core::model::scene::Kind;
 
 use super::legend::strip::LegendStrip;
 use super::pane::scenery::Scenery;
-use super::pane::viewport::{PaneTools, STRIP, Viewport};
+use super::pane::viewport::{STRIP, Viewport};
 use super::shading::gpu_view::GpuView;
 use super::widgets::bare;
 use super::widgets::numbers::digits;
-use super::widgets::texture::PanelTextures;
 use crate::jobs::displayed::Displayed;
 use crate::model::Model;
 use crate::model::command::Command;
@@ -23,7 +22,6 @@ pub const CAPTION: f32 = 20.0;
 pub struct CentralArea<'a> {
     pub displayed: Displayed<'a>,
     pub viewport: &'a mut Viewport,
-    pub textures: &'a mut PanelTextures,
 }
 
 impl CentralArea<'_> {
@@ -41,8 +39,7 @@ impl CentralArea<'_> {
         }
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let scenery = scenery(ui.ctx(), displayed);
-            let drawing = PaneTools { gpu, uploads: &displayed.jobs.uploads, textures: self.textures };
-            commands.extend(self.viewport.ui(ui, &scenery, drawing, has_legend));
+            commands.extend(self.viewport.ui(ui, &scenery, gpu, &displayed.jobs.uploads, has_legend));
         });
         commands
     }

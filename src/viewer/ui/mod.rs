@@ -121,8 +121,7 @@ impl WindowUi {
                 area
             }
             None => {
-                let mut content =
-                    CentralArea { displayed, viewport: &mut self.viewport, textures: &mut self.textures };
+                let mut content = CentralArea { displayed, viewport: &mut self.viewport };
                 commands.extend(content.ui(ui, gpu));
                 self.viewport.area
             }

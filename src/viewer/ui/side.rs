@@ -9,7 +9,7 @@ use super::dataset::DatasetUi;
 use super::loss::panel::LossPanel;
 use super::materials::panel::MaterialsPanel;
 use super::panels::light_and_view::ScenePanel;
-use super::photograph::card::PhotographCard;
+use super::photograph::PhotographCard;
 use super::why::WhyPanel;
 use super::widgets::texture::PanelTextures;
 use super::widgets::{bare, order};
@@ -48,10 +48,10 @@ pub fn ui(
     if let Some(photograph) = jobs.photograph.displayed(&model.photograph, displayed.materials()) {
         let is_compared = displayed.photograph().is_some();
         let names = displayed.materials().iter().map(LoadedMaterial::name).collect();
-        let card = PhotographCard { photograph, names, is_compared };
+        let card = PhotographCard { photograph, listed: model.photograph.listed(), names, is_compared };
         bare(egui::Panel::bottom("photograph"), ui)
             .resizable(false)
-            .show(ui, |ui| commands.extend(card.ui(ui, textures)));
+            .show(ui, |ui| commands.extend(card.ui(ui)));
     }
     let tab = model.tab();
     let scroll = egui::ScrollArea::vertical().id_salt(tab as usize);

@@ -28,15 +28,14 @@ impl WindowUi {
             let uploaded = displayed.jobs.uploads.get(material.id());
             uploaded.into_iter().for_each(|uploaded| uploaded.complete(&gpu, material.material()));
         }
-        // Gestures, controls and corner handles stay in the window.
+        // Gestures and controls stay in the window.
         let displayed = Displayed { is_picture: true, ..displayed };
         let mut viewport = self.viewport.exact();
         let scale = ctx.pixels_per_point();
         let [width, height] = self.picture_size;
         let size = [width, height + (CAPTION * scale) as u32];
         Ok(snapshot(&state, &gpu, (size, scale), dark, |ui| {
-            let (viewport, textures) = (&mut viewport, &mut self.textures);
-            let mut content = CentralArea { displayed, viewport, textures };
+            let mut content = CentralArea { displayed, viewport: &mut viewport };
             drop(content.ui(ui, Some(view)));
         })?)
     }

@@ -3,5 +3,5 @@
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     let path = svbrdf_fuzz::written("fuzzed.png", bytes);
-    let _ = svbrdf_files::read::read_photograph(&path, &Default::default());
+    let _ = svbrdf_files::read::read_photograph(&svbrdf_files::disk::open::NamedFile::by_user(path), None);
 });

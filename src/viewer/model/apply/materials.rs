@@ -14,7 +14,6 @@ use crate::model::command::MaterialsCommand;
 use crate::model::command::effect::{DialogEffect, Effect};
 use crate::model::dataset::OpenDataset;
 use crate::model::material::request::{ReadRequest, Target};
-use crate::model::material::source::sources;
 
 pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect> {
     if replaces_all(&command) {

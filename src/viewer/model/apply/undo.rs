@@ -1,7 +1,5 @@
 //! Undo and redo.
 
-use svbrdf_files::disk::stamp::Stamp;
-
 use crate::model::Model;
 use crate::model::command::effect::Effect;
 use crate::model::exposed::Exposed;
@@ -53,8 +51,7 @@ fn return_to(model: &mut Model, moment: Option<Moment>) -> Vec<Effect> {
         model.settings.loss = model.settings.loss.with_file(scenes);
     }
     if photograph.as_ref() != model.photograph.source() {
-        let stamp = photograph.as_ref().and_then(|photograph| Stamp::of(&photograph.path));
-        model.photograph.set(photograph, stamp);
+        model.photograph.set(photograph);
     }
     if materials == model.history.materials {
         return Vec::new();

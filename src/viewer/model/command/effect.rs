@@ -2,8 +2,6 @@
 
 use std::path::PathBuf;
 
-use svbrdf_files::photograph::SessionPhotograph;
-use svbrdf_files::scene_file::PhotographLight;
 use svbrdf_files::session::dataset::SessionDataset;
 
 use super::BrowseFor;
@@ -36,11 +34,8 @@ pub enum Effect {
     RestoreDataset(Box<SessionDataset>),
     /// Reads a session file, which stands alone, and opens it.
     ReadSession(Vec<PathBuf>),
-    /// Reads light and view of a photograph where a file has them, and compares renderings with the photograph.
-    OpenPhotograph {
-        photograph: SessionPhotograph,
-        light: Option<PhotographLight>,
-    },
+    /// Compares renderings with a photograph, or with those that a folder or a file lists.
+    OpenPhotograph(PathBuf),
     /// Saves the assumptions specified for the material at this index in a sidecar file, and reads it again.
     SaveAssumptions(usize),
     Loss(LossEffect),
@@ -78,9 +73,6 @@ pub enum DialogEffect {
     ShowOpen(bool),
     /// Shows the save dialog for this kind of file; `None` closes it.
     ShowSave(Option<SaveKind>),
-    ShowPhotograph(bool),
-    /// Puts a path into the photograph dialog.
-    FillPhotograph(PathBuf),
     /// Asks for files or folders with the dialog of the system.
     Browse(BrowseFor),
 }

@@ -6,10 +6,8 @@ use std::path::PathBuf;
 
 pub mod dataset;
 pub mod effect;
-pub mod photograph;
 
 pub use dataset::DatasetCommand;
-pub use photograph::PhotographCommand;
 
 use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map;
@@ -18,7 +16,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::diagnose::Change;
 use svbrdf_files::convention::ChosenConvention;
-use svbrdf_files::read::ReadOptions;
+use svbrdf_files::read::{ReadOptions, Transfer};
 
 use super::inspection::Region;
 use super::settings::Tab;
@@ -244,6 +242,22 @@ pub enum WhyCommand {
     /// Searches the worst scene of the chosen prediction, and shows it.
     FindWorst,
     CancelSearch,
+}
+
+/// The photograph that renderings are compared with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PhotographCommand {
+    /// Compares renderings with the photograph at this path, under the light and view of the window; or with the first of those that a
+    /// folder or a JSON file lists, under its own.
+    Open(PathBuf),
+    /// Compares with the one of this number of those that are listed, under its light and view.
+    Choose(usize),
+    /// Compares with the ground truth again.
+    Close,
+    /// `None`: by the file.
+    SetTransfer(Option<Transfer>),
+    /// Whether the falloff of the light is divided out.
+    SetFalloff(bool),
 }
 
 impl From<DatasetCommand> for Command {

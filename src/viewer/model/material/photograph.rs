@@ -1,7 +1,10 @@
-//! Photograph of the window: which one is open, and whether its corners are edited.
+//! Photograph of the window, and the others that are listed with it.
 
+use std::path::PathBuf;
+
+use svbrdf_core::model::scene::Scene;
 use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::photograph::SessionPhotograph;
+use svbrdf_files::photograph::{Capture, SessionPhotograph};
 
 /// The photograph that renderings are compared with.
 #[derive(Debug, Default)]
@@ -9,15 +12,32 @@ pub struct PhotographState {
     source: Option<SessionPhotograph>,
     /// Of its file when it was opened: a file that has changed since is another photograph.
     stamp: Option<Stamp>,
-    edits_corners: bool,
+    /// Where it is one of several, all of them.
+    capture: Option<Capture>,
 }
 
 impl PhotographState {
-    /// Opens another photograph, whose file has this stamp, or closes the one that is open.
-    pub fn set(&mut self, source: Option<SessionPhotograph>, stamp: Option<Stamp>) {
+    /// Opens the photograph at `path`; light and view of the first where `path` is that of several.
+    pub fn open(&mut self, path: PathBuf, capture: Option<Capture>) -> Option<Scene> {
+        let is_one = capture.is_none();
+        self.capture = capture;
+        self.set(is_one.then_some(SessionPhotograph { path, transfer: None, falloff: false }));
+        self.choose(0)
+    }
+
+    /// Opens the photograph of this number of those that are listed; its light and view.
+    pub fn choose(&mut self, index: usize) -> Option<Scene> {
+        let capture = self.capture.as_ref()?;
+        let one = capture.photographs.get(index)?;
+        let (path, scene) = (one.file.path().to_owned(), one.scene);
+        self.set(Some(SessionPhotograph { path, transfer: one.transfer, falloff: capture.falloff }));
+        Some(scene)
+    }
+
+    /// Opens another photograph, or closes the one that is open.
+    pub fn set(&mut self, source: Option<SessionPhotograph>) {
+        self.stamp = source.as_ref().and_then(|source| Stamp::of(&source.path));
         self.source = source;
-        self.stamp = stamp;
-        self.edits_corners &= self.source.is_some();
     }
 
     /// The photograph that is open.
@@ -25,9 +45,9 @@ impl PhotographState {
         self.source.as_ref()
     }
 
-    /// The photograph that is open, to change how it is used.
-    pub fn source_mut(&mut self) -> Option<&mut SessionPhotograph> {
-        self.source.as_mut()
+    /// Changes how the photograph that is open is used.
+    pub fn change(&mut self, change: impl FnOnce(&mut SessionPhotograph)) {
+        self.source.as_mut().map(change);
     }
 
     /// The stamp of its file when it was opened.
@@ -35,13 +55,10 @@ impl PhotographState {
         self.stamp
     }
 
-    /// Starts or ends to edit the corners.
-    pub fn edit_corners(&mut self, on: bool) {
-        self.edits_corners = on && self.source.is_some();
-    }
-
-    /// Whether the corners are edited: the pane of the photograph then shows it as it was taken.
-    pub fn edits_corners(&self) -> bool {
-        self.edits_corners
+    /// The names of all photographs where it is one of several, and its number.
+    pub fn listed(&self) -> Option<(Vec<&str>, usize)> {
+        let (source, all) = (self.source.as_ref()?, &self.capture.as_ref()?.photographs);
+        let number = all.iter().position(|one| one.file.path() == source.path)?;
+        Some((all.iter().map(|one| one.name.as_str()).collect(), number))
     }
 }

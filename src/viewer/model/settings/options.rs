@@ -1,10 +1,10 @@
 //! Options of the window: what it starts with.
 
+use std::path::PathBuf;
+
 use crate::model::dataset::OpenDataset;
 use svbrdf_core::loss::FileScenes;
-use svbrdf_core::model::scene::Scene;
 use svbrdf_files::convention::ChosenConvention;
-use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
 
@@ -22,8 +22,8 @@ pub struct ViewerOptions {
     pub strict: bool,
     /// Whether predictions of another size are resized to the ground truth.
     pub fit: bool,
-    /// A photograph that renderings are compared with; with its light and view, `None` for the scene of the session or the default.
-    pub photograph: Option<(SessionPhotograph, Option<Scene>)>,
+    /// A photograph that renderings are compared with, or what lists several.
+    pub photograph: Option<PathBuf>,
     /// The convention of renderings and loss; `None` for that of the session or the default.
     pub convention: Option<ChosenConvention>,
     /// The scenes of the loss; `None` for the scenes of the session or the settings.

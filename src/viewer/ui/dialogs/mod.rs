@@ -2,7 +2,6 @@
 
 pub mod open;
 pub mod path_field;
-pub mod photograph;
 pub mod save;
 
 use std::path::PathBuf;
@@ -15,7 +14,6 @@ use crate::jobs::displayed::Displayed;
 use crate::model::command::Command;
 
 use open::OpenDialog;
-use photograph::PhotographDialog;
 use save::SaveDialog;
 
 /// What to do without a file dialog.
@@ -27,13 +25,12 @@ const NO_DIALOG: &str = "This system has no file dialog: install zenity or a des
 pub struct Dialogs {
     pub open: Option<OpenDialog>,
     pub save: Option<SaveDialog>,
-    pub photograph: Option<PhotographDialog>,
 }
 
 impl Dialogs {
     /// Whether a dialog is open: the panes behind it do not move.
     pub fn is_open(&self) -> bool {
-        self.open.is_some() || self.save.is_some() || self.photograph.is_some()
+        self.open.is_some() || self.save.is_some()
     }
 
     /// Draws the dialogs.
@@ -42,17 +39,13 @@ impl Dialogs {
         if let Some(dialog) = &mut self.open {
             commands.extend(dialog.ui(ctx, &model.recent));
         }
-        if let Some(dialog) = &mut self.photograph {
-            commands.extend(dialog.ui(ctx));
-        }
         if let Some(dialog) = &mut self.save {
             commands.extend(dialog.ui(ctx, displayed.jobs.saving.as_ref()));
         }
         commands
     }
 
-    /// Takes over what was chosen in the dialog of the system: the photograph or the save dialog where it is open, otherwise the
-    /// open dialog.
+    /// Takes over what was chosen in the dialog of the system: the save dialog where it is open, otherwise the open dialog.
     pub fn browsed(&mut self, result: Result<Browsed, Error>) {
         let chosen = match result {
             Ok(Browsed::Chosen(paths)) => Ok(paths),
@@ -66,14 +59,10 @@ impl Dialogs {
                 Err(problem) => dialog.fail(problem),
             };
         }
-        match (&mut self.photograph, chosen) {
-            (Some(dialog), Ok(paths)) => paths.first().into_iter().for_each(|path| dialog.fill(path)),
-            (Some(dialog), Err(problem)) => dialog.fail(problem),
-            (None, Ok(paths)) => {
-                let dialog = self.open.get_or_insert_default();
-                paths.iter().for_each(|path: &PathBuf| dialog.add(&path.display().to_string()));
-            }
-            (None, Err(problem)) => self.open.get_or_insert_default().fail(problem),
+        let dialog = self.open.get_or_insert_default();
+        match chosen {
+            Ok(paths) => paths.iter().for_each(|path: &PathBuf| dialog.add(&path.display().to_string())),
+            Err(problem) => dialog.fail(problem),
         }
     }
 }

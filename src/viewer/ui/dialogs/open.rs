@@ -8,7 +8,9 @@ use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
 use super::path_field::{PathField, dialog};
-use crate::model::command::{BrowseFor, Command, DatasetCommand, MaterialsCommand, WindowCommand};
+use crate::model::command::{
+    BrowseFor, Command, DatasetCommand, MaterialsCommand, PhotographCommand, WindowCommand,
+};
 use crate::model::material::source::file_name;
 
 /// The paths and choices so far.
@@ -31,6 +33,7 @@ pub enum Opens {
     Comparison,
     Predictions,
     Dataset,
+    Photograph,
 }
 
 /// Height below the list of recent materials, and least height of the list.
@@ -145,6 +148,11 @@ impl OpenDialog {
                 "A data set: a folder of ground truths, then one of each method",
                 "Materials are matched by name, as `svbrdf rank --dataset` does; or one CSV table of pairs",
             ),
+            (
+                Opens::Photograph,
+                "A photograph in the place of the ground truth",
+                "Rectified, under the light and view of the window; or a folder of photographs with capture.json",
+            ),
         ] {
             ui.radio_value(&mut self.opens, opens, text).on_hover_text(hover);
         }
@@ -160,6 +168,7 @@ impl OpenDialog {
             self.field.clear();
             commands.push(match self.opens {
                 Opens::Dataset => DatasetCommand::Open(paths).into(),
+                Opens::Photograph => PhotographCommand::Open(paths[0].clone()).into(),
                 opens => {
                     let replace = opens == Opens::Comparison;
                     MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO }.into()

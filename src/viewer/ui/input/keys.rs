@@ -100,10 +100,7 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
                 "Ctrl + Z / Ctrl + Shift + Z",
                 "undo / redo light, view, display, materials and photograph (redo also: Ctrl + Y)",
             ),
-            (
-                "Esc",
-                "close a dialog or the corners, cancel a search or the loss, or show the whole prediction again",
-            ),
+            ("Esc", "close a dialog, cancel a search or the loss, or show the whole prediction again"),
             ("B", "side panel, on / off"),
             ("Ctrl + plus / minus / 0", "size of text and controls"),
             ("double-click a number", "reset it to its default"),

@@ -12,8 +12,8 @@ use svbrdf_files::read::ReadOptions;
 use super::dialogs::Dialogs;
 use crate::jobs::displayed::Displayed;
 use crate::model::command::{
-    Command, DatasetCommand, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand,
-    PhotographCommand, WhyCommand, WindowCommand,
+    Command, DatasetCommand, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, WhyCommand,
+    WindowCommand,
 };
 
 /// The commands of the keys and of dropped files.
@@ -25,7 +25,7 @@ pub fn commands(ctx: &egui::Context, displayed: Displayed<'_>, dialogs: &Dialogs
         difference: displayed.model.view.display.difference,
     };
     let mut commands = keys::commands(ctx, now);
-    commands.extend(dropped(ctx, displayed, dialogs));
+    commands.extend(dropped(ctx, displayed));
     commands
 }
 
@@ -33,11 +33,9 @@ pub fn commands(ctx: &egui::Context, displayed: Displayed<'_>, dialogs: &Dialogs
 fn escape(displayed: Displayed<'_>, dialogs: &Dialogs) -> Command {
     let (model, jobs) = (displayed.model, displayed.jobs);
     match () {
-        () if dialogs.photograph.is_some() => PhotographCommand::ShowOpen(false).into(),
         () if model.help => WindowCommand::ShowHelp(false).into(),
         () if dialogs.open.is_some() => WindowCommand::ShowOpen(false).into(),
         () if dialogs.save.is_some() => WindowCommand::ShowSave(false).into(),
-        () if model.photograph.edits_corners() => PhotographCommand::EditCorners(false).into(),
         () if model.dataset.sheet.is_open => DatasetCommand::ShowSheet(false).into(),
         () if model.inspection.is_armed => InspectionCommand::Arm(false).into(),
         () if model.inspection.region.is_some() => InspectionCommand::SetRegion(None).into(),
@@ -49,12 +47,9 @@ fn escape(displayed: Displayed<'_>, dialogs: &Dialogs) -> Command {
 }
 
 /// Opens files that were dropped on the window: in place of the built-in materials, otherwise as predictions.
-fn dropped(ctx: &egui::Context, displayed: Displayed<'_>, dialogs: &Dialogs) -> Option<Command> {
+fn dropped(ctx: &egui::Context, displayed: Displayed<'_>) -> Option<Command> {
     let paths: Vec<PathBuf> =
         ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
-    if let (Some(path), Some(_)) = (paths.first(), &dialogs.photograph) {
-        return Some(PhotographCommand::Fill(path.clone()).into());
-    }
     let replace = displayed.model.materials.only_built_in();
     let is_empty = paths.is_empty();
     (!is_empty).then(|| MaterialsCommand::Open { paths, replace, read: ReadOptions::AUTO }.into())

@@ -10,7 +10,6 @@ use crate::jobs::photograph::DisplayedPhotograph;
 use crate::model::inspection::Inspection;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::{Layout, ViewState};
-use crate::ui::photograph::corner_editor::CornerEditor;
 use crate::ui::widgets::names::shortened;
 
 /// What the panes show, for one frame.
@@ -130,7 +129,6 @@ impl Scenery<'_> {
             Layout::SideBySide => {
                 std::iter::once(photograph).chain((0..self.materials.len()).map(material)).collect()
             }
-            Layout::Single | Layout::Wipe if self.corner_editor(photograph).is_some() => vec![photograph],
             Layout::Single => vec![if self.swapped { photograph } else { chosen }],
             Layout::Wipe => {
                 vec![PaneContent { mode: DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0), ..chosen }]
@@ -142,12 +140,6 @@ impl Scenery<'_> {
             panes.swap(0, self.chosen() + 1);
         }
         panes
-    }
-
-    /// Where a pane shows the whole photograph, to edit the corners of the material in it.
-    pub fn corner_editor(&self, content: PaneContent) -> Option<CornerEditor<'_>> {
-        let corners = self.photograph?.corners.filter(|_| content.photograph == PhotographUse::Displayed);
-        corners.map(CornerEditor)
     }
 
     /// The name of what a pane shows, without its difference, in about `most` characters.

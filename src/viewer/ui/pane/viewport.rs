@@ -29,7 +29,6 @@ use crate::ui::shading::shaded::{ShadedPart, ShadingRequest, shaded_size};
 use crate::ui::shading::visible::shaded_part;
 use crate::ui::widgets::hint::{note, paint_hint};
 use crate::ui::widgets::readout::{self, Readout};
-use crate::ui::widgets::texture::PanelTextures;
 use crate::ui::widgets::theme;
 
 /// A view steeper than this above the plane (its sine) is one from straight above.
@@ -40,15 +39,6 @@ const HANDLES: f32 = 120.0;
 
 /// Height of the strip below the panes, in points.
 pub const STRIP: f32 = 92.0;
-
-/// What panes are drawn with.
-#[derive(Debug)]
-pub struct PaneTools<'a> {
-    /// `None` where there is no adapter.
-    pub gpu: Option<&'a mut GpuView>,
-    pub uploads: &'a Uploads,
-    pub textures: &'a mut PanelTextures,
-}
 
 /// The state of the panes between frames.
 #[derive(Debug)]
@@ -121,19 +111,20 @@ impl Viewport {
         commands
     }
 
-    /// Draws the panes, which may have a strip below them, and returns the commands of their titles and of the corner editor.
+    /// Draws the panes, which may have a strip below them, and returns the commands of their titles.
     pub fn ui(
         &mut self,
         ui: &mut egui::Ui,
         scenery: &Scenery<'_>,
-        drawing: PaneTools<'_>,
+        gpu: Option<&mut GpuView>,
+        uploads: &Uploads,
         has_strip: bool,
     ) -> Vec<Command> {
         let area = ui.available_rect_before_wrap();
         self.area = area;
         self.hovered = None;
         self.drawn.clear();
-        let PaneTools { gpu: Some(gpu), uploads, textures } = drawing else {
+        let Some(gpu) = gpu else {
             note(ui, area, "No graphics adapter: materials cannot be drawn. The loss can be computed.");
             return Vec::new();
         };
@@ -161,8 +152,7 @@ impl Viewport {
             return Vec::new();
         }
         let panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
-        let mut on_material = panes.iter().filter(|(content, _)| scenery.corner_editor(*content).is_none());
-        self.hovered = on_material.find_map(|(content, cell)| {
+        self.hovered = panes.iter().find_map(|(content, cell)| {
             let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());
             Hovered::in_pane(ui, scenery, *content, &placed)
         });
@@ -174,10 +164,7 @@ impl Viewport {
             let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
             commands.extend(title_bar(ui, scenery, i, content, title));
             let rect = picture_rect(ui, cell);
-            match scenery.corner_editor(content) {
-                Some(editor) => commands.extend(editor.ui(ui, rect, i, textures)),
-                None => self.pane(ui, scenery, gpu, i, content, rect),
-            }
+            self.pane(ui, scenery, gpu, i, content, rect);
         }
         commands
     }

@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use super::top::TopBar;
-use crate::model::command::{Command, DatasetCommand, PhotographCommand, WindowCommand};
+use crate::model::command::{Command, DatasetCommand, WindowCommand};
 use crate::model::dataset::DatasetState;
 use crate::model::dataset::list::ListView;
 
@@ -16,17 +16,6 @@ impl TopBar<'_> {
             self.of_dataset(ui, open.noun(), commands);
             ui.separator();
         }
-        let (text, hover, command) = if self.has_photograph {
-            ("Close photograph", "Compare with the ground truth again", PhotographCommand::Close)
-        } else {
-            let hover = "Compare renderings with a photograph, under its light and view";
-            ("Open photograph...", hover, PhotographCommand::ShowOpen(true))
-        };
-        if ui.button(text).on_hover_text(hover).clicked() {
-            commands.push(command.into());
-            ui.close();
-        }
-        ui.separator();
         let theme = if self.dark { "Light theme" } else { "Dark theme" };
         if ui.button(theme).on_hover_text("Colours of the window").clicked() {
             commands.push(WindowCommand::SetDark(!self.dark).into());

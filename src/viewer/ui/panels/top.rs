@@ -26,8 +26,6 @@ pub struct TopBar<'a> {
     pub swapped: bool,
     /// Size of text and controls.
     pub scale: f32,
-    /// Whether renderings are compared with a photograph.
-    pub has_photograph: bool,
     pub dataset: &'a DatasetState,
 }
 
@@ -41,7 +39,6 @@ impl<'a> TopBar<'a> {
             side_panel: model.side_panel(),
             swapped: model.swapped,
             scale: model.settings.ui_scale,
-            has_photograph: model.photograph.source().is_some(),
             dataset: &model.dataset,
         }
     }
