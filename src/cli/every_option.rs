@@ -169,9 +169,8 @@ fn options(mode: &str) -> BTreeSet<(String, String)> {
         let short = argument.get_short().map(|short| format!("-{short}")).unwrap_or_default();
         argument.get_long().is_some() && !typed.iter().any(|word| *word == long || *word == short)
     };
-    let visible = command.get_arguments().filter(|argument| !argument.is_hide_set());
-    visible
-        .filter(is_new)
+    let new = command.get_arguments().filter(is_new);
+    new
         .map(|argument| {
             let option = argument.get_long().unwrap();
             let value = named(VALUES, mode, option);

@@ -38,7 +38,7 @@ pub struct InfoArgs {
     ///
     /// The options are written to svbrdf.json in a folder, or to NAME.svbrdf.json beside a file NAME.png or the files of a prefix
     /// NAME_. Options of the command line take precedence over them.
-    #[arg(long, alias = "keep")]
+    #[arg(long)]
     save: bool,
 
     #[command(flatten)]

@@ -30,15 +30,14 @@ mod view;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
-use clap::{ArgAction, ArgMatches, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use clap::{ArgAction, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use svbrdf_files::Error;
 
-use args::reading::former;
 use args::{Given, TrustArgs};
 use job::NewJob;
 use output::CommandError;
-use output::exit::{exit_code, explain, put, tell};
+use output::exit::{exit_code, explain, put};
 
 /// The licences of the crates and fonts in this program.
 const THIRD_PARTY: &str = include_str!("../../packaging/THIRD-PARTY");
@@ -107,7 +106,7 @@ pub fn main() -> ExitCode {
         .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
     {
         Ok((cli, matches)) => {
-            exit_code(note_former_options(&matches).and_then(|()| cli.run(&Given::of(&matches))))
+            exit_code(cli.run(&Given::of(&matches)))
         }
         Err(version) if version.kind() == ErrorKind::DisplayVersion => exit_code(print_version()),
         Err(unusual) => explain(unusual),
@@ -122,12 +121,6 @@ fn before_parsing() -> Option<Result<(), CommandError>> {
         return Some(put(&help::topic(&second?)?).map_err(CommandError::from));
     }
     help::mistyped(&first).map(|problem| Err(CommandError::Usage(problem)))
-}
-
-/// Notes the former options of reading, and the form that replaces them.
-fn note_former_options(matches: &ArgMatches) -> Result<(), CommandError> {
-    former::note(matches)?.iter().for_each(|note| tell(note));
-    Ok(())
 }
 
 /// The parser of the command line stops at `--version`, wherever `--verbose` stands.

@@ -1,13 +1,13 @@
 //! Enums whose values have names.
 
-/// An enum whose values have names for users and files; `| "old"` is a former name that is still read.
+/// An enum whose values have names for users and files.
 #[macro_export]
 macro_rules! choices {
-    ($(#[$meta:meta])* $type:ident, $what:literal: $($(#[$of_variant:meta])* $variant:ident = $name:literal $(| $old:literal)*,)+) => {
+    ($(#[$meta:meta])* $type:ident, $what:literal: $($(#[$of_variant:meta])* $variant:ident = $name:literal,)+) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
         pub enum $type {
-            $($(#[$of_variant])* #[serde(rename = $name $(, alias = $old)*)] $variant,)+
+            $($(#[$of_variant])* #[serde(rename = $name)] $variant,)+
         }
 
         impl $type {
@@ -33,7 +33,7 @@ macro_rules! choices {
 
             fn from_str(name: &str) -> Result<Self, Self::Err> {
                 match name {
-                    $($name $(| $old)* => Ok(Self::$variant),)+
+                    $($name => Ok(Self::$variant),)+
                     _ => Err($crate::error::Error::unknown_name($what, name, Self::ALL.map(Self::name).join(", "))),
                 }
             }

@@ -15,9 +15,11 @@ fn help_shows_examples_and_exit_codes() {
 }
 
 /// Command lines, their status, and what they are told.
-const REFUSALS: [(&str, i32, &str); 59] = [
+const REFUSALS: [(&str, i32, &str); 66] = [
     ("loss gt.png a.png --convention other", 64, "guided-2020"),
     ("loss gt.png a.png --precision f16", 64, "f32, f64"),
+    ("loss gt.png a.png --backend tpu", 64, "auto"),
+    ("loss gt.png a.png --backend gpu --precision f64", 64, "leave out --backend gpu"),
     ("loss gt.png a.png --near 0 --distant 0", 64, "at least one scene"),
     ("loss gt.png", 64, "no prediction"),
     ("map gt.png a.png -o x.csv --side 8", 64, "the size of its material; leave out --side"),
@@ -46,6 +48,12 @@ const REFUSALS: [(&str, i32, &str); 59] = [
     ("loss gt.png a.png --texels 64", 64, "not with texels 64"),
     ("render gt.png -o x.png --exposure nan", 64, "number of stops"),
     ("render gt.png big.png -o x.png", 1, "one by one"),
+    ("metrics --protocol matfusion gt.png big.png", 1, "sizes differ"),
+    ("metrics --protocol matfusion gt.png a.png --near 3", 64, "exposure; leave out --near"),
+    ("metrics --protocol matfusion gt.png a.png --exposure 1", 64, "leave out --exposure"),
+    ("metrics gt.png a.png --renderings out", 64, "--protocol"),
+    ("metrics gt.png a.png --near 3 --renderings out", 64, "only a --protocol writes renderings"),
+    ("metrics --protocol other gt.png a.png", 64, "matfusion"),
     ("metrics gt.png a.png --exposure nan", 64, "stops"),
     ("rank gt.png a.png --metrics", 64, "svbrdf metrics"),
     ("blame gt.png", 64, "no prediction"),
@@ -63,12 +71,11 @@ const REFUSALS: [(&str, i32, &str); 59] = [
     ("render gt.png -o x.png --read pred:albedo=srgb", 64, "no prediction; leave out --read"),
     ("loss a.png gt.png --read gt:albedo=srgb", 64, "give it another name"),
     ("loss --read albedo=srgb", 64, "the built-in materials are not read from files; leave out --read"),
-    ("loss --albedo srgb", 64, "the built-in materials are not read from files; leave out --read"),
     ("study gt.png gt.png -o study.csv", 1, "look the same"),
     ("study gt.png", 64, "one prediction"),
     ("study gt.png a.png b.png", 64, "found 2; leave out the others"),
     ("study gt.png big.png", 1, "8 x 8, prediction big is 16 x 16"),
-    ("study gt.png a.png --plot study.jpg", 64, ".pdf, .svg, .png"),
+    ("study gt.png a.png --plot study.jpg", 64, ".svg, .png"),
     ("study gt.png a.png --plot no/study.svg", 1, "create the folder"),
     ("study gt.png a.png -o no/study.csv", 1, "create the folder"),
     ("render gt.png --difference -o out.png", 64, "prediction"),
@@ -95,14 +102,19 @@ fn without_a_display_the_window_names_the_headless_commands() {
 #[test]
 fn an_unknown_graphics_interface_is_named() {
     let folder = folder();
-    for value in ["", "vulcan", "vulkan,dx13"] {
+    for (value, args) in [
+        ("", "render gt.png --gpu -o x.png"),
+        ("vulcan", "render gt.png --gpu -o x.png"),
+        ("vulkan,dx13", "loss gt.png a.png --near 2 --backend gpu"),
+        ("vulcan", "view gt.png a.png"),
+    ] {
         let mut command = svbrdf();
-        command.args(["view", "gt.png", "a.png"]).current_dir(folder.path()).env("WGPU_BACKEND", value);
+        command.args(args.split(' ')).current_dir(folder.path()).env("WGPU_BACKEND", value);
         let output = command.output().unwrap();
         let stderr = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{value}: {stderr}");
+        assert_eq!(output.status.code(), Some(2), "{args}: {stderr}");
         let found = format!("WGPU_BACKEND, found \"{value}\"");
-        assert!(stderr.contains(&found) && stderr.contains("unset it"), "{value}: {stderr}");
+        assert!(stderr.contains(&found) && stderr.contains("unset it"), "{args}: {stderr}");
     }
 }
 

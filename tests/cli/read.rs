@@ -36,53 +36,6 @@ fn options_of_reading_apply_to_all_to_a_side_or_to_a_name() {
     succeed(folder.path(), "info gt.png --read gt:albedo=srgb");
 }
 
-/// Old and new form, and what is read.
-#[test]
-fn former_options_do_the_same_and_note_the_form_that_replaces_them() {
-    let folder = folder();
-    let run = |args: &str| {
-        let output = run_in(folder.path(), args);
-        assert!(output.status.success(), "{args}: {output:?}");
-        (output.stdout, text(&output.stderr).to_owned())
-    };
-    for (former, options, current) in [
-        ("--albedo srgb", "--albedo", "--read albedo=srgb"),
-        ("--specular-albedo srgb", "--specular-albedo", "--read specular-albedo=srgb"),
-        ("--normal-y down", "--normal-y", "--read normal-y=down"),
-        ("--normal-code signed", "--normal-encoding", "--read normal-encoding=signed"),
-        (
-            "--roughness gloss --energy unscaled",
-            "--roughness, --energy",
-            "--read energy=unscaled,roughness=gloss",
-        ),
-        ("--workflow specular", "--workflow", "--read workflow=specular"),
-        ("--dielectric-f0 0.2", "--dielectric-f0", "--read dielectric-f0=0.2"),
-        ("--order dnrs", "--order", "--read order=dnrs"),
-        ("--grid 2x2", "--grid", "--read grid=2x2"),
-        ("--flip-v", "--flip-v", "--read flip-v=true"),
-        ("--exemplar 0", "--exemplar", "--read exemplar=0"),
-        ("--non-finite replace", "--non-finite", "--read non-finite=replace"),
-        (
-            "--gt-albedo srgb --pred-albedo log0.01",
-            "--gt-albedo, --pred-albedo",
-            "--read gt:albedo=srgb --read pred:albedo=log0.01",
-        ),
-        ("--pred-roughness alpha", "--pred-roughness", "--read pred:roughness=alpha"),
-    ] {
-        let [old, new] =
-            [former, current].map(|options| run(&format!("loss gt.png a.png --scenes one.json {options}")));
-        assert_eq!(old.0, new.0, "{former}");
-        let note = format!("svbrdf: note: {options} end with the next version; use {current}\n");
-        assert_eq!(old.1.replacen(&note, "", 1), new.1, "{former}");
-        assert!(old.1.contains(&note), "{former}: {}", old.1);
-    }
-    let help = succeed(folder.path(), "loss --help");
-    assert!(
-        help.contains("--read <") && !help.contains("--pred-albedo") && !help.contains("  --albedo"),
-        "{help}"
-    );
-}
-
 #[test]
 fn a_material_has_the_name_before_its_path_in_every_result() {
     let folder = folder();

@@ -55,7 +55,7 @@ fn everything_that_can_be_said_can_be_kept() {
         roughness: Some(Roughness::Gloss),
         workflow: Some("specular".parse().unwrap()),
         dielectric: Some("0.05".parse().unwrap()),
-        energy: Some("plain".parse().unwrap()),
+        energy: Some("unscaled".parse().unwrap()),
         order: Some(Order::NDRS),
         grid: Some("4x1".parse().unwrap()),
         exemplar: Some(1),

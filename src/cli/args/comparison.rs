@@ -11,7 +11,7 @@ use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::source::MaterialSource;
 
 use super::floor::FloorArgs;
-use super::reading::{FormerSideArgs, PairReadingArgs, Side, StatementArgs};
+use super::reading::{PairReadingArgs, Side, StatementArgs};
 use super::{Given, NamedPath, offered, refuse, wildcards};
 use crate::cli::output::CommandError;
 
@@ -103,7 +103,6 @@ impl MaterialArgs {
     /// [`CommandError::Usage`].
     fn refuse(&self, given: &Given, reason: &str) -> Result<(), CommandError> {
         given.refuse::<StatementArgs>(reason)?;
-        given.refuse::<FormerSideArgs>(reason)?;
         refuse(self.reading.resize_to.is_some(), "resize-to", reason)
     }
 

@@ -3,7 +3,6 @@
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Command};
 
-use super::reading::former;
 use crate::cli::output::CommandError;
 
 /// The names of the specified arguments of a subcommand.
@@ -27,7 +26,7 @@ impl Given {
         let mut unused =
             unused.get_arguments().filter(|unused| self.0.iter().any(|id| unused.get_id() == id));
         let option = unused.find_map(|unused| unused.get_long());
-        refuse(option.is_some(), former::current(option.unwrap_or_default()), reason)
+        refuse(option.is_some(), option.unwrap_or_default(), reason)
     }
 }
 

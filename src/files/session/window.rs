@@ -130,7 +130,7 @@ impl AutoExposure {
     }
 }
 
-/// What the panes show of the materials, and how. Every field has a default, so that the sessions of older versions open.
+/// What the panes show of the materials, and how. Every field has a default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SessionDisplay {

@@ -1,7 +1,6 @@
 //! Options of reading: how the files of materials are read, and the size that materials are brought to.
 
 mod decision;
-pub mod former;
 mod statement;
 
 use std::str::FromStr;
@@ -13,8 +12,6 @@ use svbrdf_files::source::MaterialSource;
 use crate::cli::args::offered;
 use crate::cli::output::CommandError;
 pub use decision::{Side, StatedReading};
-use former::FormerArgs;
-pub use former::FormerSideArgs;
 use statement::Statement;
 
 /// The heading of the options of reading.
@@ -25,9 +22,6 @@ pub const READING: &str = "Reading materials";
 pub struct PairReadingArgs {
     #[command(flatten)]
     pub both: ReadingArgs,
-
-    #[command(flatten)]
-    former: FormerSideArgs,
 
     /// Resizes all materials: to the size of the ground truth, of the first prediction, or to a width of N texels
     #[arg(long, value_name = "gt|pred|N", allow_negative_numbers = true)]
@@ -65,15 +59,11 @@ pub struct StatementArgs {
     #[arg(long, value_name = "[WHOSE:]PRESET", long_help = preset_help())]
     #[arg(value_parser = offered(Statement::of_preset, Preset::ALL), hide_possible_values = true)]
     preset: Vec<Statement>,
-
-    #[command(flatten)]
-    former: FormerArgs,
 }
 
 impl ReadingArgs {
     fn statements(&self) -> impl Iterator<Item = &Statement> {
-        let StatementArgs { read, preset, former } = &self.statements;
-        read.iter().chain(preset).chain(&former.0)
+        self.statements.read.iter().chain(&self.statements.preset)
     }
 
     /// How the only `material` of a command is read.
@@ -96,7 +86,7 @@ impl PairReadingArgs {
     /// # Errors
     /// [`Error::SpecifiedTwice`].
     pub fn reading(&self) -> Result<StatedReading, Error> {
-        StatedReading::new(self.both.statements().chain(&self.former.0))
+        StatedReading::new(self.both.statements())
     }
 }
 

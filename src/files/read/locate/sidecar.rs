@@ -25,8 +25,6 @@ const IN_FOLDER: &str = "svbrdf.json";
 const BESIDE: &str = ".svbrdf.json";
 /// The key of the maps that are specified one by one.
 const MAPS: &str = "maps";
-/// A former key that is still read.
-const FORMER: &str = "normal-code";
 
 /// How a material is read unless other options are specified: the content of its sidecar file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -80,7 +78,7 @@ impl Sidecar {
         }
         // One by one, so that an error can name the key.
         for (key, value) in &all {
-            if !keys().contains(key) && key != FORMER {
+            if !keys().contains(key) {
                 return Err(bad(format!("unknown key `{key}`")));
             }
             let one = Value::from(Map::from_iter([(key.clone(), value.clone())]));

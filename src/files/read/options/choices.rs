@@ -72,9 +72,9 @@ choices! {
     /// Whether the renderer that diffuse was made for scales it by (1 - specular), as this one does.
     Energy, "diffuse scaling":
     /// Diffuse is scaled by (1 - specular) (Deschaintre, MaterialGAN): the stored value is used.
-    Scaled = "scaled" | "deschaintre",
+    Scaled = "scaled",
     /// Diffuse is not scaled by (1 - specular): d / (1 - s) is used, so that the material looks the same here.
-    Unscaled = "unscaled" | "plain",
+    Unscaled = "unscaled",
 }
 
 choices! {

@@ -35,7 +35,6 @@ pub struct ReadOptions {
     #[serde(rename = "specular-albedo")]
     pub specular: Option<Albedo>,
     pub normal_y: Option<NormalY>,
-    #[serde(alias = "normal-code")]
     pub normal_encoding: Option<NormalEncoding>,
     pub roughness: Option<Roughness>,
     pub workflow: Option<Workflow>,
