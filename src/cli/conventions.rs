@@ -21,9 +21,6 @@ pub struct ConventionsArgs {
 }
 
 /// Prints to stdout.
-///
-/// # Errors
-/// Where the name is unknown, or stdout cannot be written.
 pub fn run(args: &ConventionsArgs) -> Result<(), CommandError> {
     let text = match &args.convention {
         Some(name) => convention::read(name)?.to_string(),

@@ -31,9 +31,6 @@ pub struct ManArgs {
 }
 
 /// Prints the completions to stdout.
-///
-/// # Errors
-/// [`Error::Unwritable`].
 pub fn completions(args: &CompletionsArgs, mut program: Command) -> Result<(), CommandError> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut program, "svbrdf", &mut script);
@@ -41,9 +38,6 @@ pub fn completions(args: &CompletionsArgs, mut program: Command) -> Result<(), C
 }
 
 /// Writes the pages.
-///
-/// # Errors
-/// [`Error::Unwritable`].
 pub fn man(args: &ManArgs, program: Command) -> Result<(), CommandError> {
     let write = move |folder: &Path| -> io::Result<()> {
         fs::create_dir_all(folder)?;

@@ -105,9 +105,7 @@ pub fn main() -> ExitCode {
         .try_get_matches()
         .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
     {
-        Ok((cli, matches)) => {
-            exit_code(cli.run(&Given::of(&matches)))
-        }
+        Ok((cli, matches)) => exit_code(cli.run(&Given::of(&matches))),
         Err(version) if version.kind() == ErrorKind::DisplayVersion => exit_code(print_version()),
         Err(unusual) => explain(unusual),
     }
@@ -152,10 +150,6 @@ impl Cli {
 
 impl Subcommands {
     /// What a command does.
-    ///
-    /// # Errors
-    /// Where the arguments contradict each other, or what they name cannot be read; [`CommandError::Usage`] for options that the mode
-    /// of the command does not use.
     fn job(self, given: &Given) -> NewJob {
         match self {
             Self::View(args) => args.job(given),

@@ -139,9 +139,6 @@ fn content(args: &RenderArgs, session: Option<&SessionSettings>) -> Result<Pictu
 }
 
 /// The difference of this name, or the default one of `quantity`.
-///
-/// # Errors
-/// [`Error::UnknownName`], [`CommandError::Usage`] where the quantity has no such difference.
 pub fn difference_of(
     quantity: Quantity,
     name: &str,

@@ -20,9 +20,6 @@ pub struct SchemaArgs {
 }
 
 /// Prints the schema to stdout.
-///
-/// # Errors
-/// Where stdout cannot be written.
 pub fn run(args: &SchemaArgs) -> Result<(), CommandError> {
     let text = match args.report.as_deref().and_then(schema::named) {
         Some(one) => json::text(&one),

@@ -18,9 +18,6 @@ impl Given {
     }
 
     /// Refuses the options of `A`, which the mode of a command does not use.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
     pub fn refuse<A: clap::Args>(&self, reason: &str) -> Result<(), CommandError> {
         let unused = A::augment_args(Command::new("unused"));
         let mut unused =
@@ -31,9 +28,6 @@ impl Given {
 }
 
 /// Refuses an option that the mode of a command does not use, where it is specified.
-///
-/// # Errors
-/// [`CommandError::Usage`].
 pub fn refuse(is_specified: bool, option: &str, reason: &str) -> Result<(), CommandError> {
     if is_specified { Err(CommandError::Usage(format!("{reason}; leave out --{option}"))) } else { Ok(()) }
 }

@@ -115,8 +115,6 @@ pub enum Lights {
 }
 
 impl SceneArgs {
-    /// # Errors
-    /// As [`ListArgs::file`].
     pub fn options(&self) -> Result<LossOptions, CommandError> {
         Ok(LossOptions { seed: self.seed.seed, file: self.list.file()?, ..self.sampled.options() })
     }
@@ -142,8 +140,6 @@ impl AccuracyArgs {
 }
 
 impl QuestionArgs {
-    /// # Errors
-    /// As [`SceneArgs::options`].
     pub fn options(&self) -> Result<LossOptions, CommandError> {
         Ok(LossOptions { target_error: self.target_error.target_error, ..self.scenes.options()? })
     }
@@ -171,9 +167,6 @@ impl QuestionArgs {
 
 impl ListArgs {
     /// The scenes of the list; `None` where scenes are sampled.
-    ///
-    /// # Errors
-    /// Where a scene file cannot be read; [`CommandError::Usage`] for a field of view that the scenes do not use.
     pub fn file(&self) -> Result<Option<FileScenes>, CommandError> {
         let is_flash = self.lights == Some(Lights::Flash);
         refuse(self.fov.is_some() && !is_flash, "fov", "a field of view belongs to `--lights flash`")?;
@@ -225,9 +218,6 @@ impl OneSceneArgs {
     }
 
     /// The scene; `saved` is that of a session.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`] where such a scene cannot be rendered.
     pub fn scene(&self, saved: Option<Scene>) -> Result<Scene, CommandError> {
         let usual = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
         let usual = saved.unwrap_or(usual);

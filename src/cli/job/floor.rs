@@ -11,9 +11,6 @@ use crate::cli::output::{CommandError, watched};
 
 /// The loss that the ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of
 /// rounding.
-///
-/// # Errors
-/// Where a capture cannot be read, or has another size.
 pub fn floor_of(
     repeats: &[PathBuf],
     job: &ComparisonJob,

@@ -43,9 +43,6 @@ pub struct MaterialJob {
 
 impl MaterialJob {
     /// The materials of `session`, or those that the command line names, or the built-in ones where it names none.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`] for options that are not used.
     pub fn new(args: &MaterialArgs, session: Option<&Session>, given: &Given) -> Result<Self, CommandError> {
         let sources = match (session, &args.ground_truth) {
             (Some(session), _) => {
@@ -71,9 +68,6 @@ impl MaterialJob {
     }
 
     /// Refuses a ground truth without predictions.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
     pub fn check_predictions(&self) -> Result<(), CommandError> {
         match self.paths.first() {
             Some(path) if self.predictions() == 0 => Err(CommandError::Usage(format!(
@@ -86,9 +80,6 @@ impl MaterialJob {
 
     /// Opens the materials under distinct names, reports what is unsure, changed or left out in their files, and brings them to
     /// one size where that is asked for.
-    ///
-    /// # Errors
-    /// Those of the reader; [`CommandError::TooLarge`].
     pub fn open<T: Real>(&self) -> Result<Opened<T>, CommandError> {
         let read = self.sources.iter().map(|source| self.read(source)).collect::<Result<Vec<Read<T>>, _>>();
         let read = read.inspect_err(|_| note_paths(&self.paths))?;
@@ -121,9 +112,6 @@ impl MaterialJob {
     }
 
     /// Further captures of the ground truth, read as it is, and resized to it where materials are resized.
-    ///
-    /// # Errors
-    /// Those of the reader.
     pub fn repeats(
         &self,
         paths: &[PathBuf],
@@ -236,8 +224,6 @@ pub struct OneMaterial {
 }
 
 impl OneMaterial {
-    /// # Errors
-    /// [`CommandError::Usage`] for options of other materials.
     pub fn new(
         material: NamedPath,
         bindings: Vec<Binding>,
@@ -249,9 +235,6 @@ impl OneMaterial {
     }
 
     /// Reads it, under its name where it is given one.
-    ///
-    /// # Errors
-    /// Those of the reader; [`Error::Guessed`] with `--strict`.
     pub fn read<T: Real>(&self) -> Result<Read<T>, Error> {
         let NamedPath { name, path } = &self.material;
         note_pipe(path);
@@ -285,9 +268,6 @@ pub fn noted<T: Real>(read: Read<T>, verbose: bool) -> Material<T> {
 }
 
 /// Materials stand side by side only where they are equally high.
-///
-/// # Errors
-/// [`CoreError::SizesDiffer`].
 pub fn check_heights(materials: &[Material<f32>]) -> Result<(), CoreError> {
     let different = |pair: &&[Material<f32>]| pair[0].height() != pair[1].height();
     let Some(pair) = materials.windows(2).find(different) else { return Ok(()) };

@@ -17,9 +17,6 @@ pub use session::SessionSettings;
 /// What a command does: its arguments, resolved. Each argument that the mode of the command uses is in it, and no other.
 pub trait Job: fmt::Debug {
     /// Computes, prints and writes.
-    ///
-    /// # Errors
-    /// Those of the command.
     fn run(self: Box<Self>) -> Result<(), CommandError>;
 }
 
@@ -38,17 +35,12 @@ pub struct ComparisonJob {
 
 impl ComparisonJob {
     /// As [`ComparisonJob::new`], of a ground truth with predictions.
-    ///
-    /// # Errors
-    /// As [`ComparisonJob::new`]; [`CommandError::Usage`] where there is no prediction.
     pub fn with_predictions(args: &ComparisonArgs, given: &Given) -> Result<Self, CommandError> {
         let job = Self::new(args, given)?;
         job.materials.check_predictions()?;
         Ok(job)
     }
 
-    /// # Errors
-    /// Where a session cannot be read or used; [`CommandError::Usage`] for options of reading that are not used.
     pub fn new(args: &ComparisonArgs, given: &Given) -> Result<Self, CommandError> {
         let file = session::given(&args.materials)?;
         let settings = |(file, path): (_, &PathBuf)| SessionSettings::new(file, path);

@@ -26,9 +26,6 @@ pub struct SessionSettings {
 }
 
 /// The session file that stands for the ground truth and its predictions, read; `None` where the ground truth is none.
-///
-/// # Errors
-/// Those of [`Session::read`]; [`CommandError::Usage`] where predictions are given beside it.
 pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> {
     let Some(given) = materials.ground_truth.as_ref().filter(|given| Session::is_named(&given.path)) else {
         return Ok(None);
@@ -51,9 +48,6 @@ pub fn given(materials: &MaterialArgs) -> Result<Option<Session>, CommandError> 
 
 impl SessionSettings {
     /// The settings of `session`, which was read from `path`.
-    ///
-    /// # Errors
-    /// [`Error::BadSession`] for an unknown convention.
     pub fn new(session: &Session, path: &Path) -> Result<Self, Error> {
         let bad =
             |problem: CoreError| Error::BadSession { path: path.to_owned(), problem: problem.to_string() };
@@ -90,9 +84,6 @@ impl SessionSettings {
     }
 
     /// The question of `options`: over that of the session, where it has one.
-    ///
-    /// # Errors
-    /// Where the options contradict each other.
     pub fn question(session: Option<&Self>, options: &LossOptions) -> Result<Question, CoreError> {
         let saved = session.and_then(|session| session.loss.as_ref());
         saved.map_or_else(|| options.question(), |saved| options.over(saved))

@@ -66,17 +66,11 @@ pub fn tell(text: &str) {
 }
 
 /// Writes a result for people to stdout: names from files do not steer the terminal.
-///
-/// # Errors
-/// As [`put`].
 pub fn put_text(text: &str) -> Result<(), FilesError> {
     put(&printable(text))
 }
 
 /// Writes a result to stdout. A reader that has closed the pipe has seen enough.
-///
-/// # Errors
-/// [`FilesError::Unwritable`], as on a full disk.
 pub fn put(text: &str) -> Result<(), FilesError> {
     let mut stdout = io::stdout().lock();
     accepted(stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()))

@@ -15,9 +15,6 @@ pub enum ReportFormat {
 
 impl ReportFormat {
     /// The report in this format, complete with its last line break.
-    ///
-    /// # Errors
-    /// As [`Report::json`] and [`Report::csv`].
     pub fn write(self, report: &(impl Report + ?Sized)) -> Result<String, Error> {
         match self {
             Self::Text => Ok(printable(&report.text())),

@@ -6,9 +6,6 @@ use super::error::CommandError;
 use super::exit;
 
 /// Prints a warning for each of `missed`, once the results are printed.
-///
-/// # Errors
-/// The first of them where the command line is `strict`.
 pub fn warn_of(missed: impl IntoIterator<Item = Error>, strict: bool) -> Result<(), CommandError> {
     let mut missed = missed.into_iter();
     let failure = if strict { missed.next() } else { None };

@@ -123,9 +123,6 @@ impl OutputArgs {
     }
 
     /// Checks where the output goes, before anything is computed.
-    ///
-    /// # Errors
-    /// Where nothing can be written there, or one of `inputs` is there.
     pub fn check<P: AsRef<Path>>(&self, inputs: impl IntoIterator<Item = P>) -> Result<(), Error> {
         let Some(path) = &self.output else { return Ok(()) };
         check_output_of(path, inputs)?;
@@ -133,9 +130,6 @@ impl OutputArgs {
     }
 
     /// Writes `report` in its format: to the file, or to stdout. `latex` makes the table for a paper.
-    ///
-    /// # Errors
-    /// As [`Report::json`] and [`Report::csv`]; those of writing; [`Error::Internal`] for HTML, which is no text of a report.
     pub fn put<R: Report>(&self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<(), Error> {
         let text = match self.format() {
             RankFormat::Text => printable(&report.text()),

@@ -7,9 +7,6 @@ use crate::cli::args::reading::{PairReadingArgs, Side};
 use crate::cli::output::CommandError;
 
 /// How the ground truths and the predictions of `methods` are read.
-///
-/// # Errors
-/// [`Error::SpecifiedTwice`](svbrdf_files::Error::SpecifiedTwice); [`CommandError::Usage`] for a name that no method has.
 pub fn reading(given: &PairReadingArgs, methods: &[String]) -> Result<DatasetReading, CommandError> {
     let reading = given.reading()?;
     reading.check(None, methods)?;
@@ -21,9 +18,6 @@ pub fn reading(given: &PairReadingArgs, methods: &[String]) -> Result<DatasetRea
 }
 
 /// The folders or the table of the materials.
-///
-/// # Errors
-/// [`CommandError::Usage`].
 pub fn source(materials: &MaterialArgs, is_table: bool) -> Result<Source, CommandError> {
     let Some(ground_truth) = &materials.ground_truth else {
         return Err(CommandError::usage("give a folder of ground truths, or a table of pairs"));

@@ -121,7 +121,7 @@ pub fn flash_9() -> [Scene; 9] {
 
 /// The 128 scenes of MatFusion's evaluation (Sartor and Peers 2023, `score.py`): the light on the upper hemisphere, the camera above the
 /// centre, both at the distance 2.41.
-pub fn hemisphere() -> Vec<Scene> {
+fn hemisphere() -> Vec<Scene> {
     let view = [0.0, 0.0, MATFUSION_DISTANCE];
     let scene = |point: &[u32; 2]| {
         let direction = direction(point.map(|x| f64::from(x) / 2.0_f64.powi(30)));

@@ -26,9 +26,6 @@ pub enum Side {
 
 impl StatedReading {
     /// What the `statements` specify together.
-    ///
-    /// # Errors
-    /// [`Error::SpecifiedTwice`] where two of them specify one option of the same materials.
     pub fn new<'a>(statements: impl IntoIterator<Item = &'a Statement>) -> Result<Self, Error> {
         let mut reading = Self::default();
         for Statement { whose, options } in statements {
@@ -102,9 +99,6 @@ impl StatedReading {
 
     /// Refuses what is specified for materials that do not exist: those on a side without any, and names that no material has. The
     /// ground truth of a data set has no name.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
     pub fn check(&self, ground_truth: Option<&str>, predictions: &[String]) -> Result<(), CommandError> {
         let names: Vec<&str> =
             ground_truth.into_iter().chain(predictions.iter().map(String::as_str)).collect();

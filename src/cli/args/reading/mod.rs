@@ -67,9 +67,6 @@ impl ReadingArgs {
     }
 
     /// How the only `material` of a command is read.
-    ///
-    /// # Errors
-    /// [`Error::SpecifiedTwice`]; [`CommandError::Usage`] for what is specified for other materials.
     pub fn of_one(&self, material: &MaterialSource) -> Result<ReadOptions, CommandError> {
         let reading = StatedReading::new(self.statements())?;
         let names = if reading.has_names() { material.possible_names() } else { Vec::new() };
@@ -82,9 +79,6 @@ impl ReadingArgs {
 
 impl PairReadingArgs {
     /// How the materials are read.
-    ///
-    /// # Errors
-    /// [`Error::SpecifiedTwice`].
     pub fn reading(&self) -> Result<StatedReading, Error> {
         StatedReading::new(self.both.statements())
     }

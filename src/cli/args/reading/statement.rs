@@ -26,9 +26,6 @@ pub struct Statement {
 
 impl Statement {
     /// The value of `--preset`: `[WHOSE:]PRESET`.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`].
     pub fn of_preset(text: &str) -> Result<Self, Error> {
         let (whose, preset) = Whose::before(text);
         Ok(Self { whose, options: ReadOptions { preset: Some(preset.parse()?), ..ReadOptions::AUTO } })
