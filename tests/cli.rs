@@ -2,34 +2,22 @@
 
 mod conform;
 mod diagnose;
-mod ends;
-mod help;
-mod inputs;
 mod links;
 mod loss;
 mod materials;
 mod memory;
-mod messages;
 mod metrics;
 mod names;
-mod notes;
 mod options;
-mod outside;
 mod packages;
 mod photo;
 mod pictures;
 mod rank;
-mod rank_conditions;
 mod rank_html;
-mod rank_scenes;
-mod read;
 mod report;
 mod results;
 mod robust;
-mod scenes;
 mod schema;
-mod session;
-mod sidecar;
 mod stopped;
 mod study;
 mod why;
@@ -157,12 +145,25 @@ fn write_material(path: &Path, side: u32, roughness: u8) {
 /// Ground truths and methods in folders, with materials `m0.png` and so on. The roughness of a method is larger by a number.
 fn data_set(methods: &[(&str, u8)], materials: u8) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
+    write_data_set(folder.path(), methods, materials);
+    folder
+}
+
+fn write_data_set(at: &Path, methods: &[(&str, u8)], materials: u8) {
     for (name, more) in [("gt", 0)].iter().chain(methods) {
-        std::fs::create_dir(folder.path().join(name)).unwrap();
+        std::fs::create_dir(at.join(name)).unwrap();
         for i in 0..materials {
-            write_material(&folder.path().join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
+            write_material(&at.join(name).join(format!("m{i}.png")), 8, 60 + 17 * i + more);
         }
     }
+}
+
+/// The folder of the transcripts: that of the other tests, a data set, and planted errors.
+pub fn folder_of_transcripts() -> TempDir {
+    let folder = folder();
+    write_data_set(folder.path(), &[("ours", 8), ("theirs", 40)], 3);
+    std::fs::create_dir(folder.path().join("planted")).unwrap();
+    diagnose::write_planted(&folder.path().join("planted"));
     folder
 }
 

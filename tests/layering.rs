@@ -2,14 +2,12 @@
 //! many files. The compiler guards what the crates may use of one another.
 
 mod graph;
-mod source;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
-use std::sync::LazyLock;
 
-use graph::{Arrow, CRATES, Tree, circles};
+use graph::{Arrow, CRATES, Source, arrows, circles};
 
 /// From the bottom to the top. A module belongs to the longest name that it begins with; files of one layer may use one
 /// another.
@@ -49,17 +47,8 @@ fn layer(file: &str) -> usize {
     all.max().unwrap_or_else(|| panic!("src/{file} belongs to no layer")).1
 }
 
-fn upward(arrows: &[Arrow]) -> Vec<String> {
-    let up = arrows.iter().filter(|arrow| layer(&arrow.from) < layer(&arrow.to));
-    up.map(|arrow| format!("{} uses {}", arrow.from, arrow.to)).collect()
-}
-
-/// The files of a circle, and which uses which.
-fn told(circle: &[String], arrows: &[Arrow]) -> String {
-    let within =
-        |arrow: &&Arrow| !arrow.passed_on && circle.contains(&arrow.from) && circle.contains(&arrow.to);
-    let lines = arrows.iter().filter(within).map(|arrow| format!("\n    {} uses {}", arrow.from, arrow.to));
-    format!("\n{circle:?}:{}", lines.collect::<String>())
+fn upward(arrows: &[Arrow]) -> Vec<&Arrow> {
+    arrows.iter().filter(|arrow| layer(&arrow.from) < layer(&arrow.to)).collect()
 }
 
 fn read(folder: &Path, files: &mut Vec<(String, String)>) {
@@ -75,25 +64,11 @@ fn read(folder: &Path, files: &mut Vec<(String, String)>) {
     }
 }
 
-fn source_files() -> Vec<(String, String)> {
-    let mut files = Vec::new();
-    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
-    files
-}
-
-/// The arrows of `src/`.
-static ARROWS: LazyLock<Vec<Arrow>> = LazyLock::new(|| {
-    let arrows = Tree::new(source_files()).arrows();
-    assert!(arrows.len() > 500, "only {} arrows were found", arrows.len());
-    arrows
-});
-
 /// The arrows between folders. A file at the root of a crate stands for itself.
 fn of_folders(arrows: &[Arrow]) -> Vec<Arrow> {
     let folder = |file: &String| match file.rsplit_once('/') {
-        None => file.clone(),
-        Some((folder, _)) if CRATES.contains(&folder) => file.clone(),
-        Some((folder, _)) => folder.to_owned(),
+        Some((folder, _)) if !CRATES.contains(&folder) => folder.to_owned(),
+        _ => file.clone(),
     };
     let between = arrows.iter().filter(|arrow| !arrow.passed_on).map(|arrow| Arrow {
         from: folder(&arrow.from),
@@ -103,61 +78,46 @@ fn of_folders(arrows: &[Arrow]) -> Vec<Arrow> {
     between.filter(|arrow| arrow.from != arrow.to).collect::<BTreeSet<_>>().into_iter().collect()
 }
 
-/// The circles between folders, with the files that make them.
-fn folder_circles(arrows: &[Arrow]) -> String {
-    let folders = of_folders(arrows);
-    circles(&folders).iter().map(|circle| told(circle, &folders)).collect()
-}
-
-/// The types with inherent methods in many files, and these files.
-fn spread_types(files: &[(String, String)]) -> Vec<String> {
-    let mut files_of: BTreeMap<(String, String), BTreeSet<&str>> = BTreeMap::new();
+/// The types of a crate with inherent methods in many files, and these files.
+fn spread_types(files: &[(String, String)]) -> BTreeMap<(String, String), BTreeSet<&str>> {
+    let mut files_of: BTreeMap<_, BTreeSet<&str>> = BTreeMap::new();
     for (file, text) in files {
         let part = file.split('/').next().unwrap_or_default();
-        for name in source::Source::new(text).inherent_types {
+        for name in Source::new(text).inherent_types {
             files_of.entry((part.to_owned(), name)).or_default().insert(file);
         }
     }
-    let many = files_of.into_iter().filter(|(_, files)| files.len() > FILES_OF_A_TYPE);
-    many.map(|((part, name), files)| format!("{name} of {part}: {files:?}")).collect()
+    files_of.retain(|_, files| files.len() > FILES_OF_A_TYPE);
+    files_of
 }
 
 #[test]
-fn no_file_uses_a_layer_above_its_own() {
-    assert_eq!(upward(&ARROWS), Vec::<String>::new());
-}
-
-#[test]
-fn no_files_use_one_another_in_a_circle() {
-    let found: String = circles(&ARROWS).iter().map(|circle| told(circle, &ARROWS)).collect();
-    assert!(found.is_empty(), "circles:{found}");
-}
-
-#[test]
-fn no_folders_use_one_another_in_a_circle() {
-    let found = folder_circles(&ARROWS);
-    assert!(found.is_empty(), "circles:{found}");
-}
-
-#[test]
-fn no_type_has_inherent_methods_in_more_than_three_files() {
-    assert_eq!(spread_types(&source_files()), Vec::<String>::new());
+fn files_use_those_of_lower_layers_and_no_circle_and_no_spread_type_is_there() {
+    let mut files = Vec::new();
+    read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut files);
+    let arrows = arrows(&files);
+    assert!(arrows.len() > 500, "only {} arrows were found", arrows.len());
+    assert_eq!(upward(&arrows), Vec::<&Arrow>::new());
+    assert_eq!(circles(&arrows), Vec::<Vec<Arrow>>::new());
+    assert_eq!(circles(&of_folders(&arrows)), Vec::<Vec<Arrow>>::new());
+    assert_eq!(spread_types(&files), BTreeMap::new());
 }
 
 /// The arrows between the planted files.
 fn planted<const N: usize>(files: [(&str, &str); N]) -> Vec<Arrow> {
-    Tree::new(files).arrows()
+    arrows(&files.map(|(name, text)| (name.to_owned(), text.to_owned())))
 }
 
 #[test]
 fn a_planted_arrow_upward_is_found() {
-    let arrows = |user| {
-        planted([
+    let found = |user| {
+        let arrows = planted([
             ("core/loss/mod.rs", "mod sums; pub use sums::Loss; pub use crate::math::Real as Number;"),
             ("core/loss/sums.rs", "pub struct Loss;"),
             ("core/math/mod.rs", "pub trait Real {}"),
             ("core/material/mod.rs", user),
-        ])
+        ]);
+        upward(&arrows).into_iter().map(|arrow| [arrow.from.clone(), arrow.to.clone()]).collect::<Vec<_>>()
     };
     for user in [
         "use crate::{math::Real, loss::{self as other, Loss}};",
@@ -166,7 +126,7 @@ fn a_planted_arrow_upward_is_found() {
         "use crate::loss; fn f(_: &'static loss::Loss) {}",
         "use svbrdf_core::loss::Loss;",
     ] {
-        assert_eq!(upward(&arrows(user)), ["core/material/mod.rs uses core/loss/sums.rs"], "{user}");
+        assert_eq!(found(user), [["core/material/mod.rs", "core/loss/sums.rs"]], "{user}");
     }
     for user in [
         "use crate::loss::Number;",
@@ -174,33 +134,41 @@ fn a_planted_arrow_upward_is_found() {
         "#[cfg(test)] mod tests { use crate::loss::Loss; }",
         "#[cfg(test)] fn f() { crate::loss::Loss; }",
     ] {
-        assert_eq!(upward(&arrows(user)), Vec::<String>::new(), "{user}");
+        assert!(found(user).is_empty(), "{user}");
     }
 }
 
 #[test]
 fn planted_circles_are_found() {
-    let arrows = planted([
+    let names = |arrows: &[Arrow]| -> Vec<BTreeSet<String>> {
+        circles(arrows)
+            .into_iter()
+            .map(|circle| circle.into_iter().map(|arrow| arrow.from).collect())
+            .collect()
+    };
+    // A parent that only declares and re-exports its children is in no circle.
+    let of_files = planted([
         ("core/model/mod.rs", "pub mod a; mod b; pub use b::B; pub struct Parent;"),
         ("core/model/a.rs", "use super::{Parent, b::B}; pub struct A;"),
         ("core/model/b.rs", "pub struct B; fn f() { super::c::C; }"),
         ("core/model/c.rs", "use crate::model::a; pub struct C(a::A);"),
     ]);
-    // A parent that only declares and re-exports its children is in no circle.
-    assert_eq!(circles(&arrows), [["core/model/a.rs", "core/model/b.rs", "core/model/c.rs"]]);
-}
-
-#[test]
-fn planted_circles_of_folders_are_found() {
-    let arrows = planted([
+    assert_eq!(
+        names(&of_files),
+        [["core/model/a.rs", "core/model/b.rs", "core/model/c.rs"].map(str::to_owned).into()]
+    );
+    let between_folders = planted([
         ("core/loss/mod.rs", "pub mod fused; pub mod sums; pub struct Loss;"),
         ("core/loss/sums.rs", "use super::fused::tile::Tile; pub struct Sum(Tile);"),
         ("core/loss/fused/mod.rs", "pub mod tile; pub mod pass;"),
         ("core/loss/fused/tile.rs", "pub struct Tile;"),
         ("core/loss/fused/pass.rs", "use crate::loss::sums::Sum; pub struct Pass(Sum);"),
     ]);
-    assert_eq!(circles(&arrows), Vec::<Vec<String>>::new(), "no files use one another");
-    assert_eq!(circles(&of_folders(&arrows)), [["core/loss", "core/loss/fused"]]);
+    assert!(names(&between_folders).is_empty(), "no files use one another");
+    assert_eq!(
+        names(&of_folders(&between_folders)),
+        [["core/loss", "core/loss/fused"].map(str::to_owned).into()]
+    );
 }
 
 #[test]
@@ -208,7 +176,7 @@ fn a_planted_type_of_many_files_is_found() {
     let other = "impl fmt::Display for App {} impl<T: Into<App>> Other<T> { fn f() -> impl Sized {} }";
     let file = |n: usize| (format!("viewer/{n}.rs"), format!("impl App {{ fn f{n}() {{}} }} {other}"));
     let files: Vec<_> = (0..4).map(file).collect();
-    assert_eq!(spread_types(&files[..3]), Vec::<String>::new());
-    let found = spread_types(&files);
-    assert!(found.len() == 2 && found[0].starts_with("App of viewer"), "{found:?}");
+    assert!(spread_types(&files[..3]).is_empty());
+    let found: Vec<_> = spread_types(&files).into_keys().map(|(part, name)| [part, name]).collect();
+    assert_eq!(found, [["viewer", "App"], ["viewer", "Other"]]);
 }

@@ -154,6 +154,6 @@ fn the_samples_are_what_their_generator_makes() {
         let committed = image::open(path).unwrap().into_rgb8().into_raw();
         let differing = committed.iter().zip(&pixels).filter(|(a, b)| a != b).count();
         assert_eq!(committed.len(), pixels.len());
-        assert_eq!(differing, 0, "{name} differs; run the example make_samples if that is meant");
+        assert_eq!(differing, 0, "{name} differs; run the example make_assets if that is meant");
     }
 }

@@ -134,7 +134,7 @@ type Entry = (&'static str, &'static str, &'static [&'static str]);
 /// Options that the short help leaves out, of a command or of all.
 #[rustfmt::skip]
 const RARE: [(&str, &[&str]); 7] = [
-    ("", &["sampler", "precision", "repeats", "renderings", "max_size"]),
+    ("", &["sampler", "precision", "repeats", "max_size"]),
     ("loss", &["texels", "time_budget", "fov"]),
     ("rank", &["fov", "shard", "pick", "fail_above", "figures"]),
     ("strip", &["fov", "results", "range", "lights", "pairs", "convention", "scenes"]),
@@ -269,4 +269,103 @@ pub fn mistyped(word: &str) -> Option<String> {
         Some(name) => format!("no file or command `{word}`; did you mean `{name}`?"),
         None => format!("no file or command `{word}`; `svbrdf -h` lists the commands"),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use clap::CommandFactory as _;
+    use clap::error::ErrorKind;
+
+    use super::*;
+    use crate::cli::Cli;
+
+    /// The program and its commands.
+    fn commands() -> Vec<Command> {
+        let mut program = program(Cli::command());
+        program.build();
+        let commands = program.get_subcommands().filter(|command| command.get_name() != "help").cloned();
+        commands.chain([program.clone()]).collect()
+    }
+
+    #[test]
+    fn every_command_is_in_a_group_and_its_examples_are_command_lines_of_it() {
+        let names: BTreeSet<_> = commands().iter().map(|command| command.get_name().to_owned()).collect();
+        let entries: Vec<&Entry> = GROUPS.iter().flat_map(|(_, entries)| *entries).collect();
+        let listed = entries.iter().map(|(name, ..)| (*name).to_owned()).chain(["svbrdf".to_owned()]);
+        assert_eq!(listed.collect::<BTreeSet<_>>(), names);
+        for (name, _, examples) in entries {
+            assert!((1..=3).contains(&examples.len()), "{name}");
+            for example in *examples {
+                let line = example.split(" > ").next().unwrap();
+                let words = ["svbrdf", name].into_iter().chain(line.split_whitespace());
+                let parsed = Cli::command().try_get_matches_from(words);
+                assert!(parsed.is_ok(), "{name} {example}: {parsed:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_short_help_fits_a_screen_and_has_the_materials_before_the_options() {
+        const HEADINGS: [&str; 16] = [
+            "Usage:",
+            "Arguments:",
+            "Options:",
+            "Look:",
+            "Compare:",
+            "Explain:",
+            "Prepare:",
+            "Scenes:",
+            "Light and view:",
+            "Photograph:",
+            "Reading materials:",
+            "Files:",
+            "Environment:",
+            "Example:",
+            "Examples:",
+            "Exit codes:",
+        ];
+        for command in commands() {
+            let mut command = command.term_width(80);
+            let short = command.render_help().to_string();
+            let fits = |line: &str| line.chars().count() <= 80 || !line.trim().contains(' ');
+            assert!(short.lines().count() <= 48 && short.lines().all(fits), "{short}");
+            let place = |word: &str| short.find(word).unwrap_or(usize::MAX);
+            assert!(place("  [GT]") > short.len() || place("  [GT]") < place("Options:"), "{short}");
+            assert!(!short.contains("Reading materials:"), "{short}");
+            let long = command.render_long_help().to_string();
+            for line in long.lines().filter(|line| !line.starts_with(' ') && line.ends_with(':')) {
+                let is_text = line.split(' ').count() > 3;
+                assert!(is_text || HEADINGS.contains(&line), "{} has the heading {line}", command.get_name());
+            }
+        }
+        let reading = topic("reading").unwrap();
+        for option in ["--read", "--preset", "--strict", "--resize-to", "normal-encoding"] {
+            assert!(reading.contains(option), "{option}");
+        }
+    }
+
+    #[test]
+    fn an_unusable_value_of_an_option_is_refused_with_what_is_expected() {
+        let mut refused = 0;
+        for command in commands() {
+            let name = command.get_name();
+            for option in command.get_arguments().filter_map(Arg::get_long) {
+                for value in ["?", "nan", "-1", "1.5", "99999999999999999999"] {
+                    let words = ["svbrdf", name, &format!("--{option}={value}")];
+                    let Err(error) = Cli::command().try_get_matches_from(words) else { continue };
+                    if matches!(error.kind(), ErrorKind::InvalidValue | ErrorKind::ValueValidation) {
+                        let text = error.to_string();
+                        let is_helpful = ["expected", "use one of", "possible values"]
+                            .iter()
+                            .any(|part| text.contains(part));
+                        assert!(is_helpful, "{name} --{option} {value}: {text}");
+                        refused += 1;
+                    }
+                }
+            }
+        }
+        assert!(refused > 100, "{refused}");
+    }
 }

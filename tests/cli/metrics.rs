@@ -1,8 +1,8 @@
-//! Metrics of maps, and over data sets.
+//! Metrics of maps, over data sets, and of published evaluations.
 
 use std::fs;
 
-use super::{assert_has, assert_refused, data_set, folder, json_of, rows_of, succeed};
+use super::*;
 
 #[test]
 fn metrics_of_renderings_have_intervals_and_an_exposure() {
@@ -29,20 +29,6 @@ fn metrics_of_renderings_have_intervals_and_an_exposure() {
     let dark = json_of(folder.path(), args);
     assert_eq!(dark["results"][1]["metrics"]["rmse_roughness"], entry["metrics"]["rmse_roughness"]);
     assert_ne!(dark["results"][1]["metrics"]["flip_rendering_clipped"].as_f64().unwrap(), flip);
-}
-
-#[test]
-fn words_choose_the_metrics() {
-    let folder = folder();
-    let all = rows_of(folder.path(), "metrics gt.png a.png --near 3 --distant 2");
-    let chosen =
-        rows_of(folder.path(), "metrics gt.png a.png --near 3 --distant 2 --metrics psnr,rmse_roughness");
-    let is_chosen = |name: &str| name.starts_with("psnr_") || name.starts_with("rmse_roughness");
-    let expected: Vec<_> = all.into_iter().filter(|row| is_chosen(&row["metric"])).collect();
-    assert!(chosen == expected && chosen.len() > 8, "{chosen:?}");
-    let maps = succeed(folder.path(), "metrics gt.png a.png --metrics l1_roughness");
-    assert!(maps.contains("l1_roughness") && !maps.contains("scenes"), "nothing is rendered: {maps}");
-    assert_refused(folder.path(), &[("metrics gt.png a.png --metrics lpips", 64, "unknown metric `lpips`")]);
 }
 
 #[test]

@@ -1,14 +1,12 @@
 //! Rankings of predictions, and of methods over data sets.
 
 use std::fs;
-use std::path::Path;
 
-use tempfile::TempDir;
+use super::*;
 
-use super::{
-    assert_has, assert_refused, folder, json, json_of, rows_of, run_in, succeed, text, write_material,
-};
+const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
 
+/// Predictions whose roughness is wrong by 4, 50 and 130 steps.
 #[test]
 fn predictions_of_a_pattern_are_ranked() {
     let folder = folder();
@@ -19,42 +17,76 @@ fn predictions_of_a_pattern_are_ranked() {
     }
     fs::write(at.join("out/note.txt"), "no material").unwrap();
     let ranking = json_of(at, "rank gt.png out/*.png");
-    let names = [0, 1, 2].map(|place| &ranking["ranking"][place]["prediction"]);
-    assert_eq!(
-        (names.map(|name| name.as_str().unwrap()), &ranking["ranking"][2]["group"]),
-        (["good", "mean", "bad"], &3.into())
-    );
+    let names = [0, 1, 2].map(|place| ranking["ranking"][place]["prediction"].as_str().unwrap());
+    assert_eq!((names, &ranking["ranking"][2]["group"]), (["good", "mean", "bad"], &3.into()));
+    assert_eq!((ranking["target_error"].as_f64(), &ranking["target_reached"]), (Some(0.01), &true.into()));
     assert_has(ranking["repetition"]["command"].as_str().unwrap(), &["svbrdf rank gt.png"]);
+    assert_has(ranking["readings"][0]["remarks"][0].as_str().unwrap(), &["layout: "]);
     assert_eq!(
         (ranking["readings"].as_array().unwrap().len(), &ranking["readings"][0]["material"]),
         (4, &"gt".into())
     );
-    assert_has(ranking["readings"][0]["remarks"][0].as_str().unwrap(), &["layout: "]);
-    assert_has(&succeed(at, "rank gt.png out/*.png"), &["- best", "group"]);
-    assert_eq!(rows_of(at, "rank gt.png out/*.png").len(), 3);
-    let latex = succeed(at, "rank gt.png out/*.png --format latex");
-    assert!(latex.contains("good & \\textbf{") && latex.matches("textbf").count() == 1, "{latex}");
-
     let above = run_in(at, "rank gt.png out/*.png --fail-above 0.0001");
     assert_eq!(above.status.code(), Some(1));
     assert!(text(&above.stdout).contains("good") && text(&above.stderr).contains("above the limit"));
     succeed(at, "rank gt.png out/*.png --fail-above 10");
-    assert_refused(at, &[("rank gt.png nothing*.png", 64, "matches no file")]);
+    for [command, options] in [
+        ["loss", "--near 3"],
+        ["blame", "--target-error 10%"],
+        ["metrics", "--metrics roughness"],
+        ["scenes", "--near 3"],
+    ] {
+        assert_has(&succeed(at, &format!("{command} gt.png out/*a*.png {options}")), &["bad", "mean"]);
+    }
 }
 
-/// Ground truths and two methods; of the second, a file is missing and one is broken.
-fn data_set() -> TempDir {
-    let folder = super::data_set(&[("ours", 8), ("theirs", 40)], 7);
-    fs::remove_file(folder.path().join("theirs/m3.png")).unwrap();
-    fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();
-    folder
+/// The losses by the names of the predictions.
+fn losses(report: &Value, list: &str, loss: &str) -> BTreeMap<String, Value> {
+    let of =
+        |one: &Value| (one["prediction"].as_str().unwrap().to_owned(), one.pointer(loss).unwrap().clone());
+    report[list].as_array().unwrap().iter().map(of).collect()
 }
 
-const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
+#[test]
+fn a_ranking_in_scenes_has_the_losses_of_these_scenes() {
+    let folder = folder();
+    let at = folder.path();
+    for scenes in [
+        "--near 6 --distant 3 --seed 2",
+        "--near 4 --sampler sobol",
+        "--lights flash-9",
+        "--lights flash --fov 30",
+        "--scenes one.json",
+    ] {
+        let ranked = json_of(at, &format!("rank gt.png a.png b.png {scenes}"));
+        let lost = json_of(at, &format!("loss gt.png a.png b.png {scenes}"));
+        assert_eq!(losses(&ranked, "ranking", "/loss/mean"), losses(&lost, "results", "/loss"), "{scenes}");
+        assert_eq!((&ranked["target_error"], &ranked["target_reached"]), (&Value::Null, &Value::Null));
+    }
+
+    let folder = data_set(&[("ours", 8), ("theirs", 40)], 6);
+    let at = folder.path();
+    let results = || fs::read_dir(at.join("kept")).map_or(0, Iterator::count);
+    for (scenes, count) in [("--near 6 --distant 3", 12), ("--lights hemisphere", 24)] {
+        let ranked = json_of(at, &format!("rank --dataset gt ours theirs {scenes} --results kept"));
+        let result = &ranked["results"][4];
+        let seed = if scenes.contains("near") { format!("--seed {}", result["seed"]) } else { String::new() };
+        let lost = json_of(at, &format!("loss gt/m4.png ours/m4.png theirs/m4.png {scenes} {seed}"));
+        for method in [0, 1] {
+            assert_eq!(result["predictions"][method]["loss"], lost["results"][method]["loss"], "{scenes}");
+        }
+        assert_eq!(ranked["settings"]["target_error"], Value::Null);
+        assert_has(ranked["repetition"]["command"].as_str().unwrap(), &[scenes]);
+        // Losses in other scenes are other ones, and are found again.
+        let again = json_of(at, &format!("rank --dataset gt ours theirs {scenes} --results kept"));
+        assert_eq!((results(), &again["methods"]), (count, &ranked["methods"]));
+    }
+    assert_refused(at, &[("rank --dataset gt ours --near 1 --distant 3", 64, "--near")]);
+}
 
 #[test]
 fn a_data_set_names_the_losses_that_miss_the_target_error() {
-    let folder = super::data_set(&[("ours", 0)], 0);
+    let folder = data_set(&[("ours", 0)], 0);
     for (name, roughness) in [("gt", 1), ("ours", 2)] {
         write_material(&folder.path().join(name).join("mirror.png"), 4, roughness);
         write_material(&folder.path().join(name).join("rough.png"), 4, 100 + 10 * roughness);
@@ -63,70 +95,148 @@ fn a_data_set_names_the_losses_that_miss_the_target_error() {
     let output = run_in(folder.path(), command);
     let warnings = text(&output.stderr);
     assert!(output.status.success() && warnings.matches("warning: ").count() == 1, "{warnings}");
-    assert!(warnings.contains("warning: mirror, ours is known to +-"), "{warnings}");
-    assert!(warnings.contains("393216 scenes, the limit"), "{warnings}");
+    assert_has(warnings, &["warning: mirror, ours is known to +-", "393216 scenes, the limit"]);
     let strict = run_in(folder.path(), &format!("{command} --strict"));
     assert_eq!((strict.status.code(), strict.stdout), (Some(1), output.stdout));
-    assert!(text(&strict.stderr).contains("error: mirror, ours is known to +-"));
+    assert_has(text(&strict.stderr), &["error: mirror, ours is known to +-"]);
 }
 
+/// Of the second method, a file is missing, and one is broken.
 #[test]
 fn a_bad_file_of_a_data_set_is_reported_and_not_fatal() {
-    let folder = data_set();
+    let folder = data_set(&[("ours", 8), ("theirs", 40)], 7);
+    fs::remove_file(folder.path().join("theirs/m3.png")).unwrap();
+    fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();
     let output = run_in(folder.path(), &format!("{RANK} --format json"));
-    assert!(output.status.success(), "{}", text(&output.stderr));
-    let stderr = text(&output.stderr);
-    assert!(stderr.contains("m3, theirs: ") && stderr.contains("m5, theirs: "), "{stderr}");
+    assert!(output.status.success());
+    assert_has(text(&output.stderr), &["m3, theirs: ", "m5, theirs: "]);
     let ranking = json(text(&output.stdout));
-    let [ours, theirs] = [0, 1].map(|i| &ranking["methods"][i]);
-    assert_eq!(
-        (&ours["method"], &ours["materials"], &ours["failures"]),
-        (&"ours".into(), &7.into(), &0.into())
-    );
-    assert_eq!((&theirs["materials"], &theirs["failures"]), (&5.into(), &2.into()));
-    assert_eq!((&ours["ties_with_best"], &theirs["ties_with_best"]), (&true.into(), &false.into()));
-    assert!(theirs["to_best_interval95_materials"][0].as_f64().unwrap() > 0.0);
+    let facts = |method: usize| {
+        let method = &ranking["methods"][method];
+        json!([method["method"], method["materials"], method["failures"], method["ties_with_best"]])
+    };
+    assert_eq!([facts(0), facts(1)], [json!(["ours", 7, 0, true]), json!(["theirs", 5, 2, false])]);
+    assert!(ranking["methods"][1]["to_best_interval95_materials"][0].as_f64().unwrap() > 0.0);
     let [known, failed] = [0, 1].map(|method| &ranking["results"][5]["predictions"][method]);
     assert!(known["loss"].as_f64().unwrap() > 0.0 && known.get("error").is_none(), "{known}");
     assert!(failed["error"].as_str().unwrap().contains("m5.png") && failed.get("loss").is_none(), "{failed}");
-    assert_has(&succeed(folder.path(), RANK), &["7 of 7 materials", "95% over materials"]);
     assert_eq!(rows_of(folder.path(), RANK).len(), 14);
-    assert_refused(folder.path(), &[(&format!("{RANK} --resize-to gt"), 64, "not resized")]);
     let latex = succeed(folder.path(), &format!("{RANK} --format latex"));
     assert!(latex.contains("ours & \\textbf{") && !latex.contains("theirs & \\textbf{"), "{latex}");
 }
 
 #[test]
-fn a_table_of_pairs_names_methods_and_samples() {
-    let folder = data_set();
+fn a_table_of_pairs_names_methods_and_samples_and_folders_are_matched_in_subfolders() {
+    let folder = data_set(&[("ours", 8)], 2);
+    let at = folder.path();
     let table = "ground_truth, prediction, method\n gt/m0.png, ours/m0.png, a\n gt/m0.png, ours/m1.png, a\n\
         gt/m1.png, ours/m1.png, a\n";
-    fs::write(folder.path().join("pairs.csv"), table).unwrap();
+    fs::write(at.join("pairs.csv"), table).unwrap();
     let loss = |pick: &str| {
         let args = format!("rank --pairs pairs.csv --target-error 5% --pick {pick}");
-        json_of(folder.path(), &args)["methods"][0]["mean"].as_f64().unwrap()
+        json_of(at, &args)["methods"][0]["mean"].as_f64().unwrap()
     };
     assert!(loss("best") <= loss("mean") && loss("best") <= loss("fixed"));
     assert_ne!(loss("mean"), loss("fixed"));
-    fs::write(folder.path().join("no.csv"), "a,b\n1,2\n").unwrap();
-    assert_refused(folder.path(), &[("rank --pairs no.csv", 1, "the columns ground_truth and prediction")]);
+    for (name, samples) in [("wood/oak", 2), ("metal/iron", 2)] {
+        fs::create_dir_all(at.join(format!("in/gt/{name}"))).unwrap();
+        fs::copy(at.join("gt/m0.png"), at.join(format!("in/gt/{name}/maps.png"))).unwrap();
+        for sample in 0..samples {
+            fs::create_dir_all(at.join(format!("in/ours/{name}_{sample}"))).unwrap();
+            fs::copy(at.join("ours/m0.png"), at.join(format!("in/ours/{name}_{sample}/maps.png"))).unwrap();
+        }
+    }
+    let ranking = json_of(at, "rank --dataset in/gt in/ours --target-error 5%");
+    assert_eq!(ranking["settings"]["materials"], json!(["metal/iron", "wood/oak"]));
+    assert_eq!(ranking["results"][0]["predictions"].as_array().unwrap().len(), 2);
+    assert_eq!(ranking["methods"][0]["failures"], 0);
+}
+
+/// What a command writes into `name`, where it prints nothing, but for the command, which has the name of the file.
+fn written(folder: &Path, command: &str, name: &str) -> Vec<String> {
+    assert_eq!(succeed(folder, &format!("{command} -o {name}")), "", "{command}");
+    let text = text_of(folder, name);
+    fs::remove_file(folder.join(name)).unwrap();
+    others(&text)
+}
+
+fn others(text: &str) -> Vec<String> {
+    text.lines().filter(|line| !line.contains("svbrdf rank")).map(str::to_owned).collect()
 }
 
 #[test]
-fn folders_are_matched_by_name_in_subfolders_too() {
-    let folder = tempfile::tempdir().unwrap();
-    let write = |path: &Path, roughness| {
-        fs::create_dir_all(path.parent().unwrap()).unwrap();
-        write_material(path, 8, roughness);
-    };
-    for name in ["wood/oak", "metal/iron"] {
-        write(&folder.path().join(format!("gt/{name}/maps.png")), 100);
-        for sample in 0..2 {
-            write(&folder.path().join(format!("ours/{name}_{sample}/maps.png")), 120);
+fn every_format_of_a_ranking_is_written_into_a_file() {
+    let folder = data_set(&[("ours", 8), ("theirs", 40)], 6);
+    let at = folder.path();
+    for command in [
+        "rank --dataset gt ours theirs --near 4 --distant 2",
+        "rank gt/m0.png ours/m0.png theirs/m0.png --near 4 --distant 2",
+    ] {
+        for (format, name) in [("text", "r.txt"), ("json", "r.json"), ("csv", "r.csv"), ("latex", "r.tex")] {
+            let with_format = format!("{command} --format {format}");
+            let printed = others(&succeed(at, &with_format));
+            assert_eq!(written(at, &with_format, "file"), printed);
+            assert_eq!(written(at, command, name), printed, "the format of {name}");
         }
     }
-    let ranking = json_of(folder.path(), "rank --dataset gt ours --target-error 5%");
-    assert_eq!(ranking["settings"]["materials"], serde_json::json!(["metal/iron", "wood/oak"]));
-    assert_eq!(ranking["results"][0]["predictions"].as_array().unwrap().len(), 2);
-    assert_eq!(ranking["methods"][0]["failures"], 0);
+    assert_eq!(written(at, "rank --dataset gt ours --near 4 --distant 2", "page.html")[0], "<!doctype html>");
+}
+
+#[test]
+fn a_loss_does_not_depend_on_its_rivals_nor_on_other_materials() {
+    let folder = data_set(&[("ours", 8), ("theirs", 80)], 4);
+    let losses = |args: &str| -> Vec<(Value, [Value; 3])> {
+        let ranking = json_of(folder.path(), &format!("rank --dataset gt ours --target-error 2% {args}"));
+        let of = |result: &Value| {
+            let predictions = result["predictions"].as_array().unwrap();
+            let ours = predictions.iter().find(|one| one["method"] == "ours").unwrap();
+            (result["material"].clone(), ["loss", "interval95", "scenes"].map(|key| ours[key].clone()))
+        };
+        ranking["results"].as_array().unwrap().iter().map(of).collect()
+    };
+    let both = losses("theirs");
+    assert_eq!(losses(""), both);
+    fs::remove_file(folder.path().join("gt/m1.png")).unwrap();
+    let fewer: Vec<_> = both.iter().filter(|(name, _)| name != "m1").cloned().collect();
+    assert_eq!(losses(""), fewer);
+    assert_ne!(losses("--seed 1"), fewer);
+}
+
+/// Three materials of a method are sets without a normal map.
+#[test]
+fn a_ranking_says_how_files_were_read_in_every_format() {
+    let folder = data_set(&[("ours", 8), ("theirs", 16)], 5);
+    let at = folder.path();
+    for i in 0..3 {
+        let set = at.join(format!("theirs/m{i}"));
+        fs::remove_file(set.with_extension("png")).unwrap();
+        fs::create_dir(&set).unwrap();
+        for (map, value) in [("diffuse", 200), ("specular", 12), ("roughness", 120)] {
+            image::GrayImage::from_pixel(8, 8, image::Luma([value]))
+                .save(set.join(format!("{map}.png")))
+                .unwrap();
+        }
+    }
+    let output = run_in(at, &format!("{RANK} --format json"));
+    let (ranking, notes) = (json(text(&output.stdout)), text(&output.stderr));
+    let [table, latex] = ["text", "latex"].map(|format| succeed(at, &format!("{RANK} --format {format}")));
+    succeed(at, &format!("{RANK} --format html -o page.html"));
+    let page = text_of(at, "page.html");
+    let prefixes =
+        [(notes, "svbrdf: note: theirs: "), (&table, "theirs: "), (&latex, "% theirs: "), (&page, "")];
+    for (text, prefix) in prefixes {
+        let line = text.lines().find(|line| line.contains("3 of 5 without normal map")).unwrap();
+        assert!(line.starts_with(prefix), "{line}");
+    }
+    assert!(!table.lines().any(|line| line.starts_with("ours: ") && line.contains("normal map")), "{table}");
+    let doubts = ranking["methods"][1]["reading"]["doubts"].as_array().unwrap();
+    assert!(
+        doubts.iter().any(|one| one["doubt"] == "without normal map" && one["materials"] == 3),
+        "{doubts:?}"
+    );
+    let counts: Vec<usize> = rows_of(at, RANK).iter().map(|row| row["doubts"].parse().unwrap()).collect();
+    assert!(counts[1] > counts[7], "without a normal map, and with one: {counts:?}");
+    let verbose = run_in(at, &format!("{RANK} -v"));
+    let remarks = ["note: m0, theirs: missing: normal", "note: m4, ground truth: layout: "];
+    assert_has(text(&verbose.stderr), &remarks);
 }

@@ -2,10 +2,7 @@
 
 use std::fs;
 
-use serde_json::Value;
-use tempfile::TempDir;
-
-use super::{assert_refused, files, folder, json_of, run_in, text, text_of, write_material};
+use super::*;
 
 /// Ground truths and two methods; of the second, a file is broken.
 fn data_set() -> TempDir {
@@ -71,21 +68,12 @@ fn a_page_has_the_losses_the_verdicts_the_failures_and_figures_of_the_worst() {
 }
 
 #[test]
-fn a_page_is_a_file_of_a_data_set_and_replaces_no_material() {
+fn a_page_replaces_no_material() {
     let folder = data_set();
-    for (options, words) in [
-        ("--format html", "--output NAME.html"),
-        ("--format html -o out.txt", ".html"),
-        ("--figures all", "--figures"),
-        ("--format html -o out.html --figures worst:0", "worst"),
-    ] {
-        assert_refused(folder.path(), &[(&format!("{RANK} {options}"), 64, words)]);
-    }
     fs::rename(folder.path().join("gt/m0.png"), folder.path().join("gt/m0.webp")).unwrap();
     fs::write(folder.path().join("pairs.csv"), "ground_truth,prediction\ngt/page.html,ours/m0.png\n")
         .unwrap();
     fs::copy(folder.path().join("gt/m1.png"), folder.path().join("gt/page.html")).unwrap();
     let replaced = "rank --pairs pairs.csv --format html -o gt/page.html";
     assert_refused(folder.path(), &[(replaced, 1, "which the result is made from")]);
-    assert_refused(self::folder().path(), &[("rank gt.png a.png --format html", 64, "svbrdf report")]);
 }

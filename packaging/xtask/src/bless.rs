@@ -23,8 +23,11 @@ const GENERATED: [Generated; 12] = [
         files: "packaging/THIRD-PARTY",
         script: "made=$(packaging/third_party.py) && printf '%s\\n' \"$made\" >packaging/THIRD-PARTY",
     },
-    Generated { name: "samples", files: "assets/samples/*.png", script: "cargo run --example make_samples" },
-    Generated { name: "icons", files: "assets/icons/*.png", script: "cargo run --example make_icon" },
+    Generated {
+        name: "assets",
+        files: "assets/{samples,icons}/*.png",
+        script: "cargo run --example make_assets",
+    },
     Generated {
         name: "shaders",
         files: "shaders/page.json",
@@ -49,6 +52,11 @@ const GENERATED: [Generated; 12] = [
         name: "pictures",
         files: "assets/pictures/{window,why,where,diagnosis,dataset}.jpg",
         script: "cargo test --package window-tests screenshots -- --ignored",
+    },
+    Generated {
+        name: "transcripts",
+        files: "tests/transcripts/*.md, and what documents show of commands",
+        script: "SVBRDF_BLESS=1 cargo test --test main commands_of_documents || git diff --stat tests/transcripts README.md docs",
     },
     Generated {
         name: "albedo",

@@ -128,52 +128,29 @@ impl FromStr for Range {
 mod tests {
     use super::*;
 
-    #[test]
-    fn a_share_that_could_be_percent_needs_its_sign() {
-        for (text, share) in
-            [("1%", 0.01), ("0.5%", 0.005), ("30%", 0.3), ("0.01", 0.01), ("0.1", 0.1), ("1e-3", 1e-3)]
-        {
-            assert!((percent(text).unwrap() - share).abs() < 1e-15, "{text}");
-        }
-        let message = percent("0.5").unwrap_err();
-        assert!(message.contains("0.5% or 50%"), "{message}");
-        for wrong in ["0", "-1%", "1", "100%", "nan", "inf", "", "%", "0.11"] {
-            assert!(percent(wrong).is_err_and(|message| message.contains("expected")), "{wrong}");
+    /// Checks that all of these are refused with a message that says what is expected.
+    fn assert_refused<T, E: ToString>(parse: fn(&str) -> Result<T, E>, texts: &[&str], expected: &str) {
+        for text in texts {
+            assert!(parse(text).is_err_and(|message| message.to_string().contains(expected)), "{text}");
         }
     }
 
     #[test]
-    fn times_are_positive_and_have_units() {
+    fn values_have_their_units_and_ranges() {
+        let shares = ["1%", "0.5%", "30%", "0.01", "0.1", "1e-3"].map(|text| percent(text).unwrap());
+        assert!(shares.iter().zip([0.01, 0.005, 0.3, 0.01, 0.1, 1e-3]).all(|(a, b)| (a - b).abs() < 1e-15));
+        assert_refused(percent, &["0.5"], "0.5% or 50%");
+        assert_refused(percent, &["0", "-1%", "1", "100%", "nan", "inf", "", "%", "0.11"], "expected");
         let times = ["100us", "500ms", "2s", "0.5", "1 s"].map(|text| duration(text).unwrap().as_micros());
         assert_eq!(times, [100, 500_000, 2_000_000, 500_000, 1_000_000]);
-        for wrong in ["0", "-1s", "2m", "1e9s", "nan", "s", ""] {
-            assert!(duration(wrong).is_err_and(|message| message.contains("above 0")), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn a_limit_is_a_loss_that_others_can_be_above() {
+        assert_refused(duration, &["0", "-1s", "2m", "1e9s", "nan", "s", ""], "above 0");
         assert_eq!([loss("0"), loss("2.5e-1")], [Ok(0.0), Ok(0.25)]);
-        assert!(["nan", "inf", "-1", "-inf", "", "x"].iter().all(|wrong| loss(wrong).is_err()));
-    }
-
-    #[test]
-    fn stops_are_finite() {
+        assert_refused(loss, &["nan", "inf", "-1", "-inf", "", "x"], "a loss");
         assert_eq!(stops("-1.5"), Ok(-1.5));
-        assert!(["nan", "inf", "", "x", "1e20", "-20.5"].iter().all(|wrong| stops(wrong).is_err()));
-    }
-
-    #[test]
-    fn a_triple_is_three_numbers() {
+        assert_refused(stops, &["nan", "inf", "", "x", "1e20", "-20.5"], "from -20 to 20");
         assert_eq!(triple("1,-2, 3e-1"), Ok([1.0, -2.0, 0.3]));
-        for wrong in ["1,2", "1,2,3,4", "", "a,b,c", "1,,2", "0,0,nan", "0,inf,1"] {
-            assert!(triple(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn angles_are_numbers_in_their_range() {
+        assert_refused(triple, &["1,2", "1,2,3,4", "", "a,b,c", "1,,2", "0,0,nan", "0,inf,1"], "three");
         assert_eq!(degrees("45"), Ok(45.0));
-        assert!(["0", "180", "-3", "nan", "wide"].iter().all(|wrong| degrees(wrong).is_err()));
+        assert_refused(degrees, &["0", "180", "-3", "nan", "wide"], "0.1 to 179");
     }
 }

@@ -1,4 +1,4 @@
-//! Makes the sample materials that are built in. `tests/examples/make_samples.rs` writes them into `src/files/samples/`.
+//! Makes the sample materials that are built in. `tests/examples/make_assets.rs` writes them into `assets/samples/`.
 //!
 //! Uses only operations whose results IEEE 754 fixes, so that every platform makes the same pixels.
 

@@ -1,6 +1,6 @@
 //! The built-in materials: a ground truth and two predictions, 256 x 256 texels each.
 //!
-//! `tests/examples/make_samples.rs` generates them; they are free to use like the rest of this project.
+//! `tests/examples/make_assets.rs` generates them; they are free to use like the rest of this project.
 //!
 //! ```
 //! let built_in = svbrdf_files::samples::load::<f32>()?;
