@@ -7,6 +7,7 @@ use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 
 use svbrdf_gpu::Gpu;
 
+use super::app::restart;
 use super::app::storage::{self, Storage};
 use super::app::{App, CrashGuard, NAME};
 use super::jobs::work::{panics, priority};
@@ -30,6 +31,9 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
     priority::yield_to_window();
     let result = Gpu::check_environment().map_err(Error::from).and_then(|()| open(options));
     panics::print(true);
+    if result.is_err() {
+        restart::while_driver_is_gone();
+    }
     result
 }
 
@@ -38,7 +42,11 @@ fn open(options: ViewerOptions) -> Result<(), Error> {
     let (native, of_app) = (native_options(storage.window()), guard.clone());
     let create = move |cc: &eframe::CreationContext<'_>| App::new(cc, options, storage).guarded(of_app);
     let run = || eframe::run_native(NAME, native, Box::new(|cc| Ok(Box::new(create(cc)))));
-    guard.outcome(panics::caught(|| Ok(run())))
+    let result = panics::caught(|| Ok(run()));
+    if let Some(loss) = guard.loss() {
+        restart::after_loss(&loss.reason, loss.session.as_ref());
+    }
+    guard.outcome(result)
 }
 
 fn native_options(size: Option<[f32; 2]>) -> eframe::NativeOptions {

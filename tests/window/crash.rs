@@ -38,6 +38,10 @@ fn a_panic_or_a_lost_device_closes_the_window_with_its_reason_and_no_frame_is_dr
         window.key_press(egui::Key::E);
         window.step();
         assert_eq!(window.state().parts.model.view.exposure_ev, exposure);
+        drop(window);
+        let session = guard.loss().map(|loss| loss.session.unwrap());
+        assert_eq!(session.is_some(), reason.contains("lost"), "a restart goes on with the session");
+        assert!(session.is_none_or(|session| session.materials.len() == 3 && session.exposure == exposure));
         let error = guard.outcome(Ok(Ok(()))).unwrap_err().to_string();
         assert!(error.contains(reason), "{error}");
     }

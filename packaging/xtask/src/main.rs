@@ -1,6 +1,8 @@
 //! `cargo xtask bless [NAME...]` renews what is generated; `cargo xtask shot STATE` takes a screenshot of the window;
 //! `cargo xtask size` prints the size of each room.
 
+#![allow(clippy::disallowed_methods, reason = "it reads files of this repository")]
+
 mod bless;
 mod shot;
 mod size;

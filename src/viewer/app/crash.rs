@@ -6,13 +6,25 @@ use std::sync::{Arc, Mutex, PoisonError};
 use eframe::egui_wgpu::WgpuError;
 
 use svbrdf_core::error::Error as CoreError;
+use svbrdf_files::session::Session;
 
 use crate::error::Error;
 use crate::jobs::work::panics;
 
 /// What ended the window.
 #[derive(Clone, Debug, Default)]
-pub struct CrashGuard(Arc<Mutex<Option<Error>>>);
+pub struct CrashGuard {
+    error: Arc<Mutex<Option<Error>>>,
+    loss: Arc<Mutex<Option<Loss>>>,
+}
+
+/// A lost device.
+#[derive(Clone, Debug)]
+pub struct Loss {
+    pub reason: String,
+    /// `None` where materials were still being read.
+    pub session: Option<Session>,
+}
 
 impl CrashGuard {
     /// Draws a frame, unless one has failed; false where one has.
@@ -27,14 +39,24 @@ impl CrashGuard {
         caught.map_err(|error| self.fail(error)).is_ok()
     }
 
+    /// Keeps what a restart goes on with.
+    pub fn lose(&self, loss: Loss) {
+        *self.loss.lock().unwrap_or_else(PoisonError::into_inner) = Some(loss);
+    }
+
+    /// The device that was lost.
+    pub fn loss(&self) -> Option<Loss> {
+        self.loss.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
     /// Ends the window with this error. The first one is reported.
     pub fn fail(&self, error: Error) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+        self.error.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
     }
 
     /// Whether a frame has failed.
     pub fn has_crashed(&self) -> bool {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).is_some()
+        self.error.lock().unwrap_or_else(PoisonError::into_inner).is_some()
     }
 
     /// The end of the program: `result` is that of the window library, an error where it has panicked itself.
@@ -42,7 +64,7 @@ impl CrashGuard {
     /// # Errors
     /// [`Error::NoWindow`] and [`CoreError::NoAdapter`] where none was opened; what a frame has failed with.
     pub fn outcome(&self, result: Result<Result<(), eframe::Error>, Error>) -> Result<(), Error> {
-        let failed = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let failed = self.error.lock().unwrap_or_else(PoisonError::into_inner).take();
         match (failed, result) {
             (Some(error), _) => Err(error),
             (None, Ok(result)) => result.map_err(|error| no_window(&error)),

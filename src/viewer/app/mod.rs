@@ -5,6 +5,7 @@ pub mod dataset;
 pub mod effects;
 pub mod events;
 pub mod parts;
+pub mod restart;
 pub mod saving;
 pub mod storage;
 
@@ -15,7 +16,9 @@ use eframe::egui;
 use svbrdf_core::error::Error as CoreError;
 
 pub use crash::CrashGuard;
+use crash::Loss;
 use parts::Parts;
+use restart::Restarts;
 use storage::Storage;
 
 use super::jobs::Jobs;
@@ -60,6 +63,7 @@ impl App {
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
         let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu };
         let start = parts.model.start(options);
+        parts.model.report(Restarts::of_environment().map(|restarts| Message::Warning(restarts.message())));
         start.into_iter().for_each(|effect| effects::carry_out(&mut parts, &cc.egui_ctx, effect));
         let unscaled = storage.is_new();
         Self { parts, storage, crash: CrashGuard::default(), title: String::new(), unscaled }
@@ -67,8 +71,9 @@ impl App {
 
     /// Reports failures of the frames to this guard.
     #[must_use]
-    pub fn guarded(self, crash: CrashGuard) -> Self {
-        Self { crash, ..self }
+    pub fn guarded(mut self, crash: CrashGuard) -> Self {
+        self.crash = crash;
+        self
     }
 
     /// Whether a frame has panicked.
@@ -209,7 +214,17 @@ impl eframe::App for App {
     }
 }
 
-/// The end of a window whose device was lost.
+/// The window library drops the application where it panics over the lost device, too.
+impl Drop for App {
+    fn drop(&mut self) {
+        if let Some(reason) = self.loss() {
+            let is_read = self.parts.jobs.openings.is_empty();
+            self.crash.lose(Loss { reason, session: is_read.then(|| self.parts.model.session()) });
+        }
+    }
+}
+
+/// The end of a window whose device was lost, where the program does not start anew.
 fn lost(reason: &str) -> Error {
     let problem = format!("the graphics device was lost ({reason})");
     let remedy = "start again, and reopen these materials with Ctrl+Shift+O; where it is lost again, update the graphics driver or \
