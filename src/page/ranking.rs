@@ -2,29 +2,18 @@
 
 use svbrdf_core::loss::Estimate;
 
-use super::gallery::{self, Relit};
-use super::markup::{Document, embedded, escaped, filled, number};
+use super::markup::{Document, escaped, filled, number};
 use super::tables::{HtmlTable, cell, row_heading};
-use super::{plots, robust};
+use super::{findings, plots};
 use svbrdf_evaluate::dataset::{
     DatasetReport, FEWEST, MaterialResult, MethodSummary, Pick, best_by_metric, counted_loss,
     is_better_larger, marks_table,
 };
 use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
-use svbrdf_files::Error;
 
 const PAGE: &str = include_str!("ranking.html");
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("ranking.css"));
 const SCRIPT: &str = include_str!("ranking.js");
-/// The script of a page that is relit.
-const RELIT_SCRIPT: &str = concat!(
-    include_str!("codec.js"),
-    include_str!("camera.js"),
-    include_str!("endpoint.js"),
-    include_str!("shading.js"),
-    include_str!("ranking.js"),
-    include_str!("gallery.js"),
-);
 /// The place of the bars in the table of the methods, beside the means and their intervals.
 const BAR: usize = 5;
 
@@ -33,42 +22,24 @@ const BAR: usize = 5;
 pub struct MaterialView {
     /// Renderings of the ground truth and of the methods of the report, in their order, as data URIs; `None` where one cannot be read.
     pub(super) pictures: Vec<Option<String>>,
-    /// The maps of these pictures, where the page relights them.
-    pub(super) relit: Vec<Option<Relit>>,
     /// The address of its figure, relative to the page.
     pub(super) figure: Option<String>,
 }
 
 /// The ranking as HTML; `views` are those of the results, in their order, or none; `robust` tells whether the order survives.
-///
-/// # Errors
-/// [`Error::Internal`], which these values never give.
-pub fn ranking(
-    report: &DatasetReport,
-    views: &[MaterialView],
-    robust: Option<&RobustReport>,
-) -> Result<String, Error> {
+pub fn ranking(report: &DatasetReport, views: &[MaterialView], robust: Option<&RobustReport>) -> String {
     let settings = &report.settings;
     let (count, all) = (report.results.len(), settings.materials.len());
     let of = if count == all { String::new() } else { format!(" of {all}") };
     let title = format!("Rendering loss over {count}{of} materials");
     let verdict = overall(report);
-    let robust = robust.map_or(String::new(), robust::section);
+    let robust = robust.map_or(String::new(), findings::robust);
     let sections = methods(report) + &robust + &materials(report, views) + &metrics(report) + &marks(report);
     let settings = heading(report, !robust.is_empty());
-    let relit: Vec<&Option<Relit>> = views.iter().flat_map(|view| &view.relit).collect();
-    let (data, script) = if relit.is_empty() {
-        (String::new(), SCRIPT)
-    } else {
-        let json = gallery::json(&relit, &report.settings.convention.convention)?;
-        let json = embedded(&json);
-        (format!(r#"<script type="application/json" id="data">{json}</script>"#), RELIT_SCRIPT)
-    };
-    let sections = sections + &data;
     let parts = [("title", &title), ("verdict", &verdict), ("settings", &settings), ("sections", &sections)];
     let body = filled(PAGE, &parts.map(|(key, text)| (key, text.as_str())));
     let (title, description) = (title.as_str(), verdict.as_str());
-    Ok(Document { title, description, image: None, style: STYLE, script, body: &body }.html())
+    Document { title, description, style: STYLE, script: SCRIPT, body: &body }.html()
 }
 
 /// Everything that the numbers depend on.
@@ -200,17 +171,14 @@ fn marks(report: &DatasetReport) -> String {
     )
 }
 
-/// The materials as a gallery: a row for each, with a picture above each loss.
+/// The sheet of the materials: a row for each, with a picture above each loss.
 fn materials(report: &DatasetReport, views: &[MaterialView]) -> String {
     let none = MaterialView::default();
     let has_pictures = views.iter().any(|view| !view.pictures.is_empty());
-    let mut relit = 0;
     let row = |(place, result): (usize, &MaterialResult)| {
         let view = views.get(place).unwrap_or(&none);
         let name = linked(escaped(&result.material), view);
-        let first = relit;
-        relit += view.relit.len();
-        let of = |column: usize, what: &str| picture(view, (first, column), what, &result.material);
+        let of = |column: usize, what: &str| picture(view, column, what, &result.material);
         let truth = has_pictures.then(|| format!("<td>{}</td>", of(0, "ground truth")));
         let losses = (1..)
             .zip(&report.methods)
@@ -224,34 +192,13 @@ fn materials(report: &DatasetReport, views: &[MaterialView]) -> String {
     } else {
         ""
     };
-    let (hint, links) = relighting(views);
+    let links = if views.iter().any(|view| view.figure.is_some()) {
+        " A link opens the interactive figure of the material: a file beside this one."
+    } else {
+        ""
+    };
     format!(
-        r#"<section aria-labelledby="materials" class="gallery"><h2 id="materials">Materials</h2>{hint}{table}<p class="weak">Loss, and its 95% interval over scenes.{pictures}{links}</p></section>"#
-    )
-}
-
-/// What tells of the light of pictures with a figure: the line above them, which the script shows, and the words below them.
-fn relighting(views: &[MaterialView]) -> (String, String) {
-    let has_figure = |view: &&MaterialView| view.figure.is_some();
-    if !views.iter().any(|view| has_figure(&view)) {
-        return Default::default();
-    }
-    let link = " A link opens the interactive figure of the material: a file beside this one.".to_owned();
-    if views.iter().all(|view| view.relit.is_empty()) {
-        let most = gallery::MOST_BYTES / 1_000_000;
-        let still = format!(
-            " The light of the pictures is fixed: their maps would take more than {most} MB. With fewer figures (--figures worst:N) it moves."
-        );
-        return (String::new(), link + &still);
-    }
-    let which = if views.iter().all(|view| has_figure(&view)) { "pictures" } else { "pictures with a link" };
-    let hint = format!(
-        r#"<p id="relight" hidden>Drag over a picture, or press an arrow key on it: the light of all {which} moves. <button type="button">Reset light</button></p>"#
-    );
-    let side = gallery::SIDE;
-    (
-        hint,
-        format!("{link} Once the light has moved, pictures are of every n-th texel, at most {side} a side."),
+        r#"<section aria-labelledby="materials" class="sheet"><h2 id="materials">Materials</h2>{table}<p class="weak">Loss, and its 95% interval over scenes.{pictures}{links}</p></section>"#
     )
 }
 
@@ -263,14 +210,11 @@ fn linked(html: String, view: &MaterialView) -> String {
     }
 }
 
-/// The picture of a column, which leads to the figure; `first` is the number of the first one of its material among those that are
-/// relit.
-fn picture(view: &MaterialView, (first, column): (usize, usize), what: &str, material: &str) -> String {
+/// The picture of a column, which leads to the figure.
+fn picture(view: &MaterialView, column: usize, what: &str, material: &str) -> String {
     let Some(data) = view.pictures.get(column).and_then(Option::as_ref) else { return String::new() };
     let alt = format!("{}, {}", escaped(material), escaped(what));
-    let relit =
-        view.relit.get(column).map_or(String::new(), |_| format!(r#" data-picture="{}""#, first + column));
-    linked(format!(r#"<img src="{data}" alt="{alt}"{relit}>"#), view)
+    linked(format!(r#"<img src="{data}" alt="{alt}">"#), view)
 }
 
 /// The cell of the loss of a material by a method: the one that counts, or why there is none.
@@ -293,17 +237,4 @@ fn with_interval(value: Option<f64>, interval: Option<[f64; 2]>, class: &str, pi
     });
     let class = if class.is_empty() { String::new() } else { format!(r#" class="{class}""#) };
     format!(r#"<td data-sort="{value}"{class}>{picture}<span>{text}</span>{interval}</td>"#)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_page_without_room_tells_that_its_light_is_fixed() {
-        let still = MaterialView { figure: Some("f.html".to_owned()), ..MaterialView::default() };
-        let (hint, words) = relighting(&[still, MaterialView::default()]);
-        assert!(hint.is_empty() && words.contains("fixed") && words.contains("20 MB"), "{hint}{words}");
-        assert_eq!(relighting(&[MaterialView::default()]), Default::default());
-    }
 }

@@ -11,13 +11,12 @@ use rayon::prelude::*;
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
-use super::about::About;
 use super::content::{Report, View};
 use super::exposure::exposure;
-use super::gallery::{Room, SCENE};
 use super::pictures;
 use super::ranking::MaterialView;
 use svbrdf_evaluate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
@@ -27,6 +26,8 @@ use svbrdf_files::disk::paths::plain;
 use svbrdf_files::read::{self, ReadOptions};
 use svbrdf_files::session::window::SessionDisplay;
 
+/// Light and view of pictures and figures.
+const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
 /// Width of a picture, in pixels: of two for one of the page, and where there are many.
 const PICTURE: [u32; 2] = [320, 160];
 /// Most pictures of the larger width: a page has some 15 kB for each.
@@ -64,8 +65,7 @@ impl FromStr for Figures {
 }
 
 /// Reads the materials of `cases` again, renders pictures and writes the figures of `figures` into a folder beside the `page`,
-/// which is named after it; pictures of materials with a figure can be relit. A material that cannot be read any more has neither. A
-/// material is one step of `progress`.
+/// which is named after it. A material that cannot be read any more has neither. A material is one step of `progress`.
 ///
 /// # Errors
 /// [`Cancelled`](Error::is_cancelled), [`Error::Unwritable`].
@@ -86,20 +86,16 @@ pub fn material_views(
     progress.begin(report.results.len() as u64);
     let count = report.results.len() * (1 + report.methods.len());
     let width = PICTURE[usize::from(count > LARGE)];
-    let room = Room::default();
     let one = |result: &MaterialResult| {
         let materials = cases.get(&result.index).and_then(|case| opened(report, result, case));
         let view = materials.map_or(Ok(MaterialView::default()), |materials| {
             let figure = chosen.contains(&result.index).then(|| folder.join(file_name(result)));
-            view(&materials, &convention, width, figure.map(|path| (path, &room)), progress)
+            view(&materials, &convention, width, figure.as_deref(), progress)
         })?;
         progress.step()?;
         Ok(view)
     };
-    let views = report.results.par_iter().map(one).collect::<Result<Vec<_>, Error>>()?;
-    let is_full = room.is_full();
-    let kept = |view| if is_full { MaterialView { relit: Vec::new(), ..view } } else { view };
-    Ok(views.into_iter().map(kept).collect())
+    report.results.par_iter().map(one).collect()
 }
 
 /// The folder of the figures of a page.
@@ -152,12 +148,12 @@ fn opened(
     Some(std::iter::once(Some(ground_truth)).chain(predictions).collect())
 }
 
-/// The pictures of a material; its figure is written to the file of `figure`, and its maps are put into the room of the page.
+/// The pictures of a material; its figure is written to the file of `figure`.
 fn view(
     all: &[Option<Material<f32>>],
     convention: &Convention,
     width: u32,
-    figure: Option<(PathBuf, &Room)>,
+    figure: Option<&Path>,
     progress: &Progress,
 ) -> Result<MaterialView, Error> {
     let materials: Vec<&Material<f32>> = all.iter().flatten().collect();
@@ -171,14 +167,8 @@ fn view(
         pictures::thumbnail(&[small], &SCENE, &drawn, exposure_ev, rows, &progress.part()).map(Some)
     };
     let pictures = all.iter().map(picture).collect::<Result<Vec<_>, Error>>()?;
-    let Some((path, room)) = figure else { return Ok(MaterialView { pictures, ..MaterialView::default() }) };
-    let relit = all.iter().map(|one| match one {
-        Some(material) => room.take(material, exposure_ev),
-        None => Ok(None),
-    });
-    let relit = relit.collect::<Result<_, _>>()?;
-    let figure = write_figure(&path, &materials, convention, exposure_ev, progress)?;
-    Ok(MaterialView { pictures, relit, figure: Some(figure) })
+    let figure = figure.map(|path| write_figure(path, &materials, convention, exposure_ev, progress));
+    Ok(MaterialView { pictures, figure: figure.transpose()? })
 }
 
 /// Writes the figure of `materials`; its address.
@@ -196,7 +186,6 @@ fn write_figure(
         findings: None,
         readings: Vec::new(),
         repetition: None,
-        about: About::default(),
         max_bytes: FIGURE,
     };
     let page = report.page(&progress.part())?;

@@ -74,7 +74,7 @@ pub fn page() -> String {
     };
     let reading = DatasetReading::default();
     let report = DatasetReport::new(settings, reading, results.collect(), Pick::Fixed);
-    ranking(&report, &[], Some(&robust())).unwrap()
+    ranking(&report, &[], Some(&robust()))
 }
 
 /// A pair of methods that changes sides.

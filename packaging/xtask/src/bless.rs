@@ -10,7 +10,7 @@ struct Generated {
 }
 
 /// What others are made of comes first.
-const GENERATED: [Generated; 12] = [
+const GENERATED: [Generated; 11] = [
     Generated {
         name: "locks",
         files: "Cargo.lock, tests/fuzz/Cargo.lock",
@@ -39,14 +39,9 @@ const GENERATED: [Generated; 12] = [
         script: "cargo build && python3 python/tests/report_types.py ${CARGO_TARGET_DIR:-target}/debug/svbrdf",
     },
     Generated {
-        name: "report",
-        files: "docs/example-report.html",
-        script: "cargo run -- report -o docs/example-report.html --max-size 2MB",
-    },
-    Generated {
-        name: "report-picture",
+        name: "pages",
         files: "assets/pictures/{report,ranking}.jpg",
-        script: "cargo test --test main write_the_picture_of_the -- --ignored",
+        script: "cargo test --test main write_the_pictures_of_pages -- --ignored",
     },
     Generated {
         name: "pictures",

@@ -91,7 +91,7 @@ pub struct DataSetArgs {
 /// What the page of a data set has beside what is printed.
 #[derive(Debug, clap::Args)]
 pub struct PageArgs {
-    /// Writes figures of materials beside the page, and relights their pictures in it: all, or worst:N, of the N largest mean losses
+    /// Writes figures of materials beside the page: all, or worst:N, of the N largest mean losses
     #[arg(long, value_name = "all|worst:N")]
     #[arg(value_parser = offered(str::parse::<Figures>, ["all", "worst:20"]), hide_possible_values = true)]
     pub figures: Option<Figures>,

@@ -139,7 +139,7 @@ fn write_page(
     let views = watched_on(progress, "rendering materials", |progress| {
         material_views(report, cases, figures, path, progress)
     })?;
-    Ok(write_text(path, &ranking(report, &views, robust.as_ref())?, progress)?)
+    Ok(write_text(path, &ranking(report, &views, robust.as_ref()), progress)?)
 }
 
 /// The cases of a shard, which is reported.
