@@ -2,12 +2,9 @@
 
 mod browser;
 mod controls;
-mod example;
-mod framing;
-mod gallery;
 mod hostile;
 mod numbers;
-mod pixels;
+mod pictures;
 mod ranking;
 mod readable;
 #[cfg(feature = "viewer")]
@@ -20,7 +17,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::read::Read;
 use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_files::source::MaterialSource;
-use svbrdf_page::{About, Report, View};
+use svbrdf_page::{Report, View};
 
 #[cfg(target_os = "linux")]
 #[test]
@@ -78,7 +75,6 @@ fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report
         findings: None,
         readings: Vec::new(),
         repetition: None,
-        about: About::default(),
         max_bytes: 10_000_000,
     }
 }

@@ -38,11 +38,7 @@ const GROUPS: [(&str, &[Entry]); 4] = [
             (
                 "report",
                 "a page for any browser, which readers light themselves",
-                &[
-                    "gt.png a.png b.png -o report.html",
-                    "gt.png a.png --about about.toml -o report.html",
-                    "--no-ground-truth first.png second.png -o report.html",
-                ],
+                &["gt.png a.png b.png -o report.html", "gt.png a.png --figure -o figure.html"],
             ),
         ],
     ),

@@ -10,7 +10,7 @@ use svbrdf_evaluate::robust::RobustInput;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::session::window::{Layout, SessionDisplay};
-use svbrdf_page::{About, Findings, Page, Repetition, Report, View, check_destination, exposure};
+use svbrdf_page::{Findings, Page, Repetition, Report, View, check_destination, exposure};
 
 use super::args::scenes::{AccuracyArgs, RenderingArgs};
 use super::args::{ComparisonArgs, Given, refuse, values};
@@ -50,14 +50,6 @@ pub struct ReportArgs {
     #[arg(long, value_name = "LAYOUT")]
     layout: Option<Layout>,
 
-    /// Texts of the page, as TOML: title, authors, caption, bibtex, and image, the address of a picture for previews of links
-    #[arg(long, value_name = "FILE", conflicts_with = "figure")]
-    about: Option<PathBuf>,
-
-    /// Calls no material a ground truth: the page names the first one instead
-    #[arg(long)]
-    no_ground_truth: bool,
-
     #[command(flatten)]
     accuracy: AccuracyArgs,
 
@@ -77,7 +69,6 @@ struct ReportJob {
     /// `None`: fitted to the ground truth.
     exposure_ev: Option<f32>,
     display: SessionDisplay,
-    about: About,
     /// `None`: the figure alone.
     whole: Option<WholePage>,
 }
@@ -93,11 +84,8 @@ struct WholePage {
 
 impl ReportArgs {
     pub fn job(self, given: &Given) -> NewJob {
-        let Self { output, max_size, figure, robust, layout, about, accuracy, rendering, comparison, .. } =
-            self;
+        let Self { output, max_size, figure, robust, layout, accuracy, rendering, comparison } = self;
         check_destination(&output)?;
-        let about = about.as_deref().map(About::read).transpose()?.unwrap_or_default();
-        let about = About { no_ground_truth: self.no_ground_truth, ..about };
         let comparison = ComparisonJob::new(&comparison, given)?;
         let (session, is_alone) = (comparison.session.as_ref(), comparison.materials.predictions() == 0);
         if figure {
@@ -117,14 +105,14 @@ impl ReportArgs {
         let exposure_ev = rendering.exposure.or(session.map(|session| session.exposure_ev));
         let robust = robust.then(|| accuracy.target_and_seed());
         let whole = (!figure).then_some(WholePage { request, robust });
-        Ok(Box::new(ReportJob { comparison, output, max_size, scene, exposure_ev, display, about, whole }))
+        Ok(Box::new(ReportJob { comparison, output, max_size, scene, exposure_ev, display, whole }))
     }
 }
 
 /// Computes the findings and writes the page; with `--strict` fails where the target error is not reached, after the file is written.
 impl Job for ReportJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison, output, max_size, scene, exposure_ev, display, about, whole } = *self;
+        let Self { comparison, output, max_size, scene, exposure_ev, display, whole } = *self;
         let ComparisonJob { convention, materials, .. } = comparison;
         let opened = materials.open::<f32>()?;
         check_output(&output)?;
@@ -152,7 +140,6 @@ impl Job for ReportJob {
             findings,
             readings: whole.as_ref().map_or(Vec::new(), |_| opened.readings.clone()),
             repetition: whole.map(|_| Repetition { command: command_line(), session: None }),
-            about,
             max_bytes: max_size,
         };
         let page = watched("writing", |progress| report.page(progress))?;

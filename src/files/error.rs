@@ -73,10 +73,6 @@ pub enum Error {
     )]
     FigureTooNarrow { width_mm: f64, columns: usize, text_pt: f64, least: f64 },
 
-    /// Texts of a report that are none.
-    #[error("{}: {problem}; expected texts for title, authors, caption, bibtex or image, such as title = \"Worn tiles\"", path.display())]
-    BadAbout { path: PathBuf, problem: String },
-
     /// A page that programs refuse to open.
     #[error("a PDF page of {:.0} x {:.0} mm is too large: expected at most {most:.0} mm; show fewer materials or methods, or \
         write SVG or PNG", millimetres[0], millimetres[1])]

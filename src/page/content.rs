@@ -13,8 +13,6 @@ use svbrdf_files::Error;
 
 use svbrdf_files::session::window::SessionDisplay;
 
-use super::about::About;
-
 /// Worst scenes of the page.
 const SCENES: usize = 6;
 /// Columns of the map over directions of the light, and the view of that map.
@@ -90,7 +88,6 @@ pub struct Report<'a> {
     pub readings: Vec<Vec<String>>,
     /// `None`: not written.
     pub repetition: Option<Repetition>,
-    pub about: About,
     /// Most bytes of the file: maps are halved until it fits.
     pub max_bytes: usize,
 }

@@ -28,11 +28,10 @@ function bindControls(figure, element, reset) {
     if (state.layout === "side-by-side" && figure.hasRoom()) state.layout = "single";
   });
   on("near", (value) => setKind(state.scene, /** @type {Scene["kind"]} */ (value)));
-  on("projection", (value) => { state.projection = value; });
   on("drag", (value) => { state.drag = value; });
   on("exposure", (value) => { state.exposure = Number(value); });
   on("difference", () => { state.difference = input("difference").checked; });
-  for (const which of /** @type {Endpoint[]} */ (["light", "view"])) {
+  for (const which of ENDPOINTS) {
     [0, 1, 2].forEach((i) => on(`${which}-${i}`, (value) => {
       const p = [...state.scene[which]];
       p[i] = Number(value);
@@ -56,7 +55,7 @@ function bindControls(figure, element, reset) {
     kinds = state.quantity;
     const values = {
       quantity: state.quantity, kind: figure.kind().key, layout: state.layout, prediction: String(state.prediction),
-      near: state.scene.kind, projection: state.projection, drag: state.drag,
+      near: state.scene.kind, drag: state.drag,
     };
     for (const [id, value] of Object.entries(values)) select(id).value = value;
     input("difference").checked = state.difference;
@@ -64,28 +63,11 @@ function bindControls(figure, element, reset) {
     input("exposure").value = String(state.exposure);
     element("exposure-text").textContent = `${state.exposure > 0 ? "+" : state.exposure < 0 ? "\u2212" : ""}${Number(Math.abs(state.exposure).toFixed(2))} EV`;
     peek.setAttribute("aria-pressed", String(state.peek));
-    for (const which of /** @type {Endpoint[]} */ (["light", "view"])) {
+    for (const which of ENDPOINTS) {
       state.scene[which].forEach((number, i) => {
         const field = input(`${which}-${i}`);
         if (document.activeElement !== field) field.value = String(Number(number.toFixed(4)));
       });
     }
-  });
-}
-
-/** Says where light and view are, once they rest. @param {Figure} figure @param {HTMLElement} status */
-function announce(figure, status) {
-  let timer = 0;
-  // On one line, without a negative zero.
-  const coordinate = (/** @type {number} */ c) => (Math.round(100 * c) / 100 + 0).toFixed(2).replace("-", "\u2212");
-  const place = (/** @type {Vector} */ p) => `(${p.map(coordinate).join(",\u00a0")})`;
-  figure.watchers.push(() => {
-    clearTimeout(timer);
-    timer = setTimeout(() => {
-      const { kind, light, view } = figure.state.scene;
-      const few = figure.state.layout === "side-by-side" && !figure.hasRoom() ? " There is room for one prediction." : "";
-      const text = `${kind === "near" ? "Near-field light" : "Distant light"} ${place(light)}, view ${place(view)}.${few}`;
-      if (status.textContent !== text) status.textContent = text;
-    }, 250);
   });
 }

@@ -16,7 +16,6 @@ use svbrdf_shaders::PAGE_GLSL;
 
 use super::content::{Report, View};
 use super::encode::EncodedMaterial;
-use svbrdf_files::session::window::Framing;
 
 /// Colours of a legend.
 const COLOURS: usize = 64;
@@ -38,14 +37,11 @@ struct Data<'a> {
     colours: BTreeMap<&'a str, Vec<String>>,
     start: Start<'a>,
     scenes: &'a [LinkedScene],
-    /// Stops by which each material is brightened beside the first.
-    offsets: &'a [f32],
-    ground_truth: bool,
 }
 
 /// The renderer of a convention: the shaders and their uniforms.
 #[derive(Serialize)]
-pub(super) struct Renderer {
+struct Renderer {
     convention: &'static str,
     /// The convention that is drawn.
     drawn: &'static str,
@@ -57,7 +53,7 @@ pub(super) struct Renderer {
 impl Renderer {
     /// # Errors
     /// [`Error::Internal`], which the shaders never give.
-    pub(super) fn new(convention: &Convention) -> Result<Self, Error> {
+    fn new(convention: &Convention) -> Result<Self, Error> {
         let shaders = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
         let drawn = convention.drawn();
         let (name, epsilon) = (convention.name, convention.epsilon);
@@ -65,7 +61,7 @@ impl Renderer {
     }
 }
 
-pub(super) fn failed(problem: serde_json::Error) -> Error {
+fn failed(problem: serde_json::Error) -> Error {
     Error::Internal(format!("a page cannot be made: {problem}"))
 }
 
@@ -89,20 +85,7 @@ struct Start<'a> {
     ranges: BTreeMap<&'a str, f64>,
     layout: &'a str,
     prediction: usize,
-    projection: String,
-    framing: Option<StartFraming>,
     wipe: f32,
-    tiled: bool,
-    false_colour: bool,
-    clipping: bool,
-}
-
-/// [`Framing`] in texels of the maps of the page.
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct StartFraming {
-    pixels_per_texel: f32,
-    centre: [f32; 2],
 }
 
 /// The JSON of the figure.
@@ -113,7 +96,6 @@ pub(super) fn json(
     materials: &[EncodedMaterial],
     report: &Report<'_>,
     scenes: &[LinkedScene],
-    offsets: &[f32],
 ) -> Result<String, Error> {
     let Report { convention, .. } = report;
     let data = Data {
@@ -121,10 +103,8 @@ pub(super) fn json(
         renderer: Renderer::new(convention)?,
         kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
-        start: start(report, materials),
+        start: start(report),
         scenes,
-        offsets,
-        ground_truth: !report.about.no_ground_truth,
     };
     serde_json::to_string(&data).map_err(failed)
 }
@@ -164,7 +144,7 @@ fn colours(map: fn(f32) -> [f32; 3], low: f32) -> Vec<String> {
     (0..COLOURS).map(colour).collect()
 }
 
-fn start<'a>(report: &'a Report<'_>, materials: &[EncodedMaterial]) -> Start<'a> {
+fn start<'a>(report: &'a Report<'_>) -> Start<'a> {
     let View { scene, exposure_ev, ref display } = report.view;
     let differences = &display.differences;
     let chosen = |quantity: Quantity| (quantity.name(), differences.pointwise(quantity).0.key());
@@ -181,24 +161,7 @@ fn start<'a>(report: &'a Report<'_>, materials: &[EncodedMaterial]) -> Start<'a>
         kinds: Quantity::ALL.map(chosen).into(),
         ranges: ranges.collect(),
         layout: display.layout.key(),
-        prediction: display.prediction.min(materials.len().saturating_sub(2)),
-        projection: format!("{:?}", display.projection).to_lowercase(),
-        framing: display.framing.and_then(|framing| in_stored_texels(framing, report, materials)),
+        prediction: display.prediction.min(report.materials.len().saturating_sub(2)),
         wipe: display.wipe,
-        tiled: display.tiled,
-        false_colour: display.false_colour,
-        clipping: display.show_clipping,
     }
-}
-
-/// A framing of the materials, whose maps may be stored in fewer texels.
-fn in_stored_texels(
-    Framing { pixels_per_texel, centre: [x, y] }: Framing,
-    report: &Report<'_>,
-    stored: &[EncodedMaterial],
-) -> Option<StartFraming> {
-    let [width, height] = report.materials.first()?.size().map(|side| side as f32);
-    let [columns, rows] = stored.first()?.size().map(|side| side as f32);
-    let pixels_per_texel = pixels_per_texel * height / rows;
-    Some(StartFraming { pixels_per_texel, centre: [x * columns / width, y * rows / height] })
 }

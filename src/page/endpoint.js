@@ -6,10 +6,15 @@
 const LOWEST = 0.01;
 /** Largest coordinate. */
 const FARTHEST = 1000;
-/** Least height of an endpoint that is orbited, as a share of its distance: the cosine of 85 degrees. */
-const ORBIT_LOWEST = Math.cos(85 * Math.PI / 180);
 /** Least height of a position that a direction becomes, as a share of its distance. */
 const LOWEST_SHARE = 0.1;
+/** @type {Endpoint[]} */
+const ENDPOINTS = ["light", "view"];
+
+/** @param {Vector} a */
+const norm = (a) => Math.hypot(...a);
+/** @param {Vector} a @returns {Vector} */
+const unit = (a) => [a[0] / norm(a), a[1] / norm(a), a[2] / norm(a)];
 
 /** @param {Scene} scene @param {Endpoint} which @param {number[]} p */
 function setEndpoint(scene, which, [x, y, z]) {
@@ -23,48 +28,29 @@ function overPlane(scene, which) {
   return [x, y];
 }
 
+/** (x, y), no longer than `most`. @param {number} x @param {number} y @param {number} most */
+function within(x, y, most) {
+  const shrink = Math.min(most / Math.max(Math.hypot(x, y), Number.MIN_VALUE), 1);
+  return [x * shrink, y * shrink];
+}
+
 /** Near-field or distant, such that it looks the same from the middle. @param {Scene} scene @param {Scene["kind"]} kind */
 function setKind(scene, kind) {
   if (scene.kind === kind) return;
   scene.kind = kind;
   if (kind === "distant") return;
-  for (const which of /** @type {Endpoint[]} */ (["light", "view"])) {
+  for (const which of ENDPOINTS) {
     const [x, y, height] = scene[which];
     const length = norm(scene[which]);
     const z = Math.max(height, LOWEST_SHARE * length);
-    const across = Math.hypot(x, y);
-    const shrink = across > 0 ? Math.min(Math.sqrt(Math.max(length * length - z * z, 0)) / across, 1) : 1;
-    setEndpoint(scene, which, [x * shrink, y * shrink, z]);
+    setEndpoint(scene, which, [...within(x, y, Math.sqrt(Math.max(length * length - z * z, 0))), z]);
   }
 }
 
 /** Moves an endpoint so that its projection is (x, y). @param {Scene} scene @param {Endpoint} which @param {number[]} point */
 function moveOverPlane(scene, which, [x, y]) {
   if (scene.kind === "near") return setEndpoint(scene, which, [x, y, scene[which][2]]);
-  const rim = Math.sqrt(1 - LOWEST * LOWEST);
-  const across = Math.hypot(x, y);
-  const shrink = across > 0 ? Math.min(rim / across, 1) : 1;
-  const [sx, sy] = [x * shrink, y * shrink];
+  const [sx, sy] = within(x, y, Math.sqrt(1 - LOWEST * LOWEST));
   const distance = norm(scene[which]);
   setEndpoint(scene, which, [sx, sy, Math.sqrt(Math.max(1 - sx * sx - sy * sy, 0))].map((c) => c * distance));
-}
-
-/** Turns an endpoint about the middle of the material, in radians. @param {Scene} scene @param {Endpoint} which @param {number} sideways @param {number} upwards */
-function orbit(scene, which, sideways, upwards) {
-  const steepest = Math.PI / 2 - 1e-3;
-  const p = scene[which];
-  const length = norm(p);
-  const longitude = clamp(Math.atan2(p[0], p[2]) + sideways, -steepest, steepest);
-  const latitude = clamp(Math.asin(p[1] / length) + upwards, -steepest, steepest);
-  const [x, y] = [Math.cos(latitude) * Math.sin(longitude), Math.sin(latitude)];
-  const lowest = Math.max(Math.min(ORBIT_LOWEST, p[2] / length), LOWEST / length);
-  const z = Math.min(Math.max(Math.cos(latitude) * Math.cos(longitude), lowest), 1);
-  const shrink = Math.sqrt((1 - z * z) / Math.max(x * x + y * y, Number.MIN_VALUE));
-  setEndpoint(scene, which, [x * shrink, y * shrink, z].map((c) => c * length));
-}
-
-/** @param {Scene} scene @param {Endpoint} which @param {number} factor */
-function scaleHeight(scene, which, factor) {
-  const [x, y, z] = scene[which];
-  setEndpoint(scene, which, [x, y, z * factor]);
 }

@@ -3,21 +3,16 @@
 /**
  * @typedef {{scene: Scene, quantity: string, model: Record<string, number>, epsilon: number}} Shaded
  * @typedef {{material: number, difference: string | null, wipe: number | null}} Pane
- * @typedef {{exposure: number, range: number, clipping: boolean, tiled: boolean, falseColour: boolean}} Shown
  * @typedef {{key: string, name: string, unit: string, signed: boolean, range: number}} Kind
  * @typedef {{scene: Scene, exposure: number, quantity: string, difference: boolean, kinds: Record<string, string>,
- *   ranges: Record<string, number>, layout: string, prediction: number, projection: string, zoom: number,
- *   pan: [number, number], framing: Framing | null, wipe: number, drag: string, peek: boolean, tiled: boolean, falseColour: boolean, clipping: boolean}} State
+ *   ranges: Record<string, number>, layout: string, prediction: number, zoom: number, pan: [number, number], wipe: number,
+ *   drag: string, peek: boolean}} State
  * @typedef {{materials: StoredMaterial[], model: Record<string, number>, epsilon: number, convention: string, drawn: string,
  *   kinds: Record<string, Kind[]>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
- *   start: Partial<State>, scenes: {scene: Scene, exposure: number}[], offsets: number[], groundTruth: boolean}} Data
+ *   start: Omit<State, "zoom" | "pan" | "drag" | "peek">, scenes: {scene: Scene, exposure: number}[]}} Data
  */
 
 const LAYOUTS = ["side-by-side", "wipe", "single"];
-const START = {
-  exposure: 0, quantity: "rendering", difference: false, layout: "side-by-side", prediction: 0, projection: "flat", zoom: 1, framing: null, wipe: 0.5,
-  drag: "light", peek: false, tiled: false, falseColour: false, clipping: false,
-};
 /** Least width of a pane, in CSS pixels, where others fit below it. */
 const NARROWEST = 150;
 /** Least side of a pane, in CSS pixels: where all are smaller, one prediction is beside the ground truth. */
@@ -46,9 +41,9 @@ class Figure {
     const kinds = Object.fromEntries(Object.entries(this.data.kinds).map(([quantity, all]) => [quantity, all[0].key]));
     const ranges = Object.fromEntries(Object.values(this.data.kinds).flat().map((kind) => [kind.key, kind.range]));
     const start = structuredClone(this.data.start);
-    return /** @type {State} */ ({
-      ...START, pan: [0, 0], ...start, kinds: { ...kinds, ...start.kinds }, ranges: { ...ranges, ...start.ranges },
-    });
+    return {
+      ...start, zoom: 1, pan: [0, 0], drag: "light", peek: false, kinds: { ...kinds, ...start.kinds }, ranges: { ...ranges, ...start.ranges },
+    };
   }
 
   /** Changes the state and draws. @param {Partial<State>} changes */
@@ -80,16 +75,9 @@ class Figure {
     return { scene, quantity, model: this.data.model, epsilon: this.data.epsilon };
   }
 
-  /** The stops by which a pane is brightened beside the first one. @param {Pane} pane */
-  offset({ material, wipe }) {
-    return wipe === null && this.state.quantity === "rendering" ? this.data.offsets[material] : 0;
-  }
-
-  /** @param {Pane} pane @returns {Shown} */
-  shown(pane) {
-    const { clipping, tiled, falseColour, ranges } = this.state;
-    const exposure = this.state.exposure + this.offset(pane);
-    return { exposure, clipping, tiled, falseColour, range: ranges[this.kind().key] };
+  /** How it is shown. */
+  shown() {
+    return { exposure: this.state.exposure, range: this.state.ranges[this.kind().key] };
   }
 
   /** The panes of the layout, in reading order. @returns {Pane[]} */
@@ -132,23 +120,9 @@ class Figure {
     return { ...best, rows: Math.ceil(count / best.columns) };
   }
 
-  /** The camera that fits the material into a pane. @param {number} width @param {number} height */
-  fitted(width, height) {
-    const { scene, projection } = this.state;
-    return projection === "flat" ? flatCamera(this.grid, width / height) : sceneCamera(scene, this.grid, width / height);
-  }
-
   /** @param {number} width @param {number} height @returns {Camera} */
   camera(width, height) {
-    return zoomed(this.fitted(width, height), this.state.zoom, this.state.pan);
-  }
-
-  /** Makes the framing of the state the zoom and pan of its panes. */
-  frame() {
-    const { framing } = this.state;
-    if (!framing) return;
-    const { width, height } = this.boxes()[0];
-    Object.assign(this.state, framed(framing, this.fitted(width, height), this.grid, height * devicePixelRatio), { framing: null });
+    return flatCamera(this.grid, width / height, this.state.zoom, this.state.pan);
   }
 
   /** The rectangle of each pane, in CSS pixels from the upper left corner. */
@@ -168,7 +142,6 @@ class Figure {
     const [w, h] = [Math.round(canvas.clientWidth * scale), Math.round(rows * height * scale)];
     if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
     this.shading.clear();
-    this.frame();
     const how = this.how();
     for (const { pane, ...box } of this.boxes()) {
       const gap = 1;
@@ -177,7 +150,7 @@ class Figure {
       const lower = Math.round((box.y + box.height) * scale) - gap;
       const pixels = { x, y: h - lower, width: right - x, height: lower - y };
       if (pixels.width < 1 || pixels.height < 1) continue;
-      this.shading.pane(pane, how, this.camera(box.width, box.height), pixels, this.shown(pane));
+      this.shading.pane(pane, how, this.camera(box.width, box.height), pixels, this.shown());
     }
     for (const watcher of this.watchers) watcher();
   }
@@ -188,9 +161,8 @@ class Figure {
     const { canvas } = this;
     [canvas.width, canvas.height] = [width, height];
     const box = { x: 0, y: 0, width, height };
-    const camera = zoomed(flatCamera(this.grid, width / height), MARGIN, [0, 0]);
-    const pane = { material, difference, wipe: null };
-    this.shading.pane(pane, this.how(), camera, box, this.shown(pane));
+    const camera = flatCamera(this.grid, width / height, MARGIN, [0, 0]);
+    this.shading.pane({ material, difference, wipe: null }, this.how(), camera, box, this.shown());
     const pixels = this.shading.pixels(box);
     const rgb = new Uint8Array(3 * width * height);
     for (let i = 0; i < width * height; i++) {
@@ -201,29 +173,20 @@ class Figure {
     return rgb;
   }
 
-  /** What covers a point of the plane. @param {[number, number]} point */
-  seen(point) {
-    return seenAt(this.grid, point, this.state.tiled);
+  /** The texel that covers a point of the plane. @param {[number, number]} point */
+  texel(point) {
+    return texelAt(this.grid, point);
   }
 
-  /** Whether the panes show the plane on which materials are repeated, lit as one. */
-  isPlane() {
-    return this.state.tiled && isLitAsPlane(this.how());
-  }
-
-  /** The numbers of a texel of a material, as it is seen. @param {number} material @param {Seen} seen */
-  value(material, seen) {
-    const plane = this.isPlane();
-    const [x, y] = plane ? seen.cell : seen.texel;
-    const numbers = [...this.shading.read(this.shading.shade(material, this.how(), plane), { x, y, width: 1, height: 1 })].slice(0, 3);
+  /** The numbers of a texel of a material. @param {number} material @param {[number, number]} texel */
+  value(material, [x, y]) {
+    const numbers = [...this.shading.read(this.shading.shade(material, this.how()), { x, y, width: 1, height: 1 })].slice(0, 3);
     return this.state.quantity === "normal" ? numbers.map((n) => 2 * n - 1) : numbers;
   }
 
-  /** The difference of a texel of a prediction, as it is seen. @param {number} material @param {Seen} seen */
-  difference(material, seen) {
-    const plane = this.isPlane();
-    const [x, y] = plane ? seen.cell : seen.texel;
-    const target = this.shading.differences(material, this.how(), this.kind().key, plane);
+  /** The difference of a texel of a prediction. @param {number} material @param {[number, number]} texel */
+  difference(material, [x, y]) {
+    const target = this.shading.differences(material, this.how(), this.kind().key);
     return this.shading.read(target, { x, y, width: 1, height: 1 })[0];
   }
 

@@ -6,18 +6,17 @@ use svbrdf_core::loss::{Loss, Outcome};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::report::{Reader, Report as _, parts, scenes_line};
+use svbrdf_evaluate::report::{Reader, Report as _, RobustReport, parts, scenes_line};
 use svbrdf_evaluate::why::{Attribution, Hemisphere};
 use svbrdf_files::Error;
 
-use super::about::About;
 use super::content::{Findings, Repetition, Report};
 use super::data::LinkedScene;
 use super::exposure::exposure;
 use super::markup::{MOST_NAMES, escaped, number, place};
 use super::pictures::Rows;
 use super::tables::HtmlTable;
-use super::{pictures, plots, robust};
+use super::{pictures, plots};
 use svbrdf_files::disk::atomic::SOFTWARE;
 
 /// Thumbnails of the materials in a scene.
@@ -35,31 +34,21 @@ pub(super) fn sections(
     let mut html = String::new();
     let mut linked = Vec::new();
     if let Some(findings) = &report.findings {
-        html += &losses(findings, &report.about);
-        html += &findings.robust.as_ref().map_or(String::new(), robust::section);
+        html += &losses(findings);
+        html += &findings.robust.as_ref().map_or(String::new(), robust);
         html += &shares(&findings.attributions);
         let (scenes, of_scenes) = worst_scenes(report, findings, small, progress)?;
         html += &scenes;
         linked = of_scenes;
         html += &lights(findings);
     }
-    html += &report.about.citation();
     html += &readings(report);
     html += &repetition(report);
     Ok((html, linked))
 }
 
 /// The losses in one line, or the least of many.
-pub(super) fn summary(findings: &Findings, about: &About) -> String {
-    let loss = &findings.loss;
-    if let (true, [only]) = (about.no_ground_truth, loss.outcome.losses.as_slice()) {
-        let [first, second] = [&loss.ground_truth, &only.prediction].map(|name| escaped(name));
-        let value = number(only.estimate.mean);
-        return format!(
-            "Rendering loss between {first} and {second}, convention {}: {value}.",
-            loss.convention
-        );
-    }
+pub(super) fn summary(findings: &Findings) -> String {
     let one = |loss: &Loss| format!("{} {}", escaped(&loss.prediction), number(loss.estimate.mean));
     let all = &findings.loss.outcome.losses;
     let texts = match least(all).filter(|_| all.len() > MOST_NAMES) {
@@ -74,18 +63,15 @@ fn least(all: &[Loss]) -> Option<usize> {
     (0..all.len()).min_by(|a, b| all[*a].estimate.mean.total_cmp(&all[*b].estimate.mean))
 }
 
-fn losses(findings: &Findings, about: &About) -> String {
+fn losses(findings: &Findings) -> String {
     let loss = &findings.loss;
     let all = &loss.outcome.losses;
     let axis = plots::axis(all.iter().map(|loss| &loss.estimate));
-    let mut table = loss.table(Reader::Person);
-    table.columns[0] = about.prediction().to_owned();
-    let mut table = HtmlTable::of(table, "name", false).titled();
+    let mut table = HtmlTable::of(loss.table(Reader::Person), "name", false).titled();
     table.insert(3, "", all.iter().map(|loss| plots::bar(&loss.estimate, axis)));
-    let verdicts = verdicts(&loss.outcome, &about.reference(&loss.ground_truth));
-    let [first, second] = if about.no_ground_truth { ["1", "2"] } else { ["gt", "pred"] };
+    let verdicts = verdicts(&loss.outcome);
     format!(
-        r#"<section aria-labelledby="losses"><h2 id="losses">Rendering loss</h2>{}{verdicts}<p class="weak">Mean over scenes, texels and RGB of |ln(R<sub>{first}</sub> + {}) &minus; ln(R<sub>{second}</sub> + {})| against {}, {} &times; {} texels. {}</p></section>"#,
+        r#"<section aria-labelledby="losses"><h2 id="losses">Rendering loss</h2>{}{verdicts}<p class="weak">Mean over scenes, texels and RGB of |ln(R<sub>gt</sub> + {}) &minus; ln(R<sub>pred</sub> + {})| against {}, {} &times; {} texels. {}</p></section>"#,
         table.html(),
         loss.epsilon,
         loss.epsilon,
@@ -96,21 +82,34 @@ fn losses(findings: &Findings, about: &About) -> String {
     )
 }
 
+/// Whether the order of methods or predictions survives other questions: the sentence, each pair that changes sides, and the order under
+/// every question.
+pub(super) fn robust(report: &RobustReport) -> String {
+    let changes: String = report.changes().map(|change| format!("<li>{}</li>", escaped(&change))).collect();
+    let changes =
+        if changes.is_empty() { changes } else { format!(r#"<ul class="conditions">{changes}</ul>"#) };
+    format!(
+        r#"<section aria-labelledby="robust"><h2 id="robust">Does the order survive?</h2><p>{}</p>{changes}{}<p class="weak">Tau: Kendall's tau to the order by default, 1 where no pair changes sides; differences that are not significant are no changes.</p></section>"#,
+        escaped(report.sentence()),
+        HtmlTable::of(report.table(Reader::Person), "", false).titled().html(),
+    )
+}
+
 /// The ends of an interval as texts.
 fn interval(interval: Option<[f64; 2]>) -> [String; 2] {
     interval.map_or(["unknown".to_owned(), "unknown".to_owned()], |ends| ends.map(number))
 }
 
 /// The prediction with the least loss against every other one, on the same scenes.
-fn verdicts(outcome: &Outcome, reference: &str) -> String {
+fn verdicts(outcome: &Outcome) -> String {
     let all = &outcome.losses;
     let Some(best) = least(all).filter(|_| all.len() > 1) else { return String::new() };
     let mut items = String::new();
     for other in (0..all.len()).filter(|other| *other != best) {
         let difference = outcome.difference(other, best);
         let is_clear = difference.interval95.is_some_and(|[low, _]| low > 0.0);
-        let closer = format!("is closer to {reference} than");
-        let verdict = if is_clear { closer.as_str() } else { "no significant difference from" };
+        let verdict =
+            if is_clear { "is closer to the ground truth than" } else { "no significant difference from" };
         let [low, high] = interval(difference.interval95);
         let colon = if is_clear { "" } else { ":" };
         let _ = write!(
@@ -168,10 +167,8 @@ fn worst_scenes(
         );
         linked.push(LinkedScene { scene, exposure });
     }
-    let reference = report.about.reference(&findings.loss.ground_truth);
-    let others = format!("{}s", report.about.prediction());
     let html = format!(
-        r#"<section aria-labelledby="worst"><h2 id="worst">Worst scenes</h2><p>The scenes of the loss with the largest mean loss of all {others}, on all texels; {reference} first, each exposed to its brightest 1%. A click puts light and view of the figure there.</p><ol class="scenes">{items}</ol></section>"#
+        r#"<section aria-labelledby="worst"><h2 id="worst">Worst scenes</h2><p>The scenes of the loss with the largest mean loss of all predictions, on all texels; the ground truth first, each exposed to its brightest 1%. A click puts light and view of the figure there.</p><ol class="scenes">{items}</ol></section>"#
     );
     Ok((html, linked))
 }

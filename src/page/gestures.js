@@ -1,17 +1,15 @@
 // Mouse, pen, touch: the press decides the gesture, which then does one thing.
 
-/** Radians of orbit per CSS pixel. */
-const ORBIT_SPEED = 0.008;
 /** Factor of a height per notch of the wheel, and of the magnification. */
 const SCALE_STEP = 1.1;
 const ZOOM_STEP = 1.15;
 /** How far from the line of the wipe it is grabbed, in CSS pixels: by a mouse, by a finger. */
 const REACH = { mouse: 8, touch: 22 };
 
-/** @typedef {"light" | "view" | "orbit" | "pan" | "wipe"} Gesture */
+/** @typedef {"light" | "view" | "pan" | "wipe"} Gesture */
 
 class Gestures {
-  /** @param {Figure} figure @param {(seen: Seen | null) => void} hovered */
+  /** @param {Figure} figure @param {(texel: [number, number] | null) => void} hovered */
   constructor(figure, hovered) {
     this.figure = figure;
     this.hovered = hovered;
@@ -52,13 +50,12 @@ class Gestures {
   /** @param {PointerEvent} event @param {[number, number]} place @returns {Gesture} */
   begin(event, place) {
     const { state } = this.figure;
-    const view = state.projection === "perspective" ? "orbit" : "view";
     const box = this.paneAt(place);
     const reach = event.pointerType === "mouse" ? REACH.mouse : REACH.touch;
     if (event.button === 1 || this.space) return "pan";
-    if (event.button === 2 || event.shiftKey) return view;
+    if (event.button === 2 || event.shiftKey) return "view";
     if (box && box.pane.wipe !== null && Math.abs(place[0] - box.x - state.wipe * box.width) <= reach) return "wipe";
-    if (state.drag === "view") return view;
+    if (state.drag === "view") return "view";
     return state.drag === "pan" || state.quantity !== "rendering" ? "pan" : "light";
   }
 
@@ -76,7 +73,7 @@ class Gestures {
       return;
     }
     this.gesture = this.begin(event, place);
-    if (this.gesture !== "pan" && this.gesture !== "orbit") this.carryOn(place, [0, 0]);
+    if (this.gesture !== "pan") this.carryOn(place, [0, 0]);
   }
 
   /** @param {PointerEvent} event */
@@ -99,23 +96,18 @@ class Gestures {
   /** @param {[number, number]} place */
   hover(place) {
     const point = this.point(place);
-    this.hovered(point && this.figure.seen(point));
+    this.hovered(point && this.figure.texel(point));
   }
 
   /** @param {[number, number]} place @param {[number, number]} moved */
   carryOn(place, [dx, dy]) {
     const { figure, box } = this;
     const { state } = figure;
-    if (!box || !this.gesture) return;
     const point = this.point(place, box);
-    switch (this.gesture) {
-      case "light": if (point) moveOverPlane(state.scene, "light", point); break;
-      case "view": if (point) moveOverPlane(state.scene, "view", point); break;
-      // The hand turns the material: the view goes the other way around it.
-      case "orbit": orbit(state.scene, "view", -dx * ORBIT_SPEED, dy * ORBIT_SPEED); break;
-      case "pan": this.pan([dx, dy], box); break;
-      case "wipe": state.wipe = clamp((place[0] - box.x) / box.width, 0, 1); break;
-    }
+    if (!box || !this.gesture || !point) return;
+    if (this.gesture === "pan") this.pan([dx, dy], box);
+    else if (this.gesture === "wipe") state.wipe = clamp((place[0] - box.x) / box.width, 0, 1);
+    else moveOverPlane(state.scene, this.gesture, point);
     figure.changed();
   }
 
@@ -125,27 +117,16 @@ class Gestures {
     state.pan = [state.pan[0] + 2 * dx / box.width, state.pan[1] - 2 * dy / box.height];
   }
 
-  /** Two fingers: their distance zooms, their middle moves the view. @param {number} id @param {[number, number]} before @param {[number, number]} now */
+  /** Two fingers: their distance zooms, their middle pans. @param {number} id @param {[number, number]} before @param {[number, number]} now */
   pinch(id, before, now) {
     const other = [...this.pointers].find(([key]) => key !== id)?.[1];
-    const { box, figure } = this;
+    const { box } = this;
     if (!other || !box) return;
-    const { state } = figure;
     const apart = (/** @type {[number, number]} */ a) => Math.max(Math.hypot(a[0] - other[0], a[1] - other[1]), 1);
     /** @type {[number, number]} */
     const middle = [(now[0] + other[0]) / 2, (now[1] + other[1]) / 2];
     this.zoom(apart(now) / apart(before), middle, box);
-    /** @type {[number, number]} */
-    const moved = [(now[0] - before[0]) / 2, (now[1] - before[1]) / 2];
-    if (state.quantity !== "rendering" || state.drag === "pan") this.pan(moved, box);
-    else if (state.projection === "perspective") orbit(state.scene, "view", -moved[0] * ORBIT_SPEED, moved[1] * ORBIT_SPEED);
-    else {
-      const camera = figure.camera(box.width, box.height);
-      const scale = 2 * norm(camera.originUp) / box.height;
-      const [x, y] = overPlane(state.scene, "view");
-      moveOverPlane(state.scene, "view", [x + moved[0] * scale, y - moved[1] * scale]);
-    }
-    figure.changed();
+    this.pan([(now[0] - before[0]) / 2, (now[1] - before[1]) / 2], box);
   }
 
   /** Zooms about a place. @param {number} factor @param {[number, number]} place @param {{x: number, y: number, width: number, height: number}} box */
@@ -168,7 +149,10 @@ class Gestures {
     const delta = event.deltaY + event.deltaX;
     const notches = clamp(-delta / (event.deltaMode === 0 ? 100 : 3), -3, 3);
     if (event.shiftKey || event.altKey) {
-      scaleHeight(this.figure.state.scene, event.shiftKey ? "light" : "view", SCALE_STEP ** notches);
+      const { scene } = this.figure.state;
+      const which = event.shiftKey ? "light" : "view";
+      const [x, y, z] = scene[which];
+      setEndpoint(scene, which, [x, y, z * SCALE_STEP ** notches]);
       this.figure.changed();
     } else if (box) {
       this.zoom(ZOOM_STEP ** notches, place, box);

@@ -23,17 +23,10 @@ function listenToKeys(figure, section, gestures, reset) {
     m: (shift) => cycleQuantity(shift ? -1 : 1),
     d: () => { if (figure.materials.length > 1) state.difference = !state.difference; },
     c: () => { state.layout = LAYOUTS[(LAYOUTS.indexOf(state.layout) + 1) % 3]; },
-    p: () => { state.projection = state.projection === "flat" ? "perspective" : "flat"; },
     e: (shift) => { state.exposure = clamp(state.exposure + (shift ? -0.5 : 0.5), -16, 16); },
     g: () => { state.peek = true; },
     f: () => { Object.assign(state, { zoom: 1, pan: [0, 0] }); },
-    0: () => {
-      state.framing = { pixelsPerTexel: 1, centre: [figure.grid.width / 2, figure.grid.height / 2] };
-    },
     r: reset,
-    t: () => { state.tiled = !state.tiled; },
-    v: () => { state.falseColour = !state.falseColour; },
-    l: () => { state.clipping = !state.clipping; },
     "+": () => zoom(ZOOM_STEP),
     "=": () => zoom(ZOOM_STEP),
     "-": () => zoom(1 / ZOOM_STEP),

@@ -3,19 +3,16 @@
 //! Its script and style are files of this folder, admitted by their hashes in a content security policy that admits nothing else.
 //! Names of files and materials are data of the script, or escaped text.
 
-mod about;
 mod content;
 mod data;
 mod encode;
 mod exposure;
 mod findings;
-mod gallery;
 mod markup;
 mod pictures;
 mod plots;
 mod ranking;
 mod ranking_views;
-mod robust;
 mod tables;
 
 use std::path::Path;
@@ -27,11 +24,11 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
-pub use about::About;
 pub use content::{Findings, Repetition, Report, View};
 use encode::EncodedMaterial;
 pub use exposure::exposure;
-use markup::{Document, MOST_NAMES, escaped, filled};
+pub use markup::escaped;
+use markup::{Document, MOST_NAMES, filled};
 use pictures::Rows;
 pub use ranking::{MaterialView, ranking};
 pub use ranking_views::{Figures, material_views, overview};
@@ -100,37 +97,27 @@ impl Report<'_> {
         let content = self.content();
         let view = &self.view;
         let drawn = self.convention.drawn();
-        let offsets = exposure::offsets(&small, &view.scene, &drawn);
-        let exposures: Vec<f32> = offsets.iter().map(|offset| view.exposure_ev + offset).collect();
-        let still = pictures::still(&small, content, &view.scene, &drawn, &exposures, STILL)?;
+        let still = pictures::still(&small, content, &view.scene, &drawn, view.exposure_ev, STILL)?;
         let (sections, scenes) = findings::sections(self, &small, progress)?;
         let frame = Document::bytes_without_body(STYLE, SCRIPT);
         let fixed = frame + PAGE.len() + still.len() + sections.len() + 64 * 1024;
         let (materials, reduced_to) = self.encoded(self.max_bytes.saturating_sub(fixed), progress)?;
-        let data = data::json(&materials, self, &scenes, &offsets)?;
+        let data = data::json(&materials, self, &scenes)?;
         let title = self.title();
-        let first = self.materials.first().map_or("", |first| first.name());
-        let reference = self.about.reference(first);
-        let first = if self.about.no_ground_truth { escaped(first) } else { "Ground truth".to_owned() };
         let body = filled(
             PAGE,
             &[
                 ("header", &self.header(reduced_to)),
                 ("still", &still),
                 ("still-alt", &format!("Still picture: {title}")),
-                ("caption", &self.caption(&offsets)),
-                ("about", &self.about.caption()),
-                ("reference", &reference),
-                ("first", &first),
-                ("prediction", self.about.prediction()),
+                ("caption", &self.caption()),
                 ("findings", &sections),
                 ("data", &markup::embedded(&data)),
             ],
         );
-        let description = self.description();
-        let image = self.about.image.as_deref();
-        let (title, description) = (title.as_str(), description.as_str());
-        let document = Document { title, description, image, style: STYLE, script: SCRIPT, body: &body };
+        let summary = self.findings.as_ref().map(findings::summary).unwrap_or_else(|| format!("{title}."));
+        let description = &format!("{summary} An interactive figure: drag the light.");
+        let document = Document { title: &title, description, style: STYLE, script: SCRIPT, body: &body };
         Ok(Page { html: document.html(), reduced_to })
     }
 
@@ -145,16 +132,10 @@ impl Report<'_> {
         PictureContent { quantity: display.quantity, difference: is_difference.then_some(difference) }
     }
 
-    /// The title of its authors, or the names of the materials, or the number of many.
+    /// The names of the materials, or the number of many.
     fn title(&self) -> String {
-        if let Some(title) = &self.about.title {
-            return escaped(title);
-        }
         let names: Vec<String> = self.materials.iter().map(|material| escaped(material.name())).collect();
         match names.as_slice() {
-            [others @ .., last] if self.about.no_ground_truth && !others.is_empty() => {
-                format!("{} and {last}", others.join(", "))
-            }
             [ground_truth, predictions @ ..] if predictions.len() > MOST_NAMES => {
                 format!("{} predictions against {ground_truth}", predictions.len())
             }
@@ -165,21 +146,9 @@ impl Report<'_> {
         }
     }
 
-    /// What the page is, in a line.
-    fn description(&self) -> String {
-        let losses = self.findings.as_ref().map(|findings| findings::summary(findings, &self.about));
-        let made = || losses.unwrap_or_else(|| format!("{}.", self.title()));
-        let text = self.about.caption.as_deref().map_or_else(made, escaped);
-        format!("{text} An interactive figure: drag the light.")
-    }
-
     /// What the still picture has.
-    fn caption(&self, offsets: &[f32]) -> String {
-        let name = |(material, offset): (&&Material<f32>, &f32)| match offset {
-            0.0 => escaped(material.name()),
-            offset => format!("{} at {}", escaped(material.name()), exposure::stops(*offset)),
-        };
-        let names: Vec<String> = self.materials.iter().zip(offsets).map(name).collect();
+    fn caption(&self) -> String {
+        let names: Vec<String> = self.materials.iter().map(|material| escaped(material.name())).collect();
         let epsilon = self.convention.epsilon;
         let drawn = self.convention.drawn().name;
         let drawn = if drawn == self.convention.name { String::new() } else { format!(" Drawn as {drawn}.") };
@@ -196,11 +165,9 @@ impl Report<'_> {
         if self.findings.is_none() && self.repetition.is_none() {
             return note;
         }
-        let summary = self.findings.as_ref().map(|findings| findings::summary(findings, &self.about));
+        let summary = self.findings.as_ref().map(findings::summary);
         let summary = summary.map_or(String::new(), |text| format!("<p>{text}</p>"));
-        let authors = self.about.authors.as_ref();
-        let authors = authors.map_or(String::new(), |line| format!("<p>{}</p>", escaped(line)));
-        format!("<header><h1>{}</h1>{authors}{summary}{note}</header>", self.title())
+        format!("<header><h1>{}</h1>{summary}{note}</header>", self.title())
     }
 
     /// The maps in at most `bytes` bytes, halved as often as that takes, and their size where they are.

@@ -17,11 +17,10 @@ async function start() {
   const figure = new Figure(canvas, data, materials);
   const reset = () => { Object.assign(figure.state, figure.start()); };
   const overlay = new Overlay(figure, element("panes"));
-  const gestures = new Gestures(figure, (seen) => overlay.hover(seen));
+  const gestures = new Gestures(figure, (texel) => overlay.hover(texel));
   new Legend(figure, element);
   bindControls(figure, element, reset);
   listenToKeys(figure, element("figure"), gestures, reset);
-  announce(figure, element("status"));
   linkFindings(figure, element("figure"));
   const showCanvas = (/** @type {boolean} */ live) => {
     canvas.hidden = element("panes").hidden = !live;

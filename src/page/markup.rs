@@ -18,8 +18,6 @@ pub(super) struct Document<'a> {
     pub title: &'a str,
     /// For search engines and previews of links, as HTML.
     pub description: &'a str,
-    /// Address of a picture for previews of links.
-    pub image: Option<&'a str>,
     pub style: &'a str,
     pub script: &'a str,
     /// As HTML.
@@ -34,7 +32,6 @@ impl Document<'_> {
             &[
                 ("title", self.title),
                 ("description", self.description),
-                ("image", &self.image.map_or(String::new(), preview)),
                 ("software", SOFTWARE),
                 ("script-hash", &policy_source(self.script)),
                 ("style-hash", &policy_source(self.style)),
@@ -51,14 +48,9 @@ impl Document<'_> {
     }
 }
 
-/// The element that names the picture of a preview.
-fn preview(address: &str) -> String {
-    format!("<meta property=\"og:image\" content=\"{}\">\n", escaped(address))
-}
-
 /// The text with the characters that HTML reads as markup escaped: for elements and quoted attributes. What steers the direction of
 /// text is written as `\u{...}`.
-pub(super) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut html = String::with_capacity(text.len());
     for c in svbrdf_core::text::printable(text).chars() {
         match c {

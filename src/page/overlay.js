@@ -21,8 +21,8 @@ class Overlay {
   constructor(figure, root) {
     this.figure = figure;
     this.root = root;
-    /** @type {Seen | null} */
-    this.seen = null;
+    /** @type {[number, number] | null} */
+    this.texel = null;
     figure.watchers.push(() => this.update());
   }
 
@@ -40,18 +40,17 @@ class Overlay {
       this.handle(light, "light", box);
       this.handle(view, "view", box);
       title.textContent = this.title(box.pane);
-      readout.textContent = this.seen ? this.readout(box.pane, this.seen) : "";
+      readout.textContent = this.texel ? this.readout(box.pane, this.texel) : "";
     });
   }
 
   /** @param {HTMLElement} handle @param {Endpoint} which @param {{width: number, height: number}} box */
   handle(handle, which, { width, height }) {
     const { state } = this.figure;
-    const hidden = state.quantity !== "rendering" || which === "view" && state.projection === "perspective";
     const [x, y] = overPlane(state.scene, which);
-    const at = hidden ? null : ndcFromPoint(this.figure.camera(width, height), [x, y, 0]);
-    handle.hidden = at === null;
-    if (at) Object.assign(handle.style, { left: `${50 * (at[0] + 1)}%`, top: `${50 * (1 - at[1])}%` });
+    const { origin, half } = this.figure.camera(width, height);
+    handle.hidden = state.quantity !== "rendering";
+    Object.assign(handle.style, { left: `${50 * ((x - origin[0]) / half[0] + 1)}%`, top: `${50 * (1 - (y - origin[1]) / half[1])}%` });
   }
 
   /** @param {Pane} pane */
@@ -61,30 +60,27 @@ class Overlay {
   }
 
   /** @param {Pane} pane */
-  content(pane) {
-    const { material, difference, wipe } = pane;
-    const { materials, state, data } = this.figure;
+  content({ material, difference, wipe }) {
+    const { materials, state } = this.figure;
     const name = materials[material].name;
     if (wipe !== null) return `${materials[0].name} | ${name}${difference ? `, ${this.figure.kind().name}` : ""}`;
     if (difference) return `${name}, ${this.figure.kind().name}`;
-    const stops = this.figure.offset(pane);
-    const brighter = stops === 0 ? "" : `, ${stops > 0 ? "+" : "\u2212"}${Math.abs(stops)} EV`;
-    if (material === 0 && materials.length > 1 && data.groundTruth) return `${name} (ground truth)`;
-    return `${name}${brighter}${state.quantity === "rendering" ? "" : `, ${state.quantity}`}`;
+    if (material === 0 && materials.length > 1) return `${name} (ground truth)`;
+    return `${name}${state.quantity === "rendering" ? "" : `, ${state.quantity}`}`;
   }
 
-  /** @param {Pane} pane @param {Seen} seen */
-  readout({ material, difference }, seen) {
-    const value = this.figure.value(material, seen);
+  /** @param {Pane} pane @param {[number, number]} texel */
+  readout({ material, difference }, texel) {
+    const value = this.figure.value(material, texel);
     const numbers = (this.figure.state.quantity === "roughness" ? value.slice(0, 1) : value).map(digits).join("  ");
-    const off = difference ? `\n${this.figure.kind().unit} = ${digits(this.figure.difference(material, seen))}` : "";
-    return `(${seen.texel.join(", ")})  ${numbers}${off}`;
+    const off = difference ? `\n${this.figure.kind().unit} = ${digits(this.figure.difference(material, texel))}` : "";
+    return `(${texel.join(", ")})  ${numbers}${off}`;
   }
 
-  /** The texel whose numbers are shown. @param {Seen | null} seen */
-  hover(seen) {
-    if (JSON.stringify(seen) === JSON.stringify(this.seen)) return;
-    this.seen = seen;
+  /** The texel whose numbers are shown. @param {[number, number] | null} texel */
+  hover(texel) {
+    if (String(texel) === String(this.texel)) return;
+    this.texel = texel;
     requestAnimationFrame(() => this.update());
   }
 }

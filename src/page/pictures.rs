@@ -78,29 +78,27 @@ pub(super) fn quantities(
     data_uri(&in_rows(&pictures, pictures.len()))
 }
 
-/// The content of every material at its exposure, in rows; of differences the value of the ground truth first.
+/// The content of every material, in rows; of differences the value of the ground truth first.
 pub(super) fn still(
     materials: &[&Material<f32>],
     content: PictureContent,
     scene: &Scene,
     convention: &Convention,
-    exposures: &[f32],
+    exposure_ev: f32,
     rows: Rows,
 ) -> Result<String, Error> {
     let progress = Progress::default();
-    let exposure_ev = exposures.first().copied().unwrap_or_default();
-    let value = PictureContent { difference: None, ..content };
-    let shown = content.pictures(materials, scene, convention, exposure_ev, &progress)?;
     let mut pictures = Vec::new();
-    if shown.images.len() < materials.len() {
-        let ground_truth = value.pictures(&materials[..1], scene, convention, exposure_ev, &progress)?;
-        pictures
-            .extend(ground_truth.images.iter().map(|image| coloured(image, value, exposure_ev, rows.width)));
+    let mut add = |content: PictureContent, materials: &[&Material<f32>]| -> Result<(), CoreError> {
+        let shown = content.pictures(materials, scene, convention, exposure_ev, &progress)?;
+        let coloured = |image| coloured(image, shown.content, exposure_ev, rows.width);
+        pictures.extend(shown.images.iter().map(coloured));
+        Ok(())
+    };
+    if content.difference.is_some() {
+        add(PictureContent { difference: None, ..content }, &materials[..1])?;
     }
-    let content = shown.content;
-    let own = exposures.iter().skip(materials.len() - shown.images.len());
-    pictures
-        .extend(shown.images.iter().zip(own).map(|(image, ev)| coloured(image, content, *ev, rows.width)));
+    add(content, materials)?;
     data_uri(&in_rows(&pictures, rows.columns))
 }
 

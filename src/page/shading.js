@@ -6,8 +6,7 @@
  * @typedef {{program: WebGLProgram, text: ShaderText, blocks: Map<string, {buffer: WebGLBuffer, index: number}>,
  *   textures: string[]}} Program
  * @typedef {{texture: WebGLTexture, framebuffer: WebGLFramebuffer, key: string}} Target
- * @typedef {{shaded: Target, difference: Target, size: [number, number]}} Targets
- * @typedef {{maps: WebGLTexture[], once: Targets, plane: Targets | null}} Uploaded  The plane on which the material is repeated
+ * @typedef {{maps: WebGLTexture[], shaded: Target, difference: Target, size: [number, number]}} Uploaded
  * @typedef {{x: number, y: number, width: number, height: number}} Box  In pixels, y upwards from the lower edge.
  */
 
@@ -20,12 +19,8 @@ const BACKGROUND = [0.141, 0.149, 0.165];
 
 /** The members of a uniform that hold whole numbers. */
 const WHOLE = new Set([
-  "stride", "size", "corner", "rays.near", "model.clamp_n_dot_h", "quantity", "mode", "difference", "encoding", "show_clipping",
-  "tiling", "repeated", "false_colour", "nearest", "kind",
+  "stride", "size", "corner", "rays.near", "model.clamp_n_dot_h", "quantity", "mode", "difference", "encoding", "kind",
 ]);
-
-/** Whether a repeated material is lit as the one plane that it would be: every copy of it looks the same otherwise. @param {Shaded} how */
-const isLitAsPlane = ({ quantity, scene }) => quantity === "rendering" && scene.kind === "near";
 
 class Shading {
   /** @param {HTMLCanvasElement} canvas @param {Record<string, ShaderText>} shaders @param {Maps[]} materials */
@@ -82,13 +77,7 @@ class Shading {
     const side = gl.getParameter(gl.MAX_TEXTURE_SIZE);
     if (Math.max(width, height) > side) throw new Error(`this graphics adapter has textures of at most ${side} texels`);
     const maps = [normalRoughness, diffuse, specular].map((numbers) => this.texture(gl.RGBA32F, width, height, numbers));
-    return { maps, once: this.targets([width, height]), plane: null };
-  }
-
-  /** Takes in a further material. @param {number} index @param {Maps} material */
-  add(index, material) {
-    this.materials[index] = material;
-    this.uploaded[index] = this.upload(material);
+    return { maps, shaded: this.target(width, height), difference: this.target(width, height), size: [width, height] };
   }
 
   /** @param {number} format @param {number} width @param {number} height @param {Float32Array | null} numbers */
@@ -145,28 +134,9 @@ class Shading {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  /** @param {[number, number]} size @returns {Targets} */
-  targets(size) {
-    return { shaded: this.target(...size), difference: this.target(...size), size };
-  }
-
-  /** The targets of a material, or of the cells of the plane on which it is repeated. @param {number} index @param {boolean} repeated */
-  targetsOf(index, repeated) {
-    const { width, height } = this.materials[index];
-    const uploaded = this.uploaded[index];
-    if (!repeated) return uploaded.once;
-    uploaded.plane ??= this.targets([2 * width + width % 2, 2 * height + height % 2]);
-    return uploaded.plane;
-  }
-
-  /**
-   * The texels of a material, or the cells of its plane, shaded unless they are already.
-   * @param {number} index @param {Shaded} how @param {boolean} repeated
-   */
-  shade(index, { scene, quantity, model }, repeated = false) {
-    const { maps } = this.uploaded[index];
-    const { shaded, size } = this.targetsOf(index, repeated);
-    const { width, height } = this.materials[index];
+  /** The texels of a material, shaded unless they are already. @param {number} index @param {Shaded} how */
+  shade(index, { scene, quantity, model }) {
+    const { maps, shaded, size } = this.uploaded[index];
     const rendered = quantity === "rendering" ? scene : null;
     const key = JSON.stringify([rendered, quantity]);
     if (shaded.key === key) return shaded;
@@ -175,23 +145,20 @@ class Shading {
       "rays.view": isNear ? scene.view : unit(scene.view), "rays.light": isNear ? scene.light : unit(scene.light),
       "rays.near": isNear ? 1 : 0,
       ...Object.fromEntries(Object.entries(model).map(([name, value]) => [`model.${name}`, value])),
-      largest: this.largest, stride: 1, size: [width, height],
+      largest: this.largest, stride: 1, size,
     };
-    const page = { quantity: QUANTITIES.indexOf(quantity), repeated: repeated ? 1 : 0 };
+    const page = { quantity: QUANTITIES.indexOf(quantity) };
     const textures = { normal_roughness: maps[0], diffuse: maps[1], specular: maps[2] };
     this.draw("shade", { shading, page }, textures, shaded.framebuffer, { x: 0, y: 0, width: size[0], height: size[1] });
     shaded.key = key;
     return shaded;
   }
 
-  /**
-   * The difference of every texel or cell from the ground truth, computed unless it is already.
-   * @param {number} index @param {Shaded} how @param {string} kind @param {boolean} repeated
-   */
-  differences(index, how, kind, repeated = false) {
-    const prediction = this.shade(index, how, repeated);
-    const reference = this.shade(0, how, repeated);
-    const { difference, size } = this.targetsOf(index, repeated);
+  /** The difference of every texel from the ground truth, computed unless it is already. @param {number} index @param {Shaded} how @param {string} kind */
+  differences(index, how, kind) {
+    const prediction = this.shade(index, how);
+    const reference = this.shade(0, how);
+    const { difference, size } = this.uploaded[index];
     const key = `${prediction.key} ${kind}`;
     if (difference.key !== key) {
       const page = { kind: DIFFERENCES[kind], epsilon: how.epsilon };
@@ -213,23 +180,16 @@ class Shading {
 
   /**
    * Draws a pane: a material, its difference from the ground truth, or a wipe of both.
-   * @param {Pane} pane @param {Shaded} how @param {Camera} camera @param {Box} box @param {Shown} shown
+   * @param {Pane} pane @param {Shaded} how @param {Camera} camera @param {Box} box @param {{exposure: number, range: number}} shown
    */
-  pane(pane, how, camera, box, shown) {
-    const { width, height } = this.materials[pane.material];
-    const repeated = shown.tiled && isLitAsPlane(how);
-    const material = this.shade(pane.material, how, repeated);
-    const reference = pane.wipe === null && pane.difference === null ? material : this.shade(0, how, repeated);
-    const page = {
-      mode: pane.wipe === null ? 0 : 1, difference: DIFFERENCES[pane.difference ?? "none"], encoding: ENCODINGS[how.quantity],
-      show_clipping: shown.clipping ? 1 : 0, tiling: repeated ? 2 : Number(shown.tiled),
-      false_colour: shown.falseColour && how.quantity === "roughness" ? 1 : 0, nearest: 0,
-    };
+  pane(pane, how, { origin, half }, box, shown) {
+    const material = this.shade(pane.material, how);
+    const reference = pane.wipe === null && pane.difference === null ? material : this.shade(0, how);
+    const page = { mode: pane.wipe === null ? 0 : 1, difference: DIFFERENCES[pane.difference ?? "none"], encoding: ENCODINGS[how.quantity] };
     const params = {
-      "camera.origin": camera.origin, "camera.origin_right": camera.originRight, "camera.origin_up": camera.originUp,
-      "camera.direction": camera.direction, "camera.direction_right": camera.directionRight,
-      "camera.direction_up": camera.directionUp, background: BACKGROUND, exposure: 2 ** shown.exposure, epsilon: how.epsilon,
-      wipe: 2 * (pane.wipe ?? 0) - 1, range: shown.range, stride: 1, size: [width, height], corner: [box.x, box.y],
+      "camera.origin": [...origin, 1], "camera.origin_right": [half[0], 0, 0], "camera.origin_up": [0, half[1], 0],
+      "camera.direction": [0, 0, -1], background: BACKGROUND, exposure: 2 ** shown.exposure, epsilon: how.epsilon,
+      wipe: 2 * (pane.wipe ?? 0) - 1, range: shown.range, stride: 1, size: this.uploaded[pane.material].size, corner: [box.x, box.y],
     };
     const textures = { shown: material.texture, reference: reference.texture };
     this.draw("display", { params, page }, textures, null, box);

@@ -134,37 +134,3 @@ fn a_size_that_no_report_has_is_refused_with_the_least() {
         fs::remove_file(folder.path().join("r.html")).unwrap();
     }
 }
-
-#[test]
-fn a_report_has_the_words_of_its_authors_escaped() {
-    let folder = folder();
-    let about = "title = 'Tiles <b>'\nauthors = 'A. Author'\ncaption = 'Figure 5. Two tiles.'\n\
-                 bibtex = '@article{a, title={B}}'\nimage = 'https://example.org/a.png'\n";
-    fs::write(folder.path().join("about.toml"), about).unwrap();
-    let words = [
-        "<h1>Tiles &lt;b&gt;</h1>",
-        "<p>A. Author</p>",
-        "Figure 5. Two tiles.",
-        "<code>@article{a, title={B}}</code>",
-        r#"property="og:image" content="https://example.org/a.png""#,
-        "Drag the light",
-    ];
-    assert_has(&page(folder.path(), "gt.png a.png --target-error 30% --about about.toml"), &words);
-    let plain = page(folder.path(), "gt.png a.png --target-error 30%");
-    assert!(!plain.contains("A. Author") && !plain.contains("Citation") && !plain.contains("og:image"));
-}
-
-#[test]
-fn a_report_without_a_ground_truth_calls_no_material_so() {
-    let folder = folder();
-    let seen = |option: &str| {
-        let page = page(folder.path(), &format!("gt.png a.png --target-error 30% {option}"));
-        // What is seen, without tags and the script.
-        let body = &page[page.find("<body").unwrap()..page.find("<script").unwrap()];
-        let texts = body.split('<').filter_map(|part| Some(part.split_once('>')?.1));
-        texts.collect::<Vec<_>>().join(" ").to_lowercase()
-    };
-    assert!(seen("").contains("ground truth"));
-    let without = seen("--no-ground-truth");
-    assert!(!without.contains("ground truth") && !without.contains("prediction"), "{without}");
-}

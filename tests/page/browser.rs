@@ -1,12 +1,9 @@
-//! Chromium without a window, driven by its own protocol through two pipes: one browser, and a tab for each page.
+//! Chromium without a window, driven by its own protocol through two pipes: one browser, one page at a time.
 
-use std::collections::BTreeMap;
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::Path;
 use std::process::{ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::sync::{LazyLock, Mutex};
+use std::sync::{LazyLock, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -14,7 +11,7 @@ use base64::Engine as _;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-/// The longest that the browser takes to answer, and a page to start.
+/// The longest that a page takes to start.
 const PATIENCE: Duration = Duration::from_secs(180);
 const ARGUMENTS: [&str; 14] = [
     "--headless",
@@ -34,15 +31,12 @@ const ARGUMENTS: [&str; 14] = [
 ];
 
 /// The browser of all tests. It ends with the program of the tests, which closes its pipes.
-static BROWSER: LazyLock<Browser> = LazyLock::new(Browser::start);
+static BROWSER: LazyLock<Mutex<Browser>> = LazyLock::new(|| Mutex::new(Browser::start()));
 
 struct Browser {
-    input: Mutex<ChildStdin>,
-    sent: AtomicU64,
-    /// Where the messages of each session go; those of the browser have the empty name.
-    sessions: Mutex<BTreeMap<String, Sender<Value>>>,
-    /// The answers of the browser; one page at a time asks it.
-    answers: Mutex<Receiver<Value>>,
+    input: ChildStdin,
+    output: BufReader<ChildStdout>,
+    sent: u64,
 }
 
 impl Browser {
@@ -54,87 +48,40 @@ impl Browser {
         let program = names.into_iter().find(found).expect("CI must have Debian's chromium");
         // The protocol is spoken on descriptors 3 and 4. The shell outlives the browser, and removes its profile.
         let script = r#"p=$1; shift; "$0" "$@" --user-data-dir="$p" 3<&0 4>&1 0</dev/null 1>/dev/null 2>/dev/null; rm -rf "$p""#;
-        let mut child = Command::new("sh")
-            .args(["-c", script, program])
-            .arg(profile)
-            .args(ARGUMENTS)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
+        let mut command = Command::new("sh");
+        command.args(["-c", script, program]).arg(profile).args(ARGUMENTS);
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
         let output = BufReader::new(child.stdout.take().unwrap());
-        let input = Mutex::new(child.stdin.take().unwrap());
-        thread::spawn(move || {
-            distribute(output);
-            drop(child.wait());
-        });
-        let (sender, answers) = channel();
-        Self {
-            input,
-            sent: AtomicU64::new(0),
-            sessions: Mutex::new(BTreeMap::from([(String::new(), sender)])),
-            answers: Mutex::new(answers),
-        }
+        Self { input: child.stdin.take().unwrap(), output, sent: 0 }
     }
 
-    /// Sends a command to a session, or to the browser; its number.
-    fn send(&self, session: &str, method: &str, params: &Value) -> u64 {
-        let id = self.sent.fetch_add(1, Ordering::Relaxed);
-        let mut message = json!({ "id": id, "method": method, "params": params });
+    /// The result of a command to a session, or to the browser where it has no name; what comes before it are events.
+    fn call(&mut self, session: &str, method: &str, params: &Value, events: &mut Vec<Value>) -> Value {
+        self.sent += 1;
+        let mut message = json!({ "id": self.sent, "method": method, "params": params });
         if !session.is_empty() {
             message["sessionId"] = json!(session);
         }
-        self.input.lock().unwrap().write_all(format!("{message}\0").as_bytes()).unwrap();
-        id
-    }
-
-    /// The session of a new tab, with its messages.
-    fn open(&self) -> (String, Receiver<Value>) {
-        let answers = self.answers.lock().unwrap();
-        let ask = |method: &str, params: Value| {
-            let id = self.send("", method, &params);
-            answer(method, id, &answers, &mut Vec::new())
-        };
-        let target = ask("Target.createTarget", json!({ "url": "about:blank", "newWindow": true }));
-        let attached =
-            ask("Target.attachToTarget", json!({ "targetId": target["targetId"], "flatten": true }));
-        let session = attached["sessionId"].as_str().unwrap().to_owned();
-        let (sender, messages) = channel();
-        self.sessions.lock().unwrap().insert(session.clone(), sender);
-        (session, messages)
-    }
-}
-
-/// Hands each message of the browser to its session. Those of pages that are closed go nowhere.
-fn distribute(mut output: BufReader<ChildStdout>) {
-    let mut bytes = Vec::new();
-    while output.read_until(0, &mut bytes).is_ok_and(|count| count > 0) {
-        bytes.pop();
-        let message: Value = serde_json::from_slice(&bytes).unwrap_or_default();
-        let session = message["sessionId"].as_str().unwrap_or_default();
-        if let Some(sender) = BROWSER.sessions.lock().unwrap().get(session) {
-            drop(sender.send(message));
+        self.input.write_all(format!("{message}\0").as_bytes()).unwrap();
+        loop {
+            let mut bytes = Vec::new();
+            assert!(self.output.read_until(0, &mut bytes).unwrap() > 0, "the browser has ended");
+            let answer: Value = serde_json::from_slice(bytes.strip_suffix(b"\0").unwrap()).unwrap();
+            if answer["id"] == json!(self.sent) {
+                assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
+                return answer["result"].clone();
+            }
+            if answer["sessionId"] == json!(session) {
+                events.push(answer);
+            }
         }
-        bytes.clear();
-    }
-}
-
-/// The answer to command `id`; what comes before it is an event.
-fn answer(method: &str, id: u64, messages: &Receiver<Value>, events: &mut Vec<Value>) -> Value {
-    loop {
-        let answer = messages.recv_timeout(PATIENCE).expect("the browser answers");
-        if answer["id"] == json!(id) {
-            assert!(answer["error"].is_null(), "{method}: {}", answer["error"]);
-            return answer["result"].clone();
-        }
-        events.push(answer);
     }
 }
 
 /// A page in a tab of its own.
 pub struct Page {
+    browser: MutexGuard<'static, Browser>,
     session: String,
-    messages: Receiver<Value>,
     /// Events of the page so far.
     pub events: Vec<Value>,
     folder: TempDir,
@@ -152,27 +99,35 @@ impl Page {
 
     /// Opens `html` as a file, and waits until an expression of JavaScript is true.
     pub fn open_until(html: &str, [width, height]: [u32; 2], ready: &str) -> Self {
-        let (session, messages) = BROWSER.open();
-        let mut page = Self { session, messages, events: Vec::new(), folder: tempfile::tempdir().unwrap() };
+        let mut browser = BROWSER.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut ask = |method: &str, params: Value| browser.call("", method, &params, &mut Vec::new());
+        let target = ask("Target.createTarget", json!({ "url": "about:blank", "newWindow": true }));
+        let attached =
+            ask("Target.attachToTarget", json!({ "targetId": target["targetId"], "flatten": true }));
+        let session = attached["sessionId"].as_str().unwrap().to_owned();
+        let mut page = Self { browser, session, events: Vec::new(), folder: tempfile::tempdir().unwrap() };
         for domain in ["Network", "Runtime", "Log", "Page"] {
             page.send(&format!("{domain}.enable"), json!({}));
         }
-        page.send(
-            "Emulation.setDeviceMetricsOverride",
-            json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false }),
-        );
+        page.resize([width, height]);
         page.scheme("light");
         page.send("Emulation.setFocusEmulationEnabled", json!({ "enabled": true }));
         page.send("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
         let file = page.folder.path().join("report.html");
         std::fs::write(&file, html).unwrap();
-        page.send("Page.navigate", json!({ "url": url(&file) }));
+        page.send("Page.navigate", json!({ "url": format!("file://{}", file.display()) }));
         let started = Instant::now();
         while page.evaluate(ready) != json!(true) {
             assert!(started.elapsed() < PATIENCE, "the page does not start: {:?}", page.events);
             thread::sleep(Duration::from_millis(50));
         }
         page
+    }
+
+    /// A window of this size, in CSS pixels.
+    pub fn resize(&mut self, [width, height]: [u32; 2]) {
+        let size = json!({ "width": width, "height": height, "deviceScaleFactor": 1, "mobile": false });
+        self.send("Emulation.setDeviceMetricsOverride", size);
     }
 
     /// Colours that are `light` or `dark`, as a reader sets them.
@@ -187,8 +142,7 @@ impl Page {
 
     /// The result of a command of the protocol.
     pub fn send(&mut self, method: &str, params: Value) -> Value {
-        let id = BROWSER.send(&self.session, method, &params);
-        answer(method, id, &self.messages, &mut self.events)
+        self.browser.call(&self.session, method, &params, &mut self.events)
     }
 
     /// The value of an expression of JavaScript in the page, awaited where it is a promise.
@@ -313,16 +267,11 @@ impl Page {
     }
 }
 
-fn url(file: &Path) -> String {
-    format!("file://{}", file.display())
-}
-
 impl Drop for Page {
     /// Closes the tab.
     fn drop(&mut self) {
         if !thread::panicking() {
-            BROWSER.send(&self.session, "Page.close", &json!({}));
+            self.send("Page.close", json!({}));
         }
-        drop(BROWSER.sessions.lock().map(|mut sessions| sessions.remove(&self.session)));
     }
 }

@@ -75,9 +75,6 @@ fn mouse_fingers_and_pen_move_light_view_picture_and_wipe() {
     assert!((number(&mut page, "scene.light[2]") - 1.32).abs() < 1e-9);
     page.drag("middle", 0, [x, y], [x + 40.0, y]);
     assert!(number(&mut page, "pan[0]") > 0.1);
-    page.evaluate("window.svbrdf.figure.set({ projection: 'perspective' })");
-    page.drag("right", 0, [x, y], [x + 60.0, y]);
-    assert!(number(&mut page, "scene.view[0]") < -0.2);
 
     start(&mut page);
     page.evaluate("window.svbrdf.figure.set({ layout: 'wipe' })");
@@ -92,9 +89,8 @@ fn mouse_fingers_and_pen_move_light_view_picture_and_wipe() {
     assert!(near(&state(&mut page, "scene.light"), [-0.5, 0.5]));
     page.touch(&[[[x - 40.0, y], [x - 80.0, y]], [[x + 40.0, y], [x + 80.0, y]]]);
     assert!((number(&mut page, "zoom") - 2.0).abs() < 0.1);
-    let before = number(&mut page, "scene.view[1]");
     page.touch(&[[[x - 40.0, y], [x - 40.0, y - 60.0]], [[x + 40.0, y], [x + 40.0, y - 60.0]]]);
-    assert!(number(&mut page, "scene.view[1]") > before + 0.05);
+    assert!(number(&mut page, "pan[1]") > 0.1);
     assert_eq!(state(&mut page, "scene.light[2]"), json!(1.2));
     // The numbers of the last texel stay after the finger.
     assert_readouts(&mut page, "(");
@@ -129,10 +125,6 @@ fn keys_do_what_they_do_in_the_window() {
         ("2", 0, "prediction", json!(1)),
         ("e", 0, "exposure", json!(0.5)),
         ("E", SHIFT, "exposure", json!(0)),
-        ("p", 0, "projection", json!("perspective")),
-        ("t", 0, "tiled", json!(true)),
-        ("v", 0, "falseColour", json!(true)),
-        ("l", 0, "clipping", json!(true)),
         ("+", 0, "zoom", json!(1.15)),
         ("f", 0, "zoom", json!(1)),
         ("r", 0, "layout", json!("side-by-side")),
@@ -149,11 +141,6 @@ fn keys_do_what_they_do_in_the_window() {
     assert_eq!(page.panes(), json!([0, 0, 0]));
     page.key("keyUp", "g", 0);
     assert_eq!(page.panes(), json!([0, 1, 2]));
-    page.press("0", 0);
-    assert_eq!(
-        page.after_frame("Math.round(window.svbrdf.figure.state.zoom * 100) === Math.round(100 * 1.03 * 48 / Math.min(window.svbrdf.figure.boxes()[0].width, window.svbrdf.figure.boxes()[0].height))"),
-        json!(true)
-    );
 }
 
 #[needs(browser)]
@@ -166,7 +153,7 @@ fn every_control_is_reached_by_tab_and_changes_the_figure_and_the_page_requests_
         page.press("Tab", 0);
         reached.push(page.evaluate("document.activeElement.id"));
     }
-    let ids = "quantity difference layout prediction near projection drag exposure peek fit reset canvas";
+    let ids = "quantity difference layout prediction near drag exposure peek fit reset canvas";
     for id in ids.split(' ') {
         assert!(reached.contains(&json!(id)), "{id} is not among {reached:?}");
     }
@@ -175,7 +162,6 @@ fn every_control_is_reached_by_tab_and_changes_the_figure_and_the_page_requests_
         ("layout", "single", "layout", json!("single")),
         ("prediction", "1", "prediction", json!(1)),
         ("near", "distant", "scene.kind", json!("distant")),
-        ("projection", "perspective", "projection", json!("perspective")),
         ("drag", "view", "drag", json!("view")),
         ("exposure", "-1.5", "exposure", json!(-1.5)),
         ("light-2", "0.8", "scene.light[2]", json!(0.8)),
@@ -223,11 +209,6 @@ fn a_window_without_room_for_all_predictions_has_the_chosen_one_beside_the_groun
     assert_eq!(page.panes(), json!([0, 3]));
     page.input("prediction", "14");
     assert_eq!(page.panes(), json!([0, 15]));
-    let status = page.evaluate(
-        "new Promise(done => setTimeout(() => done(document.getElementById('status').textContent), 600))",
-    );
-    assert!(status.as_str().unwrap().ends_with("There is room for one prediction."), "{status}");
-    let size = json!({ "width": 1360, "height": 860, "deviceScaleFactor": 1, "mobile": false });
-    page.send("Emulation.setDeviceMetricsOverride", size);
+    page.resize([1360, 860]);
     assert_eq!(page.panes().as_array().unwrap().len(), 16);
 }

@@ -64,37 +64,36 @@ fn unnamed(page: &mut Page) -> (Vec<Value>, usize) {
     (all.iter().filter(|node| !has_name(node)).map(|node| (**node).clone()).collect(), all.len())
 }
 
-/// A report of these materials and a ranking in a window of this size, unfolded and with differences.
-fn pages(names: [&str; 2], size: [u32; 2]) -> [Page; 2] {
-    let mut pages = [
-        Page::open(&hostile::report_of(names), size),
-        Page::open_until(&ranking::page(), size, ranking::READY),
-    ];
-    for page in &mut pages {
+/// Looks at a report of these materials, then at a ranking, in a window of this size, unfolded and with differences.
+fn each_page(names: [&str; 2], size: [u32; 2], look: fn(&mut Page)) {
+    let report = || Page::open(&hostile::report_of(names), size);
+    let ranking = || Page::open_until(&ranking::page(), size, ranking::READY);
+    for open in [&report as &dyn Fn() -> Page, &ranking] {
+        let mut page = open();
         page.evaluate("document.querySelectorAll('details').forEach(e => { e.open = true; })");
         page.evaluate("window.svbrdf?.figure.set({ difference: true })");
+        look(&mut page);
     }
-    pages
 }
 
 #[needs(browser)]
 #[test]
 fn texts_have_contrast_in_light_and_dark_and_what_is_used_has_a_name() {
-    for mut page in pages(hostile::NAMES, [1000, 900]) {
+    each_page(hostile::NAMES, [1000, 900], |page| {
         for scheme in ["light", "dark"] {
             page.scheme(scheme);
             page.evaluate("new Promise(done => setTimeout(done, 400))");
-            let (weak, all) = weak(&mut page);
+            let (weak, all) = weak(page);
             assert!(weak.is_empty() && all > 20, "{scheme}: {weak:?} of {all}");
         }
-        let (unnamed, all) = unnamed(&mut page);
+        let (unnamed, all) = unnamed(page);
         assert!(unnamed.is_empty() && all > 10, "{unnamed:?} of {all}");
         // A weak text and a button without a name are found.
         page.evaluate("document.querySelector('h1').style.color = '#777'");
-        assert_eq!(self::weak(&mut page).0.len(), 1);
+        assert_eq!(self::weak(page).0.len(), 1);
         page.evaluate("document.body.append(document.createElement('button'))");
-        assert_eq!(self::unnamed(&mut page).0.len(), 1);
-    }
+        assert_eq!(self::unnamed(page).0.len(), 1);
+    });
 }
 
 /// What is wider than the window or smaller than a fingertip; links within a text may be.
@@ -110,7 +109,7 @@ const MISPLACED: &str = "(() => { const found = []; const width = document.docum
 #[test]
 fn long_names_fit_a_phone_and_every_target_a_fingertip() {
     let long = "a_long_name".repeat(11);
-    for mut page in pages([&long, &long], [360, 640]) {
+    each_page([&long, &long], [360, 640], |page| {
         let found = page.evaluate(&format!("new Promise(done => setTimeout(() => done({MISPLACED}), 400))"));
         assert_eq!(found, json!([]));
         let first = "(() => { const of = (id) => document.getElementById(id)?.getBoundingClientRect(); \
@@ -121,5 +120,5 @@ fn long_names_fit_a_phone_and_every_target_a_fingertip() {
         page.evaluate("Object.assign(document.querySelector('body > button').style, { minHeight: '10px', height: '10px' })");
         page.evaluate("document.querySelector('body > pre').style.width = '500px'");
         assert_eq!(page.evaluate(MISPLACED).as_array().unwrap().len(), 2);
-    }
+    });
 }

@@ -11,7 +11,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::text::quoted;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::session::Session;
-use svbrdf_page::{About, Findings, MOST_BYTES, Repetition, Report, View, check_destination};
+use svbrdf_page::{Findings, MOST_BYTES, Repetition, Report, View, check_destination};
 
 use super::displayed::Displayed;
 use super::work::job::Job;
@@ -77,7 +77,6 @@ impl ReportInputs {
             findings,
             readings: self.materials.iter().map(|(read, _)| reading(read)).collect(),
             repetition: Some(repetition(path, &self.session)?),
-            about: About::default(),
             max_bytes: MOST_BYTES,
         };
         Ok(report.page(progress)?.html)
