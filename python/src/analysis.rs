@@ -1,13 +1,13 @@
 //! The analyses that the crate declares.
 
 use pyo3::prelude::*;
+use svbrdf_core::text::of_json;
 use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analyses::AnyAnalysis;
 use svbrdf_evaluate::report::AnalysisInput;
 
 use crate::asked::Asked;
 use crate::errors::{Error, exception};
-use crate::material::CoreMaterial;
 use crate::report::Views;
 use crate::work;
 
@@ -15,16 +15,14 @@ use crate::work;
 #[pyfunction]
 pub fn analysis(
     py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
+    asked: Asked<'_>,
     name: &str,
     options: &str,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
     let analysis = AnyAnalysis::named(name).ok_or_else(|| Error::new_err(format!("no analysis {name}")))?;
-    let options = serde_json::from_str(options).map_err(|problem| Error::new_err(problem.to_string()))?;
-    let materials = asked.singles(ground_truth, &predictions);
+    let options = serde_json::from_str(options).map_err(|problem| Error::new_err(of_json(&problem)))?;
+    let materials = asked.singles();
     let input = AnalysisInput {
         ground_truth: &materials[0],
         predictions: materials[1..].iter().collect(),

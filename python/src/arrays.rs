@@ -1,9 +1,8 @@
 //! Maps between numpy arrays, which are interleaved, and the planes of the crate.
 
-use numpy::{Element, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{Element, PyArray1, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::PyBufferError;
 use pyo3::prelude::*;
-use pyo3::types::PyByteArray;
 
 /// The values of an array where they lie in the memory of numpy.
 ///
@@ -26,19 +25,19 @@ pub fn plane<T: Element + Copy>(array: &Bound<'_, PyAny>) -> PyResult<Vec<T>> {
     values(&array.extract()?).map(<[T]>::to_vec)
 }
 
-/// The planes of a map of three channels, of a C-contiguous array: 3xHxW where it is planar, or HxWx3.
+/// The planes of a map of three channels, HxWx3: of a C-contiguous array, or of one of 3xHxW whose channels were moved to the end.
 ///
 /// # Errors
 /// As [`plane`].
-pub fn planes<T: Element + Copy>(array: &Bound<'_, PyAny>, is_planar: bool) -> PyResult<[Vec<T>; 3]> {
-    let array = array.extract()?;
-    let values = values(&array)?;
-    if is_planar {
-        let (first, others) = values.split_at(values.len() / 3);
-        let (second, third) = others.split_at(first.len());
-        return Ok([first, second, third].map(<[T]>::to_vec));
+pub fn planes<T: Element + Copy>(array: &Bound<'_, PyAny>) -> PyResult<[Vec<T>; 3]> {
+    let array: PyReadonlyArrayDyn<'_, T> = array.extract()?;
+    if array.is_c_contiguous() {
+        return Ok(separated(values(&array)?.as_chunks::<3>().0));
     }
-    Ok(separated(values.as_chunks::<3>().0))
+    let planar = array.permute(Some([2, 0, 1]))?.readonly();
+    let (first, others) = values(&planar)?.split_at(planar.len() / 3);
+    let (second, third) = others.split_at(first.len());
+    Ok([first, second, third].map(<[T]>::to_vec))
 }
 
 /// The planes of texels.
@@ -54,35 +53,19 @@ fn separated<T: Copy>(texels: &[[T; 3]]) -> [Vec<T>; 3] {
     planes
 }
 
-/// A number as the bytes of an array.
-pub trait Bytes: Copy {
-    /// Appends its bytes in native order.
-    fn put(self, bytes: &mut [u8]);
-}
-
-impl Bytes for f32 {
-    fn put(self, bytes: &mut [u8]) {
-        bytes.copy_from_slice(&self.to_ne_bytes());
-    }
-}
-
-impl Bytes for f64 {
-    fn put(self, bytes: &mut [u8]) {
-        bytes.copy_from_slice(&self.to_ne_bytes());
-    }
-}
-
-/// The bytes of the `count` numbers of an array.
+/// Numbers as an array: height x width x channels, or height x width of one channel.
 ///
 /// # Errors
-/// `MemoryError`.
-pub fn bytes<'py, T: Bytes>(
+/// `ValueError` where there are more or fewer.
+pub fn array<'py, T: Element>(
     py: Python<'py>,
-    count: usize,
     numbers: impl Iterator<Item = T>,
-) -> PyResult<Bound<'py, PyByteArray>> {
-    PyByteArray::new_with(py, count * size_of::<T>(), |bytes| {
-        bytes.chunks_exact_mut(size_of::<T>()).zip(numbers).for_each(|(bytes, number)| number.put(bytes));
-        Ok(())
-    })
+    [width, height]: [usize; 2],
+    channels: usize,
+) -> PyResult<Bound<'py, PyAny>> {
+    let array = PyArray1::from_vec(py, numbers.collect());
+    match channels {
+        1 => Ok(array.reshape([height, width])?.into_any()),
+        _ => Ok(array.reshape([height, width, channels])?.into_any()),
+    }
 }

@@ -1,30 +1,52 @@
 //! The arguments that the comparisons have in common.
 
+use std::time::Duration;
+
 use pyo3::prelude::*;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::text::of_json;
 use svbrdf_files::convention;
 
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
 
+/// The longest time budget.
+const DAY: Duration = Duration::from_secs(86_400);
+
 /// The options of a question, which are JSON.
 ///
 /// # Errors
-/// Where a word is none of the known ones.
+/// By its name, where one is unknown, or has a wrong type or makes no sense.
 pub fn options(question: &str) -> PyResult<LossOptions> {
-    let options = serde_json::from_str::<Value>(question).and_then(serde_json::from_value);
-    options.map_err(|problem| Error::new_err(problem.to_string()))
+    let of = |given: Map<String, Value>| serde_json::from_value::<LossOptions>(given.into());
+    let wrong = |name: &str, problem: String| Error::new_err(format!("{name}: {problem}"));
+    let given: Map<String, Value> =
+        serde_json::from_str(question).map_err(|e| wrong("question", of_json(&e)))?;
+    for (name, value) in &given {
+        of(Map::from_iter([(name.clone(), value.clone())])).map_err(|e| wrong(name, of_json(&e)))?;
+    }
+    let options = of(given).map_err(|e| wrong("question", of_json(&e)))?;
+    if let Some(target) = options.target_error.filter(|target| !(*target > 0.0 && *target <= 0.1)) {
+        let problem = format!("expected a share above 0, at most 0.1, such as 0.01 for 1%, found {target}");
+        return Err(wrong("target_error", problem));
+    }
+    if options.time_budget.is_some_and(|budget| budget.is_zero() || budget > DAY) {
+        return Err(wrong("time_budget", "expected seconds above 0, at most a day".to_owned()));
+    }
+    Ok(options)
 }
 
-/// Names, convention and question.
+/// Materials, names, convention and question.
 #[derive(Debug, FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct Asked {
-    /// Of the ground truth, then of each prediction.
+pub struct Asked<'py> {
+    /// The ground truth, then the predictions.
+    pub materials: Vec<Bound<'py, CoreMaterial>>,
+    /// Of the materials.
     pub names: Vec<String>,
     /// Where they were read from.
     pub paths: Vec<Option<String>>,
@@ -34,7 +56,7 @@ pub struct Asked {
     question: String,
 }
 
-impl Asked {
+impl Asked<'_> {
     /// The convention of its name.
     ///
     /// # Errors
@@ -75,23 +97,14 @@ impl Asked {
         self.options()?.listed().map_err(exception)
     }
 
-    /// The ground truth and the predictions of a comparison as the report calls them: each as `of` takes it from Python.
-    pub fn materials<T: Real>(
-        &self,
-        ground_truth: &CoreMaterial,
-        predictions: &[PyRef<'_, CoreMaterial>],
-        of: impl Fn(&CoreMaterial) -> Material<T>,
-    ) -> Vec<Material<T>> {
-        let all = std::iter::once(ground_truth).chain(predictions.iter().map(|prediction| &**prediction));
-        all.zip(&self.names).map(|(material, name)| of(material).renamed(name)).collect()
+    /// The materials as the report calls them: each as `of` takes it from Python.
+    pub fn materials<T: Real>(&self, of: impl Fn(&CoreMaterial) -> Material<T>) -> Vec<Material<T>> {
+        let all = self.materials.iter().zip(&self.names);
+        all.map(|(material, name)| of(material.get()).renamed(name)).collect()
     }
 
     /// [`Asked::materials`] in f32.
-    pub fn singles(
-        &self,
-        ground_truth: &CoreMaterial,
-        predictions: &[PyRef<'_, CoreMaterial>],
-    ) -> Vec<Material<f32>> {
-        self.materials(ground_truth, predictions, CoreMaterial::single)
+    pub fn singles(&self) -> Vec<Material<f32>> {
+        self.materials(CoreMaterial::single)
     }
 }

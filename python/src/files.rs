@@ -8,7 +8,6 @@ use svbrdf_core::loss::Precision;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_files::Error;
 use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::read::{self as reading, Certainty, Read, ReadOptions};
@@ -16,7 +15,7 @@ use svbrdf_files::samples;
 use svbrdf_files::write::{self as writing, WriteOptions};
 
 use crate::errors::exception;
-use crate::material::{CoreMaterial, double, read_options, single};
+use crate::material::{CoreMaterial, Values, read_options};
 use crate::work;
 
 /// What reading a material gave.
@@ -39,35 +38,33 @@ pub fn read(
     strict: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Found> {
+    fn checked<T: Real>(
+        path: &Path,
+        options: &ReadOptions,
+        strict: bool,
+        progress: &Progress,
+    ) -> Result<Read<T>, Error> {
+        let read = reading::read(path, options, progress)?;
+        if strict {
+            read.refuse_guesses(path)?;
+        }
+        Ok(read)
+    }
     let options = &read_options(options)?;
     match Precision::from_str(precision).map_err(exception)? {
         Precision::F32 => {
-            let read =
-                work::run(py, progress, |progress| read_checked::<f32>(&path, options, strict, progress))?;
-            found(read, single)
+            found(work::run(py, progress, |progress| checked::<f32>(&path, options, strict, progress))?)
         }
         Precision::F64 => {
-            let read =
-                work::run(py, progress, |progress| read_checked::<f64>(&path, options, strict, progress))?;
-            found(read, double)
+            found(work::run(py, progress, |progress| checked::<f64>(&path, options, strict, progress))?)
         }
     }
 }
 
-fn read_checked<T: Real>(
-    path: &Path,
-    options: &ReadOptions,
-    strict: bool,
-    progress: &Progress,
-) -> Result<Read<T>, Error> {
-    let read = reading::read(path, options, progress)?;
-    if strict {
-        read.refuse_guesses(path)?;
-    }
-    Ok(read)
-}
-
-fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>, Storage) -> CoreMaterial) -> PyResult<Found> {
+fn found<T: Real>(read: Read<T>) -> PyResult<Found>
+where
+    Values: From<Material<T>>,
+{
     let certainty = |certainty| match certainty {
         Certainty::Unsure => "unsure",
         Certainty::Likely => "likely",
@@ -82,25 +79,25 @@ fn found<T>(read: Read<T>, material: impl FnOnce(Material<T>, Storage) -> CoreMa
         assumptions: assumptions.collect(),
         notes: read.notes.iter().map(ToString::to_string).collect(),
         files: read.files,
-        material: material(read.material, storage),
+        material: CoreMaterial { values: read.material.into(), storage },
     })
 }
 
 /// The built-in ground truth, then the predictions of it.
 #[pyfunction]
 pub fn built_in(py: Python<'_>, precision: &str) -> PyResult<Vec<CoreMaterial>> {
-    fn all<T: Real>(material: fn(Material<T>, Storage) -> CoreMaterial) -> Result<Vec<CoreMaterial>, Error> {
+    fn all<T: Real>() -> Result<Vec<CoreMaterial>, Error>
+    where
+        Values: From<Material<T>>,
+    {
         let samples = samples::load::<T>()?;
         let all = std::iter::once(samples.ground_truth).chain(samples.predictions);
-        let with_storage = |read: Read<T>| {
-            let storage = read.storage();
-            material(read.material, storage)
-        };
-        Ok(all.map(with_storage).collect())
+        let material = |read: Read<T>| CoreMaterial { storage: read.storage(), values: read.material.into() };
+        Ok(all.map(material).collect())
     }
     match Precision::from_str(precision).map_err(exception)? {
-        Precision::F32 => work::at_once(py, || all(single)),
-        Precision::F64 => work::at_once(py, || all(double)),
+        Precision::F32 => work::at_once(py, all::<f32>),
+        Precision::F64 => work::at_once(py, all::<f64>),
     }
 }
 

@@ -15,9 +15,7 @@ mod material;
 mod model;
 mod page;
 mod photo;
-mod pickle;
 mod report;
-mod session;
 mod why;
 mod work;
 
@@ -25,29 +23,33 @@ use pyo3::prelude::*;
 
 // Arrays are read under the interpreter lock, which a free-threaded interpreter then has, too.
 #[pymodule(gil_used = true)]
-fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-    module.add("Error", module.py().get_type::<errors::Error>())?;
-    module.add_class::<material::CoreMaterial>()?;
-    module.add_function(wrap_pyfunction!(files::read, module)?)?;
-    module.add_function(wrap_pyfunction!(files::write, module)?)?;
-    module.add_function(wrap_pyfunction!(files::built_in, module)?)?;
-    module.add_function(wrap_pyfunction!(material::render, module)?)?;
-    module.add_function(wrap_pyfunction!(material::distinct_names, module)?)?;
-    module.add_function(wrap_pyfunction!(model::conventions, module)?)?;
-    module.add_function(wrap_pyfunction!(model::sample_scenes, module)?)?;
-    module.add_function(wrap_pyfunction!(model::named_scenes, module)?)?;
-    module.add_function(wrap_pyfunction!(model::read_scenes, module)?)?;
-    module.add_function(wrap_pyfunction!(loss::loss, module)?)?;
-    module.add_function(wrap_pyfunction!(loss::rank, module)?)?;
-    module.add_function(wrap_pyfunction!(analysis::analysis, module)?)?;
-    module.add_function(wrap_pyfunction!(why::map, module)?)?;
-    module.add_function(wrap_pyfunction!(why::diagnose, module)?)?;
-    module.add_function(wrap_pyfunction!(photo::photo, module)?)?;
-    module.add_function(wrap_pyfunction!(dataset::rank_dataset, module)?)?;
-    module.add_function(wrap_pyfunction!(page::page, module)?)?;
-    module.add_function(wrap_pyfunction!(session::session, module)?)?;
-    module.add_function(wrap_pyfunction!(conform::probes, module)?)?;
-    module.add_function(wrap_pyfunction!(conform::conform, module)?)?;
-    Ok(())
+mod _core {
+    #[pymodule_export]
+    use super::analysis::analysis;
+    #[pymodule_export]
+    use super::conform::{conform, probes};
+    #[pymodule_export]
+    use super::dataset::rank_dataset;
+    #[pymodule_export]
+    use super::errors::Error;
+    #[pymodule_export]
+    use super::files::{built_in, read, write};
+    #[pymodule_export]
+    use super::loss::{loss, rank};
+    #[pymodule_export]
+    use super::material::{CoreMaterial, distinct_names, render};
+    #[pymodule_export]
+    use super::model::{conventions, named_scenes, read_scenes, sample_scenes};
+    #[pymodule_export]
+    use super::page::page;
+    #[pymodule_export]
+    use super::photo::photo;
+    #[pymodule_export]
+    use super::report::escaped;
+    #[pymodule_export]
+    use super::why::{diagnose, map};
+
+    #[allow(non_upper_case_globals, reason = "the name in Python")]
+    #[pymodule_export]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
 }

@@ -17,17 +17,11 @@ use crate::work;
 
 /// The losses of `predictions` against `ground_truth`.
 #[pyfunction]
-pub fn loss(
-    py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
+pub fn loss(py: Python<'_>, asked: Asked<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Views> {
     let report = match Precision::from_str(&asked.precision).map_err(exception)? {
-        Precision::F32 => answer(py, &asked, &asked.singles(ground_truth, &predictions), progress),
+        Precision::F32 => answer(py, &asked, &asked.singles(), progress),
         Precision::F64 => {
-            let materials = asked.materials(ground_truth, &predictions, CoreMaterial::double);
+            let materials = asked.materials(CoreMaterial::double);
             answer(py, &asked, &materials, progress)
         }
     }?;
@@ -37,7 +31,7 @@ pub fn loss(
 /// The answer for the first of `materials` as the ground truth and the others as predictions.
 fn answer<T: Compute>(
     py: Python<'_>,
-    asked: &Asked,
+    asked: &Asked<'_>,
     materials: &[Material<T>],
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<LossReport> {
@@ -51,21 +45,21 @@ fn answer<T: Compute>(
 #[pyfunction]
 pub fn rank(
     py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
+    asked: Asked<'_>,
     repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
-    let (convention, materials) = (asked.convention()?, asked.singles(ground_truth, &predictions));
+    let (convention, materials) = (asked.convention()?, asked.singles());
     let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?;
-    let comparison = comparison.at_most(most_scenes(predictions.len()));
+    let comparison = comparison.at_most(most_scenes(all.len() - 1));
     let request = asked.request()?;
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
     let mut report = RankReport::new(Compared::new(all[0], &convention), &request, &outcome);
-    if ground_truth.storage.has_steps() || !repeats.is_empty() {
-        let (floor, captures) = floor_of(py, (ground_truth, &repeats), &convention, asked.seed()?, progress)?;
+    let storage = &asked.materials[0].get().storage;
+    if storage.has_steps() || !repeats.is_empty() {
+        let truth = (all[0], storage, repeats.as_slice());
+        let (floor, captures) = floor_of(py, truth, &convention, asked.seed()?, progress)?;
         report = report.with_floor(&floor, captures);
     }
     Views::new(&report)

@@ -5,27 +5,26 @@ use std::str::FromStr;
 
 use numpy::Element;
 use pyo3::prelude::*;
-use pyo3::types::PyByteArray;
-use svbrdf_core::image::Image;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::render as renderer;
+use svbrdf_core::text::of_json;
 use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_evaluate::report;
 use svbrdf_files::convention;
 use svbrdf_files::read::ReadOptions;
 
-use crate::arrays::{self, Bytes};
+use crate::arrays;
 use crate::errors::exception;
 use crate::model::SceneTuple;
-use crate::{pickle, work};
+use crate::work;
 
 /// A material.
 #[pyclass(frozen, module = "svbrdf._core")]
 #[derive(Debug)]
 pub struct CoreMaterial {
-    values: Values,
+    pub values: Values,
     /// How its files store it; arrays have no steps.
     pub storage: Storage,
 }
@@ -39,7 +38,29 @@ pub enum Values {
     F64(Material<f64>),
 }
 
-/// The arrays of a material; colours and normals are HxWx3, or 3xHxW where `planar` says so.
+impl From<Material<f32>> for Values {
+    fn from(material: Material<f32>) -> Self {
+        Self::F32(material)
+    }
+}
+
+impl From<Material<f64>> for Values {
+    fn from(material: Material<f64>) -> Self {
+        Self::F64(material)
+    }
+}
+
+/// What `$of` gives of the material in its precision.
+macro_rules! of_either {
+    ($values:expr, $material:ident => $of:expr) => {
+        match $values {
+            Values::F32($material) => $of,
+            Values::F64($material) => $of,
+        }
+    };
+}
+
+/// The arrays of a material.
 #[derive(Debug, FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Arrays<'py> {
@@ -49,19 +70,16 @@ pub struct Arrays<'py> {
     diffuse: Bound<'py, PyAny>,
     specular: Bound<'py, PyAny>,
     roughness: Bound<'py, PyAny>,
-    /// Of normal, diffuse and specular.
-    planar: [bool; 3],
 }
 
 impl Arrays<'_> {
     /// The values go from the memory of numpy into the planes of the material without a copy between. The interpreter lock
     /// is held so long, and released for checking and normalizing them.
     fn material<T: Element + Real>(&self, py: Python<'_>) -> PyResult<Material<T>> {
-        let [of_normal, of_diffuse, of_specular] = self.planar;
         let planes = Planes {
-            normal: arrays::planes(&self.normal, of_normal)?,
-            diffuse: arrays::planes(&self.diffuse, of_diffuse)?,
-            specular: arrays::planes(&self.specular, of_specular)?,
+            normal: arrays::planes(&self.normal)?,
+            diffuse: arrays::planes(&self.diffuse)?,
+            specular: arrays::planes(&self.specular)?,
             roughness: arrays::plane(&self.roughness)?,
         };
         let (name, [width, height]) = (&self.name, self.size);
@@ -71,41 +89,24 @@ impl Arrays<'_> {
 
 #[pymethods]
 impl CoreMaterial {
-    /// `storage` is that of the material which the arrays were copied from.
-    #[staticmethod]
-    fn from_arrays(
-        py: Python<'_>,
-        arrays: Arrays<'_>,
-        precision: &str,
-        storage: Option<&str>,
-    ) -> PyResult<Self> {
-        let storage = storage.map_or_else(|| Ok(Storage::exact()), pickle::storage)?;
-        match Precision::from_str(precision).map_err(exception)? {
-            Precision::F32 => arrays.material(py).map(|material| single(material, storage)),
-            Precision::F64 => arrays.material(py).map(|material| double(material, storage)),
-        }
-    }
-
-    #[getter]
-    fn storage(&self) -> PyResult<String> {
-        pickle::text(&self.storage)
+    #[new]
+    fn new(py: Python<'_>, arrays: Arrays<'_>, precision: &str) -> PyResult<Self> {
+        let values = match Precision::from_str(precision).map_err(exception)? {
+            Precision::F32 => arrays.material::<f32>(py)?.into(),
+            Precision::F64 => arrays.material::<f64>(py)?.into(),
+        };
+        Ok(Self { values, storage: Storage::exact() })
     }
 
     #[getter]
     fn name(&self) -> &str {
-        match &self.values {
-            Values::F32(material) => material.name(),
-            Values::F64(material) => material.name(),
-        }
+        of_either!(&self.values, material => material.name())
     }
 
     /// (width, height).
     #[getter]
     fn size(&self) -> (usize, usize) {
-        match &self.values {
-            Values::F32(material) => material.size().into(),
-            Values::F64(material) => material.size().into(),
-        }
+        of_either!(&self.values, material => material.size().into())
     }
 
     #[getter]
@@ -122,23 +123,10 @@ impl CoreMaterial {
         work::at_once(py, || svbrdf_page::overview(&material))
     }
 
-    /// The values of a map, channels interleaved.
-    fn map<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyByteArray>> {
-        match &self.values {
-            Values::F32(material) => map_bytes(py, material, name),
-            Values::F64(material) => map_bytes(py, material, name),
-        }
+    /// A map.
+    fn map<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        of_either!(&self.values, material => map(py, material, name))
     }
-}
-
-/// A material of the core in f32.
-pub fn single(material: Material<f32>, storage: Storage) -> CoreMaterial {
-    CoreMaterial { values: Values::F32(material), storage }
-}
-
-/// A material of the core in f64.
-pub fn double(material: Material<f64>, storage: Storage) -> CoreMaterial {
-    CoreMaterial { values: Values::F64(material), storage }
 }
 
 impl CoreMaterial {
@@ -159,20 +147,20 @@ impl CoreMaterial {
     }
 }
 
-fn map_bytes<'py, T: Real + Bytes>(
+fn map<'py, T: Element + Real>(
     py: Python<'py>,
     material: &Material<T>,
     name: &str,
-) -> PyResult<Bound<'py, PyByteArray>> {
-    let planes = material.planes();
+) -> PyResult<Bound<'py, PyAny>> {
+    let (planes, size) = (material.planes(), material.size());
     let colour = match name {
         "normal" => &planes.normal,
         "diffuse" => &planes.diffuse,
         "specular" => &planes.specular,
-        _ => return arrays::bytes(py, planes.roughness.len(), planes.roughness.iter().copied()),
+        _ => return arrays::array(py, planes.roughness.iter().copied(), size, 1),
     };
     let numbers = (0..colour[0].len()).flat_map(|i| [colour[0][i], colour[1][i], colour[2][i]]);
-    arrays::bytes(py, 3 * colour[0].len(), numbers)
+    arrays::array(py, numbers, size, 3)
 }
 
 /// The read options of a sidecar file's JSON.
@@ -180,7 +168,7 @@ fn map_bytes<'py, T: Real + Bytes>(
 /// # Errors
 /// Where an option has no such value.
 pub fn read_options(json: &str) -> PyResult<ReadOptions> {
-    serde_json::from_str(json).map_err(|e| crate::errors::Error::new_err(e.to_string()))
+    serde_json::from_str(json).map_err(|e| crate::errors::Error::new_err(of_json(&e)))
 }
 
 /// Renders a material in one scene: the RGB values of all texels.
@@ -190,23 +178,18 @@ pub fn render<'py>(
     material: &CoreMaterial,
     scene: SceneTuple,
     convention: &str,
-) -> PyResult<Bound<'py, PyByteArray>> {
-    let scene = scene.scene()?;
-    let convention = convention::of_loss(convention).map_err(exception)?;
+) -> PyResult<Bound<'py, PyAny>> {
+    let (scene, convention) = (scene.scene()?, convention::of_loss(convention).map_err(exception)?);
     match &material.values {
         Values::F32(material) => {
             let image = work::run(py, None, |p| renderer::render_f32(material, &scene, &convention, p))?;
-            pixels(py, image)
+            arrays::array(py, image.pixels.into_iter().flatten(), material.size(), 3)
         }
         Values::F64(material) => {
             let image = work::run(py, None, |p| renderer::render(material, &scene, &convention, p))?;
-            pixels(py, image)
+            arrays::array(py, image.pixels.into_iter().flatten(), material.size(), 3)
         }
     }
-}
-
-fn pixels<T: Bytes>(py: Python<'_>, image: Image<T>) -> PyResult<Bound<'_, PyByteArray>> {
-    arrays::bytes(py, 3 * image.pixels.len(), image.pixels.into_iter().flatten())
 }
 
 /// Names that tell materials apart, of (name, path).

@@ -3,20 +3,21 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use serde_json::Value;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::session::window::SessionDisplay;
-use svbrdf_page::{About, Findings, Repetition, Report, View, check_destination, exposure};
+use svbrdf_page::{Findings, Repetition, Report, View, check_destination, exposure};
 
 use crate::asked::Asked;
 use crate::errors::{Error, exception};
-use crate::material::CoreMaterial;
 use crate::model::SceneTuple;
 use crate::work;
+
+/// The largest exposure of a figure, in stops, in either direction.
+const MOST_STOPS: f32 = 16.0;
 
 /// The parts of a page, and what its figure begins with.
 #[derive(Debug, FromPyObject)]
@@ -29,8 +30,6 @@ pub struct PageAsked {
     max_bytes: usize,
     /// Of each material the assumptions and notes of reading it.
     readings: Vec<Vec<String>>,
-    /// The texts of its authors as JSON, or the path of a TOML file with them; neither: [`About::default`].
-    about: (Option<String>, Option<PathBuf>),
     /// The call that makes the report; `None`: the figure alone.
     call: Option<String>,
     /// The file that is written; `None`: the text is returned.
@@ -50,28 +49,22 @@ pub struct PageItems {
 #[pyfunction]
 pub fn page(
     py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
+    asked: Asked<'_>,
     of_page: PageAsked,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<PageItems> {
     if let Some(path) = &of_page.path {
         check_destination(path).map_err(exception)?;
     }
-    let (view, about) = (of_page.view()?, of_page.about()?);
+    let view = of_page.view()?;
     let request = of_page.call.is_some().then(|| asked.request()).transpose()?;
     let convention = asked.convention()?;
-    let materials = asked.singles(ground_truth, &predictions);
+    let materials = asked.singles();
+    let materials: Vec<&Material<f32>> = materials.iter().collect();
     work::run(py, progress, |progress| {
-        let findings = match (materials.as_slice(), &request) {
-            ([ground_truth, predictions @ ..], Some(request)) if !predictions.is_empty() => {
-                let predictions: Vec<_> = predictions.iter().collect();
-                Some(Findings::new(ground_truth, &predictions, convention, request, progress)?)
-            }
-            _ => None,
-        };
-        of_page.items(&materials.iter().collect::<Vec<_>>(), convention, (view, about), findings, progress)
+        let of = |request| Findings::new(materials[0], &materials[1..], convention, request, progress);
+        let findings = request.as_ref().map(of).transpose()?;
+        of_page.items(&materials, convention, view, findings, progress)
     })
 }
 
@@ -81,24 +74,19 @@ impl PageAsked {
         scene.check_usable().map_err(exception)?;
         let layout = self.layout.parse().map_err(exception)?;
         let display = SessionDisplay { layout, ..SessionDisplay::default() };
-        Ok(View { scene, exposure_ev: 0.0, display })
-    }
-
-    fn about(&self) -> PyResult<About> {
-        match &self.about {
-            (Some(texts), _) => serde_json::from_str::<Value>(texts)
-                .and_then(serde_json::from_value)
-                .map_err(|problem| Error::new_err(format!("about: {problem}"))),
-            (None, Some(path)) => About::read(path).map_err(exception),
-            (None, None) => Ok(About::default()),
+        if self.exposure.is_some_and(|exposure| !(-MOST_STOPS..=MOST_STOPS).contains(&exposure)) {
+            return Err(Error::new_err(format!(
+                "exposure: expected stops from -{MOST_STOPS} to {MOST_STOPS}"
+            )));
         }
+        Ok(View { scene, exposure_ev: 0.0, display })
     }
 
     fn items(
         self,
         materials: &[&Material<f32>],
         convention: Convention,
-        (view, about): (View, About),
+        view: View,
         findings: Option<Findings>,
         progress: &Progress,
     ) -> Result<PageItems, svbrdf_evaluate::Error> {
@@ -112,7 +100,6 @@ impl PageAsked {
             findings,
             readings: self.readings,
             repetition: self.call.map(|command| Repetition { command, session: None }),
-            about,
             max_bytes: self.max_bytes,
         };
         let page = report.page(progress)?;

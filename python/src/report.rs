@@ -5,15 +5,15 @@ use svbrdf_evaluate::report::{Cell, Reader, Report};
 
 use crate::errors::exception;
 
-/// A report: its JSON, its text, and its table for data frames.
+/// A report: its JSON, its text, and its CSV.
 #[derive(Debug, IntoPyObject)]
 pub struct Views {
     json: String,
     text: String,
-    columns: Vec<String>,
-    rows: Vec<Vec<CellItem>>,
-    /// The text above the table for people, the table, and the text below it.
-    shown: (String, Vec<String>, Vec<Vec<String>>, String),
+    /// Empty where rows are arrays.
+    csv: String,
+    /// The text for people with its table as HTML.
+    html: String,
     /// What is known less well than requested.
     warnings: Vec<String>,
 }
@@ -24,12 +24,7 @@ impl Views {
     /// # Errors
     /// As [`Report::json`].
     pub fn new(report: &(impl Report + ?Sized)) -> PyResult<Self> {
-        let table = report.table(Reader::Program);
-        Ok(Self {
-            rows: table.rows.into_iter().map(items).collect(),
-            columns: table.columns,
-            ..Self::without_rows(report)?
-        })
+        Ok(Self { csv: report.csv().map_err(exception)?, ..Self::without_rows(report)? })
     }
 
     /// The views of a `report` whose rows are arrays.
@@ -38,49 +33,25 @@ impl Views {
     /// As [`Report::json`].
     pub fn without_rows(report: &(impl Report + ?Sized)) -> PyResult<Self> {
         let (text, table) = (report.text(), report.table(Reader::Person));
-        let (above, below) = match text.split_once(&table.text()) {
-            Some((above, below)) => (above.trim_end().to_owned(), below.trim().to_owned()),
-            None => (String::new(), text.clone()),
+        let (above, below) = text.split_once(&table.text()).unwrap_or(("", &text));
+        let cells = |element: &str, texts: &mut dyn Iterator<Item = String>| -> String {
+            texts.map(|text| format!("<{element}>{}</{element}>", escaped(&text))).collect()
         };
-        let rows = table.rows.iter().map(|row| row.iter().map(Cell::text).collect()).collect();
-        Ok(Self {
-            json: report.json().map_err(exception)?,
-            text,
-            shown: (above, table.columns, rows, below),
-            columns: Vec::new(),
-            rows: Vec::new(),
-            warnings: report.missed().iter().map(ToString::to_string).collect(),
-        })
+        let row = |row: &Vec<Cell>| format!("<tr>{}</tr>", cells("td", &mut row.iter().map(Cell::text)));
+        let rows: String = table.rows.iter().map(row).collect();
+        let html = format!(
+            r#"<div><p>{}</p><div style="overflow-x: auto"><table><thead><tr>{}</tr></thead><tbody>{rows}</tbody></table></div><pre>{}</pre></div>"#,
+            escaped(above.trim_end()).replace('\n', "<br>"),
+            cells("th", &mut table.columns.into_iter()),
+            escaped(below.trim()),
+        );
+        let warnings = report.missed().iter().map(ToString::to_string).collect();
+        Ok(Self { json: report.json().map_err(exception)?, csv: String::new(), html, text, warnings })
     }
 }
 
-fn items(row: Vec<Cell>) -> Vec<CellItem> {
-    row.into_iter().map(CellItem::from).collect()
-}
-
-/// A value of a table.
-#[derive(Debug, IntoPyObject)]
-enum CellItem {
-    Text(String),
-    Integer(u64),
-    Number(f64),
-    Truth(bool),
-    /// None in Python.
-    Empty(Option<bool>),
-}
-
-impl From<Cell> for CellItem {
-    fn from(cell: Cell) -> Self {
-        match cell {
-            Cell::Missing(_) => Self::Empty(None),
-            Cell::Text(text) => Self::Text(text),
-            Cell::Integer(number) => Self::Integer(number),
-            Cell::Number(number) | Cell::Share(number) | Cell::Digits(_, number) | Cell::Stops(number) => {
-                Self::Number(number)
-            }
-            Cell::Single(number) => Self::Number(f64::from(number)),
-            Cell::Truth(truth) => Self::Truth(truth),
-            Cell::Interval(..) | Cell::Point(_) => Self::Text(cell.text()),
-        }
-    }
+/// A text as HTML.
+#[pyfunction]
+pub fn escaped(text: &str) -> String {
+    svbrdf_page::escaped(text)
 }

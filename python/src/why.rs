@@ -1,13 +1,12 @@
 //! Causes of a loss: trivial ones, texels and directions.
 
 use pyo3::prelude::*;
-use pyo3::types::PyByteArray;
 use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::diagnose as diagnosis;
+use svbrdf_evaluate::diagnose::{self as diagnosis, Storage};
 use svbrdf_evaluate::report::{Compared, DiagnoseReport, MapReport};
 
 use crate::arrays;
@@ -21,18 +20,17 @@ use crate::work;
 #[pyfunction]
 pub fn diagnose(
     py: Python<'_>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
+    asked: Asked<'_>,
     repeats: Vec<PyRef<'_, CoreMaterial>>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Views> {
     let (convention, seed) = (asked.convention()?, asked.seed()?);
-    let materials = asked.singles(ground_truth, &predictions);
+    let materials = asked.singles();
+    let storages: Vec<_> = asked.materials.iter().map(|material| &material.get().storage).collect();
     let truth = &materials[0];
-    let floor = floor_of(py, (ground_truth, &repeats), &convention, seed, progress)?;
-    let of_each = materials[1..].iter().zip(&predictions).map(|(material, prediction)| {
-        let (pair, storages) = ([truth, material], [&ground_truth.storage, &prediction.storage]);
+    let floor = floor_of(py, (truth, storages[0], &repeats), &convention, seed, progress)?;
+    let of_each = materials.iter().zip(&storages).skip(1).map(|(material, storage)| {
+        let (pair, storages) = ([truth, material], [storages[0], *storage]);
         work::run(py, progress, |progress| {
             diagnosis::diagnose(pair, storages, &convention, floor.0.mean, seed, progress)
         })
@@ -48,19 +46,18 @@ pub fn diagnose(
 /// Where a capture has another size.
 pub fn floor_of(
     py: Python<'_>,
-    (ground_truth, repeats): (&CoreMaterial, &[PyRef<'_, CoreMaterial>]),
+    (truth, storage, repeats): (&Material<f32>, &Storage, &[PyRef<'_, CoreMaterial>]),
     convention: &Convention,
     seed: u64,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(Estimate, Option<usize>)> {
-    let (truth, storage) = (ground_truth.single(), &ground_truth.storage);
     if repeats.is_empty() {
-        let floor = |progress: &Progress| diagnosis::floor(&truth, storage, convention, seed, progress);
+        let floor = |progress: &Progress| diagnosis::floor(truth, storage, convention, seed, progress);
         return Ok((work::run(py, progress, floor)?, None));
     }
     let repeats: Vec<Material<f32>> = repeats.iter().map(|repeat| repeat.single()).collect();
     let floor =
-        |progress: &Progress| diagnosis::floor_of_captures(&truth, &repeats, convention, seed, progress);
+        |progress: &Progress| diagnosis::floor_of_captures(truth, &repeats, convention, seed, progress);
     Ok((work::run(py, progress, floor)?, Some(1 + repeats.len())))
 }
 
@@ -79,24 +76,20 @@ pub struct DirectionsAsked {
 pub struct MapItems<'py> {
     views: Views,
     /// Over texels: f32, height x width x 3 each. Over directions: f64, side x side each, NaN outside of the disk.
-    maps: Vec<Bound<'py, PyByteArray>>,
-    /// Over directions: f64, side x side each.
-    standard_errors: Vec<Bound<'py, PyByteArray>>,
-    /// Over directions: f64, side x side x 3, NaN outside of the disk.
-    directions: Option<Bound<'py, PyByteArray>>,
+    maps: Vec<Bound<'py, PyAny>>,
+    /// Over directions: f64, side x side each, and the directions, side x side x 3, NaN outside of the disk.
+    of_directions: Option<(Vec<Bound<'py, PyAny>>, Bound<'py, PyAny>)>,
 }
 
 /// The loss over texels, or over directions.
 #[pyfunction]
 pub fn map<'py>(
     py: Python<'py>,
-    ground_truth: &CoreMaterial,
-    predictions: Vec<PyRef<'_, CoreMaterial>>,
-    asked: Asked,
+    asked: Asked<'_>,
     over: Option<DirectionsAsked>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<MapItems<'py>> {
-    let (convention, materials) = (asked.convention()?, asked.singles(ground_truth, &predictions));
+    let (convention, materials) = (asked.convention()?, asked.singles());
     let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?.without_pilot();
     let report = match over {
@@ -106,28 +99,27 @@ pub fn map<'py>(
         }
         Some(DirectionsAsked { over, fixed, side }) => {
             let moved = moved(&over)?;
+            if !(1..=1024).contains(&side) {
+                return Err(Error::new_err(format!("side: expected 1 to 1024, found {side}")));
+            }
             work::run(py, progress, |p| MapReport::over_directions(&comparison, moved, fixed, side, p))
         }
     }?;
     let views = Views::without_rows(&report)?;
     let Some((_, map)) = &report.directions else {
-        let pixels = report
-            .images
-            .iter()
-            .map(|image| arrays::bytes(py, 3 * image.pixels.len(), image.pixels.iter().flatten().copied()));
-        let maps = pixels.collect::<PyResult<_>>()?;
-        return Ok(MapItems { views, maps, standard_errors: Vec::new(), directions: None });
+        let pixels = report.images.iter().map(|image| {
+            arrays::array(py, image.pixels.iter().flatten().copied(), [image.width, image.height], 3)
+        });
+        return Ok(MapItems { views, maps: pixels.collect::<PyResult<_>>()?, of_directions: None });
     };
+    let size = [map.side; 2];
     let planes = |planes: &[Vec<f64>]| -> PyResult<Vec<_>> {
-        planes.iter().map(|plane| arrays::bytes(py, plane.len(), plane.iter().copied())).collect()
+        planes.iter().map(|plane| arrays::array(py, plane.iter().copied(), size, 1)).collect()
     };
     let directions = map.directions.iter().flat_map(|direction| direction.unwrap_or([f64::NAN; 3]));
-    Ok(MapItems {
-        views,
-        maps: planes(&map.losses)?,
-        standard_errors: planes(&map.standard_errors)?,
-        directions: Some(arrays::bytes(py, 3 * map.directions.len(), directions)?),
-    })
+    let directions = arrays::array(py, directions, size, 3)?;
+    let of_directions = Some((planes(&map.standard_errors)?, directions));
+    Ok(MapItems { views, maps: planes(&map.losses)?, of_directions })
 }
 
 fn moved(over: &str) -> PyResult<Endpoint> {

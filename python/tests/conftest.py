@@ -2,9 +2,11 @@
 
 import json
 import os
+import subprocess
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import numpy as np
 import pytest
 import svbrdf
@@ -30,6 +32,15 @@ def golden_materials(golden: Path, case: dict[str, Any], precision: Any) -> list
         return svbrdf.read(file, albedo=albedo, order="ndrs", normal_y="up", roughness="r", precision=precision)
 
     return [read("ground_truth"), read("prediction")]
+
+
+def problems(program: str, name: str, report: Any) -> list[str]:
+    """What of the JSON of a report is not as its schema says, where keys that it does not name are problems, too."""
+    schema = json.loads(subprocess.run([program, "schema", name], check=True, capture_output=True).stdout)
+    for part in (schema, *schema.get("$defs", {}).values()):
+        if "properties" in part:
+            part["additionalProperties"] = False
+    return [error.message for error in jsonschema.Draft202012Validator(schema).iter_errors(report)]
 
 
 @pytest.fixture(scope="session")

@@ -28,41 +28,18 @@ pub(super) struct LinkedScene {
 }
 
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
 struct Data<'a> {
     materials: &'a [EncodedMaterial],
-    #[serde(flatten)]
-    renderer: Renderer,
-    kinds: BTreeMap<&'a str, Vec<Kind>>,
-    colours: BTreeMap<&'a str, Vec<String>>,
-    start: Start<'a>,
-    scenes: &'a [LinkedScene],
-}
-
-/// The renderer of a convention: the shaders and their uniforms.
-#[derive(Serialize)]
-struct Renderer {
     convention: &'static str,
     /// The convention that is drawn.
     drawn: &'static str,
     model: BTreeMap<&'static str, f32>,
     epsilon: f64,
-    shaders: BTreeMap<&'static str, Value>,
-}
-
-impl Renderer {
-    /// # Errors
-    /// [`Error::Internal`], which the shaders never give.
-    fn new(convention: &Convention) -> Result<Self, Error> {
-        let shaders = serde_json::from_str(PAGE_GLSL).map_err(failed)?;
-        let drawn = convention.drawn();
-        let (name, epsilon) = (convention.name, convention.epsilon);
-        Ok(Self { convention: name, drawn: drawn.name, model: model(&drawn), epsilon, shaders })
-    }
-}
-
-fn failed(problem: serde_json::Error) -> Error {
-    Error::Internal(format!("a page cannot be made: {problem}"))
+    shaders: Value,
+    kinds: BTreeMap<&'a str, Vec<Kind>>,
+    colours: BTreeMap<&'a str, Vec<String>>,
+    start: Start<'a>,
+    scenes: &'a [LinkedScene],
 }
 
 #[derive(Serialize)]
@@ -75,7 +52,6 @@ struct Kind {
 }
 
 #[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
 struct Start<'a> {
     scene: Scene,
     exposure: f32,
@@ -97,10 +73,15 @@ pub(super) fn json(
     report: &Report<'_>,
     scenes: &[LinkedScene],
 ) -> Result<String, Error> {
-    let Report { convention, .. } = report;
+    let drawn = report.convention.drawn();
+    let failed = |problem: serde_json::Error| Error::Internal(format!("a page cannot be made: {problem}"));
     let data = Data {
         materials,
-        renderer: Renderer::new(convention)?,
+        convention: report.convention.name,
+        drawn: drawn.name,
+        model: model(&drawn),
+        epsilon: report.convention.epsilon,
+        shaders: serde_json::from_str(PAGE_GLSL).map_err(failed)?,
         kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
         start: start(report),

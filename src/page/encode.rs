@@ -77,11 +77,6 @@ impl EncodedMaterial {
         Ok(Self { name, width, height, planes, normal, diffuse, specular, roughness })
     }
 
-    /// Width and height in texels.
-    pub(super) fn size(&self) -> [usize; 2] {
-        [self.width, self.height]
-    }
-
     /// The number of bytes of its planes.
     pub(super) fn bytes(&self) -> usize {
         self.planes.iter().map(|plane| plane.data.len() + plane.palette.as_ref().map_or(0, String::len)).sum()
@@ -200,15 +195,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn few_values_are_stored_exactly_in_8_bits() {
-        let few: Vec<f32> = (0..512).map(|i| (i % 256) as f32 / 300.0).collect();
-        assert_eq!(palette(&few).unwrap(), few[..256]);
-        assert!(Plane::new(&few, 16, |x| x).unwrap().palette.is_some());
-        let many: Vec<f32> = (0..257).map(|i| i as f32 / 300.0).collect();
-        assert!(Plane::new(&many, 257, |x| x).unwrap().palette.is_none());
-    }
-
-    #[test]
     fn normals_of_8_bits_are_found_again_and_others_are_not() {
         let unit = |codes: [f32; 3]| {
             let v = codes.map(|c| 2.0 * c / 255.0 - 1.0);
@@ -225,22 +211,5 @@ mod tests {
             );
         }
         assert_eq!(vector_of_8_bits(unit([128.4, 77.7, 230.3])), None);
-    }
-
-    #[test]
-    fn smooth_maps_are_predicted() {
-        let ramp: Vec<f32> = (0..64 * 64).map(|i| (i % 64 * 300 + i / 64 * 200) as f32 / MOST).collect();
-        let plane = Plane::new(&ramp, 64, |x| x).unwrap();
-        assert_eq!(plane.predictor, 2);
-        assert!(plane.data.len() < 400, "{}", plane.data.len());
-    }
-
-    #[test]
-    fn residuals_are_of_the_left_and_the_upper_neighbours() {
-        let values = [10, 20, 40, 30, 50, 90];
-        assert_eq!(residuals(&values, 3, 0, 8), [10, 20, 40, 30, 50, 90]);
-        assert_eq!(residuals(&values, 3, 1, 8), [10, 10, 20, 30, 20, 40]);
-        assert_eq!(residuals(&values, 3, 2, 8), [10, 10, 20, 20, 10, 20]);
-        assert_eq!(residuals(&[0x1234, 0x1233], 2, 1, 16), [0x12, 0xff, 0x34, 0xff]);
     }
 }

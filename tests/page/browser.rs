@@ -13,22 +13,9 @@ use tempfile::TempDir;
 
 /// The longest that a page takes to start.
 const PATIENCE: Duration = Duration::from_secs(180);
-const ARGUMENTS: [&str; 14] = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-dev-shm-usage",
-    "--disable-renderer-backgrounding",
-    "--disable-backgrounding-occluded-windows",
-    "--remote-debugging-pipe",
-];
+const ARGUMENTS: &str = "--headless --no-sandbox --disable-gpu --use-angle=swiftshader --enable-unsafe-swiftshader \
+    --disable-quic --no-first-run --disable-background-networking --disable-component-update \
+    --disable-sync --disable-dev-shm-usage --disable-renderer-backgrounding --disable-backgrounding-occluded-windows --remote-debugging-pipe";
 
 /// The browser of all tests. It ends with the program of the tests, which closes its pipes.
 static BROWSER: LazyLock<Mutex<Browser>> = LazyLock::new(|| Mutex::new(Browser::start()));
@@ -49,7 +36,7 @@ impl Browser {
         // The protocol is spoken on descriptors 3 and 4. The shell outlives the browser, and removes its profile.
         let script = r#"p=$1; shift; "$0" "$@" --user-data-dir="$p" 3<&0 4>&1 0</dev/null 1>/dev/null 2>/dev/null; rm -rf "$p""#;
         let mut command = Command::new("sh");
-        command.args(["-c", script, program]).arg(profile).args(ARGUMENTS);
+        command.args(["-c", script, program]).arg(profile).args(ARGUMENTS.split(' '));
         let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
         let output = BufReader::new(child.stdout.take().unwrap());
         Self { input: child.stdin.take().unwrap(), output, sent: 0 }
@@ -90,11 +77,8 @@ pub struct Page {
 impl Page {
     /// Opens a page with a figure as a file, in a window of `width` x `height` CSS pixels, and waits until its figure is there.
     pub fn open(html: &str, size: [u32; 2]) -> Self {
-        Self::open_until(
-            html,
-            size,
-            "!!window.svbrdf || document.getElementById('problem')?.hidden === false",
-        )
+        const STARTED: &str = "!!window.svbrdf || document.getElementById('problem')?.hidden === false";
+        Self::open_until(html, size, STARTED)
     }
 
     /// Opens `html` as a file, and waits until an expression of JavaScript is true.
@@ -206,10 +190,8 @@ impl Page {
 
     /// A drag of the mouse in three moves.
     pub fn drag(&mut self, button: &str, modifiers: u32, from: [f64; 2], to: [f64; 2]) {
-        let buttons =
-            [("left", 1), ("right", 2), ("middle", 4)].into_iter().find(|(name, _)| *name == button);
-        let buttons = buttons.unwrap().1;
-        let mut event = |kind: &str, at, buttons: u32| {
+        let buttons = 1 << ["left", "right", "middle"].iter().position(|name| *name == button).unwrap();
+        let mut event = |kind: &str, at, buttons: i32| {
             self.mouse(kind, at, json!({ "button": button, "buttons": buttons, "modifiers": modifiers }));
         };
         event("mouseMoved", from, 0);

@@ -20,23 +20,17 @@ fn state(page: &mut Page, member: &str) -> Value {
     page.after_frame(&format!("window.svbrdf.figure.state.{member}"))
 }
 
-fn number(page: &mut Page, member: &str) -> f64 {
-    state(page, member).as_f64().unwrap()
+/// That numbers of the state are these, to 0.02.
+fn assert_near(page: &mut Page, member: &str, expected: &[f64]) {
+    let found = state(page, member);
+    let numbers = |found: &Value| found.as_array().map_or(vec![found.clone()], Clone::clone);
+    let near = |(found, expected): (Value, &f64)| (found.as_f64().unwrap() - expected).abs() < 0.02;
+    assert!(numbers(&found).into_iter().zip(expected).all(near), "{member}: {found}, expected {expected:?}");
 }
 
-fn near(found: &Value, expected: [f64; 2]) -> bool {
-    (0..2).all(|i| (found[i].as_f64().unwrap() - expected[i]).abs() < 0.02)
-}
-
-/// The figure as it begins, and its [`pane`].
-fn start(page: &mut Page) -> ([f64; 2], f64) {
-    page.evaluate("Object.assign(window.svbrdf.figure.state, window.svbrdf.figure.start())");
-    page.evaluate("window.svbrdf.figure.set({})");
-    pane(page)
-}
-
-/// The middle of the first pane, and half of its side, of a square material.
-fn pane(page: &mut Page) -> ([f64; 2], f64) {
+/// The figure as it begins with these changes: the middle of the first pane, and half of the side of the material in it.
+fn start(page: &mut Page, changes: &str) -> ([f64; 2], f64) {
+    page.evaluate(&format!("window.svbrdf.figure.set({{ ...window.svbrdf.figure.start(), ...{changes} }})"));
     page.place("#canvas");
     let found = page.after_frame(
         "(() => { const c = document.getElementById('canvas').getBoundingClientRect(); const b = window.svbrdf.figure.boxes()[0]; \
@@ -57,57 +51,53 @@ fn assert_readouts(page: &mut Page, begin: &str) {
 #[test]
 fn mouse_fingers_and_pen_move_light_view_picture_and_wipe() {
     let mut page = open();
-    let ([x, y], unit) = start(&mut page);
-    page.mouse("mouseMoved", [x, y], json!({}));
-    assert_readouts(&mut page, "(2");
-    page.drag("left", 0, [x, y], [x + 0.5 * unit, y - 0.25 * unit]);
-    assert!(near(&state(&mut page, "scene.light"), [0.5, 0.25]));
-    page.drag("right", 0, [x, y], [x - 0.5 * unit, y + 0.25 * unit]);
-    assert!(near(&state(&mut page, "scene.view"), [-0.5, -0.25]));
-    page.drag("left", SHIFT, [x, y], [x + 0.1 * unit, y]);
-    assert!(near(&state(&mut page, "scene.view"), [0.1, 0.0]));
-    let wheel = |page: &mut Page, modifiers: u32| {
+    let page = &mut page;
+    // From the middle, in halves of the material.
+    let drags: [(&str, u32, [f64; 2], &str, &[f64]); 5] = [
+        ("left", 0, [0.5, 0.25], "scene.light", &[0.5, 0.25, 1.2]),
+        ("right", 0, [-0.5, -0.25], "scene.view", &[-0.5, -0.25, 2.5]),
+        ("left", SHIFT, [0.1, 0.0], "scene.view", &[0.1, 0.0, 2.5]),
+        ("middle", 0, [0.5, 0.0], "pan", &[0.475, 0.0]),
+        ("middle", 0, [0.0, 0.5], "pan", &[0.0, 0.475]),
+    ];
+    for (button, modifiers, [dx, dy], member, expected) in drags {
+        let ([x, y], unit) = start(page, "{}");
+        page.drag(button, modifiers, [x, y], [x + dx * unit, y - dy * unit]);
+        assert_near(page, member, expected);
+    }
+    assert_readouts(page, "(2");
+    let ([x, y], _) = start(page, "{}");
+    for (modifiers, member, expected) in [(0, "zoom", 1.15), (SHIFT, "scene.light[2]", 1.32)] {
         page.mouse("mouseWheel", [x, y], json!({ "deltaX": 0, "deltaY": -100, "modifiers": modifiers }));
-    };
-    wheel(&mut page, 0);
-    assert!((number(&mut page, "zoom") - 1.15).abs() < 1e-9);
-    wheel(&mut page, SHIFT);
-    assert!((number(&mut page, "scene.light[2]") - 1.32).abs() < 1e-9);
-    page.drag("middle", 0, [x, y], [x + 40.0, y]);
-    assert!(number(&mut page, "pan[0]") > 0.1);
-
-    start(&mut page);
-    page.evaluate("window.svbrdf.figure.set({ layout: 'wipe' })");
+        assert_near(page, member, &[expected]);
+    }
+    let ([x, y], _) = start(page, "{ layout: 'wipe' }");
     let width = page.number("window.svbrdf.figure.boxes()[0].width");
-    let ([x, y], _) = pane(&mut page);
     page.drag("left", 0, [x, y], [x + 0.2 * width, y]);
-    assert!((number(&mut page, "wipe") - 0.7).abs() < 0.01);
-    assert_eq!(state(&mut page, "scene.light"), json!([0.4, 0.5, 1.2]));
+    assert_near(page, "wipe", &[0.7]);
+    assert_eq!(state(page, "scene.light"), json!([0.4, 0.5, 1.2]));
 
-    let ([x, y], unit) = start(&mut page);
+    let ([x, y], unit) = start(page, "{}");
     page.touch(&[[[x, y], [x - 0.5 * unit, y - 0.5 * unit]]]);
-    assert!(near(&state(&mut page, "scene.light"), [-0.5, 0.5]));
+    assert_near(page, "scene.light", &[-0.5, 0.5]);
     page.touch(&[[[x - 40.0, y], [x - 80.0, y]], [[x + 40.0, y], [x + 80.0, y]]]);
-    assert!((number(&mut page, "zoom") - 2.0).abs() < 0.1);
+    assert!((state(page, "zoom").as_f64().unwrap() - 2.0).abs() < 0.1);
     page.touch(&[[[x - 40.0, y], [x - 40.0, y - 60.0]], [[x + 40.0, y], [x + 40.0, y - 60.0]]]);
-    assert!(number(&mut page, "pan[1]") > 0.1);
-    assert_eq!(state(&mut page, "scene.light[2]"), json!(1.2));
+    assert!(state(page, "pan[1]").as_f64().unwrap() > 0.1);
     // The numbers of the last texel stay after the finger.
-    assert_readouts(&mut page, "(");
+    assert_readouts(page, "(");
 
-    let ([x, y], unit) = start(&mut page);
+    let ([x, y], unit) = start(page, "{}");
     for (kind, share, buttons) in
         [("mousePressed", 0.0, 1), ("mouseMoved", 0.5, 1), ("mouseReleased", 0.5, 0)]
     {
         let pen = json!({ "button": "left", "buttons": buttons, "pointerType": "pen" });
         page.mouse(kind, [x + share * unit, y], pen);
     }
-    assert!(near(&state(&mut page, "scene.light"), [0.5, 0.0]));
+    assert_near(page, "scene.light", &[0.5, 0.0]);
     let [x, y] = page.place("#peek");
-    page.send(
-        "Input.dispatchTouchEvent",
-        json!({ "type": "touchStart", "touchPoints": [{ "x": x, "y": y }] }),
-    );
+    let touch = json!({ "type": "touchStart", "touchPoints": [{ "x": x, "y": y }] });
+    page.send("Input.dispatchTouchEvent", touch);
     assert_eq!(page.panes(), json!([0, 0, 0]), "a finger holds the ground truth");
     page.send("Input.dispatchTouchEvent", json!({ "type": "touchEnd", "touchPoints": [] }));
     assert_eq!(page.panes(), json!([0, 1, 2]));
@@ -115,9 +105,9 @@ fn mouse_fingers_and_pen_move_light_view_picture_and_wipe() {
 
 #[needs(browser)]
 #[test]
-fn keys_do_what_they_do_in_the_window() {
+fn keys_and_controls_change_the_figure_and_the_page_requests_nothing() {
     let mut page = open();
-    let cases = [
+    let keys = [
         ("m", 0, "quantity", json!("normal")),
         ("M", SHIFT, "quantity", json!("rendering")),
         ("d", 0, "difference", json!(true)),
@@ -128,25 +118,18 @@ fn keys_do_what_they_do_in_the_window() {
         ("+", 0, "zoom", json!(1.15)),
         ("f", 0, "zoom", json!(1)),
         ("r", 0, "layout", json!("side-by-side")),
+        ("ArrowRight", 0, "scene.light", json!([0.45, 0.5, 1.2])),
+        ("ArrowUp", SHIFT, "scene.view", json!([0, 0.05, 2.5])),
     ];
-    for (key, modifiers, member, expected) in cases {
+    for (key, modifiers, member, expected) in keys {
         page.press(key, modifiers);
         assert_eq!(state(&mut page, member), expected, "{key}");
     }
-    page.press("ArrowRight", 0);
-    page.press("ArrowUp", SHIFT);
-    assert!(near(&state(&mut page, "scene.light"), [0.45, 0.5]));
-    assert!(near(&state(&mut page, "scene.view"), [0.0, 0.05]));
-    page.key("keyDown", "g", 0);
-    assert_eq!(page.panes(), json!([0, 0, 0]));
-    page.key("keyUp", "g", 0);
-    assert_eq!(page.panes(), json!([0, 1, 2]));
-}
+    for (kind, panes) in [("keyDown", json!([0, 0, 0])), ("keyUp", json!([0, 1, 2]))] {
+        page.key(kind, "g", 0);
+        assert_eq!(page.panes(), panes);
+    }
 
-#[needs(browser)]
-#[test]
-fn every_control_is_reached_by_tab_and_changes_the_figure_and_the_page_requests_nothing() {
-    let mut page = open();
     page.evaluate("document.body.focus(); document.activeElement.blur()");
     let mut reached = Vec::new();
     for _ in 0..24 {
@@ -157,7 +140,7 @@ fn every_control_is_reached_by_tab_and_changes_the_figure_and_the_page_requests_
     for id in ids.split(' ') {
         assert!(reached.contains(&json!(id)), "{id} is not among {reached:?}");
     }
-    let cases = [
+    let fields = [
         ("quantity", "roughness", "quantity", json!("roughness")),
         ("layout", "single", "layout", json!("single")),
         ("prediction", "1", "prediction", json!(1)),
@@ -167,7 +150,7 @@ fn every_control_is_reached_by_tab_and_changes_the_figure_and_the_page_requests_
         ("light-2", "0.8", "scene.light[2]", json!(0.8)),
         ("view-0", "-0.3", "scene.view[0]", json!(-0.3)),
     ];
-    for (id, value, member, expected) in cases {
+    for (id, value, member, expected) in fields {
         page.input(id, value);
         assert_eq!(state(&mut page, member), expected, "{id}");
     }

@@ -29,21 +29,7 @@ const CONTRASTS: &str = "(() => { \
     } \
     return found; })()";
 /// Roles that have a name.
-const NAMED: [&str; 13] = [
-    "application",
-    "button",
-    "checkbox",
-    "columnheader",
-    "combobox",
-    "image",
-    "link",
-    "radio",
-    "region",
-    "rowheader",
-    "slider",
-    "spinbutton",
-    "textbox",
-];
+const NAMED: &str = "application button checkbox columnheader combobox image link radio region rowheader slider spinbutton textbox";
 
 /// The texts below the contrast, and the number of all.
 fn weak(page: &mut Page) -> (Vec<Value>, usize) {
@@ -57,7 +43,7 @@ fn unnamed(page: &mut Page) -> (Vec<Value>, usize) {
     page.send("Accessibility.enable", json!({}));
     let tree = page.send("Accessibility.getFullAXTree", json!({}));
     let nodes = tree["nodes"].as_array().unwrap().iter();
-    let of_role = |node: &&Value| NAMED.iter().any(|role| node["role"]["value"] == json!(role));
+    let of_role = |node: &&Value| NAMED.split(' ').any(|role| node["role"]["value"] == json!(role));
     let all: Vec<&Value> = nodes.filter(|node| node["ignored"] != json!(true)).filter(of_role).collect();
     let has_name =
         |node: &&&Value| node["name"]["value"].as_str().is_some_and(|name| !name.trim().is_empty());

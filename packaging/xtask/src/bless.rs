@@ -10,7 +10,7 @@ struct Generated {
 }
 
 /// What others are made of comes first.
-const GENERATED: [Generated; 11] = [
+const GENERATED: [Generated; 10] = [
     Generated {
         name: "locks",
         files: "Cargo.lock, tests/fuzz/Cargo.lock",
@@ -32,11 +32,6 @@ const GENERATED: [Generated; 11] = [
         name: "shaders",
         files: "shaders/page.json",
         script: "cargo test --test main write_shaders -- --ignored",
-    },
-    Generated {
-        name: "types",
-        files: "python/package/svbrdf/_reports.py, python/package/svbrdf/_analyses.py",
-        script: "cargo build && python3 python/tests/report_types.py ${CARGO_TARGET_DIR:-target}/debug/svbrdf",
     },
     Generated {
         name: "pages",

@@ -17,20 +17,16 @@ are those of the command line, bit for bit. `svbrdf.torch` has the same loss for
 
 from . import _analyses, _reports
 from ._analyses import *  # noqa: F403
-from ._assumptions import Assumption, AssumptionWarning
+from ._comparisons import MapReport, diagnose, loss, map, metrics, rank
 from ._conform import conform, probes
 from ._core import Error, __version__
 from ._dataset import rank_dataset
-from ._loss import loss, rank
-from ._material import Material, built_in, read, write
-from ._metrics import metrics
+from ._material import Assumption, AssumptionWarning, Material, ReadOptions, built_in, read, write
 from ._page import Figure, figure, report
 from ._photo import photo
 from ._report import Record, Report
 from ._reports import *  # noqa: F403
 from ._scenes import CONVENTIONS, Convention, Scene, named_scenes, read_scenes, render, sample_scenes
-from ._show import show
-from ._why import MapReport, diagnose, map
 
 __all__ = [
     "CONVENTIONS",
@@ -41,6 +37,7 @@ __all__ = [
     "Figure",
     "MapReport",
     "Material",
+    "ReadOptions",
     "Record",
     "Report",
     "Scene",
@@ -62,7 +59,6 @@ __all__ = [
     "render",
     "report",
     "sample_scenes",
-    "show",
     "write",
 ]
 __all__ += _analyses.__all__ + _reports.__all__

@@ -6,15 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 Precision = Literal["f32", "f64"]
+FAR_FROM_1 = 0.02
+"""Lengths that differ from 1 by more are not those of unit normals."""
+FEW = 0.01
+"""So small a share of such lengths says nothing."""
 
 
-def dtype_of(precision: str) -> np.dtype[Any]:
-    """The type of the numbers of a precision."""
-    return np.dtype(np.float64 if precision == "f64" else np.float32)
-
-
-def as_array(name: str, given: object, channels: int, precision: str) -> tuple[NDArray[Any], bool]:
-    """The map `name` as an array that the core reads, and whether its channels are planes.
+def as_array(name: str, given: object, channels: int, precision: str) -> NDArray[Any]:
+    """The map `name` as an array that the core reads.
 
     Args:
         name: The name of the argument, for errors.
@@ -26,27 +25,6 @@ def as_array(name: str, given: object, channels: int, precision: str) -> tuple[N
         TypeError: The numbers are not floating-point ones.
         ValueError: The shape is another one, or texels are masked.
     """
-    array = numbers(name, given)
-    if channels == 1 and array.ndim == 3 and array.shape[2] == 1:
-        array = array[..., 0]
-    check_shape(name, array, (channels,))
-    array = array.astype(dtype_of(precision), copy=False)
-    if channels == 3:
-        # The memory of a tensor of 3 x height x width whose channels were moved to the end.
-        planes = array.transpose(2, 0, 1)
-        if planes.flags.c_contiguous and planes.flags.aligned:
-            return planes, True
-    # A copy only where the array has not this layout.
-    return np.require(array, requirements=["C_CONTIGUOUS", "ALIGNED"]), False
-
-
-def numbers(name: str, given: object) -> NDArray[Any]:
-    """The map `name` as an array of floating-point numbers, none of them masked.
-
-    Raises:
-        TypeError: The numbers are not floating-point ones.
-        ValueError: Texels are masked.
-    """
     if isinstance(given, np.ma.MaskedArray) and np.any(given.mask):
         raise ValueError(f"{name}: expected a value in every texel, found masked ones; fill or crop them")
     array = _numpy(name, given)
@@ -54,23 +32,26 @@ def numbers(name: str, given: object) -> NDArray[Any]:
         raise TypeError(
             f"{name}: expected floating-point numbers, found {array.dtype}; convert them, as in {name} / 255"
         )
-    return array
+    if channels == 1 and array.ndim == 3 and array.shape[2] == 1:
+        array = array[..., 0]
+    _check_shape(name, array, channels)
+    array = array.astype(np.float64 if precision == "f64" else np.float32, copy=False)
+    # The memory of a tensor of 3 x height x width whose channels were moved to the end.
+    flags = (array.transpose(2, 0, 1) if channels == 3 else array).flags
+    if flags.c_contiguous and flags.aligned:
+        return array
+    # A copy only where the array has not this layout.
+    return np.require(array, requirements=["C_CONTIGUOUS", "ALIGNED"])
 
 
-def check_shape(name: str, array: NDArray[Any], channels: tuple[int, ...]) -> None:
-    """Whether a map is height x width x one of `channels`, or height x width where it has one channel.
-
-    Raises:
-        ValueError: It has another shape.
-    """
-    if channels == (1,):
+def _check_shape(name: str, array: NDArray[Any], channels: int) -> None:
+    if channels == 1:
         fits, expected = array.ndim == 2, "height x width"
     else:
-        fits = array.ndim == 3 and array.shape[2] in channels
-        expected = f"height x width x {' or '.join(map(str, channels))}"
+        fits, expected = array.ndim == 3 and array.shape[2] == channels, f"height x width x {channels}"
     if not fits:
         found = " x ".join(map(str, array.shape)) or "a number"
-        is_first = array.ndim == 3 and channels != (1,) and array.shape[0] in channels
+        is_first = array.ndim == 3 and array.shape[0] == channels == 3
         advice = "move the channels to the end" if is_first else "reshape it"
         raise ValueError(f"{name}: expected {expected}, found {found}; {advice}")
 
@@ -88,8 +69,17 @@ def _numpy(name: str, given: object) -> NDArray[Any]:
         raise TypeError(f"{name}: expected an array in the memory of the CPU: {error}") from error
 
 
-def from_bytes(data: bytearray, size: tuple[int, int], channels: int, precision: str) -> NDArray[Any]:
-    """The array of a map of `size` (width, height)."""
-    width, height = size
-    shape = (height, width, 3) if channels == 3 else (height, width)
-    return np.frombuffer(data, dtype_of(precision)).reshape(shape)
+def looks_unsigned(normal: NDArray[Any]) -> str | None:
+    """Why normals, height x width x 3, may be stored as (n + 1) / 2: no x or y is negative, and lengths are not 1."""
+    xy = normal[..., :2]
+    if not (normal.size and xy.min() >= 0 and xy.max() > 0):
+        return None
+    far, shortest, longest = 0, np.inf, 0.0
+    # Few rows at a time, which take little memory.
+    for rows in np.array_split(normal, max(1, min(len(normal), normal.size >> 18))):
+        lengths = np.sqrt(np.einsum("...i,...i->...", rows, rows))
+        far += int(np.count_nonzero(np.abs(lengths - 1) > FAR_FROM_1))
+        shortest, longest = min(shortest, lengths.min()), max(longest, lengths.max())
+    if far <= FEW * xy[..., 0].size:
+        return None
+    return f"no x or y is negative, and lengths are {shortest:.2f} to {longest:.2f}, not 1"

@@ -1,14 +1,13 @@
 """Methods over a data set of materials."""
 
-import json
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal, Unpack
 
 from . import _core
-from ._asked import Scenes, question
-from ._material import Source
+from ._asked import Accuracy, Scenes, question_json
+from ._material import ReadOptions, Source, options_json
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import report_of
@@ -20,22 +19,17 @@ def rank_dataset(
     ground_truths: Source,
     methods: Source | Sequence[Source] | Mapping[str, Source],
     *,
-    target_error: float | None = None,
-    near: int | None = None,
-    distant: int | None = None,
-    seed: int | None = None,
-    sampler: Literal["random", "sobol"] | None = None,
-    scenes: Scenes | None = None,
     convention: str = "printed",
     pick: Literal["fixed", "mean", "best"] = "fixed",
     strict: bool = False,
     metrics: bool = False,
     diagnose: bool = False,
     results: Source | None = None,
-    read_ground_truth: Mapping[str, Any] | None = None,
-    read_predictions: Mapping[str, Any] | None = None,
-    read_methods: Mapping[str, Mapping[str, Any]] | None = None,
+    read_ground_truth: ReadOptions | None = None,
+    read_predictions: ReadOptions | None = None,
+    read_methods: Mapping[str, ReadOptions] | None = None,
     progress: bool | Progress = False,
+    **question: Unpack[Accuracy],
 ) -> DatasetReport:
     """Compares methods over a data set: `svbrdf rank --dataset`, with the same numbers.
 
@@ -47,14 +41,6 @@ def rank_dataset(
         ground_truths: The folder of the ground truths.
         methods: The folder of each method, or folders by the name of the method. A path with `{}` is a pattern, in
             which `{}` stands for the name of a material: "out/{}_pred.png".
-        target_error: As many scenes for each material as this relative error of every loss needs at 95% confidence;
-            0.01 where nothing else decides the scenes.
-        near: The number of near-field scenes of each material, as in `svbrdf.loss`.
-        distant: The number of distant scenes of each material.
-        seed: Names the sampled scenes, together with the name of the material; 0 where not given.
-        sampler: "random", the default with `near` or `distant`, or "sobol".
-        scenes: These scenes for all materials, or those of a scene file. For a list the command that repeats the
-            ranking says `--scenes SCENES.json`, unless `svbrdf.named_scenes` makes it without a `fov`.
         convention: A name of `svbrdf.CONVENTIONS`.
         pick: Which of several predictions counts: the first, the mean of their losses, or the best.
         strict: Whether guesses in reading are errors.
@@ -68,6 +54,9 @@ def rank_dataset(
         read_methods: The same for the predictions of some methods, by name: `{"ours": {"normal_y": "down"}}`. They
             replace those of `read_predictions`.
         progress: True for a bar of tqdm, or a function of (materials done, materials in all).
+        **question: The scenes of each material, as in `svbrdf.rank`; the seed names them together with the name of the
+            material. For a list of scenes the command that repeats the ranking says `--scenes SCENES.json`, unless
+            `svbrdf.named_scenes` makes it without a `fov`.
 
     Warns:
         UserWarning: Files were read on an assumption that is in doubt: one warning for each method, and one for the
@@ -78,20 +67,23 @@ def rank_dataset(
         svbrdf.Error: A folder has no materials, or an option has no such value or is not used.
         TypeError, ValueError: An argument has a wrong type or makes no sense.
     """
-    sampled = {"near": near, "distant": distant, "sampler": sampler}
+    sampled = [(f"--{name}", question.get(name)) for name in ("near", "distant", "sampler")]
     asked = {
         "ground_truths": ground_truths,
         "methods": _named(methods),
-        "question": question(scenes, target_error=target_error, seed=seed, **sampled),
-        "scenes": [*_words(sampled), *_source(scenes)],
+        "question": question_json(**question),
+        "scenes": [
+            *(str(word) for option in sampled if option[1] is not None for word in option),
+            *_source(question.get("scenes")),
+        ],
         "convention": convention,
         "pick": pick,
         "strict": strict,
         "metrics": metrics,
         "diagnose": diagnose,
         "results": results,
-        "read": [_options(given) for given in (read_ground_truth, read_predictions)],
-        "read_methods": {name: _options(given) for name, given in (read_methods or {}).items()},
+        "read": [options_json(given or {}) for given in (read_ground_truth, read_predictions)],
+        "read_methods": {name: options_json(given) for name, given in (read_methods or {}).items()},
     }
     with reported("comparing materials", progress) as report:
         found = _core.rank_dataset(asked, report)
@@ -111,10 +103,6 @@ def _named(methods: Source | Sequence[Source] | Mapping[str, Source]) -> list[tu
     return named
 
 
-def _words(sampled: Mapping[str, object]) -> list[str]:
-    return [word for name, value in sampled.items() if value is not None for word in (f"--{name}", str(value))]
-
-
 def _source(scenes: Scenes | None) -> list[str]:
     """The options of the command line for scenes."""
     if scenes is None:
@@ -123,7 +111,3 @@ def _source(scenes: Scenes | None) -> list[str]:
         return ["--scenes", os.fspath(scenes)]
     named = (name for name in SETS if named_scenes(name) == list(scenes))
     return next((["--lights", name] for name in named), ["--scenes", "SCENES.json"])
-
-
-def _options(given: Mapping[str, Any] | None) -> str:
-    return json.dumps({name.replace("_", "-"): value for name, value in (given or {}).items()})

@@ -1,12 +1,16 @@
 """Maps of a batch of materials as tensors of PyTorch, and checks of them."""
 
+import warnings
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
+import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor
 
-from ._ranges import check_map
+from ._arrays import looks_unsigned
+from ._material import AssumptionWarning
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 # PyTorch 1.13 has no compiler.
@@ -74,4 +78,33 @@ def check_values(**materials: Maps) -> None:
     """
     for which, maps in materials.items():
         for name, map in zip(Maps._fields, maps, strict=True):
-            check_map(f"{which}.{name}", map.detach().to("cpu", working_type(maps)).numpy())
+            _check_map(f"{which}.{name}", map.detach().to("cpu", working_type(maps)).numpy())
+
+
+def _check_map(where: str, map: NDArray[Any]) -> None:
+    finite = np.isfinite(map)
+    if not finite.all():
+        wrong = finite.size - np.count_nonzero(finite)
+        raise ValueError(
+            f"{where}: {wrong} of {finite.size} values are NaN or infinite; replace them, or find their cause"
+        )
+    if where.endswith("normal"):
+        _check_normals(where, np.moveaxis(map, -3, -1))
+    elif map.size and not (map.min() >= 0 and map.max() <= 1):
+        raise ValueError(
+            f"{where}: expected values in [0, 1], found {map.min():.3g} to {map.max():.3g}; "
+            "scale or clamp them, or end the network in a sigmoid"
+        )
+
+
+def _check_normals(where: str, normal: NDArray[Any]) -> None:
+    squared = np.einsum("...i,...i->...", normal, normal)
+    without = np.count_nonzero(squared < np.finfo(squared.dtype).tiny)
+    if without:
+        raise ValueError(
+            f"{where}: {without} of {squared.size} normals have no length, and so no gradient; "
+            "give (0, 0, 1) there, as by adding it to the outputs of the network"
+        )
+    if reason := looks_unsigned(normal.reshape(-1, *normal.shape[-2:])):
+        remedy = "give 2 * normal - 1 if they are stored as (n + 1) / 2, else check=False"
+        warnings.warn(f"{where}: {reason}; {remedy}", AssumptionWarning, stacklevel=2)

@@ -1,5 +1,6 @@
 """Reports: the JSON of the command line with its keys as attributes, its text and its CSV."""
 
+import io
 import json
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -10,7 +11,6 @@ from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin, get_type_h
 
 from . import _core
 from ._scenes import Scene, scene_from
-from ._text import escaped
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -41,8 +41,7 @@ class Record(Mapping[str, Any]):
     def __eq__(self, other: object) -> bool:
         return bool(self._values == (other._values if isinstance(other, Record) else other))
 
-    def __hash__(self) -> int:
-        return hash(json.dumps(self._values, sort_keys=True))
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{key}={value!r}' for key, value in self.items())})"
@@ -52,9 +51,6 @@ class Record(Mapping[str, Any]):
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"{type(self).__name__}.{name}: reports are read-only; to_dict() is a copy to change")
-
-    def __delattr__(self, name: str) -> None:
-        self.__setattr__(name, None)
 
     # The types of reports declare the attributes: mypy finds one that does not exist.
     if TYPE_CHECKING:
@@ -76,35 +72,25 @@ class Report(Record):
     text: str
     """The table of the command line."""
     if TYPE_CHECKING:
-        _columns: list[str]
-        _rows: list[list[Any]]
-        _shown: tuple[str, list[str], list[list[str]], str]
+        _views: _core.Views
 
     def __init__(self, views: "_core.Views", **arrays: Any) -> None:
         super().__init__(json.loads(views["json"]))
-        self.__dict__.update(
-            text=views["text"], _columns=views["columns"], _rows=views["rows"], _shown=views["shown"], **arrays
-        )
+        self.__dict__.update(text=views["text"], _views=views, **arrays)
 
     def to_pandas(self) -> "pd.DataFrame":
-        """The command line's CSV as a data frame of pandas; unknown values are NaN or None.
+        """The command line's CSV as a data frame of pandas; unknown values are NaN.
 
         Raises:
             ImportError: pandas is not installed.
         """
-        return data_frame(self._columns, self._rows)
+        return pandas().read_csv(io.StringIO(self._views["csv"]), float_precision="round_trip")
 
     def __repr__(self) -> str:
         return self.text.rstrip("\n")
 
     def _repr_html_(self) -> str:
-        above, columns, rows, below = self._shown
-        heading = "<br>".join(escaped(line) for line in above.splitlines())
-        titles = "".join(f'<th scope="col">{escaped(column)}</th>' for column in columns)
-        body = "".join(f"<tr>{''.join(f'<td>{escaped(value)}</td>' for value in row)}</tr>" for row in rows)
-        table = f"<table><thead><tr>{titles}</tr></thead><tbody>{body}</tbody></table>"
-        lines = f'<pre style="white-space: pre; overflow-x: auto">{escaped(below)}</pre>' if below else ""
-        return f'<div><p>{heading}</p><div style="overflow-x: auto">{table}</div>{lines}</div>'
+        return self._views["html"]
 
 
 def report_of(kind: type[_R], views: "_core.Views", *, stacklevel: int = 3, **arrays: Any) -> _R:
@@ -117,19 +103,15 @@ def report_of(kind: type[_R], views: "_core.Views", *, stacklevel: int = 3, **ar
     return kind(views, **arrays)
 
 
-def data_frame(columns: list[str], rows: Any) -> "pd.DataFrame":
-    """A data frame of rows or of an array.
-
-    Raises:
-        ImportError: pandas is not installed.
-    """
+def pandas() -> Any:
+    """The module, with an error that says how to get it."""
     try:
         import pandas as pd
     except ImportError as error:
         raise ImportError(
             "to_pandas needs pandas, which is not installed; `pip install pandas`, or use to_dict"
         ) from error
-    return pd.DataFrame(rows, columns=columns)
+    return pd
 
 
 _types: Callable[[type], dict[str, Any]] = cache(get_type_hints)

@@ -3,12 +3,11 @@
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, SupportsIndex, get_args
+from typing import Any, Literal, NamedTuple, get_args
 
 from numpy.typing import NDArray
 
 from . import _core
-from ._arrays import from_bytes
 from ._material import Material, Source, opened
 
 SetName = Literal["flash", "flash-9", "hemisphere"]
@@ -85,34 +84,13 @@ CONVENTIONS = {items["name"]: _convention(items) for items in _core.conventions(
 """The conventions that `svbrdf.torch` has, by their names; "printed" is the default. `svbrdf.loss` takes more."""
 
 
-def _scene(kind: str, view: Any, light: Any) -> Scene:
-    return Scene("near" if kind == "near" else "distant", tuple(view), tuple(light))
-
-
-def scenes_of(found: Sequence[tuple[Any, Any, Any]]) -> list[Scene]:
-    """Scenes of the core."""
-    return [_scene(*scene) for scene in found]
-
-
 def scene_from(values: dict[str, Any]) -> Scene:
     """A scene of the JSON."""
-    return _scene(values["kind"], values["view"], values["light"])
+    return Scene(values["kind"], tuple(values["view"]), tuple(values["light"]))
 
 
-def check_whole(name: str, value: object) -> None:
-    """Whether a number of things, or a seed, is one.
-
-    Raises:
-        TypeError: It is no whole number.
-        ValueError: It is negative or too large.
-    """
-    if value is None:
-        return
-    problem = f"{name}: expected a whole number, 0 or more and below 2^64, found {value!r}"
-    if not isinstance(value, SupportsIndex):
-        raise TypeError(problem)
-    if not 0 <= value.__index__() < 1 << 64:
-        raise ValueError(problem)
+def _scenes(found: Sequence[tuple[Any, Any, Any]]) -> list[Scene]:
+    return [Scene(kind, tuple(view), tuple(light)) for kind, view, light in found]
 
 
 def sample_scenes(
@@ -131,12 +109,10 @@ def sample_scenes(
     ['near', 'near', 'distant']
 
     Raises:
-        ValueError: A number or the seed is negative.
+        OverflowError, TypeError: A number or the seed is negative, or not whole.
         svbrdf.Error: There is no such sampler or convention, no scene, or more than 10,000,000.
     """
-    for name, value in (("near", near), ("distant", distant), ("seed", seed)):
-        check_whole(name, value)
-    return scenes_of(_core.sample_scenes(near, distant, seed, sampler, convention))
+    return _scenes(_core.sample_scenes(near, distant, seed, sampler, convention))
 
 
 def named_scenes(name: SetName, *, fov: float | None = None) -> list[Scene]:
@@ -159,7 +135,7 @@ def named_scenes(name: SetName, *, fov: float | None = None) -> list[Scene]:
     """
     if fov is not None and name != "flash":
         raise ValueError(f"fov: a field of view belongs to 'flash', found {name!r}")
-    return scenes_of(_core.named_scenes(name, fov))
+    return _scenes(_core.named_scenes(name, fov))
 
 
 def read_scenes(path: str | os.PathLike[str]) -> list[Scene]:
@@ -169,7 +145,7 @@ def read_scenes(path: str | os.PathLike[str]) -> list[Scene]:
         OSError: The file cannot be read.
         svbrdf.Error: It has another form, or a scene that cannot be rendered.
     """
-    return scenes_of(_core.read_scenes(path))
+    return _scenes(_core.read_scenes(path))
 
 
 def render(material: Material | Source, scene: Scene, *, convention: str = "printed") -> NDArray[Any]:
@@ -191,8 +167,4 @@ def render(material: Material | Source, scene: Scene, *, convention: str = "prin
     Raises:
         svbrdf.Error: The scene cannot be rendered, or the material cannot be read.
     """
-    material = opened(material)
-    core = material._core
-    return from_bytes(
-        _core.render(core, (scene.kind, scene.view, scene.light), convention), core.size, 3, core.precision
-    )
+    return _core.render(opened(material)._core, tuple(scene), convention)
