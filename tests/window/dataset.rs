@@ -173,14 +173,10 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     assert!(has(&window, "3 of 6 materials"));
 
     apply(&mut window, DatasetCommand::SetList(ListView::default()));
-    for (kind, name) in [(SaveKind::Sheet, "sheet.png"), (SaveKind::Materials, "list.csv")] {
-        let path = folder.path().join(name);
-        apply(&mut window, WindowCommand::Save(SaveRequest { kind, path: path.clone() }));
-        wait(&mut window, name, |_| path.exists());
-    }
-    let sheet = image::image_dimensions(folder.path().join("sheet.png")).unwrap();
-    assert!(sheet.0 > 3 * 192 && sheet.1 > 6 * 192, "{sheet:?}");
-    let list = std::fs::read_to_string(folder.path().join("list.csv")).unwrap();
+    let path = folder.path().join("list.csv");
+    apply(&mut window, WindowCommand::Save(SaveRequest { kind: SaveKind::Materials, path: path.clone() }));
+    wait(&mut window, "the list", |_| path.exists());
+    let list = std::fs::read_to_string(path).unwrap();
     let known = loss(&window, case, 0).unwrap().loss;
     assert!(list.contains(&format!("\n{name},true,blotches,{known},")), "{list}");
     assert_eq!(list.lines().count(), 7, "{list}");

@@ -43,7 +43,6 @@ pub(super) fn save_file(parts: &mut Parts, ctx: &egui::Context, SaveRequest { ki
         (SaveKind::Report, _) => report::start(displayed, path),
         (SaveKind::Session, _) => saving::session(displayed, path),
         (SaveKind::Scenes, _) => saving::scenes(displayed, path),
-        (SaveKind::Sheet, _) => saving::sheet(displayed, parts.ui.dataset.listed().to_vec(), path),
         (SaveKind::Materials, _) => {
             saving::materials_csv(displayed, parts.ui.dataset.listed().to_vec(), path)
         }

@@ -12,9 +12,8 @@ use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::report::{Cell, Compared, Json as _, ScenesReport, Table};
 use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::export::figure::FigureDestination;
-use svbrdf_files::export::strip::{Column, Crop, MethodRow, MethodStrip, Paper, Strip};
+use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
-use svbrdf_files::read::Read;
 use svbrdf_files::scene_file;
 
 use super::displayed::Displayed;
@@ -67,57 +66,6 @@ pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
             content.pictures(&all, scene, convention, *exposure_ev, progress)?;
         provenance.content = content;
         destination.write(&images, &provenance, progress)?;
-        Ok(path)
-    })
-}
-
-/// Pixels of an inch in a contact sheet that is saved.
-const DPI: f64 = 200.0;
-
-/// Starts to write the contact sheet of the materials of a data set in these places to `path`, under the view of now.
-pub fn sheet(displayed: Displayed<'_>, cases: Vec<usize>, path: PathBuf) -> Job<PathBuf> {
-    let (view, losses) = (&displayed.model.view, &displayed.jobs.dataset.losses);
-    let Some(open) = displayed.model.dataset.open.clone() else {
-        return Job::start(&displayed.jobs.waker, |_| Err(Error::internal("there is no data set")));
-    };
-    let quantity = view.display.quantity;
-    let (kind, _) = view.display.differences.pointwise(quantity);
-    let difference = ColouredDifference { kind, range: Some(displayed.range()) };
-    let content = PictureContent { quantity, difference: view.display.difference.then_some(difference) };
-    let strip = MethodStrip {
-        content,
-        scene: view.scene,
-        convention: view.convention(),
-        exposure_ev: Some(view.exposure_ev),
-        crops: Vec::new(),
-        paper: Paper::default(),
-        dpi: DPI,
-    };
-    let text = |case: usize, method: usize| {
-        let known = losses.row(case).and_then(|row| row.by_method.get(method).copied().flatten());
-        known.map_or_else(String::new, |known| format!("{:.3}", known.loss))
-    };
-    let methods = open.methods().to_vec();
-    let texts: Vec<Vec<String>> = cases
-        .iter()
-        .map(|case| {
-            let of_methods = (0..methods.len()).map(|method| text(*case, method));
-            std::iter::once(String::new()).chain(of_methods).collect()
-        })
-        .collect();
-    let names: Vec<String> = cases.iter().map(|case| open.name(*case).to_owned()).collect();
-    Job::start(&displayed.jobs.waker, move |progress| {
-        let destination = FigureDestination::new(&path)?;
-        let read = |case: usize, column: usize| {
-            let read: Read<f32> = open.source(case, column).ok()?.read(&progress.part()).ok()?;
-            Some(read.material)
-        };
-        let row = |index: usize| {
-            let materials = (0..=methods.len()).map(|column| read(cases[index], column)).collect();
-            MethodRow { materials, texts: texts[index].clone() }
-        };
-        let figure = strip.figure(&methods, &names, row, progress)?;
-        destination.write(&figure, &strip.entries(&methods, &names), progress)?;
         Ok(path)
     })
 }

@@ -95,17 +95,12 @@ impl WindowUi {
             ui,
             &mut is_open,
             // Contents that are too wide are cut off: the panel does not grow.
-            |ui| {
-                commands.extend(fixed(ui, |ui| {
-                    let tools = side::SideTools { textures: &mut self.textures, dataset: &mut self.dataset };
-                    side::ui(ui, displayed, tools)
-                }))
-            },
+            |ui| commands.extend(fixed(ui, |ui| side::ui(ui, displayed, &mut self.textures))),
         );
         if is_open != was_open {
             commands.push(WindowCommand::ToggleSidePanel.into());
         }
-        commands.extend(self.dataset.drawer(ui, displayed, &mut self.textures));
+        commands.extend(self.dataset.drawer(ui, displayed));
         // Panes stay where they are in a drag.
         if !ui.input(|i| i.pointer.any_down()) {
             self.has_drawer = !model.inspection.is_empty();

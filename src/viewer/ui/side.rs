@@ -5,7 +5,7 @@ use eframe::egui::{self, RichText};
 use svbrdf_evaluate::diagnose::Finding;
 use svbrdf_files::read::Certainty;
 
-use super::dataset::DatasetUi;
+use super::dataset::summary;
 use super::loss::panel::LossPanel;
 use super::materials::panel::MaterialsPanel;
 use super::panels::light_and_view::ScenePanel;
@@ -19,18 +19,7 @@ use crate::model::command::{Command, WindowCommand};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::Tab;
 
-/// What the panel keeps between frames.
-#[derive(Debug)]
-pub struct SideTools<'a> {
-    pub textures: &'a mut PanelTextures,
-    pub dataset: &'a mut DatasetUi,
-}
-
-pub fn ui(
-    ui: &mut egui::Ui,
-    displayed: Displayed<'_>,
-    SideTools { textures, dataset }: SideTools<'_>,
-) -> Vec<Command> {
+pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, textures: &mut PanelTextures) -> Vec<Command> {
     let (model, jobs) = (displayed.model, displayed.jobs);
     let mut commands = tabs(ui, displayed);
     bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
@@ -58,7 +47,7 @@ pub fn ui(
     scroll.auto_shrink([false, false]).show(ui, |ui| {
         commands.extend(match tab {
             Tab::Loss => loss_tab(ui, displayed),
-            Tab::Methods => dataset.summary(ui, displayed),
+            Tab::Methods => summary::ui(ui, displayed),
             Tab::Why => why_tab(ui, displayed, textures),
             Tab::Files => {
                 let (materials, openings) = (&model.materials, &jobs.openings);

@@ -1,27 +1,18 @@
-//! Small materials of a data set, for the contact sheet, and the thumbnails of its list.
+//! Small materials of a data set, for the contact sheet.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::Material;
-use svbrdf_core::model::convention::Convention;
-use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::content::PictureContent;
-use svbrdf_core::picture::exposure;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::Read;
 
 use crate::error::Error;
 use crate::jobs::work::job::{Job, Worker};
-use crate::jobs::work::picture::Picture;
 use crate::jobs::work::waker::Waker;
 use crate::model::dataset::OpenDataset;
 
-/// Longest side of a thumbnail, in pixels.
-pub const THUMBNAIL: usize = 80;
-/// The most thumbnails that are kept, and the most small materials beside those in sight.
-const MOST: usize = 2048;
+/// The most small materials beside those in sight.
 const MOST_BESIDE: usize = 64;
 /// Longest sides of small materials, in texels.
 const SIDES: [usize; 4] = [48, 96, 192, 384];
@@ -41,47 +32,33 @@ pub type Reduced = Result<Arc<Material<f32>>, String>;
 pub struct CellJobs {
     side: usize,
     reduced: HashMap<Cell, Reduced>,
-    thumbnails: HashMap<usize, Arc<Picture>>,
     /// Counts the changes.
     pub generation: u64,
     wanted: Arc<Mutex<Vec<Cell>>>,
     job: Option<Job<(), ReadCell>>,
 }
 
-/// A material that was read: what is kept of it.
-#[derive(Debug)]
-struct ReadCell {
-    cell: Cell,
-    reduced: Reduced,
-    /// Of the column that stands for a material.
-    thumbnail: Option<Picture>,
-}
+/// A material that was read.
+type ReadCell = (Cell, Reduced);
 
 impl CellJobs {
     pub fn get(&self, cell: Cell) -> Option<&Reduced> {
         self.reduced.get(&cell)
     }
 
-    /// The rendering of a ground truth, in a list of predictions of one of them, in a scene of its own.
-    pub fn thumbnail(&self, case: usize) -> Option<&Arc<Picture>> {
-        self.thumbnails.get(&case)
-    }
-
     /// Reads a material again: its files have changed.
     pub fn forget(&mut self, case: usize) {
         self.reduced.retain(|cell, _| cell.case != case);
-        self.thumbnails.remove(&case);
         self.generation += 1;
     }
 
-    /// Takes over what has been read, and reads what is missing of the cells and thumbnails in sight; cells are drawn with this longest
-    /// side in pixels.
+    /// Takes over what has been read, and reads what is missing of the cells in sight, which are drawn with this longest side in
+    /// pixels.
     pub(super) fn follow(
         &mut self,
         waker: &Waker,
         open: &Arc<OpenDataset>,
         cells: &[Cell],
-        cases: &[usize],
         pixels: usize,
     ) -> Option<Error> {
         let side = SIDES.into_iter().find(|side| *side >= pixels).unwrap_or(SIDES[SIDES.len() - 1]);
@@ -93,22 +70,12 @@ impl CellJobs {
         if self.reduced.len() > cells.len() + MOST_BESIDE {
             self.reduced.retain(|cell, _| cells.contains(cell));
         }
-        if self.thumbnails.len() > MOST {
-            self.thumbnails.retain(|case, _| cases.contains(case));
-        }
-        let thumbnails = cases.iter().filter(|case| !self.thumbnails.contains_key(case));
-        let mut missing: Vec<Cell> =
+        let missing: Vec<Cell> =
             cells.iter().filter(|cell| !self.reduced.contains_key(cell)).copied().collect();
-        missing.extend(thumbnails.map(|case| Cell { case: *case, column: open.own_column() }).filter(
-            |cell| {
-                // One that cannot be read has no thumbnail, either.
-                !matches!(self.reduced.get(cell), Some(Err(_)))
-            },
-        ));
         let is_missing = !missing.is_empty();
         *self.wanted.lock().unwrap_or_else(PoisonError::into_inner) = missing;
         if self.job.is_none() && is_missing && error.is_none() {
-            let (open, wanted, side) = (open.clone(), self.wanted.clone(), side.max(THUMBNAIL));
+            let (open, wanted) = (open.clone(), self.wanted.clone());
             self.job = Some(Job::stream(waker, Progress::default(), move |worker| {
                 run(&open, &wanted, side, worker)
             }));
@@ -119,9 +86,8 @@ impl CellJobs {
     fn take(&mut self) -> Option<Error> {
         let job = self.job.as_ref()?;
         let ended = job.poll();
-        for ReadCell { cell, reduced, thumbnail } in job.updates() {
+        for (cell, reduced) in job.updates() {
             self.reduced.insert(cell, reduced);
-            self.thumbnails.extend(thumbnail.map(|picture| (cell.case, Arc::new(picture))));
             self.generation += 1;
         }
         let error = ended?.err();
@@ -145,10 +111,8 @@ fn run(
         };
         let Some(cell) = next else { return Ok(()) };
         let reduced = read(open, cell, side, &worker.progress);
-        let own = reduced.as_ref().ok().filter(|_| cell.column == open.own_column());
-        let thumbnail = own.map(|material| thumbnail(material, &worker.progress)).transpose()?;
         done.push(cell);
-        worker.report(ReadCell { cell, reduced, thumbnail })?;
+        worker.report((cell, reduced))?;
     }
 }
 
@@ -159,14 +123,4 @@ fn read(open: &OpenDataset, cell: Cell, side: usize, progress: &Progress) -> Red
     let longest = size[0].max(size[1]);
     let small = size.map(|length| if longest > side { (length * side / longest).max(1) } else { length });
     read.material.resized(small).map(Arc::new).map_err(|error| error.to_string())
-}
-
-/// A rendering under a light from the upper left, exposed by itself.
-fn thumbnail(material: &Material<f32>, progress: &Progress) -> Result<Picture, CoreError> {
-    let scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [-0.5, 0.5, 1.0] };
-    let (convention, content) = (Convention::default(), PictureContent::default());
-    let ev = exposure::automatic(material, &scene, &convention);
-    let image = content.quantity.image(material, &scene, &convention, &progress.part())?;
-    let pixels = image.pixels.iter().map(|rgb| Picture::opaque(content.colour(*rgb, ev))).collect();
-    Ok(Picture { size: [image.width, image.height], pixels })
 }

@@ -1,4 +1,4 @@
-//! Work for a data set: the losses of all materials, the materials in the window and those ahead, small pictures, the summary.
+//! Work for a data set: the losses of all materials, the materials in the window and those ahead, small materials, the summary.
 
 pub mod cases;
 pub mod cells;
@@ -80,7 +80,7 @@ impl DatasetJobs {
         let errors = [
             self.losses.follow(waker, open, &model.view.convention, &first),
             self.cases.follow(waker, gpu, open, model.materials.rules, (&wanted, &model.dataset.pinned())),
-            self.cells.follow(waker, open, &displayed.cells, &displayed.cases, displayed.pixels),
+            self.cells.follow(waker, open, &displayed.cells, displayed.pixels),
             self.sheet.follow(waker, &self.cells, &displayed.cells, &model.view, range),
             self.summary.follow(waker, open, &self.losses, summary_is_open),
             summary::follow_order(

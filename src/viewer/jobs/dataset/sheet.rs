@@ -68,7 +68,8 @@ impl SheetJob {
         range: f64,
     ) -> Option<Error> {
         if in_sight.is_empty() {
-            return self.0.follow(None, |_| unreachable_job(waker));
+            self.0 = Latest::default();
+            return None;
         }
         let quantity = view.display.quantity;
         let (kind, _) = view.display.differences.pointwise(quantity);
@@ -91,11 +92,6 @@ impl SheetJob {
             Job::start(waker, move |progress| render(&key, &materials, progress))
         })
     }
-}
-
-/// A job that ends at once: nothing is in sight.
-fn unreachable_job(waker: &Waker) -> Job<SheetPicture> {
-    Job::start(waker, |_| Err(Error::internal("nothing is in sight")))
 }
 
 fn render(

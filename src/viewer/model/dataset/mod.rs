@@ -81,11 +81,6 @@ impl OpenDataset {
         if self.is_of_predictions() { "prediction" } else { "material" }
     }
 
-    /// The column that stands for a material: the ground truth, or the prediction.
-    pub fn own_column(&self) -> usize {
-        usize::from(self.is_of_predictions())
-    }
-
     pub fn methods(&self) -> &[String] {
         &self.settings.methods
     }

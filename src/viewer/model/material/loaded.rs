@@ -14,7 +14,7 @@ use super::read::{MaterialId, ReadMaterial};
 #[derive(Clone, Debug)]
 pub struct LoadedMaterial {
     pub read: Arc<ReadMaterial>,
-    /// Why it is stale: its files are gone, or could not be read again.
+    /// Why it is stale: its files could not be read again.
     pub problem: Option<String>,
     /// Its name, unique in the window.
     name: String,

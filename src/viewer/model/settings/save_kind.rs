@@ -25,8 +25,6 @@ pub enum SaveKind {
     Session,
     /// The scenes of the loss of the chosen prediction, as `svbrdf scenes` writes.
     Scenes,
-    /// The contact sheet of a data set, as `svbrdf strip --dataset` writes.
-    Sheet,
     /// The list of materials of a data set, with marks, notes and losses.
     Materials,
 }
@@ -36,8 +34,8 @@ impl SaveKind {
     pub const ALL: [Self; 6] =
         [Self::View, Self::Renderings, Self::Strip, Self::Report, Self::Session, Self::Scenes];
 
-    /// Those of a data set beside them.
-    pub const OF_DATASET: [Self; 2] = [Self::Sheet, Self::Materials];
+    /// The one of a data set beside them.
+    pub const OF_DATASET: [Self; 1] = [Self::Materials];
 
     /// The label of its button.
     pub fn name(self) -> &'static str {
@@ -48,7 +46,6 @@ impl SaveKind {
             Self::Report => "Report",
             Self::Session => "Session",
             Self::Scenes => "Scenes",
-            Self::Sheet => "Sheet",
             Self::Materials => "List",
         }
     }
@@ -80,10 +77,6 @@ impl SaveKind {
                 "The scenes that the tab Why lists for the chosen prediction, worst first, with their losses. Open takes \
                  them as the scenes of the loss, and so does --scenes of `svbrdf`."
             }
-            Self::Sheet => {
-                "A labelled figure: the materials that are listed in rows, the ground truth and all methods in columns, \
-                 under the present light, with their losses; the same as `svbrdf strip --dataset` writes."
-            }
             Self::Materials => {
                 "The materials that are listed, in their order, as CSV: mark, note and the loss of each method."
             }
@@ -99,7 +92,6 @@ impl SaveKind {
             Self::Report => "svbrdf-report.html",
             Self::Session => "comparison.svbrdf-session.json",
             Self::Scenes => "scenes.json",
-            Self::Sheet => "sheet.png",
             Self::Materials => "materials.csv",
         }
     }

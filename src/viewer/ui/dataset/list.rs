@@ -1,8 +1,8 @@
-//! List of materials: a row each with thumbnail, name and the losses of the methods.
+//! List of materials: a row each with name and the losses of the methods.
 
 use std::ops::Range;
 
-use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, TextureOptions, WidgetInfo, pos2, vec2};
+use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, WidgetInfo, pos2, vec2};
 
 use egui_material_icons::icons;
 
@@ -16,13 +16,11 @@ use crate::model::dataset::list::{CaseLosses, Filter, ListView, Order};
 use crate::model::material::loaded::drawable;
 use crate::ui::widgets::names::shortened;
 use crate::ui::widgets::numbers::significant;
-use crate::ui::widgets::texture::PanelTextures;
 use crate::ui::widgets::theme;
 
 /// The sign of a material that is marked, after its name.
 pub const MARK: &str = " *";
-/// Side of a thumbnail, height of the name, and height of the bar of a method, in points.
-const SIDE: f32 = 40.0;
+/// Height of the name, and height of the bar of a method, in points.
 const NAME: f32 = 17.0;
 const BAR: f32 = 5.0;
 /// The most bars in a row: more methods are in the contact sheet.
@@ -37,7 +35,6 @@ pub struct MaterialsDrawer<'a> {
     /// The rows in sight.
     pub in_sight: &'a mut Range<usize>,
     pub scrolled_to: &'a mut Option<usize>,
-    pub textures: &'a mut PanelTextures,
 }
 
 impl MaterialsDrawer<'_> {
@@ -212,7 +209,7 @@ impl MaterialsDrawer<'_> {
     }
 
     fn row_height(&self) -> f32 {
-        (NAME + BAR * self.bars() as f32 + 3.0).max(SIDE) + 4.0
+        NAME + BAR * self.bars() as f32 + 7.0
     }
 
     fn row(&mut self, ui: &mut egui::Ui, row: usize, commands: &mut Vec<Command>) {
@@ -229,20 +226,7 @@ impl MaterialsDrawer<'_> {
         if is_shown || response.hovered() {
             ui.painter().rect_filled(rect, 3.0, visuals.weak_bg_fill);
         }
-        let inner = rect.shrink(2.0);
-        let square = Rect::from_min_size(inner.min, vec2(SIDE, SIDE));
-        match jobs.cells.thumbnail(case) {
-            Some(picture) => {
-                let texture = self.textures.id(ui.ctx(), picture, TextureOptions::LINEAR);
-                let [width, height] = picture.size.map(|side| side as f32);
-                let size = vec2(width, height) * (SIDE / width.max(height).max(1.0));
-                let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-                let at = Rect::from_center_size(square.center(), size);
-                ui.painter().image(texture, at, whole, egui::Color32::WHITE);
-            }
-            None => drop(ui.painter().rect_filled(square, 2.0, ui.visuals().faint_bg_color)),
-        }
-        let right = Rect::from_min_max(pos2(square.right() + 6.0, inner.top()), inner.max);
+        let right = rect.shrink(2.0);
         let mark = dataset.mark(name).filter(|mark| mark.is_marked).map_or("", |_| MARK);
         let text = format!("{}{mark}", drawable(name));
         let painter = ui.painter().with_clip_rect(right.intersect(ui.clip_rect()));

@@ -27,7 +27,6 @@ pub struct DatasetUi {
     in_sight: std::ops::Range<usize>,
     /// The material that the list has scrolled to.
     scrolled_to: Option<usize>,
-    summary: summary::SummaryUi,
 }
 
 impl DatasetUi {
@@ -76,12 +75,7 @@ impl DatasetUi {
     }
 
     /// The list, at the left.
-    pub fn drawer(
-        &mut self,
-        ui: &mut egui::Ui,
-        displayed: Displayed<'_>,
-        textures: &mut PanelTextures,
-    ) -> Vec<Command> {
+    pub fn drawer(&mut self, ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
         self.rows.follow(displayed);
         self.displayed = DisplayedCases::default();
         let dataset = &displayed.model.dataset;
@@ -97,7 +91,6 @@ impl DatasetUi {
                 rows: &self.rows,
                 in_sight: &mut self.in_sight,
                 scrolled_to: &mut self.scrolled_to,
-                textures,
             };
             commands = drawer.ui(ui);
         });
@@ -118,10 +111,5 @@ impl DatasetUi {
         let mut sheet =
             ContactSheet { displayed, open, rows: &self.rows, textures, in_sight: &mut self.displayed };
         Some(sheet.ui(ui))
-    }
-
-    /// The tab of the methods.
-    pub fn summary(&mut self, ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
-        self.summary.ui(ui, displayed, &self.rows)
     }
 }

@@ -6,7 +6,6 @@ pub mod hint;
 pub mod names;
 pub mod numbers;
 pub mod order;
-pub mod plot;
 pub mod read_options;
 pub mod readout;
 pub mod remedy;
