@@ -4,7 +4,6 @@ use eframe::egui;
 
 use super::dataset;
 use super::parts::Parts;
-use crate::jobs::reading::watch::FileChange;
 use crate::model::material::problem::MaterialProblem;
 use crate::model::message::Message;
 
@@ -62,27 +61,17 @@ fn report_problems(parts: &mut Parts, problems: Vec<MaterialProblem>) {
     }
 }
 
-/// Reads files that have changed again, and marks materials whose files are gone.
+/// Reads files that have changed again.
 fn follow_files(parts: &mut Parts) {
-    for (index, change) in parts.jobs.watch.poll(&parts.jobs.waker, &parts.model.materials) {
-        if let (Some(case), FileChange::Changed) = (parts.model.dataset.shown, &change) {
+    for index in parts.jobs.watch.poll(&parts.jobs.waker, &parts.model.materials) {
+        if let Some(case) = parts.model.dataset.shown {
             // With its losses, all of it in one frame.
             parts.model.dataset.is_stale = true;
             dataset::read_again(parts, case);
             continue;
         }
-        let material = &mut parts.model.materials.all[index];
-        match change {
-            FileChange::Changed => {
-                for request in parts.model.materials.reload(Some(&[index])) {
-                    parts.jobs.read(&parts.model, request);
-                }
-            }
-            FileChange::Gone(path) => {
-                let problem = format!("{} is gone; the material is as it was read before", path.display());
-                material.problem = Some(problem);
-            }
-            FileChange::Back => material.problem = None,
+        for request in parts.model.materials.reload(Some(&[index])) {
+            parts.jobs.read(&parts.model, request);
         }
     }
 }

@@ -14,9 +14,8 @@ use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
-use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::read::MaterialId;
-use crate::model::material::read::ReadMaterial;
+use crate::model::material::loaded::{LoadedMaterial, ids};
+use crate::model::material::read::{MaterialId, ReadMaterial};
 use crate::model::view::state::ViewState;
 
 /// What the statistics depend on.
@@ -90,7 +89,7 @@ impl DifferenceJob {
 fn key(materials: &[LoadedMaterial], state: &ViewState) -> DifferenceKey {
     let kind = state.difference_kind();
     DifferenceKey {
-        ids: materials.iter().map(LoadedMaterial::id).collect(),
+        ids: ids(materials),
         quantity: state.display.quantity,
         kind,
         scene: (state.display.quantity == Quantity::Rendering).then_some(state.scene),

@@ -14,9 +14,8 @@ use crate::error::Error;
 use crate::jobs::work::context::JobContext;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
-use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::read::MaterialId;
-use crate::model::material::read::ReadMaterial;
+use crate::model::material::loaded::{LoadedMaterial, ids};
+use crate::model::material::read::{MaterialId, ReadMaterial};
 use crate::model::view::state::ViewState;
 
 /// What error maps depend on.
@@ -76,7 +75,7 @@ impl ErrorMapJob {
 }
 
 fn key(materials: &[LoadedMaterial], state: &ViewState, scenes: Request) -> ErrorMapKey {
-    let ids = materials.iter().map(LoadedMaterial::id).collect();
+    let ids = ids(materials);
     ErrorMapKey { ids, scenes, convention: state.convention() }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! A file that is being written is left alone: a change counts once the file is the same in two checks, or was written a while ago.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::time::{Duration, SystemTime};
@@ -23,17 +23,6 @@ pub const QUIET: Duration = Duration::from_secs(3);
 /// The files of each material, by its id, with their stamps when they were read.
 type Files = Vec<(MaterialId, Vec<(PathBuf, Option<Stamp>)>)>;
 
-/// What has happened to the files of a material.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum FileChange {
-    /// They have changed.
-    Changed,
-    /// This one is gone.
-    Gone(PathBuf),
-    /// One that was gone is back, unchanged.
-    Back,
-}
-
 /// Checks the files of all materials once a second.
 #[derive(Debug, Default)]
 pub struct FileWatch {
@@ -42,8 +31,8 @@ pub struct FileWatch {
 }
 
 impl FileWatch {
-    /// What has happened since the last call, each with the index of the material.
-    pub fn poll(&mut self, waker: &Waker, materials: &MaterialList) -> Vec<(usize, FileChange)> {
+    /// The indices of the materials whose files have changed since the last call.
+    pub fn poll(&mut self, waker: &Waker, materials: &MaterialList) -> Vec<usize> {
         let ids: Vec<MaterialId> = materials.all.iter().map(LoadedMaterial::id).collect();
         if self.watcher.is_none() || self.ids != ids {
             let watcher = self.watcher.get_or_insert_with(|| Watcher::start(waker, INTERVAL));
@@ -52,7 +41,7 @@ impl FileWatch {
         }
         let changes = self.watcher.iter().flat_map(Watcher::changes);
         let index = |id| materials.all.iter().position(|one| one.id() == id);
-        changes.filter_map(|(id, change)| Some((index(id)?, change))).collect()
+        changes.filter_map(index).collect()
     }
 
     /// Ends the checks.
@@ -65,7 +54,7 @@ impl FileWatch {
 #[derive(Debug)]
 struct Watcher {
     files: Sender<Files>,
-    job: Job<(), (MaterialId, FileChange)>,
+    job: Job<(), MaterialId>,
 }
 
 impl Watcher {
@@ -91,8 +80,8 @@ impl Watcher {
         let _ = self.files.send(files);
     }
 
-    /// What has happened since the last call, each with the id of the material.
-    fn changes(&self) -> Vec<(MaterialId, FileChange)> {
+    /// The materials whose files have changed since the last call.
+    fn changes(&self) -> Vec<MaterialId> {
         self.job.updates()
     }
 }
@@ -104,48 +93,30 @@ struct Check {
     reported: HashMap<PathBuf, Stamp>,
     /// As they were at the last check.
     latest: HashMap<PathBuf, Stamp>,
-    /// Not there at the last check: a file that is replaced may be missing for a moment.
-    missing: HashSet<PathBuf>,
-    /// Reported to be gone.
-    gone: HashSet<PathBuf>,
 }
 
 impl Check {
-    /// What has happened to each material since the last call: a file has changed since it was read and since it was last
-    /// reported, is gone for two checks, or is back. A material with a file that is being written has not changed yet.
-    fn changes(&mut self) -> Vec<(MaterialId, FileChange)> {
+    /// The materials with a file that has changed since it was read and since it was last reported. A material with a file that is being
+    /// written, or that is not there, has not changed yet.
+    fn changes(&mut self) -> Vec<MaterialId> {
         let now = SystemTime::now();
-        let (mut latest, mut missing) = (HashMap::new(), HashSet::new());
-        let mut changes = Vec::new();
+        let (mut latest, mut changes) = (HashMap::new(), Vec::new());
         for (id, files) in &self.files {
-            let (mut changed, mut is_still, mut is_back, mut gone) = (Vec::new(), true, false, None);
+            let (mut changed, mut is_still) = (Vec::new(), true);
             for (path, read) in files {
-                let Some(stamp) = Stamp::of(path) else {
-                    missing.insert(path.clone());
-                    if self.missing.contains(path) && self.gone.insert(path.clone()) {
-                        gone = Some(path.clone());
-                    }
-                    continue;
-                };
-                is_back |= self.gone.remove(path);
+                let Some(stamp) = Stamp::of(path) else { continue };
                 is_still &= self.latest.get(path) == Some(&stamp) || !stamp.is_younger_than(QUIET, now);
                 latest.insert(path.clone(), stamp);
                 if Some(stamp) != *read && self.reported.get(path) != Some(&stamp) {
                     changed.push((path.clone(), stamp));
                 }
             }
-            let change = match gone {
-                Some(path) => Some(FileChange::Gone(path)),
-                None if changed.is_empty() => is_back.then_some(FileChange::Back),
-                None if is_still => {
-                    self.reported.extend(changed);
-                    Some(FileChange::Changed)
-                }
-                None => None,
-            };
-            changes.extend(change.map(|change| (*id, change)));
+            if is_still && !changed.is_empty() {
+                self.reported.extend(changed);
+                changes.push(*id);
+            }
         }
-        (self.latest, self.missing) = (latest, missing);
+        self.latest = latest;
         changes
     }
 }
@@ -177,53 +148,32 @@ mod tests {
     }
 
     #[test]
-    fn a_change_is_reported_once_and_so_is_the_next_one() {
+    fn a_change_is_reported_once_and_when_the_file_stands_still() {
         let folder = tempfile::tempdir().unwrap();
         let (path, files) = watched(&folder);
         let mut check = Check { files, ..Check::default() };
-        assert!(check.changes().is_empty());
-        set_time(&path, 2000);
-        assert_eq!(check.changes(), [(id(), FileChange::Changed)]);
-        assert!(check.changes().is_empty(), "it is reported already");
-        set_time(&path, 3000);
-        assert_eq!(check.changes(), [(id(), FileChange::Changed)]);
-    }
-
-    #[test]
-    fn a_file_that_is_gone_is_reported_once_and_again_when_it_is_back() {
-        let folder = tempfile::tempdir().unwrap();
-        let (path, files) = watched(&folder);
-        let mut check = Check { files, ..Check::default() };
-        std::fs::remove_file(&path).unwrap();
-        assert!(check.changes().is_empty(), "it may be replaced");
-        assert_eq!(check.changes(), [(id(), FileChange::Gone(path.clone()))]);
-        assert!(check.changes().is_empty(), "it is reported already");
-        std::fs::write(&path, "a").unwrap();
-        set_time(&path, 1000);
-        assert_eq!(check.changes(), [(id(), FileChange::Back)], "it is as it was read");
-        std::fs::remove_file(&path).unwrap();
-        assert!(check.changes().is_empty());
-        assert_eq!(check.changes(), [(id(), FileChange::Gone(path.clone()))]);
-        std::fs::write(&path, "b").unwrap();
-        assert!(check.changes().is_empty(), "it may still be written");
-        assert_eq!(check.changes(), [(id(), FileChange::Changed)], "it is there again, and another");
-    }
-
-    #[test]
-    fn a_file_that_is_being_written_has_not_changed_until_it_stands_still() {
-        let folder = tempfile::tempdir().unwrap();
-        let (path, files) = watched(&folder);
-        let mut check = Check { files, ..Check::default() };
-        for size in 2..6 {
-            std::fs::write(&path, "a".repeat(size)).unwrap();
-            assert!(check.changes().is_empty(), "it grows: {size} bytes");
+        // What is done to the file before a check, and whether that reports a change.
+        let touch = |seconds: u64| set_time(&path, seconds);
+        let write = |text: &str| std::fs::write(&path, text).unwrap();
+        let events: [(&dyn Fn(), bool); 11] = [
+            (&|| (), false),
+            (&|| touch(2000), true),
+            (&|| (), false),
+            (&|| touch(3000), true),
+            // It may be replaced.
+            (&|| std::fs::remove_file(&path).unwrap(), false),
+            (&|| write("aa"), false),
+            (&|| write("aaa"), false),
+            (&|| (), true),
+            // Of the same size, a moment ago.
+            (&|| write("bbb"), false),
+            (&|| (), true),
+            (&|| (), false),
+        ];
+        for (step, (event, is_reported)) in events.into_iter().enumerate() {
+            event();
+            assert_eq!(!check.changes().is_empty(), is_reported, "{step}");
         }
-        assert_eq!(check.changes(), [(id(), FileChange::Changed)]);
-        assert!(check.changes().is_empty(), "it is reported already");
-        // Of the same size, a moment ago.
-        std::fs::write(&path, "bbbbb").unwrap();
-        assert!(check.changes().is_empty());
-        assert_eq!(check.changes(), [(id(), FileChange::Changed)]);
     }
 
     #[test]
@@ -248,6 +198,6 @@ mod tests {
             }
             std::thread::sleep(Duration::from_millis(5));
         }
-        assert_eq!((repaints.load(Ordering::SeqCst), stale), (1, vec![(id(), FileChange::Changed)]));
+        assert_eq!((repaints.load(Ordering::SeqCst), stale), (1, vec![id()]));
     }
 }

@@ -289,7 +289,7 @@ fn summary(latest: &KeyedLosses) -> String {
         report.convention,
         report.epsilon,
         // The one that was asked for: a first estimate has scenes of another one.
-        latest.key.query.request.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
+        latest.request().seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
         report.precision,
     )
 }
