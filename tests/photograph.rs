@@ -176,7 +176,7 @@ fn a_capture_of_materialgan_is_one_of_its_lights() {
     assert!(report(&wrong, &[&truth]).unwrap().results[0].log.unwrap() > 0.1);
     let mut wrong = calibration.clone();
     wrong["idx"] = json!([0, 1, 2, 3, 4]);
-    wrong["camera_pos"].as_array_mut().unwrap().reverse();
+    wrong["light_pos"].as_array_mut().unwrap().reverse();
     assert!(report(&list(&wrong).unwrap(), &[&truth]).unwrap().results[0].log.unwrap() > 2.0 * log);
     for (key, value, words) in [
         ("light_pow", json!([1, 2, 1]), "expected a white light, found the light_pow 1, 2, 1"),

@@ -16,7 +16,7 @@ use crate::model::settings::Tab;
 #[derive(Debug, Default)]
 pub struct JobFindings {
     pub errors: Vec<Error>,
-    /// Why the open photograph cannot be read or compared.
+    /// Why the open photograph cannot be read.
     pub photograph_error: Option<Error>,
     /// The end of the search for the worst scene.
     pub worst: Option<Result<Worst, Error>>,
@@ -95,9 +95,11 @@ impl Jobs {
         let averages = differences && view.is_error_map();
         let Self { waker, gpu, panes, photograph, .. } = self;
         let work = JobContext { waker, gpu: gpu.as_ref(), materials: &panes.displayed, view };
-        findings.photograph_error = photograph.follow(&work, &model.photograph);
+        let [unreadable, error] = photograph.follow(&work, &model.photograph);
+        findings.photograph_error = unreadable;
         let of_ground_truth = differences && !averages && !has_photograph;
         let errors = [
+            error,
             panes.region.follow(&work, model.inspection.region, computed.as_ref()),
             panes.difference.follow(&work, of_ground_truth),
             panes.error_map.follow(&work, averages, settings.loss.listed_scenes()),

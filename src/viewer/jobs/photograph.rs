@@ -156,16 +156,20 @@ impl PhotographJobs {
         state.source().is_none() || self.photograph(state).is_some()
     }
 
-    /// Takes over results, and computes what is wanted now; why the photograph cannot be read or compared.
-    pub fn follow(&mut self, work: &JobContext<'_>, state: &PhotographState) -> Option<Error> {
+    /// Takes over results, and computes what is wanted now; why the photograph cannot be read, and why it cannot be compared.
+    pub fn follow(&mut self, work: &JobContext<'_>, state: &PhotographState) -> [Option<Error>; 2] {
         let error = self.read.follow(read_key(state), |(path, _, transfer)| {
             let (file, transfer) = (NamedFile::by_user(path), *transfer);
             Job::start(work.waker, move |_| Ok(Arc::new(read_photograph(&file, transfer)?)))
         });
         if error.is_some() {
             *self = Self::default();
-            return error;
+            return [error, None];
         }
+        [None, self.compare(work, state)]
+    }
+
+    fn compare(&mut self, work: &JobContext<'_>, state: &PhotographState) -> Option<Error> {
         let wanted = compared_key(state, work.materials, work.view).filter(|key| !key.ids.is_empty());
         let Some(wanted) = wanted else {
             self.compared = Latest::default();
