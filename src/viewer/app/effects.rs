@@ -16,10 +16,11 @@ use super::{dataset, saving};
 use crate::jobs::browse;
 use crate::jobs::why::ComparedPair;
 use crate::jobs::work::job::Job;
-use crate::model::command::effect::{DialogEffect, Effect, LossEffect};
-use crate::model::inspection;
+use crate::model::command::effect::Effect;
+use crate::model::command::{LossCommand, WhyCommand, WindowCommand};
 use crate::model::material::request::ReadRequest;
 use crate::model::message::Message;
+use crate::model::settings::save_kind::SaveKind;
 use crate::ui::dialogs::open::OpenDialog;
 use crate::ui::dialogs::save::SaveDialog;
 
@@ -44,19 +45,10 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::ReadSession(paths) => read_session(parts, &paths),
         Effect::OpenPhotograph(path) => open_photograph(parts, path),
         Effect::SaveAssumptions(index) => save_assumptions(parts, index),
-        Effect::Loss(effect) => carry_out_on_losses(parts, effect),
-        Effect::Dialog(effect) => carry_out_on_dialogs(parts, effect),
-        Effect::Save(request) => saving::save_file(parts, ctx, request),
-        Effect::CancelSaving => parts.jobs.saving.iter().for_each(Job::cancel),
-        Effect::CopyPicture => saving::copy_picture(parts, ctx),
+        Effect::Loss(command) => apply_to_losses(parts, ctx, &command),
+        Effect::Why(command) => apply_to_search(parts, command),
+        Effect::Window(command) => apply_to_window(parts, ctx, command),
         Effect::CopyText { text, what } => copy_text(parts, ctx, text, what),
-        Effect::CopyLosses => {
-            if let Some(text) = parts.jobs.loss.losses().map(|losses| losses.report.text()) {
-                copy_text(parts, ctx, text, "the losses as text");
-            }
-        }
-        Effect::CopyPins => copy_text(parts, ctx, pins_csv(parts), "the pinned texels as CSV"),
-        Effect::SetScale(scale) => ctx.set_zoom_factor(scale),
     }
 }
 
@@ -64,34 +56,50 @@ fn read(parts: &mut Parts, request: ReadRequest) {
     parts.jobs.read(&parts.model, request);
 }
 
-fn carry_out_on_losses(parts: &mut Parts, effect: LossEffect) {
+fn apply_to_losses(parts: &mut Parts, ctx: &egui::Context, command: &LossCommand) {
     let (model, jobs) = (&parts.model, &mut parts.jobs);
-    let (waker, materials) = (&jobs.waker, &model.materials);
-    match effect {
-        LossEffect::Compute => jobs.loss.start(waker, materials, &model.loss_query()),
-        LossEffect::Cancel => jobs.loss.cancel(),
-        LossEffect::FindWorst => {
-            if let Some(pair) = ComparedPair::of(&materials.all, &model.view) {
-                jobs.why.search.start(waker, &pair, model.settings.loss.seed);
+    match command {
+        LossCommand::Compute => jobs.loss.start(&jobs.waker, &model.materials, &model.loss_query()),
+        LossCommand::Cancel => jobs.loss.cancel(),
+        LossCommand::Copy => {
+            if let Some(text) = jobs.loss.losses().map(|losses| losses.report.text()) {
+                copy_text(parts, ctx, text, "the losses as text");
             }
         }
-        LossEffect::CancelSearch => jobs.why.search.cancel(),
+        _ => {}
     }
 }
 
-fn carry_out_on_dialogs(parts: &mut Parts, effect: DialogEffect) {
-    let dialogs = &mut parts.ui.dialogs;
-    match effect {
-        DialogEffect::ShowOpen(on) => dialogs.open = on.then(OpenDialog::default),
-        DialogEffect::ShowSave(kind) => {
-            let has_dataset = parts.model.dataset.open.is_some();
-            dialogs.save = kind.map(|kind| SaveDialog::new(kind, has_dataset));
+fn apply_to_search(parts: &mut Parts, command: WhyCommand) {
+    let (model, jobs) = (&parts.model, &mut parts.jobs);
+    match (command, ComparedPair::of(&model.materials.all, &model.view)) {
+        (WhyCommand::FindWorst, Some(pair)) => {
+            jobs.why.search.start(&jobs.waker, &pair, model.settings.loss.seed);
         }
-        DialogEffect::Browse(what) => {
+        (WhyCommand::CancelSearch, _) => jobs.why.search.cancel(),
+        _ => {}
+    }
+}
+
+fn apply_to_window(parts: &mut Parts, ctx: &egui::Context, command: WindowCommand) {
+    let dialogs = &mut parts.ui.dialogs;
+    let has_dataset = parts.model.dataset.open.is_some();
+    match command {
+        WindowCommand::ShowOpen(on) => dialogs.open = on.then(OpenDialog::default),
+        WindowCommand::ShowSave(on) => {
+            dialogs.save = on.then(|| SaveDialog::new(SaveKind::default(), has_dataset));
+        }
+        WindowCommand::SaveScenes => dialogs.save = Some(SaveDialog::new(SaveKind::Scenes, has_dataset)),
+        WindowCommand::Browse(what) => {
             // Where what is open came from.
             let from = parts.model.files().next().and_then(Path::parent);
             parts.jobs.browsing = Some(browse::start(&parts.jobs.waker, what, from));
         }
+        WindowCommand::Save(request) => saving::save_file(parts, ctx, request),
+        WindowCommand::CancelSaving => parts.jobs.saving.iter().for_each(Job::cancel),
+        WindowCommand::CopyPicture => saving::copy_picture(parts, ctx),
+        WindowCommand::SetScale(scale) => ctx.set_zoom_factor(scale),
+        _ => {}
     }
 }
 
@@ -161,15 +169,4 @@ fn save_assumptions(parts: &mut Parts, index: usize) {
 fn copy_text(parts: &mut Parts, ctx: &egui::Context, text: String, what: &'static str) {
     ctx.copy_text(text);
     parts.model.report([Message::Done(format!("Copied {what}"))]);
-}
-
-/// The numbers of every pin in every material, as CSV.
-fn pins_csv(parts: &Parts) -> String {
-    let (materials, view) = (parts.displayed().materials(), &parts.model.view);
-    let convention = view.convention();
-    inspection::csv(parts.model.inspection.pins.iter().map(|pin| {
-        let all = materials.iter().map(|one| one.material());
-        let rows = inspection::rows(all, *pin, &view.scene, &convention);
-        (*pin, materials.iter().map(|one| one.name()).zip(rows).collect())
-    }))
 }

@@ -128,7 +128,8 @@ mod tests {
     fn settings_and_sessions_come_back_without_the_scenes_of_a_file() {
         let folder = tempfile::tempdir().unwrap();
         let loss = LossSettings { ask: Ask::Time, seed: 7, ..LossSettings::default() };
-        let file = FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes: Vec::new() };
+        let scenes = vec![Model::default().view.scene];
+        let file = FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes };
         let mut model = Model::default();
         model.settings = Settings { dark: false, loss: loss.with_file(Some(file)), ..Settings::default() };
         model.recent = vec![model.session()];

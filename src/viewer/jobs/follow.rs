@@ -90,7 +90,6 @@ impl Jobs {
     fn follow_panes(&mut self, model: &Model, findings: &mut JobFindings) {
         let (view, settings) = (&model.view, &model.settings);
         let has_photograph = Displayed::of(model, self).photograph().is_some();
-        let computed = Displayed::of(model, self).computed_maps().cloned();
         let differences = view.display.difference;
         let averages = differences && view.is_error_map();
         let Self { waker, gpu, panes, photograph, .. } = self;
@@ -100,7 +99,6 @@ impl Jobs {
         let of_ground_truth = differences && !averages && !has_photograph;
         let errors = [
             error,
-            panes.region.follow(&work, model.inspection.region, computed.as_ref()),
             panes.difference.follow(&work, of_ground_truth),
             panes.error_map.follow(&work, averages, settings.loss.listed_scenes()),
         ];

@@ -103,7 +103,7 @@ impl WindowUi {
         commands.extend(self.dataset.drawer(ui, displayed));
         // Panes stay where they are in a drag.
         if !ui.input(|i| i.pointer.any_down()) {
-            self.has_drawer = !model.inspection.is_empty();
+            self.has_drawer = !model.inspection.pins.is_empty();
         }
         if self.has_drawer && !model.dataset.sheet.is_open && model.materials.ground_truth().is_some() {
             commands.extend(Drawer::new(displayed).ui(ui));

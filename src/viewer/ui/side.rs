@@ -105,7 +105,6 @@ fn loss_tab(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
         settings: &model.settings.loss,
         auto: model.settings.auto_loss,
         job: &jobs.loss,
-        sorted: model.settings.sort_losses,
         materials: &model.materials,
         chosen: model.view.display.prediction,
     };

@@ -1,14 +1,12 @@
-//! Jobs on what the panes display: the replacement of the chosen prediction, and numbers about values, differences, error maps and the rectangle.
+//! Jobs on what the panes display: the replacement of the chosen prediction, and numbers about values, differences and error maps.
 
 pub mod computed_maps;
 pub mod difference;
 pub mod error_map;
-pub mod region;
 pub mod replacement;
 
 use difference::DifferenceJob;
 use error_map::ErrorMapJob;
-use region::RegionJob;
 use replacement::ReplacementJob;
 
 use svbrdf_core::picture::quantity::Quantity;
@@ -23,7 +21,6 @@ pub struct PaneJobs {
     /// The materials, with a replacement of the chosen prediction where one is displayed.
     pub displayed: Vec<LoadedMaterial>,
     pub replacement: ReplacementJob,
-    pub region: RegionJob,
     pub difference: DifferenceJob,
     pub error_map: ErrorMapJob,
     /// The automatic range of the predictions themselves: that of a replacement would change with it.

@@ -2,9 +2,8 @@
 
 use crate::model::Model;
 use crate::model::command::InspectionCommand;
-use crate::model::command::effect::Effect;
 
-pub(super) fn apply(model: &mut Model, command: InspectionCommand) -> Vec<Effect> {
+pub(super) fn apply(model: &mut Model, command: InspectionCommand) {
     let inspection = &mut model.inspection;
     match command {
         InspectionCommand::TogglePin(texel) => inspection.toggle_pin(texel),
@@ -19,7 +18,5 @@ pub(super) fn apply(model: &mut Model, command: InspectionCommand) -> Vec<Effect
             inspection.region = region;
             inspection.is_armed = false;
         }
-        InspectionCommand::CopyPins => return vec![Effect::CopyPins],
     }
-    Vec::new()
 }

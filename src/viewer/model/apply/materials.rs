@@ -10,8 +10,8 @@ use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
 
 use crate::model::Model;
-use crate::model::command::MaterialsCommand;
-use crate::model::command::effect::{DialogEffect, Effect};
+use crate::model::command::effect::Effect;
+use crate::model::command::{MaterialsCommand, WindowCommand};
 use crate::model::dataset::OpenDataset;
 use crate::model::material::request::{ReadRequest, Target};
 
@@ -53,10 +53,6 @@ pub(super) fn apply(model: &mut Model, command: MaterialsCommand) -> Vec<Effect>
         }
         MaterialsCommand::SetWatch(on) => {
             model.settings.watch = on;
-            Vec::new()
-        }
-        MaterialsCommand::SetFit(on) => {
-            materials.rules.fit = on;
             Vec::new()
         }
     }
@@ -132,7 +128,7 @@ fn is_dataset(paths: &[PathBuf]) -> bool {
 /// Opens a recent comparison as it was shown.
 fn reopen(model: &mut Model, index: usize) -> Vec<Effect> {
     let Some(session) = model.recent.get(index).cloned() else { return Vec::new() };
-    let mut effects = vec![Effect::Dialog(DialogEffect::ShowOpen(false))];
+    let mut effects = vec![Effect::Window(WindowCommand::ShowOpen(false))];
     effects.push(Effect::Read(model.open_session(&session)));
     effects.extend(session.dataset.map(|dataset| Effect::RestoreDataset(Box::new(dataset))));
     effects

@@ -64,7 +64,7 @@ fn return_to(model: &mut Model, moment: Option<Moment>) -> Vec<Effect> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::command::{DisplayCommand, SceneCommand};
+    use crate::model::command::DisplayCommand;
     use crate::model::material::loaded::LoadedMaterial;
     use crate::model::material::read::ReadMaterial;
     use svbrdf_files::source::MaterialSource;
@@ -88,22 +88,6 @@ mod tests {
             model.time += seconds / 2.0;
             remember(model, true, true);
         }
-    }
-
-    #[test]
-    fn undo_returns_to_what_stood_still_and_redo_to_what_came_after() {
-        let mut model = model();
-        pause(&mut model, 1.0);
-        let start = model.view.clone();
-        model.apply(DisplayCommand::StepExposure(1.0).into());
-        model.apply(SceneCommand::PutHighlight([0.1, 0.2]).into());
-        let changed = model.view.clone();
-        pause(&mut model, 2.0);
-        assert!(model.apply(DisplayCommand::Undo.into()).is_empty(), "the materials stay");
-        assert_eq!(model.view, start);
-        pause(&mut model, 2.0);
-        model.apply(DisplayCommand::Redo.into());
-        assert_eq!(model.view, changed);
     }
 
     #[test]

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use svbrdf_files::session::dataset::SessionDataset;
 
-use super::BrowseFor;
+use super::{LossCommand, WhyCommand, WindowCommand};
 use crate::model::dataset::OpenDataset;
 use crate::model::material::request::ReadRequest;
-use crate::model::settings::save_kind::{SaveKind, SaveRequest};
 
 /// One effect of a command.
 #[derive(Clone, Debug)]
@@ -38,41 +37,13 @@ pub enum Effect {
     OpenPhotograph(PathBuf),
     /// Saves the assumptions specified for the material at this index in a sidecar file, and reads it again.
     SaveAssumptions(usize),
-    Loss(LossEffect),
-    Dialog(DialogEffect),
-    /// Writes to a file.
-    Save(SaveRequest),
-    CancelSaving,
-    /// Puts the view on the clipboard as a picture.
-    CopyPicture,
+    /// What these commands do is all outside of the model.
+    Loss(LossCommand),
+    Why(WhyCommand),
+    Window(WindowCommand),
     /// Puts a text on the clipboard; `what` names it in the message.
     CopyText {
         text: String,
         what: &'static str,
     },
-    /// Puts the losses on the clipboard as text.
-    CopyLosses,
-    /// Puts the numbers of the pinned texels on the clipboard as CSV.
-    CopyPins,
-    /// Sets the size of text and controls: 1 is the size of the system.
-    SetScale(f32),
-}
-
-/// An effect on the jobs of the loss and of the search for the worst scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LossEffect {
-    Compute,
-    Cancel,
-    FindWorst,
-    CancelSearch,
-}
-
-/// An effect on the dialogs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum DialogEffect {
-    ShowOpen(bool),
-    /// Shows the save dialog for this kind of file; `None` closes it.
-    ShowSave(Option<SaveKind>),
-    /// Asks for files or folders with the dialog of the system.
-    Browse(BrowseFor),
 }

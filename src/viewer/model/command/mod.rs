@@ -79,8 +79,6 @@ pub enum MaterialsCommand {
     MakeGroundTruth(usize),
     /// Whether files that change on disk are read again.
     SetWatch(bool),
-    /// Whether predictions opened from now on are resized to the ground truth.
-    SetFit(bool),
 }
 
 /// Light, view and convention.
@@ -172,8 +170,6 @@ pub enum LossCommand {
     /// Whether the loss is computed again after every change.
     SetAuto(bool),
     SetSettings(LossSettings),
-    /// Whether the prediction with the least loss comes first in the panel.
-    SortByLoss(bool),
     /// Puts the losses on the clipboard as text.
     Copy,
     /// Whether it is asked if the order of the predictions, or of the methods, survives other questions.
@@ -228,8 +224,6 @@ pub enum InspectionCommand {
     /// Whether the next left-drag draws a rectangle.
     Arm(bool),
     SetRegion(Option<Region>),
-    /// Puts the numbers of the pins on the clipboard as CSV.
-    CopyPins,
 }
 
 /// The questions of the tab *Why*.
@@ -260,56 +254,24 @@ pub enum PhotographCommand {
     SetFalloff(bool),
 }
 
-impl From<DatasetCommand> for Command {
-    fn from(command: DatasetCommand) -> Self {
-        Self::Dataset(command)
-    }
+macro_rules! from_parts {
+    ($($part:ident: $command:ty,)*) => {
+        $(impl From<$command> for Command {
+            fn from(command: $command) -> Self {
+                Self::$part(command)
+            }
+        })*
+    };
 }
 
-impl From<PhotographCommand> for Command {
-    fn from(command: PhotographCommand) -> Self {
-        Self::Photograph(command)
-    }
-}
-
-impl From<WhyCommand> for Command {
-    fn from(command: WhyCommand) -> Self {
-        Self::Why(command)
-    }
-}
-
-impl From<InspectionCommand> for Command {
-    fn from(command: InspectionCommand) -> Self {
-        Self::Inspection(command)
-    }
-}
-
-impl From<MaterialsCommand> for Command {
-    fn from(command: MaterialsCommand) -> Self {
-        Self::Materials(command)
-    }
-}
-
-impl From<SceneCommand> for Command {
-    fn from(command: SceneCommand) -> Self {
-        Self::Scene(command)
-    }
-}
-
-impl From<DisplayCommand> for Command {
-    fn from(command: DisplayCommand) -> Self {
-        Self::Display(command)
-    }
-}
-
-impl From<LossCommand> for Command {
-    fn from(command: LossCommand) -> Self {
-        Self::Loss(command)
-    }
-}
-
-impl From<WindowCommand> for Command {
-    fn from(command: WindowCommand) -> Self {
-        Self::Window(command)
-    }
+from_parts! {
+    Materials: MaterialsCommand,
+    Scene: SceneCommand,
+    Display: DisplayCommand,
+    Loss: LossCommand,
+    Window: WindowCommand,
+    Inspection: InspectionCommand,
+    Why: WhyCommand,
+    Photograph: PhotographCommand,
+    Dataset: DatasetCommand,
 }

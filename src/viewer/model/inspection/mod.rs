@@ -3,7 +3,7 @@
 pub mod pin;
 pub mod region;
 
-pub use pin::{HEADS, csv, rows};
+pub use pin::{HEADS, rows};
 pub use region::Region;
 
 use svbrdf_files::session::window::SessionInspection;
@@ -44,11 +44,6 @@ impl Inspection {
         self.pins.retain(|pin| pin[0] < size[0] && pin[1] < size[1]);
         self.region = self.region.filter(|region| region.fits(size));
     }
-
-    /// Whether the drawer has something to show.
-    pub fn is_empty(&self) -> bool {
-        self.pins.is_empty() && self.region.is_none()
-    }
 }
 
 impl From<&Inspection> for SessionInspection {
@@ -85,7 +80,7 @@ mod tests {
         inspection.keep_within([10, 10]);
         assert_eq!(inspection.pins, [[8, 9], [9, 9]]);
         inspection.keep_within([10, 9]);
-        assert!(inspection.is_empty());
+        assert!(inspection.pins.is_empty());
     }
 
     #[test]
@@ -99,7 +94,7 @@ mod tests {
             let mut found = Inspection::from(&SessionInspection { pins, rectangle: Some(rectangle) });
             assert_eq!(found.pins.len(), MOST);
             found.keep_within([256, 256]);
-            assert!(found.is_empty(), "{found:?}");
+            assert!(found.pins.is_empty() && found.region.is_none(), "{found:?}");
         }
     }
 }

@@ -85,33 +85,6 @@ pub fn rows<'a>(
     rows
 }
 
-/// All pins as CSV, one line for each pin and material, every number in full.
-pub fn csv<'a>(all: impl IntoIterator<Item = ([usize; 2], Vec<(&'a str, PinnedTexel)>)>) -> String {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut heads = vec!["column".to_owned(), "row".to_owned(), "material".to_owned()];
-    for (name, _) in HEADS {
-        let channels: &[&str] = match name {
-            "normal" => &[".x", ".y", ".z"],
-            "diffuse" | "specular" | "rendering" | "F" => &[".r", ".g", ".b"],
-            _ => &[""],
-        };
-        heads.extend(channels.iter().map(|channel| format!("{}{channel}", name.replace(' ', "_"))));
-    }
-    // Writing into memory does not fail.
-    let _ = writer.write_record(&heads);
-    for ([column, row], materials) in all {
-        for (name, numbers) in materials {
-            let mut record = vec![column.to_string(), row.to_string(), name.to_owned()];
-            for cell in numbers.cells() {
-                record.extend(cell.iter().map(f64::to_string));
-            }
-            record.resize(heads.len(), String::new());
-            let _ = writer.write_record(&record);
-        }
-    }
-    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -139,23 +112,5 @@ mod tests {
             assert_eq!(rows[1].errors.unwrap()[1], loss);
             assert!(rows[0].errors.is_none());
         }
-    }
-
-    #[test]
-    fn csv_has_a_line_for_each_pin_and_material_and_as_many_fields_as_heads() {
-        let samples = samples::load::<f32>().unwrap();
-        let materials = [samples.ground_truth.material, samples.predictions[0].material.clone()];
-        let scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 2.0], light: [0.4, 0.5, 1.2] };
-        let pin = |texel| {
-            (texel, ["a", "b,c"].into_iter().zip(rows(&materials, texel, &scene, &PRINTED)).collect())
-        };
-        let text = csv([pin([1, 2]), pin([3, 4])]);
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
-        assert_eq!(reader.headers().unwrap().len(), 27);
-        let records: Vec<_> = reader.records().map(Result::unwrap).collect();
-        assert_eq!(records.len(), 4);
-        assert_eq!((&records[3][0], &records[3][1], &records[3][2]), ("3", "4", "b,c"));
-        let roughness: f64 = records[1][12].parse().unwrap();
-        assert_eq!(roughness, f64::from(materials[1].texel(2 * 256 + 1).roughness));
     }
 }

@@ -92,19 +92,3 @@ impl fmt::Display for Message {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_limit_of_memory_comes_with_its_option() {
-        let error = || FilesError::Memory { what: "a.png".to_owned(), bytes: 4 << 30, limit: 1 << 30 }.into();
-        let source = Box::new(MaterialSource::from(PathBuf::from("a.png")));
-        let not_read = MaterialProblem::NotRead { source, error: error(), opening: 1 };
-        for message in [Message::Failed(error()), not_read.into()] {
-            let text = message.to_string();
-            assert!(text.ends_with("or raise the limit (start svbrdf with --max-memory)"), "{text}");
-        }
-    }
-}

@@ -49,8 +49,6 @@ pub struct Settings {
     pub window: Option<[f32; 2]>,
     /// The tab of the side panel.
     pub tab: Tab,
-    /// Whether the prediction with the least loss comes first in the panel.
-    pub sort_losses: bool,
     /// The unfolded sections of the tab *Why*.
     pub sections: WhySections,
     /// Whether the loss is computed again after every change.
@@ -69,7 +67,6 @@ impl Default for Settings {
             ui_scale: 1.0,
             window: None,
             tab: Tab::Loss,
-            sort_losses: true,
             sections: WhySections::default(),
             auto_loss: true,
             loss: LossSettings::default(),

@@ -188,7 +188,9 @@ mod tests {
     }
 
     fn texels(plane: TexelPlane, region: Region) -> BTreeSet<[usize; 2]> {
-        region.texels([plane.grid.width, plane.grid.height]).collect()
+        let parts = region.parts([plane.grid.width, plane.grid.height]);
+        let rows = parts.iter().flat_map(|part| (part.first[1]..=part.last[1]).map(move |row| (part, row)));
+        rows.flat_map(|(part, row)| (part.first[0]..=part.last[0]).map(move |column| [column, row])).collect()
     }
 
     #[test]

@@ -193,29 +193,3 @@ fn recent_comparisons(ui: &mut egui::Ui, recent: &[Session], commands: &mut Vec<
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use svbrdf_core::model::scene::{Kind, Scene};
-    use svbrdf_files::session::SessionMaterial;
-
-    #[test]
-    fn a_comparison_is_named_by_its_files() {
-        let material = |path: &str| SessionMaterial {
-            name: None,
-            path: Some(path.into()),
-            built_in: None,
-            read: ReadOptions::AUTO,
-            fit: false,
-        };
-        let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.0], light: [0.0, 0.0, 2.0] };
-        let of = |paths: &[&str]| {
-            let materials = paths.iter().map(|path| material(path)).collect();
-            Session::new(materials, scene, "printed".to_owned(), 0.0)
-        };
-        assert_eq!(compared(&of(&["/a/gt.png", "/a/l1.png", "/b/rend.png"])), "gt.png | l1.png, rend.png");
-        assert_eq!(compared(&of(&["/a/gt.png"])), "gt.png");
-        assert_eq!(paths(&of(&["/a/gt.png", "/a/l1.png"])), "/a/gt.png\n/a/l1.png");
-    }
-}

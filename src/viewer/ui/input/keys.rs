@@ -69,7 +69,10 @@ pub const HELP: &[(&str, &[HelpLine])] = &[
             ("V", "false colours for roughness, on / off"),
             ("L", "mark clipped pixels, on / off"),
             ("I, Alt + click", "pin the texel: all its numbers in a table below; again: remove the pin"),
-            ("Q, then left-drag; on maps Shift + left-drag", "statistics of a rectangle; Esc removes it"),
+            (
+                "Q, then left-drag; on maps Shift + left-drag",
+                "rectangle that a strip magnifies; Esc removes it",
+            ),
         ],
     ),
     (

@@ -288,14 +288,4 @@ mod tests {
         let inside = Histogram { above: 0, ..histogram };
         assert!(beyond(&inside, area, Color32::WHITE).is_empty());
     }
-
-    #[test]
-    fn the_outline_is_highest_where_most_texels_are() {
-        let histogram = Histogram { low: 0.0, high: 3.0, counts: vec![9, 1000, 0], below: 0, above: 0 };
-        let area = Rect::from_min_size(pos2(10.0, 20.0), vec2(30.0, 54.0));
-        let points = outline(&histogram, area);
-        assert_eq!(points.iter().map(|p| p.x).collect::<Vec<_>>(), [15.0, 25.0, 35.0]);
-        assert!((points[1].y - 24.0).abs() < 1e-3 && points[2].y == 74.0);
-        assert!(points[0].y > points[1].y && points[0].y < points[2].y);
-    }
 }

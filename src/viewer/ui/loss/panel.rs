@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use eframe::egui::{self, RichText, Slider, SliderClamping};
+use eframe::egui::{self, RichText};
 
 use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
@@ -31,8 +31,6 @@ pub struct LossPanel<'a> {
     pub settings: &'a LossSettings,
     pub auto: bool,
     pub job: &'a LossJob,
-    /// Whether the least loss comes first.
-    pub sorted: bool,
     pub materials: &'a MaterialList,
     pub chosen: usize,
 }
@@ -64,7 +62,6 @@ impl LossPanel<'_> {
                     latest: losses,
                     chosen: self.chosen,
                     stale: self.materials.stale_predictions(),
-                    sorted: self.sorted,
                 };
                 commands.extend(results.ui(ui));
             });
@@ -273,7 +270,6 @@ fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
     let default = LossSettings::default().target_percent;
     ui.horizontal_wrapped(|ui| {
         let hover = "Half the width of the 95% interval of every loss, relative to the loss";
-        slider(ui, "Accuracy slider", Slider::new(target, PERCENT).max_decimals(2)).on_hover_text(hover);
         number(ui, "Accuracy", target, default, |d| {
             d.speed(0.01).range(PERCENT).max_decimals(2).prefix("±").suffix("%")
         })
@@ -285,20 +281,9 @@ fn accuracy(ui: &mut egui::Ui, target: &mut f64) {
 fn time(ui: &mut egui::Ui, milliseconds: &mut u64) {
     let default = LossSettings::default().time_ms;
     ui.horizontal_wrapped(|ui| {
-        let hover = "The loss takes as many scenes as fit into this time";
-        slider(ui, "Time slider", Slider::new(milliseconds, MILLISECONDS)).on_hover_text(hover);
         number(ui, "Time", milliseconds, default, |d| d.range(MILLISECONDS).suffix(" ms"))
-            .on_hover_text(hover);
+            .on_hover_text("The loss takes as many scenes as fit into this time");
     });
-}
-
-/// A logarithmic slider without its number.
-fn slider(ui: &mut egui::Ui, name: &str, slider: Slider<'_>) -> egui::Response {
-    ui.spacing_mut().slider_width = 80.0;
-    let slider = slider.logarithmic(true).show_value(false).clamping(SliderClamping::Edits);
-    let response = ui.add(slider);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, name));
-    response
 }
 
 #[cfg(test)]

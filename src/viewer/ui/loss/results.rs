@@ -7,7 +7,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::report::SampledScenes;
 
 use crate::jobs::loss::KeyedLosses;
-use crate::model::command::{Command, DisplayCommand, LossCommand};
+use crate::model::command::{Command, DisplayCommand};
 use crate::ui::widgets::names::{FEWEST, Names, fitted};
 use crate::ui::widgets::numbers::{half_width, signed, significant};
 use crate::ui::widgets::theme;
@@ -36,8 +36,6 @@ pub struct Results<'a> {
     pub chosen: usize,
     /// Of each prediction, whether its files or those of the ground truth hold something else by now.
     pub stale: Vec<bool>,
-    /// Whether the least loss comes first.
-    pub sorted: bool,
 }
 
 impl Results<'_> {
@@ -45,7 +43,7 @@ impl Results<'_> {
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         let losses = &self.latest.report.outcome.losses;
-        let filter = self.controls(ui, losses.len(), &mut commands);
+        let filter = if losses.len() > MANY { filter(ui) } else { String::new() };
         let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
         let short = Names::new(&names);
         // 15 predictions are seen at once in a window of 860 points.
@@ -53,7 +51,7 @@ impl Results<'_> {
         ui.spacing_mut().button_padding.y = 1.0;
         ui.spacing_mut().interact_size.y = LINE;
         self.heads(ui);
-        for index in order(losses, self.sorted) {
+        for index in order(losses) {
             if !names[index].to_lowercase().contains(&filter) {
                 continue;
             }
@@ -87,29 +85,6 @@ impl Results<'_> {
             cell(ui, DIFFERENCE, small(versus))
                 .on_hover_text("The loss - the loss of the chosen prediction, on the same scenes");
         });
-    }
-
-    /// The order, and the text that names must contain.
-    fn controls(&self, ui: &mut egui::Ui, count: usize, commands: &mut Vec<Command>) -> String {
-        let mut filter = String::new();
-        ui.horizontal(|ui| {
-            if count > 1 {
-                let mut sorted = self.sorted;
-                ui.checkbox(&mut sorted, "Sort by loss").on_hover_text("Otherwise in the order of the panes");
-                if sorted != self.sorted {
-                    commands.push(LossCommand::SortByLoss(sorted).into());
-                }
-            }
-            if count > MANY {
-                let id = ui.scope_id().with("filter");
-                filter = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-                let field =
-                    egui::TextEdit::singleline(&mut filter).hint_text("Filter names").desired_width(120.0);
-                ui.add(field);
-                ui.data_mut(|data| data.insert_temp(id, filter.clone()));
-            }
-        });
-        filter.to_lowercase()
     }
 
     /// One line: name, loss, half the width of its interval, and the difference from the chosen prediction; its bar below.
@@ -217,12 +192,19 @@ fn cell(ui: &mut egui::Ui, width: f32, text: RichText) -> egui::Response {
     .inner
 }
 
-/// The indices of the losses as rows show them.
-fn order(losses: &[Loss], sorted: bool) -> Vec<usize> {
+/// The text that names must contain.
+fn filter(ui: &mut egui::Ui) -> String {
+    let id = ui.scope_id().with("filter");
+    let mut filter: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    ui.add(egui::TextEdit::singleline(&mut filter).hint_text("Filter names").desired_width(120.0));
+    ui.data_mut(|data| data.insert_temp(id, filter.clone()));
+    filter.to_lowercase()
+}
+
+/// The indices of the losses, the least first.
+fn order(losses: &[Loss]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..losses.len()).collect();
-    if sorted {
-        order.sort_by(|a, b| losses[*a].estimate.mean.total_cmp(&losses[*b].estimate.mean));
-    }
+    order.sort_by(|a, b| losses[*a].estimate.mean.total_cmp(&losses[*b].estimate.mean));
     order
 }
 

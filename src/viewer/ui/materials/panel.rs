@@ -38,12 +38,6 @@ impl MaterialsPanel<'_> {
             if watch != self.watch {
                 commands.push(MaterialsCommand::SetWatch(watch).into());
             }
-            let mut fit = self.materials.rules.fit;
-            ui.checkbox(&mut fit, "Fit sizes")
-                .on_hover_text("Resize predictions that are opened from now on to the ground truth");
-            if fit != self.materials.rules.fit {
-                commands.push(MaterialsCommand::SetFit(fit).into());
-            }
             let built_in = ui.button("Built-in pair");
             if built_in.on_hover_text("Show the materials that come with the program").clicked() {
                 commands.push(MaterialsCommand::OpenBuiltIn.into());

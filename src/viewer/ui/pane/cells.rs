@@ -39,16 +39,14 @@ fn cell_size(area: Vec2, columns: usize, rows: usize) -> Vec2 {
     ((area - gaps) / vec2(columns as f32, rows as f32)).max(Vec2::splat(TITLE + 8.0))
 }
 
-/// The rectangle rounded to whole physical pixels, so that the shader's pixels are the screen's.
-fn pixel_aligned(ui: &egui::Ui, rect: Rect) -> Rect {
-    let scale = ui.pixels_per_point();
-    let round = |p: egui::Pos2| (p.to_vec2() * scale).round() / scale;
-    Rect::from_min_max(round(rect.min).to_pos2(), round(rect.max).to_pos2())
-}
-
-/// The rectangle of a pane's picture: its cell without the title.
+/// The rectangle of a pane's picture: its cell without the title, in whole physical pixels, so that the shader's pixels are the screen's.
+/// Their number along each side is even: the middle of no pixel is on the edge between the two texels in the middle.
 pub fn picture_rect(ui: &egui::Ui, cell: Rect) -> Rect {
-    pixel_aligned(ui, cell.split_top_bottom_at_y(cell.top() + TITLE).1)
+    let scale = ui.pixels_per_point();
+    let below = cell.split_top_bottom_at_y(cell.top() + TITLE).1;
+    let [min, max] = [below.min, below.max].map(|p| (p.to_vec2() * scale).round());
+    let size = ((max - min) / 2.0).floor() * 2.0;
+    Rect::from_min_size((min / scale).to_pos2(), size / scale)
 }
 
 #[cfg(test)]

@@ -1,19 +1,16 @@
-//! Drawer below the panes, with a handle between: every number of the pinned texels, and the statistics of the rectangle.
+//! Drawer below the panes, with a handle between: every number of the pinned texels.
 
 use std::ops::Range;
 
 use eframe::egui::{self, FontId, RichText, TextStyle};
 
-use svbrdf_core::picture::statistics::Statistics;
-
 use crate::jobs::displayed::Displayed;
-use crate::jobs::panes::region::RegionNumbers;
 use crate::model::command::{Command, InspectionCommand};
-use crate::model::inspection::{self, HEADS, Inspection, Region};
+use crate::model::inspection::{self, HEADS};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::ViewState;
 use crate::ui::widgets::bare;
-use crate::ui::widgets::readout::{fixed, in_width};
+use crate::ui::widgets::readout::in_width;
 use crate::ui::widgets::theme;
 
 /// Width of a name, and between columns, in points.
@@ -36,21 +33,16 @@ const TERMS: usize = 5;
 /// What the drawer shows.
 #[derive(Debug)]
 pub struct Drawer<'a> {
-    pub inspection: &'a Inspection,
-    pub materials: &'a [LoadedMaterial],
-    pub state: &'a ViewState,
-    /// The numbers of the rectangle, and whether they are up to date.
-    pub region: Option<(&'a [RegionNumbers], bool)>,
+    pins: &'a [[usize; 2]],
+    materials: &'a [LoadedMaterial],
+    state: &'a ViewState,
 }
 
 impl<'a> Drawer<'a> {
     /// The drawer for what is displayed.
     pub fn new(displayed: Displayed<'a>) -> Self {
-        let (inspection, view) = (&displayed.model.inspection, &displayed.model.view);
-        let materials = displayed.materials();
-        let computed = displayed.computed_maps();
-        let numbers = |region| displayed.jobs.panes.region.get(region, materials, view, computed);
-        Self { inspection, materials, state: view, region: inspection.region.and_then(numbers) }
+        let (pins, state) = (&displayed.model.inspection.pins, &displayed.model.view);
+        Self { pins, materials: displayed.materials(), state }
     }
 
     /// The drawer at the lower end of `ui`; the panes have the room above it.
@@ -63,12 +55,7 @@ impl<'a> Drawer<'a> {
         let panel = panel.default_size(height.min(SHARE * room));
         panel.size_range(LEAST..=(room - PANES).max(LEAST)).show(ui, |ui| {
             egui::ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
-                if let Some(region) = self.inspection.region {
-                    self.region(ui, region, &mut commands);
-                }
-                if !self.inspection.pins.is_empty() {
-                    self.pins(ui, &tables, &mut commands);
-                }
+                self.pins(ui, &tables, &mut commands);
             });
         });
         commands
@@ -77,24 +64,17 @@ impl<'a> Drawer<'a> {
     /// The height of all contents.
     fn height(&self, tables: usize) -> f32 {
         let rows = (self.materials.len() + 1) as f32;
-        let pins = self.inspection.pins.len() as f32 * tables as f32 * (19.0 * rows + 5.0);
-        let pins = if pins > 0.0 { 28.0 + pins } else { 0.0 };
-        let channels = self.region.map_or(3, |(numbers, _)| numbers.iter().map(|one| one.rows.len()).sum());
-        let region = if self.inspection.region.is_some() { 50.0 + 19.0 * channels as f32 } else { 0.0 };
-        pins + region + 18.0
+        46.0 + self.pins.len() as f32 * tables as f32 * (19.0 * rows + 5.0)
     }
 
     fn pins(&self, ui: &mut egui::Ui, tables: &[Range<usize>], commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             ui.strong("Pinned texels").on_hover_text("Computed in f64 under the light and view of now");
-            if ui.small_button("Copy as CSV").on_hover_text("Every number in full").clicked() {
-                commands.push(InspectionCommand::CopyPins.into());
-            }
             if ui.small_button("Remove all pins").clicked() {
                 commands.push(InspectionCommand::ClearPins.into());
             }
         });
-        for (number, pin) in self.inspection.pins.iter().enumerate() {
+        for (number, pin) in self.pins.iter().enumerate() {
             let materials = self.materials.iter().map(LoadedMaterial::material);
             let rows = inspection::rows(materials, *pin, &self.state.scene, &self.state.convention());
             for columns in tables {
@@ -123,7 +103,7 @@ impl<'a> Drawer<'a> {
         columns: &Range<usize>,
         commands: &mut Vec<Command>,
     ) {
-        let pin = self.inspection.pins[index];
+        let pin = self.pins[index];
         ui.horizontal(|ui| {
             ui.set_min_width(NAME);
             if columns.start == 0 {
@@ -149,85 +129,6 @@ impl<'a> Drawer<'a> {
             ui.set_max_width(NAME);
             ui.add(egui::Label::new(RichText::new(text).small().color(colour)).truncate());
         });
-    }
-
-    fn region(&self, ui: &mut egui::Ui, region: Region, commands: &mut Vec<Command>) {
-        let [columns, rows] = region.size();
-        let size = self.materials.first().map_or([usize::MAX; 2], |one| one.material().size());
-        let [left, top] = region.first;
-        // Over a seam it ends in the next copy of the material.
-        let [right, bottom] = [0, 1].map(|axis| region.last[axis] % size[axis]);
-        ui.horizontal(|ui| {
-            ui.strong(format!("Rectangle {left},{top} to {right},{bottom}"));
-            let of = match self.region {
-                Some((numbers, _)) if numbers.iter().any(|one| one.is_difference) => {
-                    format!("{} of {}", self.state.difference_name(), self.state.display.quantity.name())
-                }
-                _ => self.state.display.quantity.name().to_owned(),
-            };
-            ui.label(format!("{columns} x {rows} texels, {of}"));
-            if ui.small_button("Remove rectangle").on_hover_text("Esc").clicked() {
-                commands.push(InspectionCommand::SetRegion(None).into());
-            }
-        });
-        let Some((numbers, current)) = self.region else {
-            ui.weak("Computing...");
-            return;
-        };
-        ui.scope(|ui| {
-            if !current {
-                ui.set_opacity(0.5);
-            }
-            egui::Grid::new("rectangle").spacing([14.0, 2.0]).striped(true).show(ui, |ui| {
-                self.region_rows(ui, numbers);
-            });
-        });
-    }
-
-    /// A row for each channel of each material. The loss stands beside the name, where it is seen first.
-    fn region_rows(&self, ui: &mut egui::Ui, numbers: &[RegionNumbers]) {
-        let head = |text: &str| RichText::new(text).small().weak();
-        ui.label("");
-        ui.label(head("loss")).on_hover_text("Rendering loss of the rectangle under this light and view");
-        for text in ["", "mean", "min", "median", "95%", "max"] {
-            ui.label(head(text));
-        }
-        ui.end_row();
-        let number = |ui: &mut egui::Ui, value: f64| {
-            ui.label(RichText::new(fixed(value)).monospace().size(NUMBERS)).on_hover_text(value.to_string());
-        };
-        for (index, RegionNumbers { rows, loss, .. }) in numbers.iter().enumerate().take(self.materials.len())
-        {
-            for (line, (channel, statistics)) in rows.iter().enumerate() {
-                match (line, loss) {
-                    (0, loss) => {
-                        self.name(ui, index);
-                        ui.label(
-                            RichText::new(loss.map_or(String::new(), fixed))
-                                .monospace()
-                                .size(NUMBERS)
-                                .strong(),
-                        );
-                    }
-                    _ => {
-                        ui.label("");
-                        ui.label("");
-                    }
-                }
-                ui.label(head(channel));
-                match statistics {
-                    Some(Statistics { mean, minimum, median, p95, maximum, .. }) => {
-                        [mean, minimum, median, p95, maximum]
-                            .into_iter()
-                            .for_each(|value| number(ui, *value));
-                    }
-                    None => {
-                        ui.label("not finite");
-                    }
-                }
-                ui.end_row();
-            }
-        }
     }
 }
 

@@ -56,7 +56,7 @@ impl StatusBar<'_> {
         let wide = ui.ctx().content_rect().width() > NARROW;
         let (rectangle, pin) = if wide { ("Rectangle (Q)", "Pin (I)") } else { ("Rect.", "Pin") };
         let rectangle = ui.selectable_label(self.is_armed, rectangle).on_hover_text(
-            "Statistics of a rectangle: the next left-drag draws it (Q); on maps also Shift + left-drag",
+            "A rectangle that a saved strip magnifies: the next left-drag draws it (Q); on maps also Shift + left-drag",
         );
         if rectangle.clicked() {
             commands.push(InspectionCommand::Arm(!self.is_armed).into());

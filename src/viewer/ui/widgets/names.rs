@@ -114,12 +114,6 @@ mod tests {
     }
 
     #[test]
-    fn names_that_fit_stay_as_they_are() {
-        assert_eq!(shortened(&["run_1", "run_2"], 10), ["run_1", "run_2"]);
-        assert_eq!(shortened(&[], 10), Vec::<String>::new());
-    }
-
-    #[test]
     fn long_names_lose_their_common_beginning_and_then_their_middle() {
         let names = ["experiment_42/epoch_0001", "experiment_42/epoch_0002", "experiment_42/epoch_0010"];
         assert_eq!(shortened(&names, 12), ["\u{2026}0001", "\u{2026}0002", "\u{2026}0010"]);
