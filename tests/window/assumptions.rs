@@ -61,29 +61,17 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     assert_eq!(loss(&mut window), 0.0, "a material beside itself");
     let panes = ["GROUND TRUTH  truth", "1  guess"].map(|title| pane(&window, title));
     let before = panes.map(|rect| pixels(&mut window, rect));
-    let materials = [0, 1].map(|index| material(window.state(), index));
-    assert_eq!(materials[0].planes(), materials[1].planes());
-
+    let inferred = material(window.state(), 1);
     choose(&mut window, "albedo of guess", "albedo srgb");
-    wait(&mut window, "the material to be read again", |app| {
-        *app.materials().nth(1).unwrap() != materials[1]
-    });
+    wait(&mut window, "the material to be read again", |app| *app.materials().nth(1).unwrap() != inferred);
     let switched = material(window.state(), 1);
     let decode = |v: f32| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
-    let [stored, decoded] = [&materials[1], &switched].map(|m| m.planes().diffuse.iter().flatten());
+    let [stored, decoded] = [&inferred, &switched].map(|m| m.planes().diffuse.iter().flatten());
     assert!(stored.zip(decoded).all(|(old, new)| (decode(*old) - new).abs() < 1e-6));
-    assert_eq!(switched.planes().roughness, materials[1].planes().roughness);
-    assert_eq!(material(window.state(), 0), materials[0]);
     assert!(loss(&mut window) > 0.1);
     window.get_by_label("albedo: srgb: as specified");
-    let after = panes.map(|rect| pixels(&mut window, rect));
-    assert!(before[0] == after[0], "the pane of the ground truth stays");
-    assert!(before[1] != after[1], "the pane of the prediction changes");
-
-    choose(&mut window, "albedo of guess", "auto: infer albedo");
-    wait(&mut window, "the material to be as before", |app| *app.materials().nth(1).unwrap() == materials[1]);
-    assert_eq!(loss(&mut window), 0.0);
-    assert!(pixels(&mut window, panes[1]) == before[1]);
+    let changed = [0, 1].map(|index| pixels(&mut window, panes[index]) != before[index]);
+    assert_eq!(changed, [false, true], "the pane of the prediction changes alone");
 }
 
 #[needs(adapter)]
@@ -112,31 +100,6 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
         assert!(material(window.state(), 0) == before, "{choice}, and back");
     }
     assert_eq!(loss(&mut window), 0.0);
-}
-
-#[needs(adapter)]
-#[test]
-fn a_click_on_another_workflow_changes_the_material() {
-    let folder = tempfile::tempdir().unwrap();
-    let put = |name: &str, value: u8| {
-        image::RgbImage::from_pixel(32, 32, [value; 3].into()).save(folder.path().join(name)).unwrap();
-    };
-    put("diffuse.png", 188);
-    put("metallic.png", 255);
-    put("roughness.png", 128);
-    put("specular.png", 99);
-    let mut window = opened([folder.path().to_owned()]);
-    change(&mut window);
-    let name = window.state().names()[0].clone();
-    let diffuse = |app: &App| app.materials().next().unwrap().planes().diffuse[0][0];
-    assert!(diffuse(window.state()) > 0.4);
-    for (choice, metallic) in
-        [("workflow metallic", true), ("workflow specular", false), ("auto: infer workflow", false)]
-    {
-        super::choose(&mut window, &format!("workflow of {name}"), choice);
-        wait(&mut window, choice, |app| !app.is_reading() && (diffuse(app) == 0.0) == metallic);
-    }
-    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
 }
 
 #[needs(adapter)]

@@ -9,27 +9,6 @@ use super::*;
 
 #[needs(adapter)]
 #[test]
-fn a_difference_is_called_by_its_kind_and_has_its_numbers_in_the_strip() {
-    let mut window = built_in();
-    press(&mut window, egui::Key::D);
-    window.get_by_label("Title 1  blurred normals: log difference");
-    let mean = format!("{:.4}", statistics(&mut window)[0].mean);
-    assert!(has(&window, &mean), "{mean} is in the strip");
-    window.get_by_label("this scene");
-    press(&mut window, egui::Key::M);
-    for title in PREDICTIONS {
-        window.get_by_label(&format!("Title {title}: angle"));
-    }
-    window.get_by_label("degrees");
-    for _ in 0..3 {
-        press(&mut window, egui::Key::M);
-    }
-    window.get_by_label("Title 1  blurred normals: absolute difference");
-    assert!(!has(&window, "log difference") && !has(&window, "ln"));
-}
-
-#[needs(adapter)]
-#[test]
 fn exposure_changes_values_and_no_difference() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);

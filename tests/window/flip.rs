@@ -59,7 +59,7 @@ fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
 fn panes_readout_and_saved_file_have_the_numbers_of_flip() {
     let mut window = shown();
     press(&mut window, egui::Key::Num0);
-    apply(&mut window, DisplayCommand::Zoom { factor: 4.0, at: [0.0, 0.0] });
+    apply(&mut window, DisplayCommand::Zoom { factor: 4.3, at: [0.0, 0.0] });
     apply(&mut window, DisplayCommand::SetExposure(1.0));
     let maps = settle(&mut window);
     for (slot, title) in PREDICTIONS.into_iter().enumerate() {

@@ -40,18 +40,6 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     window.get_by_label(&format!("[{low:.3}, {high:.3}]"));
 }
 
-#[needs(adapter)]
-#[test]
-fn auto_computes_again_when_the_convention_changes() {
-    let mut window = by_scenes();
-    wait(&mut window, "the first loss", |app| app.losses().is_some());
-    let before = window.state().losses().unwrap()[0].estimate.mean;
-    choose(&mut window, "Convention", "guided-2020");
-    assert_eq!(window.state().parts.model.view.convention().name, "guided-2020");
-    wait(&mut window, "the second loss", |app| app.losses().is_some());
-    assert!(window.state().losses().unwrap()[0].estimate.mean > before);
-}
-
 /// The picker has all that have a name; what the grammar alone renders is drawn and computed, too.
 #[needs(adapter)]
 #[test]

@@ -13,125 +13,126 @@ use svbrdf_viewer::model::message::Message;
 
 /// What the tests read of a window.
 pub trait Observed {
-    /// The losses of the predictions, once they are complete for the current materials and settings.
-    fn losses(&self) -> Option<&[Loss]>;
-    /// The statistics of each prediction's difference in the panes, once they are up to date.
-    fn difference_statistics(&self) -> Option<&[Option<Statistics>]>;
-    /// The statistics, histograms and automatic range of the difference in the panes, once they are up to date.
-    fn difference_distributions(&self) -> Option<&Distributions>;
-    /// The difference that has the last colour.
-    fn difference_range(&self) -> f64;
-    /// Every material against the photograph, where the panes compare with one and it is there.
-    fn against_photograph(&self) -> Option<&[PhotographComparison]>;
-    /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.
-    fn displayed_materials(&self) -> Vec<(&str, &Material<f32>)>;
-    /// The latest losses of the predictions in one scene, and whether it is the current one.
-    fn scene_losses(&self) -> Option<(&[f64], bool)>;
-    /// The diagnosis of the chosen prediction, after the floor of the ground truth.
-    fn diagnosis(&self) -> Option<&Diagnosis>;
-    /// The attribution of the chosen prediction.
-    fn attribution(&self) -> Option<&Attribution>;
-    /// The listed scenes of the chosen prediction, and the pixels of their thumbnails.
-    fn listed_scenes(&self) -> Option<(&[RankedScene], &[Vec<f32>])>;
-    /// The worst scene that was found for the chosen prediction.
-    fn worst(&self) -> Option<&Worst>;
-    /// Whether the worst scene is being searched.
-    fn is_searching(&self) -> bool;
-    /// The names of the materials, the ground truth first.
-    fn names(&self) -> Vec<String>;
-    /// The materials in the window, the ground truth first.
-    fn materials(&self) -> impl Iterator<Item = &Material<f32>>;
-    /// Size of the panes and the legend, in pixels.
-    fn picture_size(&self) -> [u32; 2];
-    /// Why a material is not what its files hold now, of each material.
-    fn problems(&self) -> Vec<Option<&str>>;
-    /// Whether a material is being read.
-    fn is_reading(&self) -> bool;
-    /// The texts of the messages in the window: errors and results, the latest last.
-    fn messages(&self) -> Vec<String>;
-}
+    fn app(&self) -> &App;
 
-impl Observed for App {
+    /// The losses of the predictions, once they are complete for the current materials and settings.
     fn losses(&self) -> Option<&[Loss]> {
-        self.parts.jobs.loss.finished(&self.parts.model.materials, &self.parts.model.loss_query())
+        self.app()
+            .parts
+            .jobs
+            .loss
+            .finished(&self.app().parts.model.materials, &self.app().parts.model.loss_query())
     }
 
+    /// The statistics of each prediction's difference in the panes, once they are up to date.
     fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {
-        let (distributions, current) = self.parts.displayed().distributions()?;
+        let (distributions, current) = self.app().parts.displayed().distributions()?;
         current.then_some(distributions.statistics.as_slice())
     }
 
+    /// The statistics, histograms and automatic range of the difference in the panes, once they are up to date.
     fn difference_distributions(&self) -> Option<&Distributions> {
-        let (distributions, current) = self.parts.displayed().distributions()?;
+        let (distributions, current) = self.app().parts.displayed().distributions()?;
         current.then_some(distributions)
     }
 
+    /// The difference that has the last colour.
     fn difference_range(&self) -> f64 {
-        self.parts.displayed().range()
+        self.app().parts.displayed().range()
     }
 
+    /// Every material against the photograph, where the panes compare with one and it is there.
     fn against_photograph(&self) -> Option<&[PhotographComparison]> {
-        self.parts.displayed().photographs().map(|all| all.comparisons.as_slice())
+        self.app().parts.displayed().photographs().map(|all| all.comparisons.as_slice())
     }
 
+    /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.
     fn displayed_materials(&self) -> Vec<(&str, &Material<f32>)> {
-        self.parts.jobs.panes.displayed.iter().map(|one| (one.name(), one.material())).collect()
+        self.app().parts.jobs.panes.displayed.iter().map(|one| (one.name(), one.material())).collect()
     }
 
+    /// The latest losses of the predictions in one scene, and whether it is the current one.
     fn scene_losses(&self) -> Option<(&[f64], bool)> {
-        self.parts.jobs.scene_loss.get(&self.parts.model.materials.all, &self.parts.model.view)
+        self.app()
+            .parts
+            .jobs
+            .scene_loss
+            .get(&self.app().parts.model.materials.all, &self.app().parts.model.view)
     }
 
+    /// The diagnosis of the chosen prediction, after the floor of the ground truth.
     fn diagnosis(&self) -> Option<&Diagnosis> {
-        let seed = self.parts.model.settings.loss.seed;
-        self.parts.jobs.why.diagnosis.get(&pair(self)?, seed).map(|done| &done.diagnosis)
+        let seed = self.app().parts.model.settings.loss.seed;
+        self.app().parts.jobs.why.diagnosis.get(&pair(self.app())?, seed).map(|done| &done.diagnosis)
     }
 
+    /// The attribution of the chosen prediction.
     fn attribution(&self) -> Option<&Attribution> {
-        self.parts
+        self.app()
+            .parts
             .jobs
             .why
             .attribution
-            .get(&pair(self)?, &self.parts.model.settings.loss.seed)
+            .get(&pair(self.app())?, &self.app().parts.model.settings.loss.seed)
             .map(|done| &done.attribution)
     }
 
+    /// The listed scenes of the chosen prediction, and the pixels of their thumbnails.
     fn listed_scenes(&self) -> Option<(&[RankedScene], &[Vec<f32>])> {
-        let (list, thumbnails) =
-            self.parts.jobs.why.scenes.get(&pair(self)?, &self.parts.model.settings.loss.listed_scenes())?;
+        let (list, thumbnails) = self
+            .app()
+            .parts
+            .jobs
+            .why
+            .scenes
+            .get(&pair(self.app())?, &self.app().parts.model.settings.loss.listed_scenes())?;
         Some((list, &thumbnails?.pixels))
     }
 
+    /// The worst scene that was found for the chosen prediction.
     fn worst(&self) -> Option<&Worst> {
-        self.parts.jobs.why.search.found(&pair(self)?)
+        self.app().parts.jobs.why.search.found(&pair(self.app())?)
     }
 
+    /// Whether the worst scene is being searched.
     fn is_searching(&self) -> bool {
-        self.parts.jobs.why.search.busy().is_some()
+        self.app().parts.jobs.why.search.busy().is_some()
     }
 
+    /// The names of the materials, the ground truth first.
     fn names(&self) -> Vec<String> {
-        self.parts.model.materials.all.iter().map(|s| s.name().to_owned()).collect()
+        self.app().parts.model.materials.all.iter().map(|s| s.name().to_owned()).collect()
     }
 
+    /// The materials in the window, the ground truth first.
     fn materials(&self) -> impl Iterator<Item = &Material<f32>> {
-        self.parts.model.materials.all.iter().map(|one| one.material())
+        self.app().parts.model.materials.all.iter().map(|one| one.material())
     }
 
+    /// Size of the panes and the legend, in pixels.
     fn picture_size(&self) -> [u32; 2] {
-        self.parts.model.geometry.picture
+        self.app().parts.model.geometry.picture
     }
 
+    /// Why a material is not what its files hold now, of each material.
     fn problems(&self) -> Vec<Option<&str>> {
-        self.parts.model.materials.all.iter().map(|one| one.problem.as_deref()).collect()
+        self.app().parts.model.materials.all.iter().map(|one| one.problem.as_deref()).collect()
     }
 
+    /// Whether a material is being read.
     fn is_reading(&self) -> bool {
-        !self.parts.jobs.openings.is_empty()
+        !self.app().parts.jobs.openings.is_empty()
     }
 
+    /// The texts of the messages in the window: errors and results, the latest last.
     fn messages(&self) -> Vec<String> {
-        self.parts.model.messages.iter().map(Message::to_string).collect()
+        self.app().parts.model.messages.iter().map(Message::to_string).collect()
+    }
+}
+
+impl Observed for App {
+    fn app(&self) -> &App {
+        self
     }
 }
 

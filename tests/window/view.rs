@@ -1,6 +1,6 @@
 //! Light and view: what the mouse grabs, what stays in sight, what small windows show.
 
-use svbrdf_viewer::model::command::{DisplayCommand, MaterialsCommand};
+use svbrdf_viewer::model::command::DisplayCommand;
 use svbrdf_viewer::model::view::state::Layout;
 
 use super::*;
@@ -51,47 +51,6 @@ fn a_pane_that_changes_has_the_pixels_that_are_kept_of_it() {
         let changes = seen.windows(2).filter(|two| two[0] != two[1]).count();
         assert_eq!(changes, 2, "scale {scale}");
     }
-}
-
-#[needs(adapter)]
-#[test]
-fn a_texel_covers_a_pixel_also_where_the_material_is_repeated() {
-    let mut window = built_in();
-    for key in [egui::Key::Num0, egui::Key::T, egui::Key::Num0] {
-        press(&mut window, key);
-        if key == egui::Key::Num0 {
-            assert!((magnification(&window) - 1.0).abs() < 0.01, "screen pixels per texel");
-        } else {
-            assert!((magnification(&window) - 0.5).abs() < 0.01, "a planted fault: copies are half as large");
-        }
-    }
-}
-
-/// The titles that the frame that has been drawn gives the window.
-fn titles(window: &Window<'_>) -> Vec<String> {
-    let commands = &window.output().viewport_output[&egui::ViewportId::ROOT].commands;
-    let title = |command: &egui::ViewportCommand| match command {
-        egui::ViewportCommand::Title(title) => Some(title.clone()),
-        _ => None,
-    };
-    commands.iter().filter_map(title).collect()
-}
-
-#[needs(adapter)]
-#[test]
-fn the_window_is_named_after_what_is_open() {
-    let mut window = built_in();
-    assert!(titles(&window).is_empty(), "it is told once");
-    let mut seen = Vec::new();
-    for closed in [2, 1] {
-        let ctx = window.ctx.clone();
-        window.state_mut().apply(&ctx, MaterialsCommand::Close(closed).into());
-        for _ in 0..4 {
-            window.step();
-            seen.extend(titles(&window));
-        }
-    }
-    assert_eq!(seen, ["worn tiles, blurred normals - svbrdf", "worn tiles - svbrdf"]);
 }
 
 #[needs(adapter)]

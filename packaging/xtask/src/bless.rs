@@ -10,7 +10,7 @@ struct Generated {
 }
 
 /// What others are made of comes first.
-const GENERATED: [Generated; 10] = [
+const GENERATED: [Generated; 11] = [
     Generated {
         name: "locks",
         files: "Cargo.lock, tests/fuzz/Cargo.lock",
@@ -40,13 +40,18 @@ const GENERATED: [Generated; 10] = [
     },
     Generated {
         name: "pictures",
-        files: "assets/pictures/{window,why,where,diagnosis,dataset}.jpg",
+        files: "assets/pictures/{window,why,diagnosis,dataset}.jpg",
         script: "cargo test --package window-tests screenshots -- --ignored",
     },
     Generated {
         name: "transcripts",
         files: "tests/transcripts/*.md, and what documents show of commands",
         script: "SVBRDF_BLESS=1 cargo test --test main commands_of_documents || git diff --stat tests/transcripts README.md docs",
+    },
+    Generated {
+        name: "snapshots",
+        files: "tests/window/snapshots/*.txt",
+        script: "SVBRDF_BLESS=1 cargo test --package window-tests snapshots",
     },
     Generated {
         name: "albedo",

@@ -11,7 +11,6 @@ use svbrdf_viewer::model::settings::why::WhySection;
 use super::*;
 use crate::materials::{SIDE as WHOLE, strip, write_packed};
 
-const SECTION: &str = "Would something trivial explain it?";
 const SIDE: u32 = 64;
 
 /// Writes a part of the built-in ground truth as a strip; `change` sees each stored texel of a map (0 normals, 1 diffuse).

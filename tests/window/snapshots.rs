@@ -1,0 +1,153 @@
+//! The window as text: the role, name and value of everything that assistive software is told, where it is. What a person reads is in
+//! these files, which `SVBRDF_BLESS=1` renews.
+
+use std::fmt::Write as _;
+
+use eframe::egui::accesskit::Toggled;
+use svbrdf_viewer::model::command::{DatasetCommand, DisplayCommand};
+use svbrdf_viewer::model::settings::Tab;
+
+use super::*;
+
+/// The tree below a node, a line each, indented.
+fn tree<'tree>(node: &egui_kittest::Node<'tree>, depth: usize, text: &mut String) {
+    let told = node.accesskit_node();
+    let (label, value) = (told.label().unwrap_or_default(), told.value().unwrap_or_default());
+    let is_told = !(label.is_empty() && value.is_empty() && told.numeric_value().is_none());
+    if is_told {
+        let on = if told.toggled() == Some(Toggled::True) { " *" } else { "" };
+        let words = [label, value].map(|text| masked(&text)).join(" = ");
+        let words = words.trim_end_matches([' ', '=']).trim_start_matches(" = ");
+        let _ = writeln!(text, "{}{:?} {words}{on}", "  ".repeat(depth), told.role());
+    }
+    // The lines of a text are its own.
+    for child in node.children().filter(|child| child.accesskit_node().role() != Role::TextRun) {
+        tree(&child, depth + usize::from(is_told), text);
+    }
+}
+
+/// Without the numbers that differ by processor and time: those with a point or an exponent, and seconds.
+fn masked(text: &str) -> String {
+    let words: Vec<&str> =
+        text.split_inclusive(|c: char| c.is_whitespace() || "[](),±:".contains(c)).collect();
+    let is_end = |c: char| c.is_whitespace() || "[](),±:%".contains(c);
+    let mask = |index: usize| {
+        let (word, next) =
+            (words[index], words.get(index + 1).map_or("", |next| next.trim_end_matches(is_end)));
+        let bare = word.trim_end_matches(is_end);
+        let digits = bare.trim_start_matches(['-', '+', '\u{2212}', '\u{d7}']);
+        let is_masked = digits.contains(['.', 'e']) || ["ms", "s"].contains(&next);
+        let is_number = digits.starts_with(|c: char| c.is_ascii_digit()) && is_masked;
+        if is_number { format!("#{}", &word[bare.len()..]) } else { word.to_owned() }
+    };
+    let text: String = (0..words.len()).map(mask).collect();
+    text.replace("# ms", "# s")
+}
+
+/// Compares the window with `snapshots/NAME.txt`; where a dialog is open, the dialog.
+fn assert_snapshot(window: &Window<'_>, name: &str) {
+    let mut text = String::new();
+    let root = window.root();
+    let dialog = root.children().find(|child| child.accesskit_node().role() == Role::Window);
+    tree(&dialog.unwrap_or(root), 0, &mut text);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("snapshots/{name}.txt"));
+    if std::env::var_os("SVBRDF_BLESS").is_some() {
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, &text).unwrap();
+    }
+    let expected = std::fs::read_to_string(&path).unwrap_or_default();
+    let differs = text.lines().zip(expected.lines()).position(|(a, b)| a != b);
+    let at = differs.unwrap_or(text.lines().count().min(expected.lines().count()));
+    let line = |text: &str| text.lines().nth(at).unwrap_or("nothing").to_owned();
+    assert!(
+        text == expected,
+        "{name}, line {}: {:?}, expected {:?}; SVBRDF_BLESS=1 renews the file",
+        at + 1,
+        line(&text),
+        line(&expected)
+    );
+}
+
+/// The built-in pair in a window of this size, once its loss is there.
+fn settled<'a>(size: Vec2) -> Window<'a> {
+    let mut window = built_in();
+    window.set_size(size);
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    window.run_steps(30);
+    window
+}
+
+#[needs(adapter)]
+#[test]
+fn the_window_has_the_words_and_the_order_of_the_snapshots() {
+    let mut window = settled(vec2(1360.0, 860.0));
+    assert_snapshot(&window, "loss");
+    window.state_mut().parts.model.settings.tab = Tab::Files;
+    window.run_steps(12);
+    assert_snapshot(&window, "files");
+    window.state_mut().parts.model.settings.tab = Tab::Why;
+    wait(&mut window, "the diagnosis", |app| app.diagnosis().is_some());
+    wait(&mut window, "the attribution", |app| app.attribution().is_some());
+    wait(&mut window, "the scenes", |app| {
+        app.listed_scenes().is_some_and(|(_, thumbnails)| !thumbnails.is_empty())
+    });
+    wait_in(&mut window, "the other diagnosis", |window| {
+        let [all, pending] =
+            ["", "..."].map(|end| has(window, &format!("Diagnosis of wrong roughness: {end}")));
+        all && !pending
+    });
+    see(&mut window, "roughness of wrong roughness: 60.1% of the loss");
+    window.run_steps(12);
+    assert_snapshot(&window, "why");
+    window.state_mut().parts.model.settings.tab = Tab::Loss;
+    apply(&mut window, DisplayCommand::ShowDifference(true));
+    statistics(&mut window);
+    let at = pane(&window, GROUND_TRUTH).center();
+    hover(&mut window, at);
+    press(&mut window, egui::Key::I);
+    press(&mut window, egui::Key::Q);
+    let rect = pane(&window, GROUND_TRUTH);
+    drag_primary(&mut window, rect, vec2(0.3, 0.3), vec2(0.6, 0.5));
+    hover(&mut window, egui::pos2(1.0, 1.0));
+    rest(&mut window, 20);
+    assert_snapshot(&window, "difference");
+}
+
+#[needs(adapter)]
+#[test]
+fn dialogs_menu_and_small_windows_have_the_words_of_the_snapshots() {
+    let mut window = settled(vec2(900.0, 600.0));
+    assert_snapshot(&window, "small");
+    press(&mut window, egui::Key::B);
+    window.run_steps(20);
+    for (name, command) in [
+        ("open", WindowCommand::ShowOpen(true)),
+        ("save", WindowCommand::ShowSave(true)),
+        ("help", WindowCommand::ShowHelp(true)),
+    ] {
+        apply(&mut window, command);
+        window.run_steps(8);
+        assert_snapshot(&window, name);
+        press(&mut window, egui::Key::Escape);
+    }
+    click(&mut window, "Menu");
+    assert_snapshot(&window, "menu");
+}
+
+/// A data set, with its list, its sheet and the table of its methods.
+#[needs(adapter)]
+#[test]
+fn a_data_set_has_the_words_of_the_snapshots() {
+    let folder = tempfile::tempdir().unwrap();
+    let dataset = super::dataset::dataset(super::dataset::folders(folder.path()), None);
+    let mut window = super::dataset::on_dataset(&dataset);
+    window.set_size(vec2(1360.0, 860.0));
+    super::dataset::wait_for_losses(&mut window);
+    tab(&mut window, "Methods");
+    wait(&mut window, "the summary", |app| app.parts.jobs.dataset.summary.get().is_some());
+    rest(&mut window, 20);
+    assert_snapshot(&window, "methods");
+    apply(&mut window, DatasetCommand::ShowSheet(true));
+    rest(&mut window, 20);
+    assert_snapshot(&window, "sheet");
+}
