@@ -12,7 +12,7 @@ use crate::report::Views;
 /// Arrays: name, shape and values.
 type Named = Vec<(String, Vec<usize>, Vec<f64>)>;
 
-/// The probe points, and the picture.
+/// The probe points.
 #[pyfunction]
 pub fn probes() -> PyResult<Named> {
     let arrays = identification::probes().map_err(Error::new_err)?;

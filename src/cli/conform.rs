@@ -3,13 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::model::grammar::Description;
-use svbrdf_core::model::scene::SceneFile;
-use svbrdf_evaluate::conform::{Answer, probe_materials, probes};
+use svbrdf_evaluate::conform::{Answer, probes};
 use svbrdf_evaluate::report::ConformReport;
 use svbrdf_files::disk::atomic::{self, Destination};
-use svbrdf_files::disk::open::NamedFile;
-use svbrdf_files::export::PictureFormat;
-use svbrdf_files::read::{Transfer, read_photograph};
 use svbrdf_files::{Error, arrays, convention};
 
 use super::args::comparison::names;
@@ -23,17 +19,15 @@ use super::output::{CommandError, exit, watched};
 ///
 /// First `--points probe.npz` writes points: `normal`, `diffuse`, `specular`, `roughness`, `base_color`, `metallic`, and `light` and `view`,
 /// which lead from the point to light and camera and are not unit. Render each with your code, under one white light, and save the
-/// arrays with the result as `radiance`. For a renderer that writes pictures, `--points probe` writes a folder of six materials of 8 x 8
-/// texels as EXR, and their lights and views into `scenes.json`: render each, one texel a pixel, as radiance.exr or radiance.png into its
-/// folder. Ends with exit code 1 where the renderer does not conform.
+/// arrays with the result as `radiance`. Ends with exit code 1 where the renderer does not conform.
 #[derive(Debug, clap::Args)]
 pub struct ConformArgs {
-    /// The points with `radiance`: an npz file, or the folder of materials with renderings
+    /// The points with `radiance`, an npz file
     #[arg(value_name = "ANSWER", required_unless_present = "points", conflicts_with = "points")]
     answer: Option<PathBuf>,
 
-    /// Writes the points that are to be rendered, at most 400, and a picture of 8 x 8 texels; or a new folder of materials
-    #[arg(long, value_name = "FILE.npz|FOLDER")]
+    /// Writes the points that are to be rendered, at most 400
+    #[arg(long, value_name = "FILE.npz")]
     points: Option<PathBuf>,
 
     /// Convention that is expected: a name, or a .toml file
@@ -63,9 +57,6 @@ enum Workflow {
 impl ConformArgs {
     pub fn job(self) -> NewJob {
         if let Some(path) = self.points {
-            if path.extension().is_none() {
-                return Ok(Box::new(MaterialsJob(path)));
-            }
             destination(&path, "npz", "name of a file of points", "NAME.npz")?;
             return Ok(Box::new(PointsJob(path)));
         }
@@ -104,58 +95,6 @@ impl Job for PointsJob {
     }
 }
 
-/// Writes the materials, each into a folder of its number, and their scenes.
-#[derive(Debug)]
-struct MaterialsJob(PathBuf);
-
-impl Job for MaterialsJob {
-    fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let new = |path: &Path| {
-            let remedy = "name a folder that is not there yet, in one that is there and writable";
-            let of = |source| Error::Unwritable { path: path.to_owned(), source, remedy };
-            std::fs::create_dir(path).map_err(of)
-        };
-        let materials = probe_materials();
-        stoppable(|progress| {
-            new(&self.0)?;
-            for (number, material) in materials.iter().enumerate() {
-                let folder = self.0.join(number.to_string());
-                new(&folder)?;
-                for (name, map) in material.maps() {
-                    let file = Destination::<PictureFormat>::new(&folder.join(format!("{name}.exr")))?;
-                    file.write_maps(&[map], 1.0, &[], progress)?;
-                }
-            }
-            let scenes = SceneFile { scenes: materials.iter().map(|material| material.scene).collect() };
-            let text = serde_json::to_string_pretty(&scenes).map_err(|e| Error::Internal(e.to_string()))?;
-            atomic::write_text(&self.0.join("scenes.json"), &text, progress)
-        })
-        .map_err(CommandError::from)
-    }
-}
-
-/// The answer in an npz file, or in the renderings of the materials of a folder.
-fn read(path: &Path, metallic: Option<bool>) -> Result<Answer, Error> {
-    let problem = |problem| Error::BadArrays { path: path.to_owned(), problem };
-    if !path.is_dir() {
-        return Answer::new(&arrays::read(path)?, metallic).map_err(problem);
-    }
-    let rendering = |number: usize| {
-        let names = ["exr", "png"].map(|ending| format!("{number}/radiance.{ending}"));
-        let file = names.iter().map(|name| path.join(name)).find(|file| file.exists());
-        let missing = || {
-            problem(format!(
-                "expected {}, found neither; render each material of `svbrdf conform --points FOLDER` into its folder",
-                names.join(" or ")
-            ))
-        };
-        let file = NamedFile::by_user(file.ok_or_else(missing)?);
-        Ok(read_photograph(&file, Some(Transfer::Linear))?.image)
-    };
-    let renderings = (0..probe_materials().len()).map(rendering).collect::<Result<Vec<_>, Error>>()?;
-    Answer::of_pictures(&renderings, metallic).map_err(problem)
-}
-
 /// A comparison of an answer with a convention.
 #[derive(Debug)]
 struct ConformJob {
@@ -170,9 +109,9 @@ struct ConformJob {
 impl Job for ConformJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
         let Self { answer, convention, metallic, written, format } = *self;
-        let read = read(&answer, metallic)?;
-        let report =
-            watched("searching renderers", |_| Ok::<_, Error>(ConformReport::new(&read, &convention)))?;
+        let problem = |problem| Error::BadArrays { path: answer.clone(), problem };
+        let answer = Answer::new(&arrays::read(&answer)?, metallic).map_err(problem)?;
+        let report = watched("searching renderers", |_| ConformReport::new(&answer, &convention));
         exit::put(&format.write(&report)?)?;
         if let Some(path) = written {
             write(&path, &report)?;

@@ -8,7 +8,7 @@ use svbrdf_core::model::grammar::words::{Fresnel, Shadowing, Weight};
 use svbrdf_core::model::grammar::{Point, RendererTerms};
 use svbrdf_evaluate::conform::VerdictKind;
 
-use super::{Stored, judged, points};
+use super::{judged, points, single};
 
 type Renderer = fn(&Point) -> [f64; 3];
 
@@ -223,34 +223,15 @@ const ALL: [(&str, Renderer); 24] = [
     }),
 ];
 
-fn named(stored: Stored) -> Vec<&'static str> {
+#[test]
+fn no_renderer_outside_of_the_grammar_has_a_name_and_what_they_are_made_from_has_one() {
     let points = points();
-    let is_named = |(name, of): &(&'static str, Renderer)| {
-        let radiance = stored.of(&points.iter().map(*of).collect::<Vec<_>>(), 7);
-        let verdict = judged(&points, radiance, Some(false), &base());
-        (verdict.kind != VerdictKind::Unknown).then_some(*name)
+    let kind = |of: Renderer| {
+        let radiance: Vec<_> = points.iter().map(|point| single(of(point))).collect();
+        judged(&points, radiance, Some(false), &base()).kind
     };
-    ALL.iter().filter_map(is_named).collect()
-}
-
-#[test]
-fn no_renderer_outside_of_the_grammar_has_a_name() {
-    assert_eq!(named(Stored::Single), [""; 0]);
-}
-
-#[ignore = "takes minutes; docs/conventions.md has its command and its result"]
-#[test]
-fn nor_has_one_from_rounded_or_noisy_radiances() {
-    for stored in [Stored::Double, Stored::Half, Stored::Srgb, Stored::Noise(0.001), Stored::Noise(0.01)] {
-        assert_eq!(named(stored), [""; 0], "{stored:?}");
+    for (name, of) in ALL {
+        assert_eq!(kind(of), VerdictKind::Unknown, "{name}");
     }
-}
-
-/// What the others are made from has one.
-#[test]
-fn what_they_are_made_from_conforms() {
-    let points = points();
-    let radiance = points.iter().map(|point| base().radiance(point, true)).collect();
-    let verdict = judged(&points, radiance, Some(false), &base());
-    assert_eq!(verdict.kind, VerdictKind::Conforms, "{:?}", verdict.differences);
+    assert_eq!(kind(|point| base().radiance(point, true)), VerdictKind::Conforms);
 }

@@ -65,13 +65,7 @@ fn every_peer_is_found_and_no_other_renderer_has_a_name() {
     let points = points();
     for (name, array, convention) in ALL {
         let radiance = triples(&file(&format!("probes/{name}"))[array]);
-        let found = identify(&Answer {
-            points: points.clone(),
-            grids: Vec::new(),
-            radiance,
-            metallic: None,
-            picture: None,
-        });
+        let found = identify(&Answer { points: points.clone(), radiance, metallic: None });
         let Some(convention) = convention else {
             let verdict = verdict(&found, &Description::default());
             assert_eq!(verdict.kind, VerdictKind::Unknown, "{name} {array}: {:?}", verdict.differences);

@@ -14,7 +14,7 @@ _MAPS = ("normal", "diffuse", "specular", "roughness", "base_color", "metallic")
 
 
 def probes() -> dict[str, NDArray[np.float64]]:
-    """The points that `svbrdf conform --points` writes, and a picture of 8 x 8 texels: arrays by name."""
+    """The points that `svbrdf conform --points` writes: arrays by name."""
     return {name: np.reshape(values, shape) for name, shape, values in _core.probes()}
 
 

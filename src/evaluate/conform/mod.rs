@@ -1,132 +1,91 @@
 //! Whose renderer is it: the member of the grammar that gave out radiances at known points, or that none did.
 //!
-//! [`identify`] searches the grammar from coarse to fine: storage, encoding, structure, then floors one after the other, with limits that
-//! grow with the condition number of a point and with the noise that is seen. What does not fit within these limits has no name.
+//! [`identify`] searches the structure of a renderer first, then every term from coarse to fine, with limits that grow with the
+//! condition number of a point. What does not fit within these limits has no name.
 
 mod alternatives;
-mod columns;
+mod answer;
 mod fit;
-mod noise;
-mod observed;
-mod pictures;
-mod probes;
-mod rendered;
 mod search;
 mod verdict;
 
+use svbrdf_core::model::grammar::RendererTerms;
 use svbrdf_core::model::grammar::words::Transfer;
-use svbrdf_core::model::grammar::{GridTerms, Point, RendererTerms};
 
+pub use answer::{Answer, probes};
 pub use fit::Fit;
-use fit::{CLEARLY, Problem};
-use observed::Observed;
-pub use observed::Storage;
-pub use probes::{Answer, probes};
-pub use rendered::{ProbeMaterial, probe_materials};
+use fit::Problem;
 pub use verdict::{Difference, Verdict, VerdictKind, verdict};
 
 /// Unit roundoffs of the levels of the search, the coarsest first: the last two are those of float32 and float64.
 const LEVELS: [f64; 4] = [1e-4, 2e-6, f32::EPSILON as f64 / 2.0, f64::EPSILON];
+/// Most structures that are searched in full.
+const STRUCTURES: usize = 4;
 
 /// The best renderer of the grammar for an answer.
 #[derive(Clone, Debug)]
 pub struct Identified {
     pub problem: Problem,
     pub fit: Fit,
-    pub storage: Storage,
-    /// Whether what remains is within rounding, or is noise.
+    /// Whether what remains is within rounding.
     pub explained: bool,
-    /// The grid, where a picture tells it.
-    pub grid: Option<GridTerms>,
+    /// Whether the radiances are numbers of float32.
+    pub is_single: bool,
 }
 
 /// Searches the grammar.
 pub fn identify(answer: &Answer) -> Identified {
-    let storage = Storage::of(answer.radiance.as_flattened());
-    let workflows = match answer.metallic {
-        Some(metallic) => vec![metallic],
-        None => vec![false, true],
+    let is_single = answer.radiance.as_flattened().iter().all(|x| f64::from(*x as f32) == *x || x.is_nan());
+    let workflows = answer.metallic.map_or(vec![false, true], |metallic| vec![metallic]);
+    let problems: Vec<Problem> = workflows
+        .into_iter()
+        .flat_map(|metallic| {
+            Transfer::ALL.map(|transfer| Problem::new(answer, metallic, transfer, LEVELS[0]))
+        })
+        .collect();
+    let mut structures: Vec<(f64, RendererTerms, &Problem)> = problems
+        .iter()
+        .flat_map(|problem| {
+            search::structures(problem).into_iter().map(move |(off, terms)| (off, terms, problem))
+        })
+        .collect();
+    structures.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let first = &problems[0];
+    let mut best = Identified {
+        fit: first.fit(&RendererTerms::BASE),
+        problem: first.clone(),
+        explained: false,
+        is_single,
     };
-    let layouts: Vec<(Option<GridTerms>, &[Point])> = match answer.grids.as_slice() {
-        [] => vec![(None, &answer.points)],
-        grids => grids.iter().map(|(grid, points)| (Some(*grid), points.as_slice())).collect(),
-    };
-    let (mut candidates, mut best_frame) = (Vec::new(), f64::INFINITY);
-    for (grid, points) in layouts {
-        for transfer in [Transfer::Linear, Transfer::Gamma, Transfer::Srgb] {
-            let observed = Observed::new(&answer.radiance, storage, transfer);
-            let problem = Problem::new(points, observed, LEVELS[0]);
-            let found = search::structures(&problem, &workflows, &mut best_frame);
-            candidates.extend(found.into_iter().map(|candidate| (problem.clone(), candidate, grid)));
+    for (_, terms, problem) in structures.into_iter().take(STRUCTURES) {
+        let found = from_coarse_to_fine(problem.clone(), terms, is_single);
+        if found.explained {
+            return found;
+        }
+        if found.problem.residual(&found.fit) < best.problem.residual(&best.fit) {
+            best = found;
         }
     }
-    candidates.sort_by(|a, b| a.1.off.total_cmp(&b.1.off));
-    let other = |grid| candidates.iter().find(|one| one.2 != grid).map_or(f64::INFINITY, |one| one.1.off);
-    let is_clear = candidates.first().is_some_and(|(_, best, grid)| other(*grid) > CLEARLY * best.off);
+    best
+}
+
+/// The renderer about a structure, at one level of precision after the other, as long as rounding is all that remains.
+fn from_coarse_to_fine(mut problem: Problem, mut terms: RendererTerms, is_single: bool) -> Identified {
     let mut best: Option<Identified> = None;
-    for (problem, candidate, grid) in candidates.into_iter().take(4) {
-        let found = from_coarse_to_fine(problem, &candidate, storage);
-        if found.explained {
-            let picture = answer.picture.as_ref();
-            let of_picture = || picture.and_then(|picture| picture.grid(&found.problem, &found.fit));
-            let grid = grid.filter(|_| is_clear).or_else(of_picture);
-            return Identified { grid, ..found };
+    for roundoff in LEVELS.into_iter().take(if is_single { 3 } else { 4 }) {
+        problem.roundoff = roundoff;
+        let fit = search::refined(&problem, &terms);
+        let explained = problem.is_explained(&fit);
+        if best.is_none() || explained {
+            terms = fit.terms;
+            best = Some(Identified { problem: problem.clone(), fit, explained, is_single });
         }
-        if best.as_ref().is_none_or(|best| spread(&found.fit) < spread(&best.fit)) {
-            best = Some(found);
+        if !explained {
+            break;
         }
     }
     best.unwrap_or_else(|| {
-        let observed = Observed::new(&answer.radiance, storage, Transfer::Linear);
-        let problem = Problem::new(&answer.points, observed, LEVELS[0]);
-        let fit = problem.fit(&RendererTerms::BASE, workflows[0]);
-        Identified { problem, fit, storage, explained: false, grid: None }
+        let fit = problem.fit(&terms);
+        Identified { problem, fit, explained: false, is_single }
     })
-}
-
-/// The mean absolute relative residual, at most 1 each.
-pub fn spread(fit: &Fit) -> f64 {
-    let used = fit.relative.as_flattened().iter().filter(|x| !x.is_nan());
-    let (sum, count) = used.fold((0.0, 0), |(sum, count), x| (sum + x.abs().min(1.0), count + 1));
-    if count == 0 { f64::INFINITY } else { sum / f64::from(count) }
-}
-
-/// The renderer about a structure, at one level of precision after the other, until noise or rounding is all that remains.
-fn from_coarse_to_fine(mut problem: Problem, start: &search::Candidate, storage: Storage) -> Identified {
-    let mut start = *start;
-    let mut best: Option<(Problem, Fit)> = None;
-    for roundoff in LEVELS.into_iter().filter(|level| *level >= storage.roundoff()) {
-        problem.roundoff = roundoff;
-        problem.noise = 0.0;
-        let mut fit = search::refined(&problem, &start);
-        if !fit.is_explained() {
-            // Without the noise, it would be taken for floors.
-            problem.roundoff = storage.roundoff().max(LEVELS[2]);
-            for _ in 0..3 {
-                let before = problem.noise;
-                problem.noise = noise::seen(&problem, &fit);
-                if !noise::is_likely(&problem, &fit) || problem.noise == before {
-                    break;
-                }
-                fit = search::refined(&problem, &start);
-            }
-        }
-        if !fit.is_explained() && !noise::is_all_that_remains(&problem, &fit) {
-            if best.is_none() {
-                return Identified { problem, fit, storage, explained: false, grid: None };
-            }
-            break;
-        }
-        start.terms = fit.terms;
-        let is_noisy = problem.noise > 0.0;
-        best = Some((problem.clone(), fit));
-        if is_noisy {
-            break;
-        }
-    }
-    let (problem, fit) = best.unwrap_or_else(|| {
-        let fit = problem.fit(&start.terms, start.metallic);
-        (problem, fit)
-    });
-    Identified { problem, fit, storage, explained: true, grid: None }
 }

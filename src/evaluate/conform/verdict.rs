@@ -1,14 +1,18 @@
 //! The verdict: whether a renderer conforms to a convention, and in which terms it differs.
 
-use svbrdf_core::model::grammar::words::{Falloff, Rows, Sites};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use svbrdf_core::model::grammar::words::Falloff;
 use svbrdf_core::model::grammar::{Description, RendererTerms, TermDifference};
 
+use super::Identified;
 use super::fit::{Fit, Problem};
 use super::search::WORTH;
-use super::{Identified, alternatives};
 
 /// Whether a renderer is the one that was asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
 pub enum VerdictKind {
     Conforms,
     Differs,
@@ -28,53 +32,29 @@ pub struct Difference {
 #[derive(Clone, Debug)]
 pub struct Verdict {
     pub kind: VerdictKind,
-    /// The renderer; the nearest one where the kind is unknown.
+    /// The renderer; the nearest one where the kind is unknown. What the points do not tell is as in the convention.
     pub terms: RendererTerms,
     pub differences: Vec<Difference>,
-    /// RendererTerms that these points do not tell, with the values that fit as well.
-    pub indistinguishable: Vec<(String, Vec<String>)>,
     /// The root mean square of the relative residuals, each at most 1.
     pub residual: f64,
-    /// The points with the largest residuals in units of their limits: row, channel, relative residual.
-    pub largest: Vec<(usize, usize, f64)>,
 }
 
 /// The verdict on what was identified, against the convention `asked`.
 pub fn verdict(found: &Identified, asked: &Description) -> Verdict {
     let Identified { problem, fit, explained, .. } = found;
-    let mut fit = fit.clone();
-    if *explained {
-        fit = adopted(problem, fit, &asked.terms);
-    }
-    let mut terms = finished(problem, &fit, &asked.terms);
-    if let Some(grid) = found.grid {
-        (terms.grid.sampling, terms.grid.orientation) = (grid.sampling, grid.orientation);
-    }
+    let fit = if *explained { &adopted(problem, fit, &asked.terms) } else { fit };
+    let terms = finished(problem, fit, &asked.terms);
     let differences: Vec<Difference> = terms
         .differences(&asked.terms)
         .into_iter()
-        .map(|term| Difference { gap: gap(problem, &fit, &term, &asked.terms), term })
+        .map(|term| Difference { gap: gap(problem, fit, &term, &asked.terms), term })
         .collect();
     let kind = match (explained, differences.is_empty()) {
         (false, _) => VerdictKind::Unknown,
         (true, true) => VerdictKind::Conforms,
         (true, false) => VerdictKind::Differs,
     };
-    let mut same = if *explained { indistinguishable(problem, &fit) } else { Vec::new() };
-    if found.grid.is_none() && *explained {
-        let words =
-            |key: &str, all: &[&str]| (key.to_owned(), all.iter().map(|word| (*word).to_owned()).collect());
-        same.push(words("sampling", &Sites::ALL.map(Sites::name)));
-        same.push(words("orientation", &Rows::ALL.map(Rows::name)));
-    }
-    Verdict {
-        kind,
-        terms,
-        differences,
-        indistinguishable: same,
-        residual: residual(problem, &fit),
-        largest: largest(&fit),
-    }
+    Verdict { kind, terms, differences, residual: problem.residual(fit) }
 }
 
 /// The sections that the fit itself does not decide.
@@ -84,25 +64,21 @@ fn is_decided_elsewhere(difference: &TermDifference) -> bool {
 }
 
 /// The fit with the values of the convention wherever they explain the radiances as well.
-fn adopted(problem: &Problem, mut fit: Fit, asked: &RendererTerms) -> Fit {
-    let first = fit.clone();
+fn adopted(problem: &Problem, first: &Fit, asked: &RendererTerms) -> Fit {
+    let mut fit = first.clone();
     let open = |terms: &RendererTerms| {
         let differences = terms.differences(asked).into_iter();
         differences.filter(|difference| !is_decided_elsewhere(difference)).collect::<Vec<_>>()
     };
-    let whole = open(&fit.terms)
-        .iter()
-        .fold(fit.terms, |terms, difference| terms.with(&difference.section, &difference.key, asked));
-    let whole = problem.fit(&whole, fit.metallic);
-    if whole.is_as_good_as(&first, WORTH) {
+    let with = |terms: RendererTerms, one: &TermDifference| terms.with(&one.section, &one.key, asked);
+    let whole = problem.fit(&open(&fit.terms).iter().fold(fit.terms, with));
+    if problem.is_as_good(&whole, first, WORTH) {
         return whole;
     }
     loop {
-        let tried = open(&fit.terms).into_iter().map(|difference| {
-            problem.fit(&fit.terms.with(&difference.section, &difference.key, asked), fit.metallic)
-        });
+        let tried = open(&fit.terms).into_iter().map(|one| problem.fit(&with(fit.terms, &one)));
         match tried.min_by(|a, b| a.score.total_cmp(&b.score)) {
-            Some(next) if next.is_as_good_as(&first, WORTH) => fit = next,
+            Some(next) if problem.is_as_good(&next, first, WORTH) => fit = next,
             _ => return fit,
         }
     }
@@ -113,20 +89,17 @@ fn finished(problem: &Problem, fit: &Fit, asked: &RendererTerms) -> RendererTerm
     let mut terms = fit.terms;
     terms.grid = asked.grid;
     terms.output = asked.output;
-    terms.output.transfer = problem.observed.transfer;
-    match problem.observed.clip {
-        None => {}
-        Some(clip) if asked.output.clip.is_some_and(|asked| close(clip, asked)) => {}
-        Some(clip) => terms.output.clip = Some(clip.map(|x| rounded(x, 1e-6))),
+    terms.output.transfer = problem.transfer;
+    let [low, top] = problem.clip;
+    let clip = [low.max(0.0), top];
+    if (low > 0.0 || top.is_finite()) && !asked.output.clip.is_some_and(|asked| close(clip, asked)) {
+        terms.output.clip = Some(clip.map(|x| rounded(x, 1e-6)));
     }
-    let few = 10.0 * (problem.noise / (problem.readings() as f64).sqrt() + problem.roundoff);
-    let tolerance = few.max(problem.precision_of_factor());
-    terms.light.ambient = if fit.ambient > 0.0 && !near(fit.ambient, asked.light.ambient, 10.0 * tolerance) {
-        rounded(fit.ambient, tolerance)
-    } else if fit.ambient > 0.0 {
-        asked.light.ambient
-    } else {
-        0.0
+    let tolerance = 10.0 * problem.roundoff;
+    terms.light.ambient = match fit.ambient {
+        ambient if ambient <= 0.0 => 0.0,
+        ambient if near(ambient, asked.light.ambient, 10.0 * tolerance) => asked.light.ambient,
+        ambient => rounded(ambient, tolerance),
     };
     (terms.light.intensity, terms.light.intensity_distant) =
         (asked.light.intensity, asked.light.intensity_distant);
@@ -166,62 +139,8 @@ fn gap(problem: &Problem, fit: &Fit, term: &TermDifference, asked: &RendererTerm
         let ratio = fit.factor[0] / (asked.light.factor * asked.light.intensity[0]);
         return if term.key == "factor" || term.key == "intensity" { (ratio - 1.0).abs() } else { f64::NAN };
     }
-    let other = problem.fit(&fit.terms.with(&term.section, &term.key, asked), fit.metallic);
+    let other = problem.fit(&fit.terms.with(&term.section, &term.key, asked));
     let both = other.expected.as_flattened().iter().zip(fit.expected.as_flattened());
     let changes = both.map(|(other, own)| (other - own).abs() / other.abs().min(own.abs()).max(1e-300));
     changes.filter(|change| !change.is_nan()).fold(0.0, f64::max)
-}
-
-/// The terms whose other values fit as well.
-fn indistinguishable(problem: &Problem, fit: &Fit) -> Vec<(String, Vec<String>)> {
-    let fits = |terms: &RendererTerms| problem.fit(terms, fit.metallic).is_as_good_as(fit, WORTH);
-    let mut found: Vec<(String, Vec<String>)> = Vec::new();
-    let mut add = |terms: &RendererTerms| {
-        for difference in fit.terms.differences(terms) {
-            let at = found.iter().position(|(key, _)| *key == difference.key).unwrap_or_else(|| {
-                found.push((difference.key.clone(), vec![difference.own.clone()]));
-                found.len() - 1
-            });
-            if !found[at].1.contains(&difference.other) {
-                found[at].1.push(difference.other);
-            }
-        }
-    };
-    for (_, terms) in alternatives::of_words(&fit.terms) {
-        if fit.terms.differences(&terms).len() == 1 && fits(&terms) {
-            add(&terms);
-        }
-    }
-    for (key, set, values, _) in alternatives::of_numbers() {
-        let mut terms = fit.terms;
-        set(&mut terms, 1e-3);
-        let is_tried = key != "lz" && values.contains(&1e-3);
-        if is_tried && fit.terms.differences(&terms).len() == 1 && fits(&terms) {
-            add(&terms);
-        }
-    }
-    found
-}
-
-/// The root mean square of the relative residuals beyond the steps of storage, each at most 1, of points whose maps are in range.
-fn residual(problem: &Problem, fit: &Fit) -> f64 {
-    let (mut sum, mut count) = (0.0, 0);
-    for (i, relative) in fit.relative.iter().enumerate().filter(|(i, _)| fit.in_range[*i]) {
-        for c in (0..3).filter(|c| !relative[*c].is_nan()) {
-            let step = problem.observed.readings[i][c].half / fit.expected[i][c];
-            sum += (relative[c].abs() - step).clamp(0.0, 1.0).powi(2);
-            count += 1;
-        }
-    }
-    (sum / f64::from(count.max(1))).sqrt()
-}
-
-fn largest(fit: &Fit) -> Vec<(usize, usize, f64)> {
-    let mut all: Vec<(usize, usize)> =
-        (0..fit.residuals.len()).flat_map(|row| [0, 1, 2].map(|c| (row, c))).collect();
-    all.sort_by(|a, b| fit.residuals[b.0][b.1].abs().total_cmp(&fit.residuals[a.0][a.1].abs()));
-    let mut rows = std::collections::HashSet::new();
-    all.retain(|(row, _)| rows.insert(*row));
-    all.truncate(5);
-    all.into_iter().map(|(row, c)| (row, c, fit.relative[row][c])).collect()
 }

@@ -30,7 +30,7 @@ pub enum TermValue {
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ConformReport {
     /// `conforms`, `differs`, or `unknown`: it is no member of the grammar of conventions, or cannot be told.
-    verdict: Kind,
+    verdict: VerdictKind,
     /// The convention that it is compared with.
     convention: String,
     /// The named conventions that render as it does.
@@ -41,29 +41,15 @@ pub struct ConformReport {
     nearest: Option<TermsByKey>,
     /// From the convention; of the nearest member where the verdict is unknown.
     differences: Vec<TermDifference>,
-    /// RendererTerms of which these points do not tell the value.
-    indistinguishable: Vec<Indistinguishable>,
     /// Root mean square of what remains, relative to the radiances.
     residual: f64,
-    /// Relative noise that is seen.
-    noise: f64,
     /// How precisely the radiances are stored.
     storage: &'static str,
-    /// The points with the largest residuals for their condition numbers.
-    largest: Vec<Remaining>,
     /// The number of points.
     points: usize,
     /// The whole convention that was found.
     #[serde(skip)]
     found: Description,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-enum Kind {
-    Conforms,
-    Differs,
-    Unknown,
 }
 
 /// A term in which a renderer differs from a convention.
@@ -75,25 +61,6 @@ struct TermDifference {
     expected: String,
     /// Largest relative change of a radiance where this term alone is that of the convention; `None` where it is not one of radiance.
     gap: Option<f64>,
-}
-
-/// A term of which the points do not tell the value.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-struct Indistinguishable {
-    term: String,
-    /// Values that fit equally well.
-    fitting: Vec<String>,
-}
-
-/// What remains at a point.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-struct Remaining {
-    /// Its row.
-    point: usize,
-    /// 0 to 2: red, green, blue.
-    channel: usize,
-    /// Relative to the prediction; `None` where that is 0.
-    relative: Option<f64>,
 }
 
 impl ConformReport {
@@ -117,29 +84,14 @@ impl ConformReport {
         };
         let terms = by_key(&verdict.terms);
         Self {
-            verdict: match verdict.kind {
-                VerdictKind::Conforms => Kind::Conforms,
-                VerdictKind::Differs => Kind::Differs,
-                VerdictKind::Unknown => Kind::Unknown,
-            },
+            verdict: verdict.kind,
             convention: asked.name.clone(),
             same_as: same,
             renderer: is_known.then(|| terms.clone()),
             nearest: (!is_known).then_some(terms),
             differences: verdict.differences.into_iter().map(TermDifference::from).collect(),
-            indistinguishable: verdict
-                .indistinguishable
-                .into_iter()
-                .map(|(term, values)| Indistinguishable { term, fitting: values })
-                .collect(),
             residual: verdict.residual,
-            noise: identified.problem.noise,
-            storage: identified.storage.label(),
-            largest: verdict
-                .largest
-                .into_iter()
-                .map(|(point, channel, x)| Remaining { point, channel, relative: x.is_finite().then_some(x) })
-                .collect(),
+            storage: if identified.is_single { "float32" } else { "float64" },
             points: answer.points.len(),
             found,
         }
@@ -147,21 +99,21 @@ impl ConformReport {
 
     /// Whether the renderer is that of the convention.
     pub fn conforms(&self) -> bool {
-        self.verdict == Kind::Conforms
+        self.verdict == VerdictKind::Conforms
     }
 
     /// The convention that was found, with the loss and the scenes of the one it was compared with; `None` where it is unknown.
     pub fn found(&self) -> Option<&Description> {
-        (self.verdict != Kind::Unknown).then_some(&self.found)
+        (self.verdict != VerdictKind::Unknown).then_some(&self.found)
     }
 
     fn sentence(&self) -> String {
         let convention = &self.convention;
         let differences: Vec<String> = self.differences.iter().map(TermDifference::sentence).collect();
         match self.verdict {
-            Kind::Conforms => format!("The renderer conforms to `{convention}`."),
-            Kind::Differs => format!("As `{convention}`, but {}.", listed(&differences)),
-            Kind::Unknown => format!(
+            VerdictKind::Conforms => format!("The renderer conforms to `{convention}`."),
+            VerdictKind::Differs => format!("As `{convention}`, but {}.", listed(&differences)),
+            VerdictKind::Unknown => format!(
                 "The renderer is none of this grammar: {} of every radiance remains at the nearest member, which is no name for it. \
                 That is as `{convention}`, but {}.",
                 percent(self.residual),
@@ -179,22 +131,7 @@ impl From<conform::Difference> for TermDifference {
 
 impl TermDifference {
     fn sentence(&self) -> String {
-        let Self { term, found, expected, .. } = self;
-        match (term.as_str(), found.as_str(), expected.as_str()) {
-            ("falloff", "none", _) => "the light does not fall off".to_owned(),
-            ("falloff", _, _) => "the light falls off with the square of the distance".to_owned(),
-            ("alpha", "r", _) => "roughness is not squared".to_owned(),
-            ("alpha", _, _) => "roughness is squared".to_owned(),
-            ("lz", "none", _) => "nothing is divided by l.z".to_owned(),
-            ("lz", _, "none") => "radiances are divided by l.z".to_owned(),
-            ("normal_y", "down", _) => "y of the normals points down".to_owned(),
-            ("normal_y", _, _) => "y of the normals points up".to_owned(),
-            ("collocated", "true", _) => "the camera is at the light".to_owned(),
-            ("factor", _, _) => {
-                format!("radiances are {found} times those of factor 1 (expected {expected})")
-            }
-            _ => format!("{term} is {found}, not {expected}"),
-        }
+        format!("{} is {}, not {}", self.term, self.found, self.expected)
     }
 }
 
@@ -229,9 +166,8 @@ const FIELDS: [Field<TermDifference>; 4] = [
 impl Report for ConformReport {
     fn heading(&self) -> String {
         let mut text = self.sentence() + "\n";
-        let noise = if self.noise > 0.0 { format!(", noise {}", percent(self.noise)) } else { String::new() };
         text += &format!(
-            "Remaining difference {:.1e} relative ({}{noise}), {} points.\n",
+            "Remaining difference {:.1e} relative ({}), {} points.\n",
             self.residual, self.storage, self.points
         );
         let others: Vec<String> = self
@@ -243,23 +179,10 @@ impl Report for ConformReport {
         if !others.is_empty() {
             text += &format!("It renders as {} does.\n", others.join(", "));
         }
-        if !self.indistinguishable.is_empty() {
-            let same = self
-                .indistinguishable
-                .iter()
-                .map(|same| format!("{} ({})", same.term, same.fitting.join(", ")));
-            text += &format!(
-                "Not told by these points: {}; pi, intensity and exposure but by their product.\n",
-                same.collect::<Vec<_>>().join("; ")
-            );
-        }
-        if self.verdict == Kind::Unknown {
-            let largest = self.largest.iter().map(|at| {
-                let relative = at.relative.map_or_else(|| "no prediction".to_owned(), percent);
-                format!("{} ({relative})", at.point)
-            });
-            text += &format!("Largest at the points {}.\n", largest.collect::<Vec<_>>().join(", "));
-        }
+        text += &format!(
+            "What points do not tell is as in `{}`: where texels and rows lie, and pi, intensity and exposure but by their product.\n",
+            self.convention
+        );
         text
     }
 
