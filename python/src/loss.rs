@@ -41,14 +41,9 @@ fn answer<T: Compute>(
     work::run(py, progress, |progress| LossReport::answer(&comparison, &question, progress))
 }
 
-/// The ranking of `predictions` against `ground_truth`; `repeats` are further captures of the ground truth.
+/// The ranking of `predictions` against `ground_truth`.
 #[pyfunction]
-pub fn rank(
-    py: Python<'_>,
-    asked: Asked<'_>,
-    repeats: Vec<PyRef<'_, CoreMaterial>>,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
+pub fn rank(py: Python<'_>, asked: Asked<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Views> {
     let (convention, materials) = (asked.convention()?, asked.singles());
     let all: Vec<_> = materials.iter().collect();
     let comparison = Comparison::new(all[0], &all[1..], convention).map_err(exception)?;
@@ -57,10 +52,9 @@ pub fn rank(
     let outcome = work::run(py, progress, |progress| comparison.run(&request, progress))?;
     let mut report = RankReport::new(Compared::new(all[0], &convention), &request, &outcome);
     let storage = &asked.materials[0].get().storage;
-    if storage.has_steps() || !repeats.is_empty() {
-        let truth = (all[0], storage, repeats.as_slice());
-        let (floor, captures) = floor_of(py, truth, &convention, asked.seed()?, progress)?;
-        report = report.with_floor(&floor, captures);
+    if storage.has_steps() {
+        let floor = floor_of(py, (all[0], storage), &convention, asked.seed()?, progress)?;
+        report = report.with_floor(&floor);
     }
     Views::new(&report)
 }

@@ -5,60 +5,45 @@ use svbrdf_core::loss::{Comparison, Estimate};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::diagnose::{self as diagnosis, Storage};
 use svbrdf_evaluate::report::{Compared, DiagnoseReport, MapReport};
 
 use crate::arrays;
 use crate::asked::Asked;
 use crate::errors::{Error, exception};
-use crate::material::CoreMaterial;
 use crate::report::Views;
 use crate::work;
 
-/// The diagnosis of the loss of each of `predictions`; `repeats` are further captures of the ground truth.
+/// The diagnosis of the loss of each of `predictions`.
 #[pyfunction]
-pub fn diagnose(
-    py: Python<'_>,
-    asked: Asked<'_>,
-    repeats: Vec<PyRef<'_, CoreMaterial>>,
-    progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
+pub fn diagnose(py: Python<'_>, asked: Asked<'_>, progress: Option<&Bound<'_, PyAny>>) -> PyResult<Views> {
     let (convention, seed) = (asked.convention()?, asked.seed()?);
     let materials = asked.singles();
     let storages: Vec<_> = asked.materials.iter().map(|material| &material.get().storage).collect();
     let truth = &materials[0];
-    let floor = floor_of(py, (truth, storages[0], &repeats), &convention, seed, progress)?;
+    let floor = floor_of(py, (truth, storages[0]), &convention, seed, progress)?;
     let of_each = materials.iter().zip(&storages).skip(1).map(|(material, storage)| {
         let (pair, storages) = ([truth, material], [storages[0], *storage]);
         work::run(py, progress, |progress| {
-            diagnosis::diagnose(pair, storages, &convention, floor.0.mean, seed, progress)
+            diagnosis::diagnose(pair, storages, &convention, floor.mean, seed, progress)
         })
     });
     let diagnoses = of_each.collect::<PyResult<_>>()?;
     Views::new(&DiagnoseReport::new(Compared::new(truth, &convention), seed, floor, diagnoses))
 }
 
-/// The loss that a ground truth cannot resolve, and the number of captures that it is the mean loss between; `None`: it is that of
-/// rounding.
+/// The loss that a ground truth cannot resolve.
 ///
 /// # Errors
-/// Where a capture has another size.
+/// Those of the loss.
 pub fn floor_of(
     py: Python<'_>,
-    (truth, storage, repeats): (&Material<f32>, &Storage, &[PyRef<'_, CoreMaterial>]),
+    (truth, storage): (&Material<f32>, &Storage),
     convention: &Convention,
     seed: u64,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<(Estimate, Option<usize>)> {
-    if repeats.is_empty() {
-        let floor = |progress: &Progress| diagnosis::floor(truth, storage, convention, seed, progress);
-        return Ok((work::run(py, progress, floor)?, None));
-    }
-    let repeats: Vec<Material<f32>> = repeats.iter().map(|repeat| repeat.single()).collect();
-    let floor =
-        |progress: &Progress| diagnosis::floor_of_captures(truth, &repeats, convention, seed, progress);
-    Ok((work::run(py, progress, floor)?, Some(1 + repeats.len())))
+) -> PyResult<Estimate> {
+    work::run(py, progress, |progress| diagnosis::floor(truth, storage, convention, seed, progress))
 }
 
 /// The axes of a map over directions.

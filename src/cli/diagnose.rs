@@ -1,12 +1,9 @@
 //! `svbrdf diagnose`: whether something trivial explains a loss.
 
-use std::path::PathBuf;
-
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::diagnose::{Storage, diagnose};
 use svbrdf_evaluate::report::{Compared, DiagnoseReport};
 
-use super::args::floor::FloorArgs;
 use super::args::scenes::SeedArgs;
 use super::args::{ComparisonArgs, Given};
 use super::job::floor::floor_of;
@@ -18,8 +15,8 @@ use super::output::{CommandError, exit, watched};
 ///
 /// Each hypothesis is fitted in the scenes of a pilot and evaluated in 3,072 others. A star marks those that lower the loss
 /// significantly, and by at least 10% beside the other marked ones. The last column has the option that corrects the reading. Losses below
-/// the floor, which the ground truth cannot resolve, have no mark. The second table has the loss between averages over larger and larger
-/// blocks. docs/diagnose.md describes each line. Without GT and PRED: the built-in materials.
+/// the floor, which the ground truth cannot resolve, have no mark. docs/diagnose.md describes each line. Without GT and PRED: the built-in
+/// materials.
 #[derive(Debug, clap::Args)]
 pub struct DiagnoseArgs {
     #[command(flatten)]
@@ -30,9 +27,6 @@ pub struct DiagnoseArgs {
     format: ReportFormat,
 
     #[command(flatten)]
-    floor: FloorArgs,
-
-    #[command(flatten)]
     comparison: ComparisonArgs,
 }
 
@@ -40,31 +34,28 @@ pub struct DiagnoseArgs {
 struct DiagnoseJob {
     comparison: ComparisonJob,
     seed: u64,
-    repeats: Vec<PathBuf>,
     format: ReportFormat,
 }
 
 impl DiagnoseArgs {
     pub fn job(self, given: &Given) -> NewJob {
-        let Self { seed, format, floor: FloorArgs { repeats }, comparison } = self;
+        let Self { seed, format, comparison } = self;
         let comparison = ComparisonJob::with_predictions(&comparison, given)?;
-        Ok(Box::new(DiagnoseJob { comparison, seed: seed.seed.unwrap_or(0), repeats, format }))
+        Ok(Box::new(DiagnoseJob { comparison, seed: seed.seed.unwrap_or(0), format }))
     }
 }
 
 /// Prints the diagnoses to stdout.
 impl Job for DiagnoseJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison, seed, repeats, format } = *self;
+        let Self { comparison, seed, format } = *self;
         let opened = comparison.materials.open::<f32>()?;
         let (truth, convention) = (&opened.ground_truth, &comparison.convention);
-        let floor = floor_of(&repeats, &comparison, &opened, seed)?;
+        let floor = floor_of(&comparison, &opened, seed)?;
         let (of_truth, storages) = (&opened.storages[0], &opened.storages[1..]);
         let one = |(prediction, storage): (&Material<f32>, &Storage)| {
             let (pair, storages) = ([truth, prediction], [of_truth, storage]);
-            watched("diagnosing", |progress| {
-                diagnose(pair, storages, convention, floor.0.mean, seed, progress)
-            })
+            watched("diagnosing", |progress| diagnose(pair, storages, convention, floor.mean, seed, progress))
         };
         let diagnoses = opened.predictions.iter().zip(storages).map(one).collect::<Result<Vec<_>, _>>()?;
         let compared = Compared::new(truth, convention);

@@ -91,7 +91,7 @@ const VALUES: &[(&str, &str)] = &[
     ("map", "roughness=@gray.png"), ("max-size", "1kB"), ("metrics metrics", "psnr"), ("near", "3"), ("output", "@y.png"),
     ("over", "lights"), ("photo", "@photo.png"), ("pick", "mean"), ("plot", "@x.svg"), ("precision", "f64"),
     ("preset", "gao"), ("range", "0.125"), ("read", "albedo=gamma2.2"),
-    ("render difference", ""), ("repeat", "@b.png"), ("resize-to", "6"),
+    ("render difference", ""), ("resize-to", "6"),
     ("results", "@kept"), ("sampler", "random"),
     ("scenes", "@two.json"), ("seed", "5"), ("shard", "1/2"), ("show", "diffuse"), ("side", "5"),
     ("target-error", "25%"), ("texels", "3"), ("time-budget", "1ms"), ("top", "3"), ("transfer", "linear"),

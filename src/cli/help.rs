@@ -130,7 +130,7 @@ type Entry = (&'static str, &'static str, &'static [&'static str]);
 /// Options that the short help leaves out, of a command or of all.
 #[rustfmt::skip]
 const RARE: [(&str, &[&str]); 7] = [
-    ("", &["sampler", "precision", "repeats", "max_size"]),
+    ("", &["sampler", "precision", "max_size"]),
     ("loss", &["texels", "time_budget", "fov"]),
     ("rank", &["fov", "shard", "pick", "fail_above", "figures"]),
     ("strip", &["fov", "results", "range", "lights", "pairs", "convention", "scenes"]),

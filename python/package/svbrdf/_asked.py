@@ -96,12 +96,6 @@ def _plain(number: Any) -> int | float:
     return operator.index(number) if hasattr(number, "__index__") else float(number)
 
 
-def repeated(repeats: Predictions | Sequence[Material | Source]) -> list[_core.CoreMaterial]:
-    """Further captures of a ground truth, opened."""
-    materials = [repeats] if isinstance(repeats, Material | str | os.PathLike) else repeats
-    return [opened(material, "f32")._core for material in materials]
-
-
 def listed(materials: Predictions, argument: str) -> Sequence[Material | Source]:
     """One material or several as a list.
 

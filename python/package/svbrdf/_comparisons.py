@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from . import _core, _reports
 from ._arrays import Precision
-from ._asked import Accuracy, Asked, Predictions, Question, Sampled, check_unused, repeated
+from ._asked import Accuracy, Asked, Predictions, Question, Sampled, check_unused
 from ._material import Material, Source
 from ._progress import Report as Progress
 from ._progress import reported
@@ -75,7 +75,6 @@ def rank(
     ground_truth: Material | Source,
     predictions: Predictions,
     *,
-    repeats: Material | Source | Sequence[Material | Source] = (),
     convention: str = "printed",
     progress: bool | Progress = False,
     **question: Unpack[Accuracy],
@@ -87,11 +86,10 @@ def rank(
     >>> [(place.prediction, place.group) for place in svbrdf.rank(ground_truth, predictions).ranking]
     [('wrong roughness', 1), ('blurred normals', 2)]
 
-    Args and errors are those of `svbrdf.loss`, `repeats` those of `svbrdf.diagnose`. Where nothing decides the scenes,
-    `target_error` is 0.01. At most 786,432 / (predictions + 1) scenes are sampled.
+    Args and errors are those of `svbrdf.loss`. Where nothing decides the scenes, `target_error` is 0.01. At most 786,432 / (predictions + 1) scenes are sampled.
     """
     asked = Asked(ground_truth, predictions, question, convention)
-    return asked.answer(RankReport, _core.rank, "rendering", progress, repeated(repeats))
+    return asked.answer(RankReport, _core.rank, "rendering", progress)
 
 
 def diagnose(
@@ -99,7 +97,6 @@ def diagnose(
     predictions: Predictions,
     *,
     seed: int = 0,
-    repeats: Material | Source | Sequence[Material | Source] = (),
     convention: str = "printed",
     progress: bool | Progress = False,
 ) -> DiagnoseReport:
@@ -109,14 +106,13 @@ def diagnose(
     >>> ground_truth, _, _ = svbrdf.built_in()
     >>> maps = {name: getattr(ground_truth, name) for name in ("diffuse", "specular", "roughness")}
     >>> flipped = svbrdf.Material(normal=ground_truth.normal * [1, -1, 1], **maps)
-    >>> svbrdf.diagnose(ground_truth, flipped).predictions[0].findings[6].marked
+    >>> svbrdf.diagnose(ground_truth, flipped).predictions[0].findings[4].marked
     True
 
-    `repeats` are other captures of the ground truth: the floor is the mean loss between all captures in place of the
-    loss that rounding leaves. The other args and errors are those of `svbrdf.loss`.
+    The other args and errors are those of `svbrdf.loss`.
     """
     asked = Asked(ground_truth, predictions, {"seed": seed}, convention)
-    return asked.answer(DiagnoseReport, _core.diagnose, "diagnosing", progress, repeated(repeats))
+    return asked.answer(DiagnoseReport, _core.diagnose, "diagnosing", progress)
 
 
 def metrics(

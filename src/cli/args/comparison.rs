@@ -10,7 +10,6 @@ use svbrdf_files::Error;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::source::MaterialSource;
 
-use super::floor::FloorArgs;
 use super::reading::{PairReadingArgs, Side, StatementArgs};
 use super::{Given, NamedPath, offered, refuse, wildcards};
 use crate::cli::output::CommandError;
@@ -113,8 +112,7 @@ impl MaterialArgs {
     pub fn refuse_of_built_in(&self, given: &Given) -> Result<(), CommandError> {
         let reason = "the built-in materials are not read from files";
         self.refuse(given, reason)?;
-        refuse(self.reading.both.strict, "strict", reason)?;
-        given.refuse::<FloorArgs>(reason)
+        refuse(self.reading.both.strict, "strict", reason)
     }
 
     /// Refuses what is specified of files where a session names them.

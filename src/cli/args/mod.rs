@@ -1,7 +1,6 @@
 //! Arguments that several subcommands share, their values, and the refusal of options that a mode of a subcommand does not use.
 
 pub mod comparison;
-pub mod floor;
 pub mod given;
 pub mod named_path;
 pub mod offered;

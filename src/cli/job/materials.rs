@@ -17,7 +17,7 @@ use svbrdf_files::read::{Assumption, Binding, MaterialPath, Read, ReadOptions};
 use svbrdf_files::samples;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
-use svbrdf_files::source::{MaterialSource, Place};
+use svbrdf_files::source::MaterialSource;
 
 use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
 use crate::cli::args::{Given, MaterialArgs, NamedPath};
@@ -109,24 +109,6 @@ impl MaterialJob {
             return Err(Error::Internal("there is no ground truth".to_owned()).into());
         };
         Ok(Opened { ground_truth, predictions: materials.collect(), storages, readings, _memory: memory })
-    }
-
-    /// Further captures of the ground truth, read as it is, and resized to it where materials are resized.
-    pub fn repeats(
-        &self,
-        paths: &[PathBuf],
-        ground_truth: &Material<f32>,
-    ) -> Result<Vec<Material<f32>>, CommandError> {
-        let one = |path: &PathBuf| {
-            let place = Place::Path(path.clone());
-            let material =
-                noted(self.read(&MaterialSource { place, ..self.sources[0].clone() })?, self.verbose);
-            Ok(match self.resize_to {
-                Some(_) => material.resized(ground_truth.size())?,
-                None => material,
-            })
-        };
-        paths.iter().map(one).collect()
     }
 
     fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {

@@ -10,7 +10,6 @@ use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::{check_place, write_text};
 use svbrdf_page::Figures;
 
-use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::scenes::{ListArgs, QuestionArgs, SampledArgs};
 use crate::cli::args::{ComparisonArgs, Given, offered, values};
 use crate::cli::output::stop::stoppable;
@@ -50,9 +49,6 @@ pub struct RankArgs {
 
     #[command(flatten)]
     pub page: PageArgs,
-
-    #[command(flatten)]
-    pub floor: FloorArgs,
 
     #[command(flatten)]
     pub comparison: ComparisonArgs,

@@ -15,7 +15,6 @@ use svbrdf_page::{Figures, check_destination, material_views, ranking};
 use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use super::cases::{reading, source};
 use super::robust::asked;
-use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{Given, refuse};
 use crate::cli::job::{Job, NewJob};
 use crate::cli::output::stop::stoppable;
@@ -43,9 +42,8 @@ enum Output {
 }
 
 pub fn job(args: RankArgs, given: &Given) -> NewJob {
-    let reason = "materials of a data set are not resized and have one capture each";
+    let reason = "materials of a data set are not resized";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", reason)?;
-    given.refuse::<FloorArgs>(reason)?;
     if args.robust {
         refuse_scenes(given)?;
     }

@@ -1,7 +1,5 @@
 //! Many predictions of one ground truth.
 
-use std::path::PathBuf;
-
 use svbrdf_core::loss::{Comparison, Question, Request};
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::rank::most_scenes;
@@ -9,7 +7,6 @@ use svbrdf_evaluate::report::{Compared, MaterialReading, RankReport, Repetition,
 use svbrdf_evaluate::robust::RobustInput;
 
 use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
-use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{Given, refuse};
 use crate::cli::job::floor::floor_of;
 use crate::cli::job::{ComparisonJob, Job, NewJob, Opened, SessionSettings};
@@ -20,7 +17,6 @@ use crate::cli::output::{CommandError, command_line, target, watched};
 struct OneJob {
     comparison: ComparisonJob,
     request: Request,
-    repeats: Vec<PathBuf>,
     fail_above: Option<f64>,
     output: OutputArgs,
 }
@@ -37,22 +33,21 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     args.output.check(args.comparison.materials.paths())?;
     let comparison = ComparisonJob::with_predictions(&args.comparison, given)?;
     let (target_error, seed) = args.scenes.target_and_seed();
-    let RankArgs { floor: FloorArgs { repeats }, scenes, fail_above, output, robust, .. } = args;
+    let RankArgs { scenes, fail_above, output, robust, .. } = args;
     if robust {
-        given.refuse::<FloorArgs>("the order under other questions has no floor")?;
         refuse(fail_above.is_some(), "fail-above", "the order under other questions has no limit")?;
         refuse_scenes(given)?;
         return Ok(Box::new(RobustJob { comparison, target_error, seed, output }));
     }
     let Question { request, .. } =
         SessionSettings::question(comparison.session.as_ref(), &scenes.options()?)?;
-    Ok(Box::new(OneJob { comparison, request, repeats, fail_above, output }))
+    Ok(Box::new(OneJob { comparison, request, fail_above, output }))
 }
 
 /// Prints the ranking; fails where a loss is above a limit, after all are printed.
 impl Job for OneJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison: job, request, repeats, fail_above, output } = *self;
+        let Self { comparison: job, request, fail_above, output } = *self;
         let opened = job.materials.open::<f32>()?;
         let predictions: Vec<_> = opened.predictions.iter().collect();
         let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?
@@ -60,9 +55,8 @@ impl Job for OneJob {
         let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
         let compared = Compared::new(&opened.ground_truth, &job.convention);
         let mut report = RankReport::new(compared, &request, &outcome);
-        if opened.storages[0].has_steps() || !repeats.is_empty() {
-            let (floor, captures) = floor_of(&repeats, &job, &opened, request.seed().unwrap_or(0))?;
-            report = report.with_floor(&floor, captures);
+        if opened.storages[0].has_steps() {
+            report = report.with_floor(&floor_of(&job, &opened, request.seed().unwrap_or(0))?);
         }
         report.repetition = Some(Repetition::new(command_line()));
         report.readings = readings(&opened);

@@ -6,7 +6,6 @@ use svbrdf_evaluate::report::RobustReport;
 
 use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, refuse_scenes};
 use super::cases::{reading, source};
-use crate::cli::args::floor::FloorArgs;
 use crate::cli::args::{Given, refuse};
 use crate::cli::job::{Job, NewJob};
 use crate::cli::output::{CommandError, exit, watched_on};
@@ -21,10 +20,9 @@ struct RobustJob {
 }
 
 pub fn job(args: &RankArgs, given: &Given) -> NewJob {
-    let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no floor, no limit and no remarks";
+    let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no limit and no remarks";
     given.refuse::<DataSetArgs>(reason)?;
     given.refuse::<PageArgs>(reason)?;
-    given.refuse::<FloorArgs>(reason)?;
     refuse(args.comparison.materials.reading.both.verbose, "verbose", reason)?;
     refuse(args.fail_above.is_some(), "fail-above", reason)?;
     refuse_scenes(given)?;

@@ -48,31 +48,6 @@ pub fn floor(
     Ok(mean_of(&scenes, &losses.iter().map(Vec::as_slice).collect::<Vec<_>>()))
 }
 
-/// The mean loss between repeated captures of one material: over all pairs of the ground truth and its `repeats`.
-///
-/// # Errors
-/// [`CoreError::SizesDiffer`], [`Error::NoPrediction`] without repeats, [`Cancelled`](Error::is_cancelled).
-pub fn floor_of_captures(
-    ground_truth: &Material<f32>,
-    repeats: &[Material<f32>],
-    convention: &Convention,
-    seed: u64,
-    progress: &Progress,
-) -> Result<Estimate, Error> {
-    if repeats.is_empty() {
-        return Err(Error::NoPrediction);
-    }
-    let all: Vec<_> = std::iter::once(ground_truth).chain(repeats).collect();
-    progress.begin(repeats.len() as u64);
-    let of_first = |first: usize| {
-        let outcome = losses(all[first], &all[first + 1..], convention, seed, &progress.part())?;
-        progress.step()?;
-        Ok(outcome)
-    };
-    let outcomes = (0..repeats.len()).map(of_first).collect::<Result<Vec<_>, CoreError>>()?;
-    Ok(mean(&outcomes))
-}
-
 fn losses(
     first: &Material<f32>,
     others: &[&Material<f32>],

@@ -43,7 +43,7 @@ pub(crate) mod tests;
 pub use dither::dithered;
 pub use exposure::best_stops;
 pub use finding::{Diagnosis, Finding, Hypothesis, Value};
-pub use floor::{floor, floor_of_captures};
+pub use floor::floor;
 pub use holm::holm;
 pub use search::{SCENES, diagnose};
 pub use sentence::{sentence, sentence_of};

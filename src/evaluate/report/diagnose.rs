@@ -17,8 +17,6 @@ pub struct DiagnoseReport {
     seed: u64,
     /// The loss that the ground truth cannot resolve.
     floor: Estimate,
-    /// The number of captures of the ground truth that the floor is the mean loss between; `None`: it is that of rounding.
-    captures: Option<usize>,
     /// One per prediction.
     predictions: Vec<Diagnosis>,
 }
@@ -51,15 +49,10 @@ struct ReportedFinding {
 }
 
 impl DiagnoseReport {
-    /// The report of `diagnoses` beside a `floor`, which is the mean loss between this many captures, or that of rounding.
-    pub fn new(
-        compared: Compared,
-        seed: u64,
-        (floor, captures): (Estimate, Option<usize>),
-        diagnoses: Vec<diagnose::Diagnosis>,
-    ) -> Self {
+    /// The report of `diagnoses` beside a `floor`.
+    pub fn new(compared: Compared, seed: u64, floor: Estimate, diagnoses: Vec<diagnose::Diagnosis>) -> Self {
         let predictions = diagnoses.into_iter().map(|one| Diagnosis::new(one, &compared, &floor)).collect();
-        Self { compared, seed, floor, captures, predictions }
+        Self { compared, seed, floor, predictions }
     }
 
     fn text_of(diagnosis: &Diagnosis) -> String {
@@ -139,7 +132,7 @@ impl Report for DiagnoseReport {
             "{}{near} near-field and {distant} distant scenes, seed {}, scrambled Sobol\n{}",
             self.compared.heading("diagnosis"),
             self.seed,
-            floor_line(&self.floor, self.captures)
+            floor_line(&self.floor)
         )
     }
 

@@ -61,13 +61,10 @@ pub fn scenes_line(sampling: Option<&Sampling>, scenes: &[Scene], size: [usize; 
     format!("{counts}, seed {}{sampler}{texels}\n", sampling.seed)
 }
 
-/// The floor of the ground truth: a line. `captures`: the number of captures that it is the mean loss between; `None`: it is that of
-/// rounding.
-pub fn floor_line(floor: &Estimate, captures: Option<usize>) -> String {
-    let between =
-        captures.map(|count| format!(", the mean loss between {count} captures")).unwrap_or_default();
+/// The floor of the ground truth: a line.
+pub fn floor_line(floor: &Estimate) -> String {
     format!(
-        "floor of the ground truth {:.6}{between}: smaller losses and differences are not resolvable\n",
+        "floor of the ground truth {:.6}: smaller losses and differences are not resolvable\n",
         floor.mean
     )
 }

@@ -53,8 +53,6 @@ pub struct RankReport {
     target_reached: Option<bool>,
     /// The loss that the ground truth cannot resolve; `None`: the depth of its files is not known here.
     floor: Option<f64>,
-    /// The number of captures that the floor is the mean loss between; `None`: it is that of rounding.
-    captures: Option<usize>,
     /// How to repeat it; `None` for materials that no command names.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub repetition: Option<Repetition>,
@@ -122,7 +120,6 @@ impl RankReport {
             target_error,
             target_reached: target_error.map(|target| outcome.relative_error95() <= target),
             floor: None,
-            captures: None,
             repetition: None,
             readings: Vec::new(),
             ranking: places(outcome).into_iter().map(place).collect(),
@@ -130,17 +127,16 @@ impl RankReport {
         }
     }
 
-    /// The same report with the loss that the ground truth cannot resolve, and the number of captures that it is the mean loss between;
-    /// `None`: it is that of rounding.
+    /// The same report with the loss that the ground truth cannot resolve.
     #[must_use]
-    pub fn with_floor(mut self, floor: &Estimate, captures: Option<usize>) -> Self {
+    pub fn with_floor(mut self, floor: &Estimate) -> Self {
         let is_above = |value: f64| value > floor.mean;
         for place in &mut self.ranking {
             place.resolvable = Some(is_above(place.loss.mean));
             place.to_best_resolvable = place.to_best.map(|difference| is_above(difference.mean.abs()));
         }
-        self.heading += &floor_line(floor, captures);
-        Self { floor: Some(floor.mean), captures, ..self }
+        self.heading += &floor_line(floor);
+        Self { floor: Some(floor.mean), ..self }
     }
 
     fn rows(&self) -> impl Iterator<Item = Row<'_>> {

@@ -1,9 +1,7 @@
 //! The floor.
 
-use super::super::{Storage, StoredEncoding, floor, floor_of_captures};
+use super::super::{Storage, StoredEncoding, floor};
 use super::materials::{generated, with};
-use crate::error::Error;
-use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
@@ -48,28 +46,4 @@ fn the_floor_is_the_loss_of_brute_force_dithering() {
     let coarse = Storage { steps: [2.0 / 255.0; 4], ..storage };
     let coarse = super::super::floor(&truth, &coarse, &PRINTED, 3, &Progress::default()).unwrap();
     assert!(coarse.mean > 1.5 * floor.mean, "a planted fault: {coarse:?}");
-}
-
-#[test]
-fn the_floor_of_captures_is_the_mean_loss_of_all_pairs() {
-    let truth = generated(0, 16);
-    let darker =
-        |factor: f32| with(&truth, |planes| planes.diffuse.iter_mut().flatten().for_each(|d| *d *= factor));
-    let captures = [truth.clone(), darker(0.9), darker(0.7)];
-    let loss = |first: usize, second: usize| {
-        let sampling =
-            Sampling { near: 128, distant: 64, seed: 5, sampler: Sampler::Sobol, ..Sampling::default() };
-        let comparison = Comparison::new(&captures[first], &[&captures[second]], PRINTED).unwrap();
-        let outcome = comparison.run(&Request::Scenes(sampling), &Progress::default()).unwrap();
-        outcome.losses[0].estimate.mean
-    };
-    let pairs = [loss(0, 1), loss(0, 2), loss(1, 2)];
-    let floor =
-        |repeats: &[Material<f32>]| floor_of_captures(&truth, repeats, &PRINTED, 5, &Progress::default());
-    let found = floor(&captures[1..]).unwrap().mean;
-    assert!((found / (pairs.iter().sum::<f64>() / 3.0) - 1.0).abs() < 1e-6, "{found} {pairs:?}");
-    assert!((found / pairs[0] - 1.0).abs() > 0.1, "a planted fault");
-    assert!(matches!(floor(&[]), Err(Error::NoPrediction)));
-    let refused = floor(&[generated(0, 8)]).unwrap_err();
-    assert!(matches!(refused.core(), Some(CoreError::SizesDiffer { .. })), "{refused}");
 }
