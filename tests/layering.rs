@@ -24,7 +24,7 @@ const LAYERS: [&[&str]; 21] = [
     &["core/lib"],
     &["files"],
     &["evaluate/error"],
-    &["evaluate/diagnose", "evaluate/metrics", "evaluate/rank", "evaluate/study", "evaluate/why"],
+    &["evaluate/diagnose", "evaluate/metrics", "evaluate/rank", "evaluate/why"],
     &["evaluate"],
     &["page"],
     &["gpu"],
