@@ -51,7 +51,7 @@ const CAPS: [(Set, &[f64]); 3] = [
 ];
 
 /// The kinds of shadowing, with k.
-pub const SHADOWINGS: [(Shadowing, K); 8] = [
+const SHADOWINGS: [(Shadowing, K); 8] = [
     (Shadowing::Schlick, K::HalfAlpha),
     (Shadowing::Schlick, K::HalfSquare),
     (Shadowing::Schlick, K::Direct),

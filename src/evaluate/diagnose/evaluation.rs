@@ -54,7 +54,7 @@ fn finding(proposal: &Proposal, paired: &Paired, scenes: &[Scene]) -> Finding {
 
 /// The interval of `1 - after / before` for the means of both: that of the linear part of this ratio (Cochran 1977, Sampling techniques,
 /// 6.3).
-pub(super) fn share_interval(paired: &Paired, scenes: &[Scene]) -> Option<[f64; 2]> {
+fn share_interval(paired: &Paired, scenes: &[Scene]) -> Option<[f64; 2]> {
     let (before, after) = (mean(&paired.before), mean(&paired.after));
     let ratio = if before > 0.0 { after / before } else { 1.0 };
     let expected: Vec<f64> = paired.before.iter().map(|loss| ratio * loss).collect();

@@ -13,7 +13,7 @@ const BISECTIONS: usize = 40;
 /// minimum.
 ///
 /// The derivative of a term is `ln 2 * sign(2^t p - g) 2^t p / (2^t p + epsilon)`, and the sum is bisected for its sign.
-pub fn best_stops(pairs: &[[f32; 2]], epsilon: f64) -> f64 {
+fn best_stops(pairs: &[[f32; 2]], epsilon: f64) -> f64 {
     let slope = |stops: f64| {
         let (factor, epsilon) = (stops.exp2() as f32, epsilon as f32);
         let of_pair = |[g, p]: [f32; 2]| {

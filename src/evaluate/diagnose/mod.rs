@@ -41,11 +41,9 @@ mod trials;
 pub(crate) mod tests;
 
 pub use dither::dithered;
-pub use exposure::best_stops;
 pub use finding::{Diagnosis, Finding, Hypothesis, Value};
 pub use floor::floor;
 pub use holm::holm;
 pub use search::{SCENES, diagnose};
 pub use sentence::{sentence, sentence_of};
-pub use shift::MOST_SHIFT;
 pub use svbrdf_files::changes::{Change, Reading, Remedy, Storage, StoredEncoding, Symmetry, shifted};

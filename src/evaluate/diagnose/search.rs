@@ -21,7 +21,7 @@ pub const SCENES: [usize; 2] = [2048, 1024];
 /// Near-field scenes, distant scenes, and texels of each up to which all are compared: of the pilot, and of the evaluation. Of larger maps
 /// an eighth as many are.
 const PILOT: [usize; 3] = [64, 32, 8192];
-pub(super) const EVALUATION: [usize; 3] = [SCENES[0], SCENES[1], 2048];
+const EVALUATION: [usize; 3] = [SCENES[0], SCENES[1], 2048];
 /// The same of the search among sets of changes, which are many.
 const SEARCH: [usize; 3] = [16, 8, 2048];
 /// What the seed of the pilot differs by.

@@ -11,7 +11,7 @@ use svbrdf_core::material::Material;
 use svbrdf_files::changes::Symmetry;
 
 /// Most texels of a shift in either direction.
-pub const MOST_SHIFT: usize = 8;
+const MOST_SHIFT: usize = 8;
 /// Most runs of texels that maps are correlated on, and texels of each.
 const RUNS: usize = 1024;
 const LENGTH: usize = 32;
