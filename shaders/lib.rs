@@ -93,10 +93,6 @@ pub const DISPLAY: Shader = Shader {
 /// Kept pixels, copied.
 pub const BLIT: Shader = Shader { name: "blit", pieces: &[piece!("fullscreen.wgsl"), piece!("blit.wgsl")] };
 
-/// The BRDF at single points.
-pub const PROBE: Shader =
-    Shader { name: "probe", pieces: &[piece!("texel.wgsl"), piece!("brdf.wgsl"), piece!("probe.wgsl")] };
-
 /// Pass 1 of the report, for WebGL.
 pub const PAGE_SHADE: Shader = Shader {
     name: "page_shade",
@@ -151,14 +147,13 @@ pub const PAGE: [(&str, Shader); 3] =
     [("shade", PAGE_SHADE), ("display", PAGE_DISPLAY), ("difference", PAGE_DIFFERENCE)];
 
 /// Every shader of this crate.
-pub const ALL: [Shader; 10] = [
+pub const ALL: [Shader; 9] = [
     FLOATS.shade,
     FLOATS.reduce,
     CODED.shade,
     CODED.reduce,
     DISPLAY,
     BLIT,
-    PROBE,
     PAGE_SHADE,
     PAGE_DISPLAY,
     PAGE_DIFFERENCE,

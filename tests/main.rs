@@ -14,21 +14,16 @@ mod detection;
 mod docs;
 #[cfg(feature = "viewer")]
 mod end_to_end;
-mod extremes;
 mod formats;
-mod fused;
-mod golden_loss;
-mod golden_points;
-mod golden_requests;
 #[cfg(feature = "viewer")]
 mod gpu_parity;
+mod ladder;
 mod layering;
 mod metrics;
 mod mutations;
 mod packages;
 mod page;
 mod photograph;
-mod physics;
 mod rank;
 mod reading;
 mod real_files;

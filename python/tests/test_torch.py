@@ -104,8 +104,7 @@ def test_the_loss_is_that_of_the_core_for_the_same_seed(precision: Any, conventi
 
 
 @pytest.mark.parametrize("convention", [name for name, one in svbrdf.CONVENTIONS.items() if one.smith])
-def test_the_loss_is_that_of_the_kernel_and_a_changed_term_is_seen(convention: str) -> None:
-    """The kernel has the renderer in float32."""
+def test_the_loss_is_that_of_the_core_and_a_changed_term_is_seen(convention: str) -> None:
     ground_truth, prediction, _ = svbrdf.built_in()
     expected = svbrdf.loss(ground_truth, prediction, near=2, distant=2, convention=convention).results[0].loss
     scenes = svbrdf.sample_scenes(2, 2, convention=convention)

@@ -93,9 +93,4 @@ impl Error {
     pub fn unknown_name(what: &'static str, found: impl Into<String>, known: impl Into<String>) -> Self {
         Self::UnknownName { what, found: found.into(), known: known.into() }
     }
-
-    /// [`Error::NotComputed`].
-    pub fn not_by(what: &'static str, convention: &'static str) -> Self {
-        Self::NotComputed { what, convention }
-    }
 }

@@ -1,14 +1,14 @@
-//! The parts of a pipeline that the passes and the probe share.
+//! The parts of a pipeline that the passes share.
 
 use std::sync::{Mutex, PoisonError};
 
 use wgpu::util::DeviceExt as _;
 use wgpu::{
     BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry,
-    BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoder, ComputePipeline,
-    Device, LoadOp, Operations, PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor,
-    RenderPass, RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, ShaderModule,
-    ShaderModuleDescriptor, ShaderSource, ShaderStages, StoreOp, TextureFormat, TextureView,
+    BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, CommandEncoder, Device, LoadOp,
+    Operations, PipelineCompilationOptions, PipelineLayout, PipelineLayoutDescriptor, RenderPass,
+    RenderPassColorAttachment, RenderPassDescriptor, RenderPipeline, ShaderModule, ShaderModuleDescriptor,
+    ShaderSource, ShaderStages, StoreOp, TextureFormat, TextureView,
 };
 
 use svbrdf_shaders::Shader;
@@ -75,24 +75,6 @@ pub(super) fn uniform_buffer(device: &Device, contents: &[u8]) -> Buffer {
         label: Some("uniforms"),
         contents,
         usage: BufferUsages::UNIFORM | BufferUsages::COPY_DST,
-    })
-}
-
-/// A pipeline that runs the compute function `entry` of `module`.
-pub(super) fn compute(
-    device: &Device,
-    module: &ShaderModule,
-    entry: &str,
-    layout: &BindGroupLayout,
-) -> ComputePipeline {
-    let layout = pipeline_layout(device, entry, layout);
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(entry),
-        layout: Some(&layout),
-        module,
-        entry_point: Some(entry),
-        compilation_options: Default::default(),
-        cache: None,
     })
 }
 

@@ -81,22 +81,6 @@ impl ShadingUniforms {
     }
 }
 
-/// `Point` of probe.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub struct ProbePoint {
-    pub normal: [f32; 3],
-    pub roughness: f32,
-    pub diffuse: [f32; 3],
-    pub pad: u32,
-    pub specular: [f32; 3],
-    pub pad_1: u32,
-    pub w_l: [f32; 3],
-    pub pad_2: u32,
-    pub w_v: [f32; 3],
-    pub pad_3: u32,
-}
-
 /// A vec3f with the padding behind it.
 pub type Padded = [f32; 4];
 

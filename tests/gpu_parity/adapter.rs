@@ -96,15 +96,13 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
     let mut half = gpu.clone();
     half.report.shading_format = wgpu::TextureFormat::Rgba16Float;
     let scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] };
-    let refused =
-        half.render(&bumpy(4, 4), &scene, &PRINTED).expect_err("16 bits are not enough").to_string();
-    assert!(refused.contains("32-bit floats") && refused.contains("use the CPU"), "{refused}");
-
     let shading = Shading::new(&half).expect("compiled");
     let textures = MaterialTextures::upload(&half, &mirror()).expect("uploaded");
     let target = shading.target(&half, [2, 2]).expect("created");
     let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering, repeated: false };
     shading.draw(&half, &textures, &params, &target);
+    let refused = target.read_back(&half).expect_err("16 bits are not enough").to_string();
+    assert!(refused.contains("32-bit floats") && refused.contains("use the CPU"), "{refused}");
     // Brings the largest 16-bit number, and nothing larger, just below 1.
     let exposed =
         DisplayParams { exposure_ev: -16.0, show_clipping: true, ..from_above([1.0; 2], Encoding::Radiance) };

@@ -10,26 +10,17 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_gpu::{DisplayMode, DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
+use svbrdf_gpu::{DisplayMode, DisplayParams, Encoding, Gpu, ShadeParams, Shaded};
 use svbrdf_needs::needs;
 
-use crate::support::gpu::{BACKGROUND, Picture, bumpy, from_above, gpu, gpu_f32, picture};
+use crate::support::gpu::{BACKGROUND, Picture, bumpy, from_above, gpu, gpu_f32, picture, shaded_by};
 use crate::support::tolerance::SCREEN_LEVELS;
 
 /// Light and view straight above.
 const ABOVE: Scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] };
 
 fn shaded(gpu: &Gpu, material: &Material<f32>, quantity: Quantity) -> Shaded {
-    let shading = Shading::new(gpu).expect("compiled");
-    let textures = MaterialTextures::upload(gpu, material).expect("uploaded");
-    let target = shading.target(gpu, material.size()).expect("created");
-    shading.draw(
-        gpu,
-        &textures,
-        &ShadeParams { scene: ABOVE, convention: PRINTED, quantity, repeated: false },
-        &target,
-    );
-    target
+    shaded_by(gpu, material, &ShadeParams { scene: ABOVE, convention: PRINTED, quantity, repeated: false })
 }
 
 /// The whole map of a quantity, to the outer edges of its texels.
@@ -89,8 +80,8 @@ fn known_values_are_encoded_as_the_standard_says() {
 fn radiance_is_exposed_before_it_is_encoded() {
     let gpu = gpu_f32();
     let material = gray(0.3);
-    let on_gpu = gpu.render(&material, &ABOVE, &PRINTED).expect("rendered").pixels[0];
     let shaded = shaded(gpu, &material, Quantity::Rendering);
+    let on_gpu = shaded.read_back(gpu).expect("read back").pixels[0];
     for exposure_ev in [-3.0_f32, 0.0, 1.0, 2.0] {
         let params = DisplayParams { exposure_ev, ..whole([4, 4], Quantity::Rendering) };
         let picture = picture(gpu, [4, 4], &shaded, &shaded, &params);

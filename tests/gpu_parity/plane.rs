@@ -7,10 +7,11 @@ use svbrdf_core::model::brdf::{self, Model, Texel};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_gpu::{DisplayParams, Encoding, Gpu, MaterialTextures, ShadeParams, Shaded, Shading, Tiling};
+use svbrdf_core::render::widened;
+use svbrdf_gpu::{DisplayParams, Encoding, Gpu, ShadeParams, Shaded, Tiling};
 use svbrdf_needs::needs;
 
-use crate::support::gpu::{bumpy, from_above, gpu, gpu_f32, picture};
+use crate::support::gpu::{bumpy, from_above, gpu, gpu_f32, picture, shaded_by};
 use crate::support::tolerance::PLANE;
 
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 1.5], light: [-0.6, 0.5, 1.0] };
@@ -18,16 +19,7 @@ const SCENE: Scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 1.5], light: [-
 const SIZES: [[usize; 2]; 4] = [[12, 8], [9, 7], [8, 5], [1, 1]];
 
 fn shaded(gpu: &Gpu, material: &Material<f32>, quantity: Quantity, repeated: bool) -> Shaded {
-    let shading = Shading::new(gpu).unwrap();
-    let textures = MaterialTextures::upload(gpu, material).unwrap();
-    let target = match repeated {
-        true => shading.repeated_target(gpu, material.size(), 1),
-        false => shading.target(gpu, material.size()),
-    };
-    let target = target.unwrap();
-    let params = ShadeParams { scene: SCENE, convention: PRINTED, quantity, repeated };
-    shading.draw(gpu, &textures, &params, &target);
-    target
+    shaded_by(gpu, material, &ShadeParams { scene: SCENE, convention: PRINTED, quantity, repeated })
 }
 
 /// The radiances of the cells, row by row, in f64: the plane spans the material, two texels to each of its spacings.
@@ -40,13 +32,7 @@ fn cells(material: &Material<f32>) -> Vec<[f64; 3]> {
         let x = spacing * ((index % columns) as f64 - 0.5 * (columns - 1) as f64);
         let y = spacing * (0.5 * (rows - 1) as f64 - (index / columns) as f64);
         let (column, row) = ((index % columns + width / 2) % width, (index / columns + height / 2) % height);
-        let Texel { normal, diffuse, specular, roughness } = material.texel(row * width + column);
-        let texel = Texel {
-            normal: normal.as_dvec3(),
-            diffuse: diffuse.map(f64::from),
-            specular: specular.map(f64::from),
-            roughness: f64::from(roughness),
-        };
+        let texel = widened(&material.texel(row * width + column));
         let towards = |place: [f64; 3]| (DVec3::from(place) - DVec3::new(x, y, 0.0)).normalize();
         brdf::render(&Model::from(&PRINTED), &texel, towards(SCENE.light), towards(SCENE.view))
     };

@@ -3,8 +3,14 @@
 use std::sync::OnceLock;
 
 use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::camera::Camera;
-use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayPass, Encoding, Gpu, Pane, PanePlace, Shaded};
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_gpu::{
+    DisplayMode, DisplayParams, DisplayPass, Encoding, Gpu, MaterialTextures, Pane, PanePlace, ShadeParams,
+    Shaded, Shading,
+};
 
 /// What to do where the tests and the build disagree on what is there.
 pub const STALE_BUILD: &str =
@@ -34,6 +40,35 @@ pub fn gpu_f32() -> &'static Gpu {
     let gpu = gpu();
     assert_eq!(gpu.report.shading_format, wgpu::TextureFormat::Rgba32Float, "{}", gpu.report);
     gpu
+}
+
+/// The passes of [`gpu`].
+pub fn shading() -> &'static Shading {
+    static SHADING: OnceLock<Shading> = OnceLock::new();
+    SHADING.get_or_init(|| Shading::new(gpu()).expect("the shading pass compiles"))
+}
+
+/// A rendering by [`gpu`]; light and view may be below the plane.
+pub fn shaded(gpu: &Gpu, material: &Material<f32>, scene: &Scene, convention: &Convention) -> Shaded {
+    let params = ShadeParams {
+        scene: *scene,
+        convention: *convention,
+        quantity: Quantity::Rendering,
+        repeated: false,
+    };
+    shaded_by(gpu, material, &params)
+}
+
+/// A material shaded by [`gpu`].
+pub fn shaded_by(gpu: &Gpu, material: &Material<f32>, params: &ShadeParams) -> Shaded {
+    let textures = MaterialTextures::upload(gpu, material).expect("uploaded");
+    let target = match params.repeated {
+        true => shading().repeated_target(gpu, material.size(), 1),
+        false => shading().target(gpu, material.size()),
+    };
+    let target = target.expect("created");
+    shading().draw(gpu, &textures, params, &target);
+    target
 }
 
 /// A bumpy material in which no two texels, rows, columns or channels are alike.

@@ -9,17 +9,6 @@ use svbrdf_core::model::brdf::{self, Model, Texel};
 /// Half the distance of 1 and the next f32.
 pub const U: f64 = 1.0 / (1 << 24) as f64;
 
-/// A texel, and the directions w_l and w_v of any length.
-#[cfg(feature = "viewer")]
-pub type Point = (Texel<f32>, [f32; 3], [f32; 3]);
-
-/// `count` points whose parts are now random, now at an edge of the domain, in every combination.
-#[cfg(feature = "viewer")]
-pub fn points(seed: u64, count: usize) -> Vec<Point> {
-    let mut generator = Generator::new(seed, 0);
-    (0..count).map(|_| generator.point()).collect()
-}
-
 /// Random parts of points, now and then at an edge of the domain.
 pub struct Generator(ChaCha8Rng);
 
@@ -95,33 +84,6 @@ impl Generator {
         let off = self.one_of([0.0, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1]);
         (exact + self.direction() * off).normalize()
     }
-
-    #[cfg(feature = "viewer")]
-    fn point(&mut self) -> Point {
-        let (n, l) = (self.normal(), self.direction());
-        let v = self.partner(n, l);
-        let mut lengthened = |w: DVec3| (w * 10f64.powf(4.0 * self.uniform() - 2.0)).as_vec3().to_array();
-        let (w_l, w_v) = (lengthened(l), lengthened(v));
-        let texel = Texel {
-            normal: n.as_vec3(),
-            diffuse: [(); 3].map(|()| self.albedo()),
-            specular: [(); 3].map(|()| self.albedo()),
-            roughness: self.roughness(),
-        };
-        (texel, w_l, w_v)
-    }
-}
-
-/// A point in f64, exactly.
-#[cfg(feature = "viewer")]
-pub fn exact((texel, w_l, w_v): &Point) -> (Texel<f64>, DVec3, DVec3) {
-    let texel = Texel {
-        normal: texel.normal.as_dvec3(),
-        diffuse: texel.diffuse.map(f64::from),
-        specular: texel.specular.map(f64::from),
-        roughness: f64::from(texel.roughness),
-    };
-    (texel, w_l.map(f64::from).into(), w_v.map(f64::from).into())
 }
 
 /// How far each channel of `brdf::render` may be off where every operation, on vectors of length about 1, is off by

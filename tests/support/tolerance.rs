@@ -1,13 +1,9 @@
 //! Every tolerance of the tests, each with the worst case that was measured beside it.
 
-/// Relative error of losses, per-scene losses and mean renderings in f64 against the golden numbers.
-pub const GOLDEN_LOSS_F64: f64 = 1e-9; // measured: 6.7e-13
-/// As [`GOLDEN_LOSS_F64`], in f32.
-pub const GOLDEN_LOSS_F32: f64 = 2e-5; // measured: 4.2e-6
-/// Relative error of single rendered texels in f64 against the golden numbers.
-pub const GOLDEN_PROBE_F64: f64 = 1e-9; // measured: 1.5e-14
-/// As [`GOLDEN_PROBE_F64`], in f32.
-pub const GOLDEN_PROBE_F32: f64 = 2e-5; // measured: 1.8e-6
+/// Relative error of losses, mean renderings and single texels against the golden numbers.
+pub const GOLDEN_F64: f64 = 1e-9; // measured: 6.7e-13
+pub const GOLDEN_F32: f64 = 2e-5; // measured: 4.2e-6
+
 /// Golden points: |got - expected| in units of max(kappa, 1) u |expected|, with kappa the condition number of the
 /// point and u the unit roundoff of the precision. The factor was given together with the points. Worst measured:
 ///
@@ -25,15 +21,9 @@ pub const GOLDEN_POINTS: f64 = 16.0;
 /// Golden points with a larger condition number are not held to a bound in f32, only to being finite and not negative.
 pub const GOLDEN_POINTS_F32_KAPPA: f64 = 1e5;
 
-/// |the integral of D(n.h) (n.h) over the hemisphere - 1| for r from 1 to 1e-4. The quadrature is within 2e-8.
-pub const NORMALIZATION_F64: f64 = 1e-5; // measured: 4.2e-9
-/// As [`NORMALIZATION_F64`], in f32.
-pub const NORMALIZATION_F32: f64 = 1e-5; // measured: 1.1e-7
-/// As [`NORMALIZATION_F64`], from radiances of the fused kernel.
-pub const NORMALIZATION_FUSED: f64 = 1e-5; // measured: 1.1e-7
-/// As [`NORMALIZATION_F64`], from radiances of the shader.
-#[cfg(feature = "viewer")]
-pub const NORMALIZATION_GPU: f64 = 1e-5; // measured: 1.6e-7 (lavapipe)
+/// |the integral of D(n.h) (n.h) over the hemisphere - 1| for r from 1 to 1e-4, in f64, f32 and by the kernel. The quadrature is
+/// within 2e-8.
+pub const NORMALIZATION: f64 = 1e-5; // measured: 4.2e-9, 1.1e-7, 1.1e-7
 
 /// The shader's cells of the repeated plane against f64: relative, of radiances of at least 1e-3.
 #[cfg(feature = "viewer")]
@@ -69,10 +59,9 @@ pub const LOSS_SUM_F64: f64 = 1e-14;
 /// Measured on 800,000 random and extreme points in four conventions, lavapipe and CPU alike: 3.8 needed.
 pub const POINT_ULPS: f64 = 8.0;
 
-/// The same for whole renderings on the GPU, where the shader also computes positions and directions.
+/// The same for whole renderings in f32 and on the GPU, where positions and directions are computed, too.
 ///
 /// Measured: 2.9 needed on lavapipe, whose divisions are correctly rounded; Vulkan allows 2.5 units in the last place.
-#[cfg(feature = "viewer")]
 pub const RENDERING_ULPS: f64 = 16.0;
 
 /// Levels of 255 that a pixel of the screen may be off: rounding, at most half a level each way.
@@ -80,24 +69,24 @@ pub const RENDERING_ULPS: f64 = 16.0;
 /// Measured: 1.
 #[cfg(feature = "viewer")]
 pub const SCREEN_LEVELS: u8 = 1;
-/// Fused f32 loss against the plain f64 one, relative, any convention and instruction set: random materials with
-/// r >= 1/255 and the golden cases. Worst measured 3.4e-8 (metal_a against pyramids_a); required 1e-6.
-pub const FUSED_LOSS: f64 = 3e-7;
-/// The same, single scenes, and materials of a few texels. Worst measured 1.4e-7 (one texel).
-pub const FUSED_SCENE: f64 = 2e-6;
+/// Losses in f32 against f64, relative: of the mean, and of single scenes. Random materials with r >= 1/255 and the golden cases, any
+/// convention and instruction set. Worst measured: 3.4e-8 and 1.4e-7; required 1e-6.
+pub const LOSS_RANDOM: [f64; 2] = [3e-7, 2e-6];
+/// The same of materials of a few texels.
+pub const LOSS_SMALL: [f64; 2] = [2e-6; 2];
 /// The same for two materials that differ by 0.01 in r: the loss is small against what it is a difference of.
 /// Worst measured 1.1e-7.
-pub const FUSED_SIMILAR: f64 = 2e-6;
+pub const LOSS_SIMILAR: [f64; 2] = [2e-6; 2];
 /// The same where every texel is in the peak of a highlight of r = 1/255: a rounding of a direction is 0.4% of its
 /// width. Worst measured 1.2e-8, over 16,384 texels.
-pub const FUSED_PEAK: f64 = 3e-7;
+pub const LOSS_PEAK: [f64; 2] = [3e-7; 2];
 /// The same for mirrors, grazing normals and lights in the plane. Worst measured 2.5e-6 (a loss of 0.001).
-pub const FUSED_EXTREME: f64 = 1e-5;
+pub const LOSS_EXTREME: [f64; 2] = [1e-5; 2];
 /// Errors of losses below it are taken relative to it: the logarithms' arguments are f32, whose rounding stays.
-pub const FUSED_LEAST: f64 = 0.02;
-/// Single texels of fused renderings against f64, in the unit of POINT_ULPS: its reciprocal roots are estimates with
+pub const LOSS_LEAST: f64 = 0.02;
+/// Single texels of renderings by the kernel against f64, in the unit of POINT_ULPS: its reciprocal roots are estimates with
 /// one Newton step, off by 4 of them. Worst measured: 8.5.
-pub const FUSED_ULPS: f64 = 16.0;
+pub const SIMD_ULPS: f64 = 16.0;
 
 /// Errors of a study against those of plain f64 losses: relative. Losses in f32 are off by a relative 1e-7, errors of
 /// 1e-2 and more by a hundred times as much at most. Another seed for one of 32 moves them by more than 1e-3.
@@ -108,7 +97,7 @@ pub const STUDY_REFERENCE: f64 = 4.0; // measured: 0.85
 /// changes the result by 1e-4 at most: kappa u <= 5e-5, and 16 kappa u, the bound of [`GOLDEN_POINTS`], is 8e-4. Rounded
 /// up, since several numbers round.
 const RIGHT: f64 = 1e-3;
-/// Extremes: the relative error of [f64, f32, fused f32, GPU] in each region of tests/extremes/regions.rs, three
+/// Extremes: the relative error of [f64, f32, SIMD, WGSL] in each region of tests/ladder/truth.rs, three
 /// channels of 10^7 random points and of the table. Beside each row the worst measured, the GPU being lavapipe, whose
 /// divisions are correctly rounded (Vulkan allows 2.5 units in the last place). No relative bound can hold where the
 /// problem is ill-conditioned: all values, these too, are held to `points::error_bound`.
@@ -135,8 +124,8 @@ pub const ERROR_MAP_TEXEL: f64 = 2e-6; // the test prints what it measures
 
 /// Losses of the fixed requests in f64 against their golden numbers: relative. Mathematical libraries differ in the last bits.
 pub const REQUESTS_F64: f64 = 1e-12; // measured: 0 on the machine that made them
-/// As [`REQUESTS_F64`], of the fused kernel in f32 on every instruction set.
-pub const REQUESTS_F32: f64 = 1e-6; // measured: 3.7e-7 over scalar, SSE2, SSE4.2, AVX2 and AVX-512
+/// As [`REQUESTS_F64`], in f32 as it is written and on every instruction set.
+pub const REQUESTS_F32: f64 = 1e-6; // measured: 3.7e-7 over scalar, AVX2 and AVX-512
 
 /// Pixels of the report in a browser against `svbrdf render`, in steps of 8 bits.
 pub const PAGE_PIXELS: u8 = 1; // measured: 1, in 1,262 of 16,281,600 values

@@ -88,7 +88,7 @@ pub(super) fn texel_means(
     let (ground_truth, predictions) = (comparison.ground_truth(), comparison.predictions());
     let (convention, model) = (comparison.convention(), Model::from(comparison.convention()));
     let Some(term) = convention.norm().term(convention.epsilon) else {
-        return Err(Error::not_by("a loss of single texels", convention.name));
+        return Err(Error::NotComputed { what: "a loss of single texels", convention: convention.name });
     };
     let rays: Vec<_> = scenes.iter().map(Scene::rays).collect();
     let mean = |prediction: &Material<f32>, column: usize, row: usize| {

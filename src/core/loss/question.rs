@@ -56,15 +56,6 @@ pub(super) fn counts(specified: [Option<usize>; 2], usual: [usize; 2]) -> [usize
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::loss::LossSettings;
-
-    #[test]
-    fn the_default_is_1_percent_with_the_scenes_of_the_papers_beside_it_in_the_window_too() {
-        let Question { request, few_scenes } = Question::of_seed(7);
-        assert_eq!(request, Request::Accuracy { target: 0.01, seed: 7 });
-        assert_eq!(few_scenes, Some(Sampling { near: 6, distant: 3, seed: 7, ..Sampling::default() }));
-        assert_eq!(LossSettings::default().question(), Question::default());
-    }
 
     #[test]
     fn the_scenes_of_the_papers_are_not_beside_themselves() {

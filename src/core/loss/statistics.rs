@@ -254,12 +254,4 @@ mod tests {
         let e = Estimate::of_scenes(&scenes, &[1.0, 2.0, 3.0]);
         assert_eq!((e.standard_error, e.interval95), (None, None));
     }
-
-    #[test]
-    fn equal_values_have_no_error() {
-        let scenes = [Kind::Near; 3].map(scene);
-        let e = Estimate::of_scenes(&scenes, &[0.0; 3]);
-        assert_eq!(e.standard_error, Some(0.0));
-        assert_eq!(e.interval95, Some([0.0, 0.0]));
-    }
 }

@@ -47,31 +47,3 @@ impl<T: Real> Terms<T> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::convention::PRINTED;
-
-    #[test]
-    fn the_terms_make_up_the_radiance() {
-        let model = Model::<f64>::from(&PRINTED);
-        let normal = glam::DVec3::new(0.2, -0.1, 0.9).normalize();
-        let texel = Texel { normal, diffuse: [0.5, 0.4, 0.1], specular: [0.04, 0.3, 0.6], roughness: 0.4 };
-        let (w_l, w_v) = (glam::DVec3::new(0.4, 0.5, 1.2), glam::DVec3::new(-0.3, 0.1, 2.5));
-        let terms = Terms::of(&model, &texel, w_l, w_v);
-        let radiance = |terms: &Terms<f64>| {
-            let scale = terms.n_dot_l / w_l.normalize().z * PRINTED.intensity;
-            [0, 1, 2].map(|c| {
-                let lobe = terms.f[c] * terms.g * terms.d / 4.0;
-                (lobe + texel.diffuse[c] * (1.0 - texel.specular[c]) / std::f64::consts::PI) * scale
-            })
-        };
-        let off = |terms: &Terms<f64>| {
-            let pairs = radiance(terms).into_iter().zip(terms.radiance);
-            pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
-        };
-        assert!(off(&terms) < 1e-12, "{terms:?}");
-        assert!(off(&Terms { d: terms.d * 1.01, ..terms }) > 1e-4, "a planted fault");
-    }
-}

@@ -123,11 +123,4 @@ mod tests {
         all.choose_error_map();
         assert_eq!(all.range(Quantity::Rendering), Some(0.1));
     }
-
-    #[test]
-    fn a_quantity_has_only_its_own_differences() {
-        let mut all = Differences::default();
-        all.choose(Quantity::Normal, Difference::Log);
-        assert_eq!(all.kind(Quantity::Normal), Difference::Angle);
-    }
 }

@@ -29,12 +29,6 @@ mod tests {
     }
 
     #[test]
-    fn a_stop_doubles_the_light() {
-        assert_eq!(to_display([0.1, 0.2, 0.3], 1.0), to_display([0.2, 0.4, 0.6], 0.0));
-        assert_eq!(to_display([0.1, 0.2, 0.3], -1.0), to_display([0.05, 0.1, 0.15], 0.0));
-    }
-
-    #[test]
     fn what_does_not_fit_is_clipped_and_nan_is_black() {
         assert_eq!(to_display([f32::NAN, f32::INFINITY, -1.0], 0.0), [0, 255, 0]);
         assert_eq!(to_display([0.0, f32::MAX, f32::NEG_INFINITY], f32::MAX), [0, 255, 0]);

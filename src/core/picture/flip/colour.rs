@@ -86,28 +86,3 @@ fn hyab(a: [f32; 3], b: [f32; 3]) -> f32 {
     let [l, c, d] = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     l.abs() + (c * c + d * d).sqrt()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn opponent_colours_come_back_and_white_is_100() {
-        for rgb in [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [0.2, 0.7, 0.1]] {
-            let back = rgb_of_ycxcz(ycxcz(rgb));
-            assert!((0..3).all(|c| (back[c] - rgb[c]).abs() < 1e-5), "{rgb:?}: {back:?}");
-        }
-        let [l, a, b] = hunt_lab([1.0; 3]);
-        assert!((l - 100.0).abs() < 1e-3 && a.abs() < 1e-2 && b.abs() < 1e-2, "{l}, {a}, {b}");
-    }
-
-    #[test]
-    fn differences_rise_to_1_at_green_and_blue() {
-        let scale = ColourScale::new();
-        let [green, blue] = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(hunt_lab);
-        assert!((scale.difference(green, blue) - 1.0).abs() < 1e-6);
-        let grays =
-            [0.0, 0.01, 0.1, 0.5, 1.0].map(|gray| scale.difference(hunt_lab([0.0; 3]), hunt_lab([gray; 3])));
-        assert!(grays[0] == 0.0 && grays.windows(2).all(|pair| pair[0] < pair[1]), "{grays:?}");
-    }
-}

@@ -61,9 +61,6 @@ pub(crate) fn neg_mul_add<S: Simd>(a: V<S>, b: V<S>, c: V<S>) -> V<S> {
 #[cfg(target_arch = "aarch64")]
 impl Lanes for fearless_simd::aarch64::Neon {}
 
-#[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-impl Lanes for fearless_simd::wasm32::WasmSimd128 {}
-
 impl Lanes for Fallback {}
 
 /// Implements [`Lanes`] with the estimate of an x86 instruction set.
@@ -125,8 +122,6 @@ impl Level {
             fearless_simd::Level::Avx2(_) => "avx2",
             #[cfg(target_arch = "aarch64")]
             fearless_simd::Level::Neon(_) => "neon",
-            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-            fearless_simd::Level::WasmSimd128(_) => "simd128",
             _ => "scalar",
         }
     }
@@ -143,8 +138,6 @@ impl Level {
         ]);
         #[cfg(target_arch = "aarch64")]
         all.push(("neon", best.as_neon().map(|s| Self(s.level()))));
-        #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-        all.push(("simd128", best.as_wasm_simd128().map(|s| Self(s.level()))));
         let _ = best;
         all
     }
@@ -166,11 +159,6 @@ macro_rules! dispatch {
             ),
             #[cfg(target_arch = "aarch64")]
             fearless_simd::Level::Neon($simd) => $simd.vectorize(
-                #[inline(always)]
-                || $call,
-            ),
-            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
-            fearless_simd::Level::WasmSimd128($simd) => $simd.vectorize(
                 #[inline(always)]
                 || $call,
             ),

@@ -6,14 +6,14 @@ use svbrdf_core::model::brdf::{self, Model, Texel};
 
 use super::cases::Batch;
 use crate::support::points::error_bound;
-use crate::support::tolerance::{FUSED_ULPS, POINT_ULPS};
+use crate::support::tolerance::{POINT_ULPS, SIMD_ULPS};
 
 /// One ulp of f32 relative to a number just above a power of two.
 const ULP: f64 = f32::EPSILON as f64;
 /// |l + v| below which light and view are nearly opposite: 174 degrees apart.
 const OPPOSITE: f64 = 0.1;
 /// Where one ulp of an input changes the result by more, relative to it, no f32 can be right to 1e-3.
-pub const ILL_CONDITIONED: f64 = 1e-4;
+const ILL_CONDITIONED: f64 = 1e-4;
 
 /// The rows of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,10 +64,6 @@ impl Region {
             Self::Dark => "no light: R = 0",
         }
     }
-
-    pub fn index(self) -> usize {
-        self as usize
-    }
 }
 
 /// The result in f64 at one texel, and how sensitive it is, per channel.
@@ -78,27 +74,24 @@ pub struct Truth {
     /// vectors that one ulp of l and v can reach: there a highlight can be narrower than one step.
     pub one_ulp: [f64; 3],
     pub region: [Region; 3],
-    /// How far f32 may be off, and the fused kernel: `error_bound`.
+    /// How far f32 may be off, and the kernel: `error_bound`.
     pub bound: [f64; 3],
-    pub fused_bound: [f64; 3],
+    pub simd_bound: [f64; 3],
     /// How far f64 may be off.
     pub f64_bound: [f64; 3],
-    pub place: Place,
 }
 
 /// Where a case lies.
-#[derive(Clone, Copy, Debug)]
-pub struct Place {
+struct Place {
     /// The roughness, at least its floor.
-    pub rough: f64,
+    rough: f64,
     /// Sine of the angle between n and h.
-    pub sine: f64,
-    pub n_dot_l: f64,
-    pub n_dot_v: f64,
-    pub l_z: f64,
-    pub v_z: f64,
+    sine: f64,
+    n_dot_l: f64,
+    /// n.l, n.v, l.z and v.z.
+    cosines: [f64; 4],
     /// |l + v|.
-    pub sum: f64,
+    sum: f64,
 }
 
 impl Place {
@@ -108,16 +101,14 @@ impl Place {
             rough: texel.roughness.max(model.roughness_floor),
             sine: n.cross(brdf::half_vector(n, l, v)).length(),
             n_dot_l: n.dot(l),
-            n_dot_v: n.dot(v),
-            l_z: l.z,
-            v_z: v.z,
+            cosines: [n.dot(l), n.dot(v), l.z, v.z],
             sum: (l + v).length(),
         }
     }
 }
 
 /// The texel in f64, its normal brought to length 1.
-pub fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
+fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
     Texel {
         normal: texel.normal.as_dvec3().normalize(),
         diffuse: texel.diffuse.map(f64::from),
@@ -194,14 +185,14 @@ impl Truth {
         }
         let region = [0, 1, 2].map(|c| place.region(expected[c], one_ulp[c]));
         let bound = |ulps| error_bound(model, texel, l, v, ulps).map(|b| b + f64::from(f32::MIN_POSITIVE));
-        let (bound, fused_bound) = (bound(POINT_ULPS), bound(FUSED_ULPS));
+        let (bound, simd_bound) = (bound(POINT_ULPS), bound(SIMD_ULPS));
         let exactly_opposite = (l + v).length() < 4.0 * f64::EPSILON;
         let f64_bound = if exactly_opposite {
             [f64::INFINITY; 3]
         } else {
             error_bound(model, texel, l, v, POINT_ULPS * F64_BY_F32)
         };
-        Self { expected, one_ulp, region, bound, fused_bound, f64_bound, place }
+        Self { expected, one_ulp, region, bound, simd_bound, f64_bound }
     }
 }
 
@@ -224,7 +215,7 @@ impl Place {
             }
         } else if opposite {
             Region::Opposite
-        } else if [self.n_dot_l, self.n_dot_v, self.l_z, self.v_z].iter().any(|c| c.abs() < GRAZING) {
+        } else if self.cosines.iter().any(|c| c.abs() < GRAZING) {
             Region::Grazing
         } else {
             match (self.rough, in_highlight) {

@@ -73,9 +73,10 @@ impl Format {
 }
 
 /// Texels that share a convention, a light and a view.
+#[derive(Clone)]
 pub struct Batch {
     pub convention: Convention,
-    /// Near-field: the fused kernel gets light and view at their distances, over materials of one texel each. Otherwise
+    /// Near-field: the kernel gets light and view at their distances, over materials of one texel each. Otherwise
     /// distant, over all texels at once.
     pub near: bool,
     /// A row of texels.
@@ -86,12 +87,8 @@ pub struct Batch {
 }
 
 impl Batch {
-    pub fn len(&self) -> usize {
-        self.material.width()
-    }
-
     pub fn texels(&self) -> impl Iterator<Item = Texel<f32>> + '_ {
-        (0..self.len()).map(|i| self.material.texel(i))
+        (0..self.material.width()).map(|i| self.material.texel(i))
     }
 }
 

@@ -1,15 +1,15 @@
 //! The same number everywhere: 20 requests whose losses every machine, instruction set and number of threads gives.
 //!
 //! Their inputs are made of integers and of +, -, * and /, which are the same to the bit everywhere. The golden numbers are those
-//! of [`Plain`] in f64, which `golden_loss` holds against an independent implementation.
+//! of [`Plain`] in f64, which `golden_losses` holds against an independent implementation.
 
-use svbrdf_core::loss::{Comparison, Compute, Fused, Loss, Plain, Request, Sampling, Texels};
+use svbrdf_core::loss::{Backend, Comparison, Compute, Loss, Plain, Request, Sampling, Texels};
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::{ALL, Convention};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::render::simd::Level;
 
+use super::losses::rungs;
 use crate::support::tolerance::{REQUESTS_F32, REQUESTS_F64};
 
 /// One request: materials, scenes, texels and a convention.
@@ -97,47 +97,29 @@ fn materials(case: &Case, index: usize) -> [Material<f32>; 2] {
     [0, 1].map(|number| material(case, index, number))
 }
 
-fn loss<T: Compute>(comparison: &Comparison<'_, T>, case: &Case) -> Loss {
+fn loss<T: Compute>(rung: &dyn Backend<T>, [truth, prediction]: [&Material<T>; 2], case: &Case) -> Loss {
+    let comparison = Comparison::new(truth, &[prediction], case.convention).unwrap().on(rung);
     let outcome = comparison.run(&Request::Scenes(case.sampling), &Progress::default()).unwrap();
     outcome.losses.into_iter().next().unwrap()
 }
 
-fn plain([truth, prediction]: &[Material<f32>; 2], case: &Case) -> Loss {
-    let (truth, prediction) = (truth.cast::<f64>(), prediction.cast::<f64>());
-    loss(&Comparison::new(&truth, &[&prediction], case.convention).unwrap().on(&Plain), case)
-}
-
-fn fused([truth, prediction]: &[Material<f32>; 2], case: &Case, level: Option<Level>) -> Loss {
-    let backend = Fused { level };
-    loss(&Comparison::new(truth, &[prediction], case.convention).unwrap().on(&backend), case)
+fn in_f64(materials: &[Material<f32>; 2], case: &Case) -> Loss {
+    let exact = materials.each_ref().map(|material| material.cast::<f64>());
+    loss(&Plain, exact.each_ref(), case)
 }
 
 fn error(got: &Loss, index: usize) -> f64 {
     ((got.estimate.mean - GOLDEN[index]) / GOLDEN[index]).abs()
 }
 
-/// All bits of a loss.
-fn bits(loss: &Loss) -> Vec<u64> {
-    let numbers = loss.per_scene.iter().chain([&loss.estimate.mean]);
-    numbers.map(|number| number.to_bits()).collect()
-}
-
 #[test]
-fn twenty_requests_give_the_golden_losses_in_f64_and_in_f32_on_every_instruction_set() {
-    let mut worst = [0.0f64; 2];
+fn twenty_requests_give_the_golden_losses_on_every_rung() {
+    let (mut worst, rungs) = ([0.0f64; 2], rungs());
     for (index, case) in cases().iter().enumerate() {
         let materials = materials(case, index);
-        let got = plain(&materials, case);
-        println!("    {:?},", got.estimate.mean);
-        worst[0] = worst[0].max(error(&got, index));
-        for (name, level) in Level::all() {
-            let Some(level) = level else {
-                eprintln!("NOT TESTED: this machine has no {name}");
-                continue;
-            };
-            let off = error(&fused(&materials, case, Some(level)), index);
-            println!("{index}, {name}: {off:.1e}");
-            worst[1] = worst[1].max(off);
+        worst[0] = worst[0].max(error(&in_f64(&materials, case), index));
+        for (_, rung) in &rungs {
+            worst[1] = worst[1].max(error(&loss(&**rung, materials.each_ref(), case), index));
         }
     }
     println!("worst: {:.1e} in f64, {:.1e} in f32", worst[0], worst[1]);
@@ -150,7 +132,7 @@ fn any_number_of_threads_gives_the_same_bits() {
         let materials = materials(case, index);
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| [bits(&plain(&materials, case)), bits(&fused(&materials, case, None))])
+            pool.install(|| [in_f64(&materials, case), loss(f32::cpu(), materials.each_ref(), case)])
         };
         let one = with(1);
         for threads in [2, 3, 8] {
@@ -167,5 +149,5 @@ fn a_change_of_one_texel_by_a_millionth_is_seen() {
     let mut planes = prediction.planes().clone();
     planes.roughness[7] *= 1.0 + 1e-6;
     let planted = Material::new("planted", case.size[0], case.size[1], planes).unwrap();
-    assert!(error(&plain(&[truth, planted], case), index) > REQUESTS_F64);
+    assert!(error(&in_f64(&[truth, planted], case), index) > REQUESTS_F64);
 }
