@@ -18,7 +18,7 @@ use super::materials::write_packed;
 use super::*;
 
 /// Materials a to f, all of which `ours` has; `theirs` lacks b, has a damaged c, and d in another size. The material e is larger.
-pub fn folders(folder: &Path) -> [PathBuf; 3] {
+fn folders(folder: &Path) -> [PathBuf; 3] {
     let [gt, ours, theirs] = ["gt", "ours", "theirs"].map(|name| folder.join(name));
     [&gt, &ours, &theirs].into_iter().for_each(|folder| std::fs::create_dir(folder).unwrap());
     for (index, name) in ["a", "b", "c", "d", "e", "f"].into_iter().enumerate() {
@@ -41,16 +41,16 @@ pub fn folders(folder: &Path) -> [PathBuf; 3] {
     [gt, ours, theirs]
 }
 
-pub fn dataset([gt, ours, theirs]: [PathBuf; 3], results: Option<PathBuf>) -> OpenDataset {
+fn dataset([gt, ours, theirs]: [PathBuf; 3], results: Option<PathBuf>) -> OpenDataset {
     let source = Source::folders(gt, vec![(None, ours), (None, theirs)]);
     OpenDataset::new(source, DatasetReading::default(), (0.02, 0), results).unwrap()
 }
 
-pub fn on_dataset<'a>(dataset: &OpenDataset) -> Window<'a> {
+fn on_dataset<'a>(dataset: &OpenDataset) -> Window<'a> {
     window(ViewerOptions { dataset: Some(Box::new(dataset.clone())), ..ViewerOptions::default() })
 }
 
-pub fn wait_for_losses(window: &mut Window<'_>) {
+fn wait_for_losses(window: &mut Window<'_>) {
     wait(window, "all losses", |app| app.parts.jobs.dataset.losses.count() == 6);
 }
 
