@@ -72,7 +72,7 @@ class Asked:
         """The first argument of the function."""
 
     def answer(
-        self, kind: type[_R], ask: Callable[..., _core.Views], doing: str, progress: bool | Progress, *more: Any
+        self, kind: type[_R], ask: "Callable[..., _core.Views]", doing: str, progress: bool | Progress, *more: Any
     ) -> _R:
         """The report of `ask`, a function of the core that takes `more`, too; called by a function of the package."""
         with reported(doing, progress) as report:
