@@ -19,11 +19,10 @@ from ._report import Record, Report
 from ._scenes import Scene
 "#;
 const ANALYSES: &str = r#""""The analyses that each have one question."""
-import json
 from typing import Literal
 
 from . import _core, _reports
-from ._asked import Asked, Predictions, Scenes
+from ._asked import Asked, Predictions, Scenes, own_json
 from ._material import Material, Source
 from ._progress import Report as Progress
 "#;
@@ -187,7 +186,7 @@ def {name}(
     {docs}The other args and errors are those of `svbrdf.loss`.
     """
     asked = Asked(ground_truth, predictions, {{{given}}}, convention)
-    return asked.answer(_reports.{report}, _core.analysis, "{doing}", progress, "{name}", json.dumps({{{options}}}))
+    return asked.answer(_reports.{report}, _core.analysis, "{doing}", progress, "{name}", own_json({{{options}}}))
 "#
     )
 }

@@ -72,13 +72,13 @@ REFUSED: list[tuple[Any, dict[str, Any], type[Exception], str]] = [
     (svbrdf.loss, {"target_error": 0.1, "near": 6}, svbrdf.Error, "near is not used: the target error decides"),
     (svbrdf.loss, {"nera": 6}, svbrdf.Error, "nera: unknown key `nera`, expected one of `near`"),
     (svbrdf.scenes, {"sampler": "random", "scenes": SCENES}, svbrdf.Error, "sampler is not used: the scenes are a"),
-    (svbrdf.scenes, {"top": -1}, svbrdf.Error, "top: found integer `-1`"),
+    (svbrdf.scenes, {"top": -1}, ValueError, "top: expected 0 or more, found -1"),
     (svbrdf.map, {"over": "lights", "seed": 1}, ValueError, "seed: not used with over='lights'"),
     (svbrdf.map, {"fixed": (0, 0, 1)}, ValueError, "fixed: not used with over='texels'"),
     (svbrdf.map, {"over": "views", "side": 0}, svbrdf.Error, "side: expected 1 to 1024, found 0"),
     (svbrdf.map, {"over": "time"}, svbrdf.Error, "unknown axes of a map `time`"),
     (svbrdf.metrics, {"exposure": float("nan")}, ValueError, "not JSON compliant"),
-    (svbrdf.rank_dataset, {"seed": -1}, svbrdf.Error, "seed: found integer `-1`"),
+    (svbrdf.blame, {"seed": -1}, svbrdf.Error, "seed: found integer `-1`"),
     *(
         (svbrdf.loss, {name: 1.5}, svbrdf.Error, f"{name}: found floating point")
         for name in ("near", "distant", "seed")
@@ -89,10 +89,8 @@ REFUSED: list[tuple[Any, dict[str, Any], type[Exception], str]] = [
 
 @pytest.mark.parametrize(("compute", "given", "error", "match"), REFUSED)
 def test_arguments_are_checked_by_name(compute: Any, given: dict[str, Any], error: type[Exception], match: str) -> None:
-    of_folders = compute is svbrdf.rank_dataset
-    materials = ("gt", "ours") if of_folders else (SMALL, given.get("predictions", SMALL))
     with pytest.raises(error, match=match):
-        compute(*materials, **{name: value for name, value in given.items() if name != "predictions"})
+        compute(SMALL, **{"predictions": SMALL, **given})
 
 
 def test_scenes_are_those_of_the_sampler_and_numbers_may_be_those_of_numpy() -> None:

@@ -91,6 +91,14 @@ def question_json(scenes: Scenes | None = None, **options: Any) -> str:
     return json.dumps(given, allow_nan=False, default=_plain)
 
 
+def own_json(own: dict[str, Any]) -> str:
+    """The own options of an analysis, which are numbers, as JSON for the core."""
+    for name, value in own.items():
+        if value < 0:
+            raise ValueError(f"{name}: expected 0 or more, found {value}")
+    return json.dumps(own, allow_nan=False, default=_plain)
+
+
 def _plain(number: Any) -> int | float:
     """A number of numpy."""
     return operator.index(number) if hasattr(number, "__index__") else float(number)

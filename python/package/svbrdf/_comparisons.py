@@ -86,7 +86,8 @@ def rank(
     >>> [(place.prediction, place.group) for place in svbrdf.rank(ground_truth, predictions).ranking]
     [('wrong roughness', 1), ('blurred normals', 2)]
 
-    Args and errors are those of `svbrdf.loss`. Where nothing decides the scenes, `target_error` is 0.01. At most 786,432 / (predictions + 1) scenes are sampled.
+    Args and errors are those of `svbrdf.loss`. Where nothing decides the scenes, `target_error` is 0.01. At most
+    786,432 / (predictions + 1) scenes are sampled.
     """
     asked = Asked(ground_truth, predictions, question, convention)
     return asked.answer(RankReport, _core.rank, "rendering", progress)
