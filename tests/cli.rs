@@ -17,7 +17,6 @@ mod rank_html;
 mod report;
 mod results;
 mod robust;
-mod schema;
 mod stopped;
 mod study;
 mod why;

@@ -45,7 +45,7 @@ mod _core {
     #[pymodule_export]
     use super::photo::photo;
     #[pymodule_export]
-    use super::report::escaped;
+    use super::report::{escaped, schema};
     #[pymodule_export]
     use super::why::{diagnose, map};
 

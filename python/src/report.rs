@@ -55,3 +55,9 @@ impl Views {
 pub fn escaped(text: &str) -> String {
     svbrdf_page::escaped(text)
 }
+
+/// The JSON Schema of a report, by the name of its command; None for another name.
+#[pyfunction]
+pub fn schema(name: &str) -> Option<String> {
+    serde_json::to_string(&svbrdf_evaluate::schema::named(name)?).ok()
+}

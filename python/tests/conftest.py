@@ -2,7 +2,6 @@
 
 import json
 import os
-import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -34,9 +33,9 @@ def golden_materials(golden: Path, case: dict[str, Any], precision: Any) -> list
     return [read("ground_truth"), read("prediction")]
 
 
-def problems(program: str, name: str, report: Any) -> list[str]:
+def problems(name: str, report: Any) -> list[str]:
     """What of the JSON of a report is not as its schema says, where keys that it does not name are problems, too."""
-    schema = json.loads(subprocess.run([program, "schema", name], check=True, capture_output=True).stdout)
+    schema = json.loads(svbrdf._core.schema(name))
     for part in (schema, *schema.get("$defs", {}).values()):
         if "properties" in part:
             part["additionalProperties"] = False

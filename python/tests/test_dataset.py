@@ -62,7 +62,7 @@ def test_a_data_set_has_the_numbers_of_the_command_line(
     found = of_command_line(program, dataset, *options)
     report = ranked(dataset, **given)
     assert report.to_dict() == found
-    assert problems(program, "dataset", found) == []
+    assert problems("dataset", found) == []
     assert repr(report) + "\n" == text_of_command_line(program, dataset, *options)
     expected = [p for result in found["results"] for p in result["predictions"]]
     assert [prediction.loss for prediction in predictions(report)] == [p.get("loss") for p in expected]

@@ -103,7 +103,7 @@ def assert_is_printed(report: svbrdf.Report, program: str, *command: str | Path)
         return subprocess.run(whole, check=True, capture_output=True, text=True).stdout
 
     expected = json.loads(printed("json"))
-    assert problems(program, str(command[0]), expected) == []
+    assert problems(str(command[0]), expected) == []
     # A report of Python is of no command.
     for key in ("repetition", "readings"):
         expected.pop(key, None)
@@ -185,7 +185,7 @@ def test_a_map_is_that_of_the_command_line_with_arrays(
         assert np.allclose(lengths[~np.isnan(lengths)], 1)
     command = [program, "map", str(ground_truth), *map(str, predictions), "-o", str(tmp_path / "map.csv")]
     ended = subprocess.run([*command, *options], check=True, capture_output=True, text=True)
-    assert problems(program, "map", report.to_dict()) == []
+    assert problems("map", report.to_dict()) == []
     assert str(report) + "\n" == ended.stdout
     pandas.testing.assert_frame_equal(
         report.to_pandas(), pandas.read_csv(tmp_path / "map.csv", float_precision="round_trip"), check_dtype=False
@@ -229,9 +229,9 @@ def test_the_content_of_files_is_as_its_schema_says(program: str, tmp_path: Path
     report = json.loads(printed)
     assert len(report["maps"]) == 4
     assert len(report["assumptions"]) > 3
-    assert problems(program, "info", report) == []
+    assert problems("info", report) == []
     report["assumptions"][0]["certainty"] = "perhaps"
-    assert problems(program, "info", report) != []
+    assert problems("info", report) != []
 
 
 def test_types_follow_schemas() -> None:

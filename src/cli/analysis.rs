@@ -6,14 +6,13 @@ use serde_json::{Map, Value};
 
 use svbrdf_core::loss::{LossOptions, Request};
 use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis};
-use svbrdf_evaluate::report::{AnalysisInput, SceneOptions};
+use svbrdf_evaluate::report::{AnalysisInput, AnalysisOption, SceneOptions};
 
 use super::args::scenes::{ListArgs, SampledArgs, SeedArgs, TargetErrorArgs};
 use super::args::values::{percent, whole};
 use super::args::{ComparisonArgs, Given};
 use super::job::{ComparisonJob, Job, NewJob};
-use super::output::report::ReportFormat;
-use super::output::{CommandError, exit, target, watched};
+use super::output::{CommandError, ReportFormat, exit, warn_of, watched};
 
 /// The analyses that have a command with further arguments.
 const OTHERS: [&str; 1] = ["metrics"];
@@ -46,7 +45,7 @@ fn commands() -> impl Iterator<Item = &'static AnyAnalysis> {
 
 fn command(analysis: &AnyAnalysis) -> Command {
     let AnyAnalysis { name, about, details, .. } = analysis;
-    let command = Command::new(*name).args(own_options(analysis).into_iter().map(|option| option.arg()));
+    let command = Command::new(*name).args(analysis.options.iter().map(own_option));
     let scenes = analysis.scenes.iter().fold(command, |command, scenes| match scenes {
         SceneOptions::Seed => SeedArgs::augment_args(command),
         SceneOptions::TargetError => TargetErrorArgs::augment_args(command).mut_arg("target_error", |arg| {
@@ -61,38 +60,15 @@ fn command(analysis: &AnyAnalysis) -> Command {
         .long_about(format!("{about}\n\n{details} Without GT and PRED: the built-in materials."))
 }
 
-/// An option of an analysis itself.
-struct OwnOption {
-    name: String,
-    help: String,
-    default: Value,
-    is_share: bool,
-}
-
-fn own_options(analysis: &AnyAnalysis) -> Vec<OwnOption> {
-    let schema = (analysis.options)();
-    let properties = schema.get("properties").and_then(Value::as_object).into_iter().flatten();
-    let option = |(name, property): (&String, &Value)| OwnOption {
-        name: name.clone(),
-        help: property["description"].as_str().unwrap_or_default().to_owned(),
-        default: property["default"].clone(),
-        is_share: property["format"] == "share",
+/// An option of the analysis itself.
+fn own_option(option: &AnalysisOption) -> Arg {
+    let AnalysisOption { name, about, default, is_share } = *option;
+    let (value_name, default, parser) = match is_share {
+        true => ("PERCENT", format!("{}%", 100.0 * default), ValueParser::new(parsed_share)),
+        false => ("N", default.to_string(), ValueParser::new(parsed_count)),
     };
-    properties.map(option).collect()
-}
-
-impl OwnOption {
-    fn arg(&self) -> Arg {
-        let (value_name, default, parser) = match &self.default {
-            share if self.is_share => {
-                let percent = format!("{}%", 100.0 * share.as_f64().unwrap_or_default());
-                ("PERCENT", percent, ValueParser::new(parsed_share))
-            }
-            count => ("N", count.to_string(), ValueParser::new(parsed_count)),
-        };
-        let arg = Arg::new(self.name.clone()).long(self.name.replace('_', "-")).help(self.help.clone());
-        arg.value_name(value_name).value_parser(parser).default_value(default).allow_hyphen_values(true)
-    }
+    let arg = Arg::new(name).long(name.replace('_', "-")).help(about);
+    arg.value_name(value_name).value_parser(parser).default_value(default).allow_hyphen_values(true)
 }
 
 fn parsed_share(text: &str) -> Result<Value, String> {
@@ -122,14 +98,15 @@ impl FromArgMatches for AnalysisArgs {
         let unknown = || ClapError::new(clap::error::ErrorKind::InvalidSubcommand);
         let (name, matches) = matches.subcommand().ok_or_else(unknown)?;
         let analysis = AnyAnalysis::named(name).ok_or_else(unknown)?;
-        let value = |option: OwnOption| Some((option.name.clone(), matches.get_one(&option.name).cloned()?));
+        let value =
+            |option: &AnalysisOption| Some((option.name.to_owned(), matches.get_one(option.name).cloned()?));
         Ok(Self {
             analysis,
             seed: args_of(analysis, SceneOptions::Seed, matches)?,
             target_error: args_of(analysis, SceneOptions::TargetError, matches)?,
             sampled: args_of(analysis, SceneOptions::Sampled, matches)?,
             list: args_of(analysis, SceneOptions::List, matches)?,
-            options: own_options(analysis).into_iter().filter_map(value).collect::<Map<_, _>>().into(),
+            options: analysis.options.iter().filter_map(value).collect::<Map<_, _>>().into(),
             output: OutputArgs::from_arg_matches(matches)?,
         })
     }
@@ -190,6 +167,6 @@ impl Job for AnalysisJob {
         let input = AnalysisInput { ground_truth, predictions, convention, request };
         let report = watched(analysis.doing, |progress| analysis.run(&input, options, progress))?;
         exit::put(&format.write(&*report)?)?;
-        target::warn_of(report.missed(), materials.strict)
+        warn_of(report.missed(), materials.strict)
     }
 }

@@ -11,9 +11,7 @@ use svbrdf_files::{Error, arrays, convention};
 use super::args::comparison::names;
 use super::args::offered;
 use super::job::{Job, NewJob};
-use super::output::report::ReportFormat;
-use super::output::stop::stoppable;
-use super::output::{CommandError, exit, watched};
+use super::output::{CommandError, ReportFormat, exit, stoppable, watched};
 
 /// Tells whose renderer gave out radiances, and in which terms it differs from a convention
 ///

@@ -11,9 +11,8 @@ use super::args::reading::ReadingArgs;
 use super::args::{NamedPath, offered};
 use super::job::materials::{OneMaterial, noted};
 use super::job::{Job, NewJob};
-use super::output::CommandError;
 use super::output::exit::tell;
-use super::output::stop::stoppable;
+use super::output::{CommandError, stoppable};
 
 /// Writes a material as layered EXR, packed PNG, glTF, MaterialX or into a folder
 ///

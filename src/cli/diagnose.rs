@@ -8,8 +8,7 @@ use super::args::scenes::SeedArgs;
 use super::args::{ComparisonArgs, Given};
 use super::job::floor::floor_of;
 use super::job::{ComparisonJob, Job, NewJob};
-use super::output::report::ReportFormat;
-use super::output::{CommandError, exit, watched};
+use super::output::{CommandError, ReportFormat, exit, watched};
 
 /// Prints what an exposure, a shift, a symmetry or another reading of the files would lower the loss to
 ///

@@ -8,124 +8,95 @@ use clap::{Arg, Args as _, Command};
 use super::args::is_there;
 use super::args::reading::{PairReadingArgs, READING};
 
-/// The commands in groups, each with the question that it answers and its examples.
-const GROUPS: [(&str, &[Entry]); 4] = [
-    (
-        "Look",
-        &[
-            (
-                "view",
-                "opens materials, or methods over a data set, in the window",
-                &["gt.png a.png b.png", "--dataset gt/ ours/ theirs/", "gt.png a.png --photo photo.png"],
-            ),
-            (
-                "render",
-                "renderings, maps and differences as a picture",
-                &[
-                    "gt.png a.png --light 0.4,0.5,1.2 -o pair.png",
-                    "gt.png a.png --difference=log -o error.png",
-                ],
-            ),
-            (
-                "strip",
-                "a labelled figure for a paper",
-                &[
-                    "gt.png a.png --columns normal,roughness:,rendering -o figure.pdf",
-                    "gt.png a.png --width-mm 88 --crop 40,60,32,32 -o figure.svg",
-                    "--dataset gt/ ours/ theirs/ --results losses/ -o methods.pdf",
-                ],
-            ),
-            (
-                "report",
-                "a page for any browser, which readers light themselves",
-                &["gt.png a.png b.png -o report.html", "gt.png a.png --figure -o figure.html"],
-            ),
-        ],
-    ),
-    (
-        "Compare",
-        &[
-            (
-                "loss",
-                "which prediction is better, and by how much",
-                &[
-                    "gt.png a.png b.png",
-                    "gt.png a.png --near 6 --distant 3 --seed 1",
-                    "gt.png run/ --format csv",
-                ],
-            ),
-            (
-                "rank",
-                "many predictions, or methods over a data set",
-                &[
-                    "gt.png 'out/*.png'",
-                    "--dataset gt/ ours/ theirs/ -o table.tex",
-                    "--dataset gt/ ours/ theirs/ --metrics -o page.html",
-                ],
-            ),
-            (
-                "metrics",
-                "RMSE, L1, angles, PSNR, SSIM and FLIP",
-                &["gt.png a.png b.png --format csv", "gt.png a.png --metrics psnr,ssim11"],
-            ),
-            (
-                "photo",
-                "how renderings differ from photographs",
-                &["photo.png a.png b.png --view 0,0,2.4 --light 0,0,2.4", "card_blue/ a.png b.png"],
-            ),
-            (
-                "conform",
-                "whose renderer yours is",
-                &["--points probe.npz", "answer.npz --convention svbrdf-estimation-2022"],
-            ),
-            (
-                "study",
-                "time against error of the loss on this machine",
-                &["gt.png a.png -o study.csv --plot study.svg"],
-            ),
-        ],
-    ),
-    (
-        "Explain",
-        &[
-            ("blame", "which map the loss comes from", &["gt.png a.png"]),
-            ("diagnose", "whether exposure, alignment or reading explain the loss", &["gt.png a.png"]),
-            (
-                "scenes",
-                "in which scenes the loss is largest",
-                &["gt.png a.png", "gt.png a.png --top 5 --format json > worst.json"],
-            ),
-            ("worst", "under which light the loss is largest", &["gt.png a.png"]),
-            (
-                "map",
-                "where on the material, or from where, the loss comes",
-                &["gt.png a.png -o error.png", "gt.png a.png --over lights -o lights.png"],
-            ),
-        ],
-    ),
-    (
-        "Prepare",
-        &[
-            (
-                "info",
-                "what files hold, and what is assumed in reading them",
-                &["gt.png", "textures/ --read normal-y=down --save"],
-            ),
-            (
-                "convert",
-                "the same material as EXR, PNG, glTF, MaterialX or a folder",
-                &["textures/ brick.exr", "textures/ brick.glb", "textures/ gao.png --like gao"],
-            ),
-            ("conventions", "lists the named conventions, or prints one", &["", "svbrdf-estimation-2022"]),
-            ("schema", "the JSON Schema of a report", &["loss"]),
-            ("completions", "completions for a shell", &["bash > svbrdf.bash"]),
-            ("man", "writes the man pages", &["man1"]),
-        ],
-    ),
-];
+/// The commands in groups, each with what it answers; below it stand its examples, without `svbrdf COMMAND`.
+const COMMANDS: &str = "\
+Look
+view: opens materials, or methods over a data set, in the window
+  gt.png a.png b.png
+  --dataset gt/ ours/ theirs/
+  gt.png a.png --photo photo.png
+render: renderings, maps and differences as a picture
+  gt.png a.png --light 0.4,0.5,1.2 -o pair.png
+  gt.png a.png --difference=log -o error.png
+strip: a labelled figure for a paper
+  gt.png a.png --columns normal,roughness:,rendering -o figure.pdf
+  gt.png a.png --width-mm 88 --crop 40,60,32,32 -o figure.svg
+  --dataset gt/ ours/ theirs/ --results losses/ -o methods.pdf
+report: a page for any browser, which readers light themselves
+  gt.png a.png b.png -o report.html
+  gt.png a.png --figure -o figure.html
+Compare
+loss: which prediction is better, and by how much
+  gt.png a.png b.png
+  gt.png a.png --near 6 --distant 3 --seed 1
+  gt.png 'out/*.png' --format csv
+rank: many predictions, or methods over a data set
+  gt.png 'out/*.png'
+  --dataset gt/ ours/ theirs/ -o table.tex
+  --dataset gt/ ours/ theirs/ --metrics -o page.html
+metrics: RMSE, L1, angles, PSNR, SSIM and FLIP
+  gt.png a.png b.png --format csv
+  gt.png a.png --metrics psnr,ssim11
+photo: how renderings differ from photographs
+  photo.png a.png b.png --view 0,0,2.4 --light 0,0,2.4
+  card_blue/ a.png b.png
+conform: whose renderer yours is
+  --points probe.npz
+  answer.npz --convention svbrdf-estimation-2022
+study: time against error of the loss on this machine
+  gt.png a.png -o study.csv --plot study.svg
+Explain
+blame: which map the loss comes from
+  gt.png a.png
+diagnose: whether exposure, alignment or reading explain the loss
+  gt.png a.png
+scenes: in which scenes the loss is largest
+  gt.png a.png
+  gt.png a.png --top 5 --format json > worst.json
+worst: under which light the loss is largest
+  gt.png a.png
+map: where on the material, or from where, the loss comes
+  gt.png a.png -o error.png
+  gt.png a.png --over lights -o lights.png
+Prepare
+info: what files hold, and what is assumed in reading them
+  gt.png
+  textures/ --read normal-y=down --save
+convert: the same material as EXR, PNG, glTF, MaterialX or a folder
+  textures/ brick.exr
+  textures/ brick.glb
+  textures/ gao.png --like gao
+conventions: lists the named conventions, or prints one
+  svbrdf-estimation-2022
+schema: the JSON Schema of a report
+  loss
+completions: completions for a shell
+  bash > svbrdf.bash
+man: writes the man pages
+  man1";
 
-/// The name of a command, what it answers, and its examples without `svbrdf NAME`.
-type Entry = (&'static str, &'static str, &'static [&'static str]);
+/// The name of a command, what it answers, and its examples.
+type Entry = (&'static str, &'static str, Vec<&'static str>);
+
+/// The groups of [`COMMANDS`].
+fn groups() -> Vec<(&'static str, Vec<Entry>)> {
+    let mut groups: Vec<(_, Vec<Entry>)> = Vec::new();
+    for line in COMMANDS.lines() {
+        let entries = groups.last_mut().map(|(_, entries)| entries);
+        match (entries, line.strip_prefix("  "), line.split_once(": ")) {
+            (Some(entries), Some(example), _) => {
+                entries.last_mut().into_iter().for_each(|one| one.2.push(example))
+            }
+            (Some(entries), None, Some((name, answer))) => entries.push((name, answer, Vec::new())),
+            _ => groups.push((line, Vec::new())),
+        }
+    }
+    groups
+}
+
+fn entries() -> impl Iterator<Item = Entry> {
+    groups().into_iter().flat_map(|(_, entries)| entries)
+}
 
 /// Options that the short help leaves out, of a command or of all.
 #[rustfmt::skip]
@@ -169,10 +140,10 @@ Exit codes:
 /// The command line `program` with its help.
 pub fn program(program: Command) -> Command {
     let line = |(name, answer, _): &Entry| format!("  {name:12} {answer}\n");
-    let group = |(group, entries): &(&str, &[Entry])| {
+    let group = |(group, entries): &(&str, Vec<Entry>)| {
         format!("{group}:\n{}\n", entries.iter().map(line).collect::<String>())
     };
-    let groups: String = GROUPS.iter().map(group).collect();
+    let groups: String = groups().iter().map(group).collect();
     let template = format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n\n{groups}Options:\n{{options}}{{after-help}}"
     );
@@ -192,16 +163,15 @@ pub fn program(program: Command) -> Command {
 }
 
 /// The entry of a command.
-fn entry(name: &str) -> Option<&'static Entry> {
-    GROUPS.iter().flat_map(|(_, entries)| *entries).find(|entry| entry.0 == name)
+fn entry(name: &str) -> Option<Entry> {
+    entries().find(|entry| entry.0 == name)
 }
 
 /// A command with its examples, GT and PRED first in its usage, and a short help without rare options.
 fn with_help(command: Command) -> Command {
     let name = command.get_name().to_owned();
     let Some((_, _, examples)) = entry(&name) else { return command };
-    let lines: String =
-        examples.iter().map(|rest| format!("\n  svbrdf {name} {rest}").trim_end().to_owned()).collect();
+    let lines: String = examples.iter().map(|rest| format!("\n  svbrdf {name} {rest}")).collect();
     let examples = format!("{}:{lines}", if examples.len() > 1 { "Examples" } else { "Example" });
     let is_pair = command.get_positionals().any(|arg| arg.get_id() == "predictions") && name != "photo";
     let required = command.get_arguments().filter(|arg| arg.is_required_set() && arg.get_long().is_some());
@@ -253,7 +223,7 @@ pub fn mistyped(word: &str) -> Option<String> {
     if word.starts_with('-') || !word.chars().all(is_word) || is_known || is_there(Path::new(word)) {
         return None;
     }
-    let names = GROUPS.iter().flat_map(|(_, entries)| *entries).map(|(name, ..)| Command::new(*name));
+    let names = entries().map(|(name, ..)| Command::new(name));
     let parsed = Command::new("svbrdf").subcommands(names).try_get_matches_from(["svbrdf", word]);
     let similar = match parsed.err()?.get(ContextKind::SuggestedSubcommand) {
         Some(ContextValue::Strings(names)) => names.first().cloned(),
@@ -288,13 +258,13 @@ mod tests {
     #[test]
     fn every_command_is_in_a_group_and_its_examples_are_command_lines_of_it() {
         let names: BTreeSet<_> = commands().iter().map(|command| command.get_name().to_owned()).collect();
-        let entries: Vec<&Entry> = GROUPS.iter().flat_map(|(_, entries)| *entries).collect();
+        let entries: Vec<Entry> = entries().collect();
         let listed = entries.iter().map(|(name, ..)| (*name).to_owned()).chain(["svbrdf".to_owned()]);
         assert_eq!(listed.collect::<BTreeSet<_>>(), names);
         for (name, _, examples) in entries {
             assert!((1..=3).contains(&examples.len()), "{name}");
-            for example in *examples {
-                let line = example.split(" > ").next().unwrap();
+            for example in examples {
+                let line = example.split(" > ").next().unwrap().replace('\'', "");
                 let words = ["svbrdf", name].into_iter().chain(line.split_whitespace());
                 let parsed = Cli::command().try_get_matches_from(words);
                 assert!(parsed.is_ok(), "{name} {example}: {parsed:?}");

@@ -12,8 +12,7 @@ use super::args::reading::ReadingArgs;
 use super::args::{NamedPath, refuse};
 use super::job::materials::OneMaterial;
 use super::job::{Job, NewJob};
-use super::output::stop::stoppable;
-use super::output::{CommandError, advice, exit, json};
+use super::output::{CommandError, advice, exit, json, stoppable};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]

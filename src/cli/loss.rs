@@ -9,8 +9,7 @@ use super::args::scenes::SceneArgs;
 use super::args::values::{duration, percent};
 use super::args::{ComparisonArgs, Given, offered};
 use super::job::{ComparisonJob, Job, NewJob, SessionSettings};
-use super::output::report::ReportFormat;
-use super::output::{CommandError, exit, target, watched};
+use super::output::{CommandError, ReportFormat, exit, warn_of, watched};
 
 /// Prints the rendering loss of predictions against a ground truth
 ///
@@ -88,7 +87,7 @@ impl Job for LossJob {
         let paths = materials.paths.iter().map(|path| Some(path.display().to_string())).collect();
         let report = report.read_from(paths);
         exit::put(&self.format.write(&report)?)?;
-        target::warn_of(report.missed(), materials.strict)
+        warn_of(report.missed(), materials.strict)
     }
 }
 

@@ -16,8 +16,7 @@ use super::args::scenes::SceneArgs;
 use super::args::values::{self, Range};
 use super::args::{ComparisonArgs, Given, offered, refuse};
 use super::job::{ComparisonJob, Job, NewJob};
-use super::output::stop::stoppable;
-use super::output::{CommandError, exit, watched};
+use super::output::{CommandError, exit, stoppable, watched};
 
 /// Writes the loss over texels, light directions or view directions to a file
 ///

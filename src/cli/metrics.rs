@@ -11,7 +11,7 @@ use super::args::scenes::SceneArgs;
 use super::args::values::stops;
 use super::args::{ComparisonArgs, Given, offered};
 use super::job::{ComparisonJob, NewJob};
-use super::output::report::ReportFormat;
+use super::output::ReportFormat;
 
 /// Prints metrics of maps and renderings, each with its convention in its name
 ///

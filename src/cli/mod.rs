@@ -20,7 +20,6 @@ mod photo;
 mod rank;
 mod render;
 mod report;
-mod schema;
 mod strip;
 mod strip_methods;
 mod study;
@@ -83,7 +82,6 @@ enum Subcommands {
     Study(study::StudyArgs),
     Conform(conform::ConformArgs),
     Conventions(conventions::ConventionsArgs),
-    Schema(schema::SchemaArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
     Completions(generate::CompletionsArgs),
@@ -139,7 +137,6 @@ impl Cli {
             svbrdf_files::disk::inputs::protect_all();
         }
         match command {
-            Subcommands::Schema(args) => schema::run(&args),
             Subcommands::Conventions(args) => conventions::run(&args),
             Subcommands::Completions(args) => generate::completions(&args, help::program(Self::command())),
             Subcommands::Man(args) => generate::man(&args, help::program(Self::command())),
@@ -167,7 +164,7 @@ impl Subcommands {
             Self::Conform(args) => args.job(),
             Self::Info(args) => args.job(),
             Self::Convert(args) => args.job(),
-            Self::Schema(_) | Self::Conventions(_) | Self::Completions(_) | Self::Man(_) => {
+            Self::Conventions(_) | Self::Completions(_) | Self::Man(_) => {
                 Err(Error::Internal("a command about the program has no job".to_owned()).into())
             }
         }

@@ -15,9 +15,7 @@ use super::args::scenes::OneSceneArgs;
 use super::args::{ComparisonArgs, Given, offered, refuse};
 use super::job::{ComparisonJob, Job, NewJob, check_heights};
 use super::output::exit::{put, tell};
-use super::output::report::ReportFormat;
-use super::output::stop::stoppable;
-use super::output::{CommandError, watched};
+use super::output::{CommandError, ReportFormat, stoppable, watched};
 
 /// Compares renderings of materials with a rectified photograph, or with several
 ///

@@ -14,8 +14,7 @@ use super::args::scenes::RenderingArgs;
 use super::args::values::Range;
 use super::args::{ComparisonArgs, Given, offered, refuse};
 use super::job::{ComparisonJob, Job, NewJob, SessionSettings, check_heights};
-use super::output::stop::stoppable;
-use super::output::{CommandError, watched};
+use super::output::{CommandError, stoppable, watched};
 
 /// Renders one material, or several side by side, to a file; or their maps, or differences
 ///

@@ -15,8 +15,7 @@ use svbrdf_page::{Findings, Page, Repetition, Report, View, check_destination, e
 use super::args::scenes::{AccuracyArgs, RenderingArgs};
 use super::args::{ComparisonArgs, Given, refuse, values};
 use super::job::{ComparisonJob, Job, NewJob, SessionSettings};
-use super::output::stop::stoppable;
-use super::output::{CommandError, command_line, exit, target, watched};
+use super::output::{CommandError, command_line, exit, stoppable, warn_of, watched};
 
 /// Writes a page with an interactive figure and the findings, which opens in any browser
 ///
@@ -146,7 +145,7 @@ impl Job for ReportJob {
         check_size(&page, max_size)?;
         stoppable(|progress| write_text(&output, &page.html, progress))?;
         tell_reduction(&page, max_size);
-        target::warn_of(missed, materials.strict)
+        warn_of(missed, materials.strict)
     }
 }
 

@@ -14,8 +14,7 @@ use crate::cli::args::scenes::{Lights, ListArgs, RenderingArgs};
 use crate::cli::args::values::{self, Range};
 use crate::cli::args::{ComparisonArgs, Given, refuse};
 use crate::cli::job::{ComparisonJob, Job, MaterialJob, NewJob, SessionSettings};
-use crate::cli::output::stop::stoppable;
-use crate::cli::output::{CommandError, watched};
+use crate::cli::output::{CommandError, stoppable, watched};
 use crate::cli::render::difference_of;
 use crate::cli::strip_methods::{self, Look};
 

@@ -15,8 +15,7 @@ use svbrdf_files::read::{self, ReadOptions};
 
 use crate::cli::args::{ComparisonArgs, refuse};
 use crate::cli::job::{Job, NewJob};
-use crate::cli::output::stop::stoppable;
-use crate::cli::output::{CommandError, exit, watched_on};
+use crate::cli::output::{CommandError, exit, stoppable, watched_on};
 use crate::cli::rank::cases;
 
 /// Pixels of an inch in a cell: as printed.

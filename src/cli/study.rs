@@ -12,8 +12,7 @@ use svbrdf_files::export::figure::FigureDestination;
 use super::args::{ComparisonArgs, Given};
 use super::job::materials::Opened;
 use super::job::{ComparisonJob, Job, MaterialJob, NewJob};
-use super::output::stop::stoppable;
-use super::output::{CommandError, exit, watched};
+use super::output::{CommandError, exit, stoppable, watched};
 
 /// Measures the time and the error of the loss in many settings, for one pair on this machine
 ///

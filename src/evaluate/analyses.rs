@@ -1,6 +1,5 @@
 //! All analyses, each declared beside its report: what has a command, a function of Python and a table in the window.
 
-use schemars::Schema;
 use serde_json::Value;
 
 use svbrdf_core::error::Error as CoreError;
@@ -10,8 +9,8 @@ use svbrdf_files::Error as FilesError;
 
 use crate::error::Error;
 use crate::report::{
-    Analysis, AnalysisInput, BlameReport, MetricsReport, Report, SceneOptions, ScenesReport, WorstReport,
-    schema_of,
+    Analysis, AnalysisInput, AnalysisOption, BlameReport, MetricsReport, Report, SceneOptions, ScenesReport,
+    WorstReport,
 };
 
 /// All of them, in the order of the commands.
@@ -34,10 +33,11 @@ pub struct AnyAnalysis {
     pub details: &'static str,
     pub doing: &'static str,
     pub scenes: &'static [SceneOptions],
-    /// The schema of its options.
-    pub options: fn() -> Schema,
-    /// The schema of its report.
-    pub report: fn() -> Schema,
+    /// Its own options.
+    pub options: &'static [AnalysisOption],
+    /// The schemas of its options and of its report.
+    #[cfg(feature = "schema")]
+    pub schemas: [fn() -> schemars::Schema; 2],
     answer: Answer,
 }
 
@@ -51,8 +51,9 @@ impl AnyAnalysis {
             details: A::DETAILS,
             doing: A::DOING,
             scenes: A::SCENES,
-            options: schema_of::<A::Options>,
-            report: schema_of::<A>,
+            options: A::OPTIONS,
+            #[cfg(feature = "schema")]
+            schemas: [crate::schema::schema_of::<A::Options>, crate::schema::schema_of::<A>],
             answer: answer::<A>,
         }
     }

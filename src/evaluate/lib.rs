@@ -24,6 +24,7 @@ pub mod photograph;
 pub mod rank;
 pub mod report;
 pub mod robust;
+#[cfg(feature = "schema")]
 pub mod schema;
 pub mod study;
 pub mod why;

@@ -1,10 +1,12 @@
 //! JSON Schemas of the reports: the keys of their JSON with their types and meanings.
 
 use crate::report::{
-    ConformReport, DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, RobustReport, schema_of,
+    ConformReport, DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, RobustReport,
 };
-use schemars::Schema;
-use serde_json::json;
+use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
+use schemars::{JsonSchema, Schema};
+use serde_json::{Value, json};
 
 use crate::analyses::{ANALYSES, AnyAnalysis};
 use crate::dataset::DatasetReport;
@@ -37,11 +39,24 @@ pub fn named(name: &str) -> Option<Schema> {
     let Some(analysis) = AnyAnalysis::named(name) else {
         return OTHERS.iter().find(|(other, _)| *other == name).map(|(_, schema)| schema());
     };
-    let AnyAnalysis { about, details, doing, scenes, options, .. } = analysis;
+    let AnyAnalysis { about, details, doing, scenes, schemas: [options, report], .. } = analysis;
     let options = options();
     let words =
         json!({ "about": about, "details": details, "doing": doing, "scenes": scenes, "options": options });
-    let mut schema = (analysis.report)();
+    let mut schema = report();
     schema.insert("x-analysis".to_owned(), words);
     Some(schema)
+}
+
+/// The schema of what is written, not of what could be read.
+pub(crate) fn schema_of<T: JsonSchema>() -> Schema {
+    let settings = SchemaSettings::draft2020_12().for_serialize();
+    settings.with_transform(RecursiveTransform(reworded)).into_generator().into_root_schema_for::<T>()
+}
+
+/// A doc comment for readers of JSON: on one line, with null in place of `None`.
+fn reworded(schema: &mut Schema) {
+    if let Some(Value::String(text)) = schema.get_mut("description") {
+        *text = text.replace('\n', " ").replace("`None`", "null").replace("[`", "`").replace("`]", "`");
+    }
 }

@@ -86,9 +86,6 @@ impl FromArgMatches for MaterialArgs {
 
 impl MaterialArgs {
     /// Takes the paths `given` for the ground truth and the predictions, with patterns expanded as a shell does.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`] as [`wildcards::expanded`].
     pub fn set(&mut self, given: impl Iterator<Item = NamedPath>) -> Result<(), CommandError> {
         let mut paths = wildcards::expanded(given)?.into_iter();
         self.ground_truth = paths.next();
@@ -97,18 +94,12 @@ impl MaterialArgs {
     }
 
     /// Refuses what is specified of files that are not read in this way.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
     fn refuse(&self, given: &Given, reason: &str) -> Result<(), CommandError> {
         given.refuse::<StatementArgs>(reason)?;
         refuse(self.reading.resize_to.is_some(), "resize-to", reason)
     }
 
     /// Refuses what is specified of files where the built-in materials are taken.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
     pub fn refuse_of_built_in(&self, given: &Given) -> Result<(), CommandError> {
         let reason = "the built-in materials are not read from files";
         self.refuse(given, reason)?;
@@ -116,17 +107,11 @@ impl MaterialArgs {
     }
 
     /// Refuses what is specified of files where a session names them.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
     pub fn refuse_of_session(&self, given: &Given) -> Result<(), CommandError> {
         self.refuse(given, "a session specifies how its materials are read")
     }
 
     /// The ground truth, then the predictions, each with the options that it is read with.
-    ///
-    /// # Errors
-    /// [`Error::SpecifiedTwice`]; [`CommandError::Usage`] for options of materials that do not exist.
     pub fn sources(&self) -> Result<Vec<MaterialSource>, CommandError> {
         let reading = self.reading.reading()?;
         let sides = std::iter::once(Side::GroundTruth).chain(std::iter::repeat(Side::Prediction));

@@ -7,9 +7,6 @@ use super::{NamedPath, is_there};
 use crate::cli::output::CommandError;
 
 /// Expands the wildcards `*`, `?` and `[...]` in paths, in natural order: `step9` before `step10`. A path that exists is taken as it is.
-///
-/// # Errors
-/// [`CommandError::Usage`] where a pattern is malformed or matches nothing, or where several paths would have one name.
 pub fn expanded(all: impl Iterator<Item = NamedPath>) -> Result<Vec<NamedPath>, CommandError> {
     let one = |given: NamedPath| -> Result<Vec<NamedPath>, CommandError> {
         let text = given.path.to_string_lossy();

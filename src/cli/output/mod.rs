@@ -5,17 +5,64 @@ pub mod bar;
 pub mod error;
 pub mod exit;
 pub mod json;
-pub mod report;
-pub mod stop;
-pub mod target;
 
 pub use bar::{watched, watched_on};
 pub use error::CommandError;
 
-use svbrdf_core::text::quoted;
+use std::process;
+
+use svbrdf_core::progress::Progress;
+use svbrdf_core::text::{printable, quoted};
+use svbrdf_evaluate::Error;
+use svbrdf_evaluate::report::Report;
+use svbrdf_files::disk::signals;
 
 /// The command line of this process, quoted for a shell.
 pub fn command_line() -> String {
     let arguments = std::env::args_os().skip(1).map(|argument| quoted(&argument.to_string_lossy()));
     std::iter::once("svbrdf".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
+}
+
+/// The output format of a report.
+#[derive(Clone, Copy, Debug, Default, clap::ValueEnum)]
+pub enum ReportFormat {
+    #[default]
+    Text,
+    Json,
+    Csv,
+}
+
+impl ReportFormat {
+    /// The report in this format, complete with its last line break.
+    pub fn write(self, report: &(impl Report + ?Sized)) -> Result<String, svbrdf_files::Error> {
+        match self {
+            Self::Text => Ok(printable(&report.text())),
+            Self::Json => report.json(),
+            Self::Csv => report.csv(),
+        }
+    }
+}
+
+/// Prints a warning for each target error that is missed, once the results are printed; with `strict` the first is an error.
+pub fn warn_of(missed: impl IntoIterator<Item = Error>, strict: bool) -> Result<(), CommandError> {
+    let mut missed = missed.into_iter();
+    let failure = if strict { missed.next() } else { None };
+    for warning in missed {
+        exit::tell(&format!("warning: {warning}"));
+    }
+    failure.map_or(Ok(()), |failure| Err(failure.into()))
+}
+
+/// Runs work that leaves temporary files when killed. Ctrl+C and the other signals that end a program cancel it, so that it
+/// removes them; a second signal ends the program at once. Before this work there is nothing to remove, and signals have their default effect.
+pub fn stoppable<R>(work: impl FnOnce(&Progress) -> R) -> R {
+    let progress = Progress::default();
+    let part = progress.part();
+    signals::on_end(move || {
+        if part.is_cancelled() {
+            process::exit(exit::INTERRUPTED.into());
+        }
+        part.cancel();
+    });
+    work(&progress)
 }

@@ -12,8 +12,7 @@ use svbrdf_page::Figures;
 
 use crate::cli::args::scenes::{ListArgs, QuestionArgs, SampledArgs};
 use crate::cli::args::{ComparisonArgs, Given, offered, values};
-use crate::cli::output::stop::stoppable;
-use crate::cli::output::{CommandError, exit};
+use crate::cli::output::{CommandError, exit, stoppable};
 
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
 ///

@@ -17,8 +17,7 @@ use super::cases::{reading, source};
 use super::robust::asked;
 use crate::cli::args::{Given, refuse};
 use crate::cli::job::{Job, NewJob};
-use crate::cli::output::stop::stoppable;
-use crate::cli::output::{CommandError, exit, target, watched_on};
+use crate::cli::output::{CommandError, exit, stoppable, warn_of, watched_on};
 
 /// A ranking of methods over a data set.
 #[derive(Debug)]
@@ -118,7 +117,7 @@ impl ManyJob {
             Output::Text(output) => output.put(&report, DatasetReport::latex)?,
         }
         check_any(&report)?;
-        target::warn_of(report.missed(), strict)?;
+        warn_of(report.missed(), strict)?;
         let means = report.methods.into_iter().filter(|summary| summary.materials > 0);
         check_limit(fail_above, means.map(|summary| (summary.method, summary.mean)))
     }

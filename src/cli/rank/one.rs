@@ -10,7 +10,7 @@ use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check
 use crate::cli::args::{Given, refuse};
 use crate::cli::job::floor::floor_of;
 use crate::cli::job::{ComparisonJob, Job, NewJob, Opened, SessionSettings};
-use crate::cli::output::{CommandError, command_line, target, watched};
+use crate::cli::output::{CommandError, command_line, warn_of, watched};
 
 /// A ranking of the predictions of one ground truth.
 #[derive(Debug)]
@@ -61,7 +61,7 @@ impl Job for OneJob {
         report.repetition = Some(Repetition::new(command_line()));
         report.readings = readings(&opened);
         output.put(&report, RankReport::latex)?;
-        target::warn_of(report.missed(), job.materials.strict)?;
+        warn_of(report.missed(), job.materials.strict)?;
         check_limit(fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
     }
 }

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::comparison::{Comparison, Compute};
@@ -41,7 +40,8 @@ pub struct Outcome {
 }
 
 /// What 95% intervals come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum IntervalSource {
     /// The distribution of the losses of many other scenes: for few sampled scenes.

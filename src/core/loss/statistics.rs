@@ -1,6 +1,5 @@
 //! The error of a loss that was estimated from a few scenes.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
@@ -8,7 +7,8 @@ use crate::model::sampler::Sampler;
 use crate::model::scene::{Kind, Scene};
 
 /// A mean over scenes and how far it may be from the mean over all scenes there are.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Estimate {
     /// The mean over the scenes.
     pub mean: f64,

@@ -5,7 +5,6 @@ use std::str::FromStr;
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::convention::Convention;
@@ -23,7 +22,8 @@ pub const REPLICATES: usize = 8;
 const POINTS_PER_SCRAMBLING: usize = 1 << 16;
 
 /// How scenes are sampled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Sampler {
     /// Independent uniform points: [`scene::sample`].

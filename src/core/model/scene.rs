@@ -10,7 +10,6 @@ use glam::DVec3;
 use rand::distr::Open01;
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -28,7 +27,8 @@ const LOWEST: f64 = 1e-18;
 const FARTHEST: f64 = 1e9;
 
 /// Where the light and the view of a scene are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// At positions: directions differ from texel to texel.
@@ -57,7 +57,8 @@ pub enum Endpoint {
 ///
 /// Positions for [`Kind::Near`], directions of any length that [`Scene::check`] accepts for [`Kind::Distant`], in units of
 /// half the width of the material, which lies in the plane z = 0.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 pub struct Scene {
     pub kind: Kind,

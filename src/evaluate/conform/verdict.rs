@@ -1,6 +1,5 @@
 //! The verdict: whether a renderer conforms to a convention, and in which terms it differs.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::model::grammar::words::Falloff;
@@ -11,7 +10,8 @@ use super::fit::{Fit, Problem};
 use super::search::WORTH;
 
 /// Whether a renderer is the one that was asked for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum VerdictKind {
     Conforms,

@@ -2,14 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::record::MaterialResult;
 use super::remark::Remark;
 
 /// How the materials of a method, or the ground truths, were read.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ReadingSummary {
     /// The number of materials that were read.
     pub materials: usize,
@@ -18,7 +18,8 @@ pub struct ReadingSummary {
 }
 
 /// The number of materials with one doubt.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DoubtCount {
     /// What is in doubt, such as "without normal map".
     pub doubt: String,

@@ -3,7 +3,6 @@
 use std::fmt;
 use std::str::FromStr;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::error::Error;
@@ -11,7 +10,8 @@ use svbrdf_core::error::Error;
 use super::record::{KnownLoss, MaterialResult, PredictionResult};
 
 /// Which of several predictions of a material by one method counts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Pick {
     /// The first.

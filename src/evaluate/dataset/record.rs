@@ -3,7 +3,6 @@
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::diagnose::Finding;
@@ -203,7 +202,8 @@ impl DatasetReading {
 }
 
 /// The results of one material.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MaterialResult {
     pub index: usize,
     pub material: String,
@@ -225,7 +225,8 @@ impl MaterialResult {
 }
 
 /// The result of one prediction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PredictionResult {
     pub method: String,
     pub sample: usize,
@@ -240,7 +241,7 @@ pub struct PredictionResult {
     pub reading: Vec<Remark>,
     /// The metrics of its maps by name, where they were asked for; the PSNR of equal maps is infinite, in JSON null.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty", deserialize_with = "with_infinities")]
-    #[schemars(with = "Option<BTreeMap<String, Option<f64>>>")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<BTreeMap<String, Option<f64>>>"))]
     pub metrics: BTreeMap<String, f64>,
     /// The marks of its diagnosis, the largest share first, where they were asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -256,7 +257,8 @@ impl PredictionResult {
 }
 
 /// A marked finding of a diagnosis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Mark {
     /// Its name, such as "exposure".
     pub hypothesis: String,
@@ -288,7 +290,8 @@ fn with_infinities<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMa
 }
 
 /// A loss that is known.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct KnownLoss {
     /// The loss.
     pub loss: f64,

@@ -1,12 +1,12 @@
 //! A remark on how a material of a data set was read.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use svbrdf_files::read::{Assumption, Note, Read, What};
 
 /// One thing that was noticed or assumed in reading a material.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Remark {
     /// What the number of materials with remarks like it is of, such as "without normal map" or "unsure specular"; `None` for a remark
     /// on nothing that is in doubt.

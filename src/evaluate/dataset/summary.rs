@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::report::Repetition;
@@ -12,12 +11,13 @@ use super::pick::Pick;
 use super::record::{DatasetReading, DatasetSettings, MaterialResult};
 
 /// The losses of methods over a data set.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DatasetReport {
-    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
+    #[cfg_attr(feature = "schema", schemars(with = "BTreeMap<String, serde_json::Value>"))]
     pub settings: DatasetSettings,
     /// How the files are read.
-    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
+    #[cfg_attr(feature = "schema", schemars(with = "BTreeMap<String, serde_json::Value>"))]
     pub reading: DatasetReading,
     /// Which of several predictions of a material counts.
     pub pick: Pick,
@@ -37,7 +37,8 @@ pub struct DatasetReport {
 }
 
 /// The losses of a method.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MethodSummary {
     pub method: String,
     /// Whether it has a loss of as many materials as any other; if not, its mean is over other materials.
@@ -48,15 +49,15 @@ pub struct MethodSummary {
     pub failures: usize,
     /// Over the materials that all compared methods have, `compared_materials`; of a method that is not compared, over those that it has
     /// a loss of; `None` without a loss.
-    #[schemars(with = "Option<f64>")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub mean: f64,
     /// Over the materials of the mean.
-    #[schemars(with = "Option<f64>")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub median: f64,
     /// The 95% interval of the mean over all materials like these; `None` for fewer than 5.
     pub interval95_materials: Option<[f64; 2]>,
     /// The 95% interval of the mean over these materials, due to the sampling of scenes alone.
-    #[schemars(with = "[Option<f64>; 2]")]
+    #[cfg_attr(feature = "schema", schemars(with = "[Option<f64>; 2]"))]
     pub interval95_scenes: [f64; 2],
     /// The mean difference to the best method over the materials of both; `None` for the best, and where nothing is compared.
     pub to_best: Option<f64>,
@@ -66,7 +67,7 @@ pub struct MethodSummary {
     /// How its predictions were read; `None` where there are none.
     pub reading: Option<ReadingSummary>,
     /// Of the maps, by name; `None` where they were not asked for.
-    #[schemars(with = "Option<BTreeMap<String, MetricSummary>>")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<BTreeMap<String, MetricSummary>>"))]
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub metrics: BTreeMap<String, MetricSummary>,
     /// `None` where no diagnosis was asked for.
@@ -85,19 +86,21 @@ impl MethodSummary {
 }
 
 /// A metric of a method over the materials that its mean loss is over.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MetricSummary {
     /// The mean; of a PSNR, that of the mean square error, which is infinite only where the maps of all materials are equal.
-    #[schemars(with = "Option<f64>")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub mean: f64,
-    #[schemars(with = "Option<f64>")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub median: f64,
     /// The 95% interval of the mean over all materials like these; `None` for fewer than 5, and where the mean is infinite.
     pub interval95_materials: Option<[f64; 2]>,
 }
 
 /// The marks of a method over the materials that were diagnosed.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MarkSummary {
     /// The number of materials with a diagnosis.
     pub materials: usize,

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::loss::Estimate;
@@ -11,7 +10,8 @@ use svbrdf_files::changes::Remedy;
 use svbrdf_files::changes::Storage;
 
 /// An explanation of a loss that is tried.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Hypothesis {
     /// One factor on the radiance.
@@ -95,7 +95,8 @@ impl Hypothesis {
 }
 
 /// The value of a hypothesis.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum Value {
     /// The stops that the prediction would have to be brightened by.
@@ -127,7 +128,8 @@ fn hundredths(number: f64) -> String {
 }
 
 /// The loss under a hypothesis.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Finding {
     pub hypothesis: Hypothesis,
     /// The value with the least loss in the pilot.

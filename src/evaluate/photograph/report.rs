@@ -1,6 +1,5 @@
 //! Materials against photographs as JSON, text and CSV.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::material::Material;
@@ -21,7 +20,8 @@ use crate::report::{Cell, Field, Reader, Report, Table, position};
 const BYTES: usize = 3 * 12 + 24;
 
 /// Materials against photographs. Its JSON is a scene file, too.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PhotoReport {
     /// The path of the photograph, or of what lists several.
     pub path: String,
@@ -41,7 +41,8 @@ pub struct PhotoReport {
 }
 
 /// How a photograph was read.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ReadPhotograph {
     /// The name of its file in the capture, or the path of a single photograph.
     photograph: String,
@@ -54,7 +55,8 @@ pub struct ReadPhotograph {
 }
 
 /// A material against one photograph; measures are `None` where all of it is clipped.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PhotoMeasure {
     /// The name of the photograph.
     pub photograph: String,
@@ -69,7 +71,8 @@ pub struct PhotoMeasure {
 }
 
 /// A material against all photographs; its measures are the means over photographs.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PhotoResult {
     /// The name of the material.
     pub material: String,

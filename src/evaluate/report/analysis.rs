@@ -1,12 +1,8 @@
 //! An analysis: a report, and the declaration that its command, its function in Python, its JSON Schema and its table in the window follow
 //! from.
 
-use schemars::generate::SchemaSettings;
-use schemars::transform::RecursiveTransform;
-use schemars::{JsonSchema, Schema};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 
 use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
@@ -62,7 +58,7 @@ pub enum SceneOptions {
 }
 
 /// An analysis of predictions: the report that it gives, and what it is called.
-pub trait Analysis: Report + JsonSchema + Sized + 'static {
+pub trait Analysis: Report + Schematic + Sized + 'static {
     /// Of its command, its function and its schema.
     const NAME: &'static str;
     /// Its question in the window.
@@ -76,7 +72,9 @@ pub trait Analysis: Report + JsonSchema + Sized + 'static {
     /// The options of its scenes.
     const SCENES: &'static [SceneOptions];
     /// Its own options: numbers with doc comments and defaults.
-    type Options: Default + DeserializeOwned + JsonSchema;
+    type Options: Default + DeserializeOwned + Schematic;
+    /// What the command line says of them.
+    const OPTIONS: &'static [AnalysisOption];
 
     /// The answer.
     ///
@@ -86,18 +84,26 @@ pub trait Analysis: Report + JsonSchema + Sized + 'static {
 }
 
 /// No options.
-#[derive(Clone, Copy, Debug, Default, serde::Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, serde::Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NoOptions {}
 
-/// The schema of what is written, not of what could be read.
-pub fn schema_of<T: JsonSchema>() -> Schema {
-    let settings = SchemaSettings::draft2020_12().for_serialize();
-    settings.with_transform(RecursiveTransform(reworded)).into_generator().into_root_schema_for::<T>()
+/// An option of an analysis itself, which is a number.
+#[derive(Clone, Copy, Debug)]
+pub struct AnalysisOption {
+    /// The name of its field.
+    pub name: &'static str,
+    pub about: &'static str,
+    pub default: f64,
+    /// Whether it is a share, written as percent, and not a count.
+    pub is_share: bool,
 }
 
-/// A doc comment for readers of JSON: on one line, with null in place of `None`.
-fn reworded(schema: &mut Schema) {
-    if let Some(Value::String(text)) = schema.get_mut("description") {
-        *text = text.replace('\n', " ").replace("`None`", "null").replace("[`", "`").replace("`]", "`");
-    }
-}
+/// What has a JSON Schema where the feature `schema` is on: all reports and their options.
+#[cfg(feature = "schema")]
+pub use schemars::JsonSchema as Schematic;
+/// All reports and their options.
+#[cfg(not(feature = "schema"))]
+pub trait Schematic {}
+#[cfg(not(feature = "schema"))]
+impl<T> Schematic for T {}

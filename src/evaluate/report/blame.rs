@@ -1,10 +1,9 @@
 //! Report of the share of each map in each loss.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
-use super::analysis::{Analysis, AnalysisInput, NoOptions, SceneOptions};
+use super::analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, SceneOptions};
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
 use super::table::{Cell, Field, Reader, Table};
@@ -58,7 +57,8 @@ fn part(share: &MapShare, loss: &Estimate) -> Part<'static> {
 }
 
 /// The attribution of the loss of each prediction to its maps.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BlameReport {
     #[serde(flatten)]
     compared: Compared,
@@ -69,7 +69,8 @@ pub struct BlameReport {
 }
 
 /// The loss of a prediction and the part of each map.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Attribution {
     prediction: String,
     /// The number of scenes.
@@ -161,6 +162,7 @@ impl Analysis for BlameReport {
     const SCENES: &'static [SceneOptions] =
         &[SceneOptions::TargetError, SceneOptions::Seed, SceneOptions::List];
     type Options = NoOptions;
+    const OPTIONS: &'static [AnalysisOption] = &[];
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
         let AnalysisInput { ground_truth, convention, request, .. } = input;

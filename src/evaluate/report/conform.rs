@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::model::grammar::{Description, RendererTerms};
@@ -17,7 +16,8 @@ use crate::conform::{self, Answer, VerdictKind};
 pub type TermsByKey = BTreeMap<String, BTreeMap<String, TermValue>>;
 
 /// The value of a term.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum TermValue {
     Truth(bool),
@@ -27,7 +27,8 @@ pub enum TermValue {
 }
 
 /// Whether a renderer conforms to a convention, and in which terms it differs.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConformReport {
     /// `conforms`, `differs`, or `unknown`: it is no member of the grammar of conventions, or cannot be told.
     verdict: VerdictKind,
@@ -53,7 +54,8 @@ pub struct ConformReport {
 }
 
 /// A term in which a renderer differs from a convention.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct TermDifference {
     /// Its key in the TOML of a convention.
     term: String,

@@ -1,6 +1,5 @@
 //! Report of what might explain each loss.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
@@ -10,7 +9,8 @@ use crate::diagnose::{self, Finding, Value, sentence};
 use svbrdf_core::loss::Estimate;
 
 /// The diagnosis of each prediction: docs/diagnose.md describes each line.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DiagnoseReport {
     #[serde(flatten)]
     compared: Compared,
@@ -22,7 +22,8 @@ pub struct DiagnoseReport {
 }
 
 /// What might explain the loss of a prediction.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Diagnosis {
     prediction: String,
     /// The finding in words.
@@ -36,8 +37,9 @@ struct Diagnosis {
 }
 
 /// The loss under a hypothesis, such as another exposure or another direction of y.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-#[schemars(rename = "Finding")]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(rename = "Finding"))]
 struct ReportedFinding {
     #[serde(flatten)]
     finding: Finding,

@@ -1,6 +1,5 @@
 //! The settings that reports have in common: lines above a table, and the first keys of the JSON.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::loss::{Estimate, Sampling};
@@ -12,7 +11,8 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
 
 /// The ground truth of a report, and the convention of its losses.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Compared {
     pub ground_truth: String,
     /// Width and height in texels.

@@ -1,13 +1,13 @@
 //! The content of the files of a material, and the assumptions in reading them.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::math::real::Real;
 use svbrdf_files::read::{Assumption, MapContent, Note, Read};
 
 /// The content of the files of a material, and the assumptions in reading them.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct InfoReport {
     pub name: String,
     /// Width and height in texels.
@@ -16,7 +16,7 @@ pub struct InfoReport {
     pub maps: Vec<MapContent>,
     pub assumptions: Vec<Assumption>,
     /// What was noticed in reading, in words.
-    #[schemars(with = "Vec<String>")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub notes: Vec<Note>,
 }
 

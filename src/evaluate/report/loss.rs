@@ -1,6 +1,5 @@
 //! Losses with the settings that they depend on: the JSON.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::table::Cell;
@@ -13,7 +12,8 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
 
 /// Losses with the settings that they depend on. Where the JSON lists scenes, it is a scene file, too, which `--scenes` takes.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LossReport {
     /// The name of the ground truth.
     pub ground_truth: String,
@@ -49,7 +49,8 @@ pub struct LossReport {
 }
 
 /// How many scenes there are, and how they were sampled.
-#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SampledScenes {
     /// The number of near-field scenes.
     pub near: usize,
@@ -64,7 +65,8 @@ pub struct SampledScenes {
 }
 
 /// The texels in each scene: their number, or "all".
-#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum TexelCount {
     Number(usize),
@@ -72,14 +74,16 @@ pub enum TexelCount {
 }
 
 /// The word for all texels.
-#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum AllTexels {
     All,
 }
 
 /// The scenes of the losses over few scenes: another estimate of the loss, which depends on the seed.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(super) struct FewScenes {
     #[serde(flatten)]
     pub sampled: SampledScenes,
@@ -90,7 +94,8 @@ pub(super) struct FewScenes {
 }
 
 /// The loss of a prediction - the loss of the first one, over the same scenes.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(super) struct Difference {
     pub prediction: String,
     /// The name of the first prediction.
@@ -101,8 +106,9 @@ pub(super) struct Difference {
 }
 
 /// The loss of one prediction: the mean over scenes, texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-#[schemars(rename = "Loss")]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(rename = "Loss"))]
 pub(super) struct PredictionLoss {
     pub prediction: String,
     /// Where it was read from.
@@ -119,7 +125,8 @@ pub(super) struct PredictionLoss {
 }
 
 /// The loss over few scenes beside a more accurate one.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub(super) struct FewScenesLoss {
     /// The loss over the 6 + 3 random scenes of the papers, beside a loss over all scenes.
     pub few_scenes_loss: f64,

@@ -1,6 +1,5 @@
 //! Losses over texels, or over directions of the light or the view.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
@@ -15,7 +14,8 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 
 /// The loss over texels, or over the directions of the light or the view.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MapReport {
     #[serde(flatten)]
     pub compared: Compared,
@@ -32,7 +32,8 @@ pub struct MapReport {
 }
 
 /// The map of a prediction in a few numbers.
-#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct MapSummary {
     prediction: String,
     /// The loss.

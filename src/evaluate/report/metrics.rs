@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::Report;
-use super::analysis::{Analysis, AnalysisInput, SceneOptions};
+use super::analysis::{Analysis, AnalysisInput, AnalysisOption, SceneOptions};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Reader, Table};
 use crate::error::Error;
@@ -16,7 +15,8 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
 
 /// Metrics of maps and renderings, each with its convention in its name: docs/metrics.md defines them.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MetricsReport {
     ground_truth: String,
     /// The convention of the renderings.
@@ -31,12 +31,13 @@ pub struct MetricsReport {
 }
 
 /// The metrics of one prediction.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Metrics {
     prediction: String,
     /// By name; `None` for the infinite PSNR of equal maps or renderings.
     #[serde(serialize_with = "by_name")]
-    #[schemars(with = "BTreeMap<String, Option<f64>>")]
+    #[cfg_attr(feature = "schema", schemars(with = "BTreeMap<String, Option<f64>>"))]
     metrics: Vec<Metric>,
     /// The 95% intervals of means over sampled scenes by name, where they are known.
     intervals95: BTreeMap<&'static str, [f64; 2]>,
@@ -103,14 +104,15 @@ fn by_name<S: Serializer>(metrics: &[Metric], serializer: S) -> Result<S::Ok, S:
 }
 
 /// The options of the metrics.
-#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct MetricsOptions {
     /// Exposure of renderings in stops, before they are clipped
-    #[schemars(extend("format" = "stops"))]
+    #[cfg_attr(feature = "schema", schemars(extend("format" = "stops")))]
     pub exposure: f32,
     /// The metrics to compute, by words of their names, such as psnr; empty: all
-    #[schemars(with = "Vec<String>")]
+    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub metrics: MetricSelection,
 }
 
@@ -123,6 +125,7 @@ impl Analysis for MetricsReport {
     const DOING: &'static str = "rendering";
     const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
     type Options = MetricsOptions;
+    const OPTIONS: &'static [AnalysisOption] = &[];
 
     fn run(input: &AnalysisInput<'_>, options: &MetricsOptions, progress: &Progress) -> Result<Self, Error> {
         let AnalysisInput { ground_truth, convention, request, .. } = input;

@@ -40,7 +40,7 @@ mod scenes;
 mod table;
 mod worst;
 
-pub use analysis::{Analysis, AnalysisInput, NoOptions, SceneOptions, schema_of};
+pub use analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, SceneOptions, Schematic};
 pub use blame::{BlameReport, parts};
 pub use conform::ConformReport;
 pub use diagnose::DiagnoseReport;

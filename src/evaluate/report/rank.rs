@@ -1,6 +1,5 @@
 //! A ranking of predictions of one ground truth.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::Report;
@@ -40,7 +39,8 @@ fn fields<'a>() -> [Field<Row<'a>>; 12] {
 }
 
 /// Predictions of one ground truth, smallest loss first, with what the data can separate.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RankReport {
     #[serde(flatten)]
     compared: Compared,
@@ -67,7 +67,8 @@ pub struct RankReport {
 }
 
 /// A prediction in a ranking.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RankedPrediction {
     /// The index of the prediction in the order of the question.
     pub index: usize,
@@ -84,7 +85,8 @@ pub struct RankedPrediction {
 }
 
 /// How a material was read.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MaterialReading {
     pub material: String,
     pub remarks: Vec<String>,

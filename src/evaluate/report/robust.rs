@@ -1,6 +1,5 @@
 //! Report on the robustness of the order of predictions.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::progress::Progress;
@@ -13,7 +12,8 @@ use crate::error::Error;
 use crate::robust::{Answered, RobustInput};
 
 /// Whether the order of predictions survives other conventions, epsilons and scenes.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobustReport {
     #[serde(flatten)]
     compared: Compared,
@@ -28,7 +28,8 @@ pub struct RobustReport {
 }
 
 /// A question, and the order that it gives.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct AskedQuestion {
     question: String,
     /// Kendall's tau to the order by default: 1 where no pair changes sides.
@@ -38,7 +39,8 @@ struct AskedQuestion {
 }
 
 /// A pair of predictions that changes sides.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Change {
     question: String,
     first: String,

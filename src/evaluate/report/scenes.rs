@@ -1,10 +1,9 @@
 //! The scenes of a loss, worst first.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Report;
-use super::analysis::{Analysis, AnalysisInput, SceneOptions};
+use super::analysis::{Analysis, AnalysisInput, AnalysisOption, SceneOptions};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
@@ -22,7 +21,8 @@ pub(super) const SCENE: [Field<Scene>; 3] = [
 
 /// The scenes with the largest losses, sorted by the mean of the losses of all predictions in them, worst first. Its JSON is a
 /// scene file, too.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ScenesReport {
     #[serde(flatten)]
     compared: Compared,
@@ -42,7 +42,8 @@ pub struct ScenesReport {
 }
 
 /// The loss of a prediction in single scenes.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct ScenesLoss {
     prediction: String,
     /// Over all scenes.
@@ -104,7 +105,8 @@ impl Report for ScenesReport {
 }
 
 /// The options of the list.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct ScenesOptions {
     /// Number of scenes that are listed
@@ -126,6 +128,12 @@ impl Analysis for ScenesReport {
     const DOING: &'static str = "rendering";
     const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
     type Options = ScenesOptions;
+    const OPTIONS: &'static [AnalysisOption] = &[AnalysisOption {
+        name: "top",
+        about: "Number of scenes that are listed",
+        default: 10.0,
+        is_share: false,
+    }];
 
     fn run(input: &AnalysisInput<'_>, options: &ScenesOptions, progress: &Progress) -> Result<Self, Error> {
         let AnalysisInput { ground_truth, predictions, convention, request } = input;

@@ -1,10 +1,9 @@
 //! The scene with the largest loss of each prediction.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Report;
-use super::analysis::{Analysis, AnalysisInput, SceneOptions};
+use super::analysis::{Analysis, AnalysisInput, AnalysisOption, SceneOptions};
 use super::heading::Compared;
 use super::missed::missed;
 use super::scenes::SCENE;
@@ -16,7 +15,8 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
 
 /// The scene with the largest loss of each prediction. Its JSON is a scene file, too.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorstReport {
     #[serde(flatten)]
     compared: Compared,
@@ -29,7 +29,8 @@ pub struct WorstReport {
 }
 
 /// The worst scene of a prediction.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct Worst {
     prediction: String,
     /// The loss in that scene.
@@ -108,11 +109,12 @@ impl Report for WorstReport {
 }
 
 /// The options of the search.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct WorstOptions {
     /// Leaves out this share of the nearest distances, and as much of the farthest
-    #[schemars(extend("format" = "share"))]
+    #[cfg_attr(feature = "schema", schemars(extend("format" = "share")))]
     distance_tail: f64,
 }
 
@@ -133,6 +135,12 @@ impl Analysis for WorstReport {
     const DOING: &'static str = "searching";
     const SCENES: &'static [SceneOptions] = &[SceneOptions::Seed];
     type Options = WorstOptions;
+    const OPTIONS: &'static [AnalysisOption] = &[AnalysisOption {
+        name: "distance_tail",
+        about: "Leaves out this share of the nearest distances, and as much of the farthest",
+        default: why::TAIL,
+        is_share: true,
+    }];
 
     fn run(input: &AnalysisInput<'_>, options: &WorstOptions, progress: &Progress) -> Result<Self, Error> {
         let (truth, convention, tail) = (input.ground_truth, &input.convention, options.distance_tail);

@@ -8,7 +8,6 @@
 //! All 16 mixtures are rendered in the same scenes on the same texels, so that the values add up to rounding in each scene, and
 //! variance that the mixtures have in common cancels.
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::error::Error;
@@ -43,7 +42,8 @@ pub struct Attribution {
 }
 
 /// What a map adds to a loss. Estimates have the unit of the loss; their errors are due to the sampling of scenes and texels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MapShare {
     pub map: Map,
     /// The Shapley value.

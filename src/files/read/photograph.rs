@@ -2,7 +2,6 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
-use schemars::JsonSchema;
 
 use svbrdf_core::choices;
 use svbrdf_core::image::Image;
@@ -17,7 +16,7 @@ use crate::read::record::{Note, Subject};
 
 choices! {
     /// How the samples of a photograph encode radiance.
-    #[derive(JsonSchema)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     Transfer, "transfer curve":
     /// Samples are proportional to radiance.
     Linear = "linear",

@@ -3,7 +3,6 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::read::measure;
@@ -12,11 +11,12 @@ use crate::read::raster::{Raster, Samples};
 use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// One map as stored.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
-#[schemars(rename = "StoredMap")]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(rename = "StoredMap"))]
 pub struct MapContent {
     /// The map, such as "normal" or "base".
-    #[schemars(with = "String")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub map: Role,
     pub file: PathBuf,
     /// Layer, channel or tile within the file; may be empty.

@@ -2,7 +2,6 @@
 
 use std::fmt;
 
-use schemars::JsonSchema;
 use serde::Serialize;
 
 use svbrdf_core::material::Map;
@@ -12,7 +11,8 @@ use super::reason::Reason;
 use super::storage_convention::StorageConvention;
 
 /// The subject of an assumption.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum What {
     /// Which part of a picture or file is which map.
@@ -76,7 +76,8 @@ impl What {
 }
 
 /// How far an assumption can be trusted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum Certainty {
     /// Another reading is as plausible. Strict reading refuses it.
@@ -90,13 +91,14 @@ pub enum Certainty {
 }
 
 /// One thing that was assumed, and why.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Assumption {
     pub what: What,
     /// The choice, for the user.
     pub chosen: String,
     /// In words.
-    #[schemars(with = "String")]
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
     pub why: Reason,
     pub certainty: Certainty,
 }
