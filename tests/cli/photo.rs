@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::pictures::image_of_exr;
-use super::{assert_has, assert_holds, assert_refused, folder, json_of, rows_of, succeed, text_of};
+use super::{assert_has, assert_holds, assert_refused, folder, json_of, rows_of, succeed};
 
 const SCENE: &str = "--view 0,0,2 --light 0.5,0.5,1";
 
@@ -41,21 +41,20 @@ fn the_right_material_comes_first_with_the_factor_of_the_exposure() {
     assert_eq!(image::open(at.join("log.png")).unwrap().width(), 8 + 4 + 8);
     assert_holds(at, "log.png", &["log difference from the photograph g", "svbrdf:factors"]);
 
-    // Two photographs, of which the second is twice as bright: one factor for both.
+    // Two photographs, of which the second is half as bright: one factor for both.
     let scene = json!({"kind": "near", "view": [0, 0, 2], "light": [0.5, 0.5, 1]});
-    let listed = ["photo.exr", "bright.exr"].map(|file| json!({"file": file, "scene": scene}));
-    succeed(at, &format!("render gt.png -o bright.exr --exposure 1 {SCENE}"));
+    let listed = ["photo.png", "dark.png"].map(|file| json!({"file": file, "scene": scene}));
+    succeed(at, &format!("render gt.png -o dark.png --exposure -2 {SCENE}"));
     std::fs::write(at.join("capture.json"), json!({"photographs": listed}).to_string()).unwrap();
     let found = json_of(at, "photo capture.json b.png gt.png");
     std::fs::write(at.join("scenes.json"), found.to_string()).unwrap();
     assert_eq!(names(&found)[0], "gt");
     let logs = [0, 1].map(|k| found["results"][0]["photographs"][k]["log"].as_f64().unwrap());
-    assert!(logs[0] + logs[1] > 0.5, "{logs:?}");
+    assert!(logs[0] + logs[1] > 0.3, "{logs:?}");
     // The JSON is a scene file.
     succeed(at, "loss gt.png a.png --scenes scenes.json");
     let rows = rows_of(at, "photo . gt.png a.png");
     assert_eq!((rows.len(), rows[1]["photographs"].as_str(), rows[1]["falloff"].as_str()), (2, "2", "false"));
-    assert!(text_of(at, "capture.json").contains("bright.exr"));
     assert_refused(
         at,
         &[

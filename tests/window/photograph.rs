@@ -173,7 +173,8 @@ fn the_open_dialog_takes_photographs_and_a_list_of_them_has_its_own_lights() {
         .map(|(file, scene)| json!({"file": file, "scene": scene}));
     std::fs::write(folder.path().join("capture.json"), json!({"photographs": listed}).to_string()).unwrap();
     let mut window = built_in();
-    press(&mut window, egui::Key::O);
+    apply(&mut window, WindowCommand::ShowOpen(true));
+    window.run_steps(3);
     click(&mut window, "A photograph in the place of the ground truth");
     let dialog = window.state_mut().parts.ui.dialogs.open.as_mut().unwrap();
     dialog.add(&folder.path().display().to_string());
