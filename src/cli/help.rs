@@ -39,7 +39,7 @@ metrics: RMSE, L1, angles, PSNR, SSIM and FLIP
   gt.png a.png --metrics psnr,ssim11
 photo: how renderings differ from photographs
   photo.png a.png b.png --view 0,0,2.4 --light 0,0,2.4
-  card_blue/ a.png b.png
+  card_blue/capture.json a.png b.png
 conform: whose renderer yours is
   --points probe.npz
   answer.npz --convention svbrdf-estimation-2022
