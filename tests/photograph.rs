@@ -24,7 +24,8 @@ use svbrdf_files::photograph::Capture;
 use svbrdf_files::read::{Photograph, Transfer, read_photograph};
 use svbrdf_files::samples;
 
-use crate::support::pictures::{SIDE as EXR_SIDE, exr as write_exr, gamma, npy};
+use crate::support::npy::npy;
+use crate::support::pictures::{SIDE as EXR_SIDE, exr as write_exr, gamma};
 use crate::support::png::{Png, RGB};
 
 const SIDE: usize = 64;

@@ -101,7 +101,7 @@ pub fn built_in(py: Python<'_>, precision: &str) -> PyResult<Vec<CoreMaterial>> 
     }
 }
 
-/// Writes a material that was read from `files`, if any. Returns what a form with base colour and metallic changes.
+/// Writes a material that was read from `files`, if any. Returns a note where some programs show less than the file has.
 #[pyfunction]
 pub fn write(
     py: Python<'_>,
@@ -111,12 +111,11 @@ pub fn write(
     depth: Option<&str>,
     preset: Option<&str>,
     preview: bool,
-) -> PyResult<Option<String>> {
+) -> PyResult<Option<&'static str>> {
     let depth = depth.map(str::parse).transpose().map_err(exception)?;
     let like = preset.map(str::parse).transpose().map_err(exception)?;
     let kind = writing::FileKind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
     check_output_of(&path, &files).map_err(exception)?;
     let material = material.single();
-    let surface = work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))?;
-    Ok(surface.map(|surface| surface.to_string()))
+    work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))
 }

@@ -14,15 +14,12 @@ use super::job::{Job, NewJob};
 use super::output::exit::tell;
 use super::output::{CommandError, stoppable};
 
-/// Writes a material as layered EXR, packed PNG, glTF, MaterialX or into a folder
+/// Writes a material as layered EXR, packed PNG, glTF or into a folder
 ///
 /// The extension of OUT selects the format: .exr is one layered EXR, linear; .png is a packed strip normal | diffuse |
-/// roughness | specular, linear; .glb is binary glTF, a plane with the material; .mtlx is MaterialX, an open_pbr_surface
-/// with a new folder OUT_textures of its pictures beside it. A folder gets four PNG files, colours in sRGB; it is a name
-/// without an extension, with / at its end, or of an empty folder.
-///
-/// glTF and MaterialX get base colour and metallic where these change diffuse and specular by at most one step of 8 bits,
-/// else specular as it is. A note states which, and what it changes.
+/// roughness | specular, linear; .glb is binary glTF, a plane with the material: base colour and metallic where these change
+/// diffuse and specular by at most one step of 8 bits, else KHR_materials_specular. A folder gets four PNG files, colours in
+/// sRGB; it is a name without an extension, with / at its end, or of an empty folder.
 #[derive(Debug, clap::Args)]
 pub struct ConvertArgs {
     /// A packed or layered image, a folder, a name prefix, or one of the files; NAME=PATH names it
@@ -33,16 +30,14 @@ pub struct ConvertArgs {
     #[arg(value_name = "OUT", required = true)]
     output: PathBuf,
 
-    /// Type of the samples [default: half in a layered EXR, else 8 bits]; the pictures of MaterialX are EXR with half and float
+    /// Type of the samples [default: half in a layered EXR, else 8 bits]
     #[arg(long, value_name = "8|16|half|float")]
     #[arg(value_parser = offered(str::parse::<Depth>, ["8", "16", "half", "float"]), hide_possible_values = true)]
     depth: Option<Depth>,
 
     /// Source of materials whose order of maps, file names and encoding are used
     ///
-    /// For a packed PNG: deschaintre (the default), gao, materialgan, lookahead or matfusion. For a folder: materialgan, or
-    /// gltf, which writes base colour, normals and occlusion | roughness | metallic; specular that base colour and metallic
-    /// cannot express is lost.
+    /// For a packed PNG: deschaintre (the default), gao, materialgan, lookahead or matfusion. For a folder: materialgan.
     #[arg(long, value_name = "PRESET")]
     #[arg(value_parser = offered(str::parse::<Preset>, Preset::ALL), hide_possible_values = true)]
     like: Option<Preset>,
@@ -86,9 +81,9 @@ impl Job for ConvertJob {
         let read = material.read()?;
         check_output(&output)?;
         let material: Material<f32> = noted(read, material.verbose);
-        let surface = stoppable(|progress| write::write_watched(&material, &output, kind, progress))?;
-        if let Some(surface) = surface {
-            tell(&format!("note: {}: {surface}", output.display()));
+        let note = stoppable(|progress| write::write_watched(&material, &output, kind, progress))?;
+        if let Some(note) = note {
+            tell(&format!("note: {}: {note}", output.display()));
         }
         Ok(())
     }

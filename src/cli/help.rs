@@ -62,7 +62,7 @@ Prepare
 info: what files hold, and what is assumed in reading them
   gt.png
   textures/ --read normal-y=down --save
-convert: the same material as EXR, PNG, glTF, MaterialX or a folder
+convert: the same material as EXR, PNG, glTF or a folder
   textures/ brick.exr
   textures/ brick.glb
   textures/ gao.png --like gao

@@ -189,19 +189,19 @@ fn texts(guesses: &[Guess]) -> String {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum OutputProblem {
     #[error(
-        "cannot be written: expected an .exr, .png, .glb or .mtlx file, or a folder, which exists, ends with / or has no extension"
+        "cannot be written: expected an .exr, .png or .glb file, or a folder, which exists, ends with / or has no extension"
     )]
     Kind,
-    #[error("cannot have that depth; EXR has half and float, MaterialX all, every other form 8 and 16")]
+    #[error("cannot have that depth; EXR has half and float, every other form 8 and 16")]
     Depth,
     #[error("cannot have a preview; only EXR has one")]
     Preview,
-    /// EXR, glTF and MaterialX state what they hold.
+    /// EXR and glTF state what they hold.
     #[error("cannot follow a preset; only a packed PNG and a folder do")]
     NoPreset,
     #[error("cannot be packed in that way; deschaintre, gao, materialgan, lookahead and matfusion pack")]
     PackedPreset,
-    #[error("cannot be a folder of that preset; materialgan and gltf have one")]
+    #[error("cannot be a folder of that preset; materialgan has one")]
     FolderPreset,
 }
 

@@ -1,5 +1,5 @@
-//! Looks for what tests need: the reference numbers beside the checkout, a graphics driver, a display, a browser, the validators of
-//! formats.
+//! Looks for what tests need: the reference numbers beside the checkout, a graphics driver, a display, a browser, a validator of
+//! glTF.
 
 use std::env;
 use std::path::Path;
@@ -12,12 +12,6 @@ const SHARED: &str = "../../../shared/golden";
 /// What the test of the real window runs.
 const DESKTOP: [&str; 3] = ["Xvfb", "xdotool", "import"];
 
-/// What the tests of written glTF and MaterialX ask, with the variable that tells where libraries are.
-const VALIDATORS: [(&str, &str, [&str; 3]); 2] = [
-    ("gltf_validator", "NODE_PATH", ["node", "-e", "require('gltf-validator')"]),
-    ("materialx", "PYTHONPATH", ["python3", "-c", "import MaterialX"]),
-];
-
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
     println!("cargo::rerun-if-changed=adapter.rs");
@@ -29,18 +23,17 @@ fn main() {
     }
     let path = env::var_os("PATH").unwrap_or_default();
     let installed = |program: &&str| env::split_paths(&path).any(|folder| folder.join(program).is_file());
-    let mut all = vec![
+    // The variable tells where libraries are.
+    println!("cargo::rerun-if-env-changed=NODE_PATH");
+    let validator = Command::new("node").args(["-e", "require('gltf-validator')"]).output();
+    let all = [
         ("shared", shared),
         ("adapter", adapter::is_there()),
         ("f32_adapter", adapter::renders_to_f32()),
         ("browser", ["chromium", "chromium-browser"].iter().any(installed)),
         ("desktop", DESKTOP.iter().all(installed)),
+        ("gltf_validator", validator.is_ok_and(|output| output.status.success())),
     ];
-    for (name, library, [program, option, script]) in VALIDATORS {
-        println!("cargo::rerun-if-env-changed={library}");
-        let output = Command::new(program).args([option, script]).output();
-        all.push((name, output.is_ok_and(|output| output.status.success())));
-    }
     let found: Vec<_> = all.into_iter().filter_map(|(name, is_there)| is_there.then_some(name)).collect();
     println!("cargo::rustc-env=SVBRDF_TESTS_FOUND={}", found.join(" "));
 }

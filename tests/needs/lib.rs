@@ -8,13 +8,12 @@ use proc_macro::TokenStream;
 const FOUND: &str = env!("SVBRDF_TESTS_FOUND");
 
 /// Each need, and what to install.
-const NEEDS: [(&str, &str); 7] = [
+const NEEDS: [(&str, &str); 6] = [
     ("adapter", "a graphics adapter"),
     ("f32_adapter", "a graphics adapter that renders to 32-bit floats"),
     ("browser", "chromium"),
     ("desktop", "Xvfb, xdotool and import"),
     ("gltf_validator", "node and gltf-validator"),
-    ("materialx", "python3 and MaterialX"),
     ("shared", "../shared"),
 ];
 

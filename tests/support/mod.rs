@@ -3,15 +3,13 @@
 pub mod compare;
 #[cfg(feature = "viewer")]
 pub mod desktop;
-pub mod exr;
-pub mod fixtures;
 #[cfg(feature = "viewer")]
 pub mod gpu;
 pub mod losses;
+pub mod npy;
 pub mod pictures;
 pub mod png;
 pub mod points;
-pub mod surfaces;
 pub mod surroundings;
 pub mod textures;
 pub mod tolerance;

@@ -24,6 +24,7 @@ mod order;
 mod outside;
 mod panels;
 mod photograph;
+mod pictures;
 mod quantities;
 mod reading;
 mod reduced;
@@ -42,9 +43,8 @@ mod why;
 #[path = "../support/gpu.rs"]
 #[allow(dead_code, reason = "the tests of the core use the rest")]
 mod gpu;
-#[path = "../support/pictures.rs"]
-#[allow(dead_code, reason = "the tests of the core use the rest")]
-mod pictures;
+#[path = "../support/npy.rs"]
+mod npy;
 #[path = "../support/surroundings.rs"]
 mod surroundings;
 

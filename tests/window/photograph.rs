@@ -28,7 +28,7 @@ fn photograph(folder: &Path, factor: f32) -> PathBuf {
     };
     let values: Vec<f32> = (0..256 * 256).flat_map(at).collect();
     let path = folder.join("photo.npy");
-    std::fs::write(&path, pictures::npy([256, 256, 3], &values)).unwrap();
+    std::fs::write(&path, crate::npy::npy([256, 256, 3], &values)).unwrap();
     path
 }
 
@@ -189,7 +189,7 @@ fn the_open_dialog_takes_photographs_and_a_list_of_them_has_its_own_lights() {
     assert_eq!(window.state().parts.model.view.scene, other);
     // A photograph that cannot be read or has another shape is reported, and the ground truth comes back.
     let narrow = folder.path().join("narrow.npy");
-    std::fs::write(&narrow, pictures::npy([256, 128, 3], &[0.5; 256 * 128 * 3])).unwrap();
+    std::fs::write(&narrow, crate::npy::npy([256, 128, 3], &[0.5; 256 * 128 * 3])).unwrap();
     for (path, words) in
         [(folder.path().join("absent.png"), "absent.png"), (narrow, "rectify the photograph")]
     {

@@ -31,10 +31,7 @@ impl Files {
 
     /// Writes a material whose albedo depends on `shift`.
     fn write(&self, index: usize, shift: f64) {
-        let strip = pictures::packed("NDRS", 4, |map, value| match map {
-            'D' => (value + 0.03 * shift).fract(),
-            _ => value,
-        });
+        let strip = pictures::packed(|value| (value + 0.03 * shift).fract());
         strip.save(&self.names[index]).unwrap();
     }
 

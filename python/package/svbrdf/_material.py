@@ -241,20 +241,20 @@ def write(
     preset: str | None = None,
     preview: bool = False,
 ) -> str | None:
-    """Writes a material by the extension of `path`: layered EXR, packed PNG, glTF, MaterialX, or a folder of PNG files.
+    """Writes a material by the extension of `path`: layered EXR, packed PNG, glTF, or a folder of PNG files.
 
-    The file or folder appears when it is complete, or not at all; a document of MaterialX after the folder of its
-    pictures. The files that the material was read from are not replaced.
+    The file or folder appears when it is complete, or not at all. The files that the material was read from are not
+    replaced.
 
     Args:
         material: A material, or the path of one.
-        path: Ends with .exr, .png, .glb or .mtlx, or names a folder that is empty or does not exist.
+        path: Ends with .exr, .png or .glb, or names a folder that is empty or does not exist.
         depth: Bits of a PNG ("8", "16") or numbers of an EXR ("half", "float").
         preset: Whose names, order and encoding the files get.
         preview: Whether an EXR gets a rendering as its R, G and B.
 
     Returns:
-        Of a form with base colour and metallic, how it expresses diffuse and specular, and what that changes.
+        A note where some programs show less than the file has.
 
     Raises:
         OSError: The file cannot be written.

@@ -35,7 +35,7 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
         Error::UnsupportedOutput { problem: OutputProblem::Depth, .. } => "leave out --depth",
         Error::UnsupportedOutput { problem: OutputProblem::Preview, .. } => "leave out --preview",
         Error::UnsupportedOutput { problem: OutputProblem::FolderPreset, .. } => {
-            "--like materialgan or gltf, or no --like, writes a folder"
+            "--like materialgan, or no --like, writes a folder"
         }
         _ => return None,
     })

@@ -1,5 +1,8 @@
 //! Curves: from values of [0, 1] to the integers of a picture.
 
+use crate::read::Albedo;
+use crate::read::options::transfer::{encoded, linear};
+
 /// Steps of value that have a first guess of their integer.
 const STEPS: usize = 1 << 12;
 
@@ -44,6 +47,14 @@ impl Curve {
         Self { encoded: Box::new(encoded), top: most, table: Some(table) }
     }
 
+    /// Of colours in this encoding.
+    pub(super) fn encoding(top: u16, albedo: Albedo) -> Self {
+        match albedo {
+            Albedo::Linear => Self::plain(top, |value| value),
+            _ => Self::rising(top, move |value| encoded(value, albedo), |value| linear(value, albedo)),
+        }
+    }
+
     /// The integer of `value`, which lies in [0, 1].
     pub(super) fn code(&self, value: f64) -> u16 {
         match &self.table {
@@ -67,14 +78,12 @@ fn rounded(value: f64) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::read::Albedo;
-    use crate::read::options::transfer::{encoded, linear};
 
     #[test]
     fn a_code_that_is_looked_up_is_that_of_the_formula() {
         for albedo in [Albedo::Srgb, Albedo::Gamma22, Albedo::Log] {
             for top in [255, u16::MAX] {
-                let curve = Curve::rising(top, move |v| encoded(v, albedo), |v| linear(v, albedo));
+                let curve = Curve::encoding(top, albedo);
                 let formula = |value: f32| (f64::from(top) * encoded(value.into(), albedo)).round() as u16;
                 let borders = (0..top).step_by(usize::from(top) / 255).flat_map(|code| {
                     let border = linear((f64::from(code) + 0.5) / f64::from(top), albedo) as f32;

@@ -1,4 +1,7 @@
 //! Materials as binary glTF 2.0: a plane of the size of the material, its pictures within the file.
+//!
+//! Diffuse and specular become base colour and metallic where these keep them to a step of 8 bits, since every program reads them;
+//! else diffuse is the base colour, and `KHR_materials_specular` has specular as a part of the reflectance at an index of refraction.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
@@ -8,14 +11,20 @@ use gltf::binary::Header;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use svbrdf_core::material::{Depth, Material};
+use svbrdf_core::material::{DIELECTRIC, Material, Planes, base_and_metallic};
 use svbrdf_core::progress::Progress;
 
+use super::curve::Curve;
 use super::maps::{MapEncoding, WrittenMap};
 use super::png::{self, FolderPicture, picture};
-use super::surface::{Surface, SurfaceForm, USUAL_IOR};
 use crate::disk::atomic::SOFTWARE;
+use crate::read::Albedo;
+use crate::read::options::transfer::linear;
 
+/// The index of refraction of the reflectance [`DIELECTRIC`].
+const USUAL_IOR: f64 = 1.5;
+/// The largest reflectance that an index is computed for: that of 2,000. Larger ones need indices without end.
+const MOST_REFLECTANCE: f64 = 0.998;
 /// The target of a buffer view with attributes of vertices.
 const ARRAY_BUFFER: u32 = 34_962;
 /// The target of a buffer view with indices.
@@ -23,17 +32,48 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34_963;
 const FLOAT: u32 = 5126;
 const UNSIGNED_SHORT: u32 = 5123;
 
+/// The index of refraction whose reflectance specular is stored as a part of; `None` where base colour and metallic express the material.
+pub(super) fn ior(material: &Material<f32>, sixteen: bool) -> Option<f64> {
+    (!is_metallic(material, sixteen)).then(|| {
+        let largest = material.planes().specular.iter().flatten().fold(0.0, |most: f32, s| most.max(*s));
+        let root = f64::from(largest).clamp(DIELECTRIC, MOST_REFLECTANCE).sqrt();
+        // In four decimals, as stored: 1.2 / 0.8 is not 1.5 to the last bit.
+        ((1.0 + root) / (1.0 - root) * 1e4 - 1e-6).ceil() / 1e4
+    })
+}
+
+/// Whether diffuse and specular change by at most a step of 8 bits in sRGB where they are read again from base colour and metallic.
+fn is_metallic(material: &Material<f32>, sixteen: bool) -> bool {
+    const STEP: u16 = 257;
+    let top = if sixteen { u16::MAX } else { 255 };
+    let (fine, stored) = (Curve::encoding(u16::MAX, Albedo::Srgb), Curve::encoding(top, Albedo::Srgb));
+    let decoded: Vec<f64> =
+        (0..=top).map(|code| linear(f64::from(code) / f64::from(top), Albedo::Srgb)).collect();
+    let Planes { diffuse, specular, .. } = material.planes();
+    (0..material.width() * material.height()).into_par_iter().all(|index| {
+        let [d, s] = [diffuse, specular].map(|map| map.each_ref().map(|plane| f64::from(plane[index])));
+        let (base, metallic) = base_and_metallic(d, s);
+        let base = base.map(|b| decoded[usize::from(stored.code(b))]);
+        let m = (f64::from(top) * metallic).round() / f64::from(top);
+        let is_kept = |value: f64, of: f64| fine.code(value.min(1.0)).abs_diff(fine.code(of)) <= STEP;
+        (0..3).all(|c| {
+            is_kept(base[c] * (1.0 - m), d[c]) && is_kept(DIELECTRIC * (1.0 - m) + base[c] * m, s[c])
+        })
+    })
+}
+
+/// Writes the material with the [`ior`] that its specular needs.
 pub(super) fn write(
     file: impl Write,
     material: &Material<f32>,
-    surface: &Surface,
-    depth: Depth,
+    ior: Option<f64>,
+    sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    let pictures = pictures(surface, depth);
+    let pictures = pictures(ior);
     let encoded = |picture: &FolderPicture<'_>| {
         let mut bytes = Vec::new();
-        png::one(&mut bytes, material, picture, depth == Depth::Sixteen, progress).map(|()| bytes)
+        png::one(&mut bytes, material, picture, sixteen, progress).map(|()| bytes)
     };
     let encoded = pictures.par_iter().map(encoded).collect::<io::Result<Vec<_>>>()?;
     let mut binary = Binary::default();
@@ -46,7 +86,7 @@ pub(super) fn write(
         })
         .collect();
     let textures: Vec<Value> = (0..images.len()).map(|source| json!({"source": source})).collect();
-    let (of_material, extensions) = material_of(material.name(), surface);
+    let (of_material, extensions) = material_of(material.name(), ior);
     let mut document = json!({
         "asset": {"version": "2.0", "generator": SOFTWARE},
         "scene": 0,
@@ -63,61 +103,48 @@ pub(super) fn write(
     if !extensions.is_empty() {
         document["extensionsUsed"] = json!(extensions);
     }
-    write_parts(file, &document, &binary.bytes)
-}
-
-/// The two parts of a binary glTF.
-fn write_parts(file: impl Write, document: &Value, binary: &[u8]) -> io::Result<()> {
-    let json = serde_json::to_vec(document)?;
+    let json = serde_json::to_vec(&document)?;
     // Header and padding of the file and of its two parts.
     const FRAME: usize = 40;
-    let length = u32::try_from(json.len().saturating_add(binary.len()).saturating_add(FRAME))
+    let length = u32::try_from(json.len().saturating_add(binary.bytes.len()).saturating_add(FRAME))
         .map_err(|_| io::Error::other("a .glb holds at most 4 GiB"))?;
     let header = Header { magic: *b"glTF", version: 2, length };
-    let glb = Glb { header, json: Cow::Owned(json), bin: Some(Cow::Borrowed(binary)) };
+    let glb = Glb { header, json: Cow::Owned(json), bin: Some(Cow::Borrowed(&binary.bytes)) };
     glb.to_writer(file).map_err(io::Error::other)
 }
 
 /// The pictures in the order of the textures in [`material_of`].
-fn pictures(surface: &Surface, depth: Depth) -> Vec<FolderPicture<'static>> {
+fn pictures(ior: Option<f64>) -> Vec<FolderPicture<'static>> {
     let of = |name, map| picture(name, map, MapEncoding::SRGB);
     let normal = of("normal", WrittenMap::Normal);
-    match surface.form {
-        SurfaceForm::Metallic => {
+    match ior {
+        None => {
             vec![of("base colour", WrittenMap::Base), of("roughness and metallic", WrittenMap::Orm), normal]
         }
-        SurfaceForm::Specular { .. } => vec![
-            of("diffuse", WrittenMap::Diffuse),
-            of("roughness", WrittenMap::Roughness),
-            normal,
-            of("specular", WrittenMap::SpecularTint(surface.scale(depth))),
-        ],
+        Some(ior) => {
+            let tint = WrittenMap::SpecularTint(((ior - 1.0) / (ior + 1.0)).powi(2));
+            let roughness = of("roughness", WrittenMap::Roughness);
+            vec![of("diffuse", WrittenMap::Diffuse), roughness, normal, of("specular", tint)]
+        }
     }
 }
 
 /// The material, and the extensions that it uses.
-fn material_of(name: &str, surface: &Surface) -> (Value, Vec<&'static str>) {
+fn material_of(name: &str, ior: Option<f64>) -> (Value, Vec<&'static str>) {
     let [base, roughness, normal] = [0, 1, 2].map(|index| json!({"index": index}));
-    let mut textured = json!({"baseColorTexture": base, "metallicRoughnessTexture": roughness});
-    let SurfaceForm::Specular { ior } = surface.form else {
-        return (
-            json!({"name": name, "pbrMetallicRoughness": textured, "normalTexture": normal}),
-            Vec::new(),
-        );
-    };
-    textured["metallicFactor"] = json!(0.0);
-    let mut extensions = json!({"KHR_materials_specular": {"specularColorTexture": {"index": 3}}});
-    let mut used = vec!["KHR_materials_specular"];
-    if ior != USUAL_IOR {
-        extensions["KHR_materials_ior"] = json!({"ior": ior});
-        used.push("KHR_materials_ior");
+    let textured = json!({"baseColorTexture": base, "metallicRoughnessTexture": roughness});
+    let mut material = json!({"name": name, "pbrMetallicRoughness": textured, "normalTexture": normal});
+    let mut used = Vec::new();
+    if let Some(ior) = ior {
+        material["pbrMetallicRoughness"]["metallicFactor"] = json!(0.0);
+        // The extension scales the reflectance by the tint and leaves that at grazing angles 1, as here.
+        material["extensions"] = json!({"KHR_materials_specular": {"specularColorTexture": {"index": 3}}});
+        used.push("KHR_materials_specular");
+        if ior != USUAL_IOR {
+            material["extensions"]["KHR_materials_ior"] = json!({"ior": ior});
+            used.push("KHR_materials_ior");
+        }
     }
-    let material = json!({
-        "name": name,
-        "pbrMetallicRoughness": textured,
-        "normalTexture": normal,
-        "extensions": extensions,
-    });
     (material, used)
 }
 

@@ -3,7 +3,7 @@
 use svbrdf_core::material::{Material, Planes, base_and_metallic};
 
 use super::curve::Curve;
-use crate::read::options::transfer::{encoded, encoded_roughness, linear, roughness};
+use crate::read::options::transfer::{encoded_roughness, roughness};
 use crate::read::{Albedo, Energy, NormalY, Preset, ReadOptions, Roughness};
 
 /// The map in a picture.
@@ -14,52 +14,10 @@ pub(super) enum WrittenMap {
     Specular,
     Roughness,
     Base,
-    Metallic,
     /// Occlusion (none), roughness, metallic.
     Orm,
-    /// Specular as a part of a reflectance: how much of it there is, and its tint.
-    SpecularWeight(SpecularScale),
-    SpecularTint(SpecularScale),
-}
-
-/// Specular s as the product of a reflectance, a weight and a tint, s = f w t.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SpecularScale {
-    /// f, above 0.
-    pub reflectance: f64,
-    /// How w is stored.
-    pub weight: Weight,
-}
-
-/// The weight of a [`SpecularScale`].
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Weight {
-    /// 1 everywhere: the tint is all.
-    One,
-    /// The largest channel of s / f, rounded up to an integer of this many levels: the tint makes up for it.
-    Levels(u16),
-    /// The largest channel of s / f.
-    Exact,
-}
-
-impl SpecularScale {
-    /// Of specular s, in [0, 1].
-    pub(super) fn weight(self, specular: [f64; 3]) -> f64 {
-        let share = specular.into_iter().fold(0.0, f64::max) / self.reflectance;
-        match self.weight {
-            Weight::One => 1.0,
-            Weight::Levels(top) => ((share * f64::from(top)).ceil() / f64::from(top)).min(1.0),
-            Weight::Exact => share.min(1.0),
-        }
-    }
-
-    /// White where the weight is 0.
-    pub(super) fn tint(self, specular: [f64; 3]) -> [f64; 3] {
-        match self.reflectance * self.weight(specular) {
-            0.0 => [1.0; 3],
-            all => specular.map(|s| (s / all).min(1.0)),
-        }
-    }
+    /// Specular as a part of this reflectance.
+    SpecularTint(f64),
 }
 
 /// The encoding of colours and roughness.
@@ -94,8 +52,6 @@ impl MapEncoding {
         normal_y: NormalY::Up,
         energy: Energy::Scaled,
     };
-    /// Linear colours.
-    pub(super) const LINEAR: Self = Self { diffuse: Albedo::Linear, specular: Albedo::Linear, ..Self::SRGB };
     pub(super) const MATERIAL_GAN: Self = Self {
         diffuse: Albedo::Gamma22,
         specular: Albedo::Gamma22,
@@ -114,10 +70,7 @@ impl MapEncoding {
     /// The curves of diffuse, of specular, of roughness and of what is stored as it is.
     pub(super) fn curves(&self, sixteen: bool) -> Curves {
         let top = if sixteen { u16::MAX } else { 255 };
-        let colour = |albedo| match albedo {
-            Albedo::Linear => Curve::plain(top, |value| value),
-            _ => Curve::rising(top, move |value| encoded(value, albedo), |value| linear(value, albedo)),
-        };
+        let colour = |albedo| Curve::encoding(top, albedo);
         let code = self.roughness;
         let roughness = match code {
             Roughness::Gamma22 => {
@@ -129,9 +82,8 @@ impl MapEncoding {
         Curves { diffuse: colour(self.diffuse), specular: colour(self.specular), roughness, plain }
     }
 
-    /// (red, green, blue) of the texel at `index` before colours and roughness are encoded, in [0, 1]. A map of numbers has its
-    /// number three times.
-    pub(super) fn values(&self, material: &Material<f32>, map: WrittenMap, index: usize) -> [f64; 3] {
+    /// (red, green, blue) of the texel at `index` before colours and roughness are encoded, in [0, 1].
+    fn values(&self, material: &Material<f32>, map: WrittenMap, index: usize) -> [f64; 3] {
         let Planes { normal, diffuse, specular, roughness } = material.planes();
         let at = |planes: &[Vec<f32>; 3]| planes.each_ref().map(|plane| f64::from(plane[index]));
         let rough = || f64::from(roughness[index]);
@@ -150,10 +102,8 @@ impl MapEncoding {
             WrittenMap::Specular => at(specular),
             WrittenMap::Roughness => [rough(); 3],
             WrittenMap::Base => base_and_metallic().0,
-            WrittenMap::Metallic => [base_and_metallic().1; 3],
             WrittenMap::Orm => [1.0, rough(), base_and_metallic().1],
-            WrittenMap::SpecularWeight(scale) => [scale.weight(at(specular)); 3],
-            WrittenMap::SpecularTint(scale) => scale.tint(at(specular)),
+            WrittenMap::SpecularTint(reflectance) => at(specular).map(|s| (s / reflectance).min(1.0)),
         }
     }
 
@@ -168,7 +118,7 @@ impl MapEncoding {
         let values = self.values(material, map, index);
         let Curves { diffuse, specular, roughness, plain } = curves;
         let [red, green, blue] = match map {
-            WrittenMap::Normal | WrittenMap::Metallic | WrittenMap::SpecularWeight(_) => [plain; 3],
+            WrittenMap::Normal => [plain; 3],
             WrittenMap::Diffuse | WrittenMap::Base => [diffuse; 3],
             WrittenMap::Specular | WrittenMap::SpecularTint(_) => [specular; 3],
             WrittenMap::Roughness => [roughness; 3],

@@ -1,17 +1,13 @@
-//! Materials as files: one layered EXR, a packed PNG, a folder of PNG files, binary glTF, MaterialX.
+//! Materials as files: one layered EXR, a packed PNG, a folder of PNG files, binary glTF.
 
 mod curve;
 mod exr;
 mod glb;
 mod maps;
-mod mtlx;
-mod picture_exr;
 mod png;
-mod surface;
 
 use std::path::Path;
 
-pub use surface::{Surface, SurfaceChanges, SurfaceForm, SurfaceTarget, WrittenChange};
 pub use svbrdf_core::material::Depth;
 
 use svbrdf_core::material::Material;
@@ -43,14 +39,8 @@ pub enum FileKind {
     Folder { sixteen: bool },
     /// Four PNG files in the names and encoding of MaterialGAN.
     MaterialGan { sixteen: bool },
-    /// Base colour, normals, and occlusion | roughness | metallic in one picture: loses specular that no metal has.
-    Gltf { sixteen: bool },
-    /// A plane with the material, as binary glTF with PNG pictures in it: base colour and metallic, or specular by
-    /// `KHR_materials_specular` where that loses less.
+    /// A plane with the material, as binary glTF with PNG pictures in it.
     Glb { sixteen: bool },
-    /// A document of MaterialX with an `open_pbr_surface`, and a new folder of pictures beside it, PNG or EXR: base colour and
-    /// metallic, or specular where that loses less.
-    Mtlx { depth: Depth },
 }
 
 impl FileKind {
@@ -63,12 +53,11 @@ impl FileKind {
         let refuse = |problem| Err(Error::UnsupportedOutput { path: path.to_owned(), problem });
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let extension = if is_folder(path) { "" } else { &extension };
-        if !["", "exr", "png", "glb", "mtlx"].contains(&extension) {
+        if !["", "exr", "png", "glb"].contains(&extension) {
             return refuse(OutputProblem::Kind);
         }
         let depths: &[Depth] = match extension {
             "exr" => &[Depth::Half, Depth::Float],
-            "mtlx" => &[Depth::Eight, Depth::Sixteen, Depth::Half, Depth::Float],
             _ => &[Depth::Eight, Depth::Sixteen],
         };
         if depth.is_some_and(|depth| !depths.contains(&depth)) {
@@ -81,8 +70,7 @@ impl FileKind {
         match (extension, like) {
             ("exr", None) => Ok(Self::Exr { half: depth != Some(Depth::Float), preview }),
             ("glb", None) => Ok(Self::Glb { sixteen }),
-            ("mtlx", None) => Ok(Self::Mtlx { depth: depth.unwrap_or(Depth::Eight) }),
-            ("exr" | "glb" | "mtlx", Some(_)) => refuse(OutputProblem::NoPreset),
+            ("exr" | "glb", Some(_)) => refuse(OutputProblem::NoPreset),
             ("png", like) => {
                 let like = like.unwrap_or(Preset::Deschaintre);
                 let refused = || refuse(OutputProblem::PackedPreset);
@@ -90,7 +78,6 @@ impl FileKind {
             }
             (_, None) => Ok(Self::Folder { sixteen }),
             (_, Some(Preset::MaterialGan)) => Ok(Self::MaterialGan { sixteen }),
-            (_, Some(Preset::Gltf)) => Ok(Self::Gltf { sixteen }),
             _ => refuse(OutputProblem::FolderPreset),
         }
     }
@@ -102,13 +89,12 @@ fn is_folder(path: &Path) -> bool {
     path.is_dir() || last.is_some_and(std::path::is_separator)
 }
 
-/// Writes `material`: the file or folder appears when it is complete, or not at all; a document of MaterialX after its pictures.
-/// Returns how a form with base colour and metallic expresses diffuse and specular, and what that changes; `None` of forms that
-/// have all four maps.
+/// Writes `material`: the file or folder appears when it is complete, or not at all. Returns a note where some programs show less
+/// than the file has.
 ///
 /// # Errors
 /// [`Error::Unwritable`]; a folder that is there and not empty is not replaced.
-pub fn write(material: &Material<f32>, path: &Path, kind: FileKind) -> Result<Option<Surface>, Error> {
+pub fn write(material: &Material<f32>, path: &Path, kind: FileKind) -> Result<Option<&'static str>, Error> {
     write_watched(material, path, kind, &Progress::default())
 }
 
@@ -121,7 +107,7 @@ pub fn write_watched(
     path: &Path,
     kind: FileKind,
     progress: &Progress,
-) -> Result<Option<Surface>, Error> {
+) -> Result<Option<&'static str>, Error> {
     atomic::check_folder(path)?;
     let folder = |files: &[png::FolderPicture<'_>], sixteen| {
         let remedy = "name a folder that is not there yet, in one that is writable";
@@ -137,26 +123,11 @@ pub fn write_watched(
         }
         FileKind::Folder { sixteen } => folder(&png::PLAIN, sixteen)?,
         FileKind::MaterialGan { sixteen } => folder(&png::MATERIAL_GAN, sixteen)?,
-        FileKind::Gltf { sixteen } => {
-            let surface = Surface::metallic(material, png_depth(sixteen), progress);
-            folder(&png::GLTF, sixteen)?;
-            return Ok(Some(surface));
-        }
         FileKind::Glb { sixteen } => {
-            let depth = png_depth(sixteen);
-            let surface = Surface::choose(material, SurfaceTarget::Gltf, depth, progress)?;
-            atomic::replace(path, progress, |file| glb::write(file, material, &surface, depth, progress))?;
-            return Ok(Some(surface));
-        }
-        FileKind::Mtlx { depth } => {
-            let surface = Surface::choose(material, SurfaceTarget::OpenPbr, depth, progress)?;
-            mtlx::write(path, material, &surface, depth, progress)?;
-            return Ok(Some(surface));
+            let ior = glb::ior(material, sixteen);
+            atomic::replace(path, progress, |file| glb::write(file, material, ior, sixteen, progress))?;
+            return Ok(ior.map(|_| "programs without KHR_materials_specular show specular 0.04"));
         }
     }
     Ok(None)
-}
-
-fn png_depth(sixteen: bool) -> Depth {
-    if sixteen { Depth::Sixteen } else { Depth::Eight }
 }

@@ -41,12 +41,6 @@ pub(super) const MATERIAL_GAN: [FolderPicture<'_>; 4] = [
     picture("rgh", WrittenMap::Roughness, MapEncoding::MATERIAL_GAN),
     picture("spe", WrittenMap::Specular, MapEncoding::MATERIAL_GAN),
 ];
-pub(super) const GLTF: [FolderPicture<'_>; 3] = [
-    picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
-    picture("basecolor", WrittenMap::Base, MapEncoding::SRGB),
-    picture("occlusion_roughness_metallic", WrittenMap::Orm, MapEncoding::SRGB),
-];
-
 /// Four tiles in a row, as `like` orders and encodes them.
 pub(super) fn packed(
     file: impl Write,

@@ -9,7 +9,7 @@ use super::*;
 #[test]
 fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
     let folder = tempfile::tempdir().unwrap();
-    let picture = crate::pictures::packed("NDRS", 4, |_, value| value);
+    let picture = crate::pictures::packed(|value| value);
     let names = (0..14).map(|i| format!("a_long_name_of_an_experiment_seed_{i:03}.png"));
     let paths = ["gt.png".to_owned()].into_iter().chain(names).map(|name| folder.path().join(name));
     let mut window = on_files(paths.inspect(|path| picture.save(path).unwrap()));

@@ -9,7 +9,6 @@ pub(crate) mod exr;
 mod head;
 mod jpeg;
 mod known;
-mod ktx2;
 mod layout;
 mod numpy;
 mod pfm;
@@ -63,8 +62,6 @@ pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) ->
         pfm::decode(reader, place).map(alone)
     } else if begins(b"DDS ") {
         dds::decode(reader, place).map(alone)
-    } else if begins(ktx2::MAGIC) {
-        ktx2::decode(reader, place).map(alone)
     } else {
         picture::decode(reader, place)
     }

@@ -16,8 +16,7 @@ pub(crate) const MAX_WIDTH: usize = 4 * MAX_SIDE;
 pub(crate) const MAX_BYTES: u64 = 4 << 30;
 
 /// The formats that open, for messages.
-pub(crate) const FORMATS: &str =
-    "PNG, TIFF, JPEG, TGA, BMP, WebP, PNM, PFM, QOI, DDS, KTX2, HDR, EXR, npy or npz";
+pub(crate) const FORMATS: &str = "PNG, TIFF, JPEG, TGA, BMP, WebP, PNM, PFM, QOI, DDS, HDR, EXR, npy or npz";
 
 /// One picture of a file: of a layered file a layer, of an archive an array.
 #[derive(Clone, Debug, PartialEq)]

@@ -78,7 +78,6 @@ fn set(path: &Path, folder: &Path, name: String, files: SetFiles, names: &[Strin
         files,
         listing: listing(names),
         has_renderings: folder.join("render").is_dir(),
-        listed_by: None,
     }
 }
 

@@ -14,9 +14,9 @@ use crate::read::record::{Note, Unused};
 /// Extensions of pictures that cannot be read. Where nothing else is that map, opening one fails and names it: a map
 /// that is there is never replaced by a default.
 #[rustfmt::skip]
-const UNREAD: [&str; 30] = [
-    "psd", "psb", "avif", "jxl", "heic", "heif", "gif", "jp2", "j2k", "jpf", "jpx", "jxr", "wdp", "ktx", "basis", "astc", "xcf",
-    "kra", "dpx", "cin", "vtf", "pcx", "sgi", "rgb", "rat", "pic", "iff", "ff", "ico", "svg",
+const UNREAD: [&str; 27] = [
+    "psd", "psb", "avif", "jxl", "heic", "heif", "gif", "jp2", "j2k", "jpf", "jpx", "jxr", "wdp", "ktx", "ktx2", "astc", "xcf",
+    "kra", "dpx", "cin", "pcx", "sgi", "rgb", "pic", "iff", "ico", "svg",
 ];
 /// Extensions of texts, which describe maps and are none.
 const TEXTS: [&str; 12] =

@@ -3,15 +3,12 @@
 mod directory;
 mod documents;
 mod folder;
-mod foreign;
 mod gltf;
-mod godot;
 mod grouping;
 mod mtl;
 mod mtlx;
 pub(super) mod neighbours;
 pub(super) mod sidecar;
-mod texture_set;
 mod variants;
 
 use std::path::Path;
@@ -44,8 +41,7 @@ pub(super) fn locate(path: &Path, saved: &Sidecar, used: &Sidecar) -> Result<Loc
     let bound: Vec<_> = used.bindings.iter().map(bound).collect();
     let roles: Vec<_> = bound.iter().map(|binding| binding.role).collect();
     let mut found = candidates(&sidecar::material_of(path)?, &roles, &used.options.with_preset())?;
-    found.bound.retain(|one| !roles.contains(&one.role));
-    found.bound.extend(bound);
+    found.bound = bound;
     Ok(found)
 }
 
@@ -78,16 +74,9 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
     {
         return folder::locate(path, &folder_of(path), &prefix.to_string_lossy(), bound);
     }
-    if texture_set::is_named(path) {
-        return texture_set::locate(path);
-    }
-    if let Some(refusal) = foreign::refusal(path) {
-        return Err(refusal);
-    }
     let extension = extensions::of_name(path);
     let first = match extension.as_str() {
-        // An avatar of VRM is a glb.
-        "gltf" | "glb" | "vrm" => Candidate::Gltf(gltf::locate(path, options)?),
+        "gltf" | "glb" => Candidate::Gltf(gltf::locate(path, options)?),
         "mtl" => Candidate::Mtl(mtl::locate(path, options)?),
         "mtlx" => Candidate::Mtlx(mtlx::locate(path, options)?),
         _ => Candidate::Picture(WholePicture { file: NamedFile::by_user(path), refusal: None }),

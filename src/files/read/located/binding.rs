@@ -30,11 +30,6 @@ pub(crate) enum BoundSource {
 }
 
 impl LocatedBinding {
-    /// A map that is a constant.
-    pub(crate) fn constant(role: Role, values: &[f32]) -> Self {
-        Self { role, source: BoundSource::Constant(values.to_vec()) }
-    }
-
     /// Its file, where it has one.
     #[cfg(test)]
     pub(crate) fn file(&self) -> Option<&NamedFile> {

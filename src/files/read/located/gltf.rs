@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use super::picture::LocatedPicture;
 use crate::disk::open::NamedFile;
-use crate::read::options::NormalY;
 
 /// A material of a glTF, its textures located.
 #[derive(Debug)]
@@ -17,8 +16,6 @@ pub(crate) struct LocatedGltf {
     pub textures: GltfTextures,
     /// The scale of x and y of the normals.
     pub normal_scale: f32,
-    /// Where y of the normals points.
-    pub normal_y: NormalY,
     /// The files of its buffers: pictures, vertex colours and meshes.
     pub buffers: Vec<NamedFile>,
     /// Features that change the look and are not modelled.

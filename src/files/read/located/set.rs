@@ -34,19 +34,6 @@ pub(crate) struct ListingDocument {
     pub files: Vec<String>,
     /// Where y of normals points by its format.
     pub normal_y: Option<NormalY>,
-    /// Whether it opens as a material itself.
-    pub opens: bool,
-    /// How it binds roughness and metallic, where its kind does not open.
-    pub grays: Vec<ListedGray>,
-}
-
-/// A gray map as a document binds it.
-#[derive(Clone, Debug)]
-pub(crate) struct ListedGray {
-    pub role: Role,
-    /// The name of its picture, and the channel of that, 3 for alpha; `None` of a constant.
-    pub picture: Option<(String, usize)>,
-    pub factor: f32,
 }
 
 /// One file for each map.
@@ -106,8 +93,6 @@ pub(crate) struct LocatedSet {
     pub listing: String,
     /// Whether a folder of renderings is beside the files, as in the data sets of SurfaceNet.
     pub has_renderings: bool,
-    /// The document that lists the files.
-    pub listed_by: Option<PathBuf>,
 }
 
 impl LocatedSet {

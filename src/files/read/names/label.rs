@@ -219,7 +219,6 @@ mod tests {
             ("plank_base", Role::Base),
             ("Door_AlbedoTransparency", Role::Base),
             ("Door_MetalRoughness", Role::OcclusionRoughnessMetallic),
-            ("ore_mer", Role::MetallicEmissiveRoughness),
             ("moss_nrm_rgh", Role::NormalRoughness),
             ("moss_normal_gl_roughness", Role::NormalRoughness),
             ("moss_alb_ht", Role::Base),

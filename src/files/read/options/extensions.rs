@@ -3,17 +3,16 @@
 use std::path::Path;
 
 /// Extensions of the files that open as a material or as a map of one.
-pub const EXTENSIONS: [&str; 30] = [
-    "png", "tif", "tiff", "tx", "jpg", "jpeg", "jfif", "jpe", "tga", "bmp", "webp", "dds", "ktx2", "hdr",
-    "exr", "pbm", "pgm", "ppm", "pnm", "pam", "pfm", "qoi", "npy", "npz", "gltf", "glb", "vrm", "mtl",
-    "mtlx", "json",
+pub const EXTENSIONS: [&str; 28] = [
+    "png", "tif", "tiff", "tx", "jpg", "jpeg", "jfif", "jpe", "tga", "bmp", "webp", "dds", "hdr", "exr",
+    "pbm", "pgm", "ppm", "pnm", "pam", "pfm", "qoi", "npy", "npz", "gltf", "glb", "mtl", "mtlx", "json",
 ];
 /// Extensions of files that list their textures.
-pub(crate) const LISTING: [&str; 5] = ["gltf", "glb", "vrm", "mtl", "mtlx"];
+pub(crate) const LISTING: [&str; 4] = ["gltf", "glb", "mtl", "mtlx"];
 /// Extensions of the pictures that count among the files of a folder, the better one of two last.
-pub(crate) const PICTURES: [&str; 23] = [
-    "dds", "ktx2", "webp", "jpe", "jfif", "jpg", "jpeg", "bmp", "tga", "pbm", "pgm", "ppm", "pnm", "pam",
-    "qoi", "hdr", "png", "tx", "tif", "tiff", "pfm", "npy", "exr",
+pub(crate) const PICTURES: [&str; 22] = [
+    "dds", "webp", "jpe", "jfif", "jpg", "jpeg", "bmp", "tga", "pbm", "pgm", "ppm", "pnm", "pam", "qoi",
+    "hdr", "png", "tx", "tif", "tiff", "pfm", "npy", "exr",
 ];
 
 /// The extension of a file name, in lower case.

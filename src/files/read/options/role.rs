@@ -22,8 +22,6 @@ pub enum Role {
     MetallicRoughnessOcclusion,
     /// Red metallic, alpha smoothness: Unity.
     MetallicSmoothness,
-    /// Red metallic, green emission, blue roughness: Minecraft.
-    MetallicEmissiveRoughness,
     /// Red, green and blue normals, alpha roughness.
     NormalRoughness,
     /// Red, green and blue specular, alpha glossiness: the extension of glTF.
@@ -158,8 +156,7 @@ impl Role {
             Self::OcclusionRoughnessMetallic
             | Self::RoughnessMetallicOcclusion
             | Self::MetallicRoughnessOcclusion
-            | Self::MetallicSmoothness
-            | Self::MetallicEmissiveRoughness => "packed roughness and metallic",
+            | Self::MetallicSmoothness => "packed roughness and metallic",
             Self::NormalRoughness => "normal and roughness",
             Self::SpecularGlossiness => "specular and glossiness",
             Self::Ignored => "unused",
@@ -201,14 +198,13 @@ impl Role {
                 "metalgloss",
                 "metalsmoothness",
             ],
-            Self::MetallicEmissiveRoughness => &["mer", "mers", "metalnessemissiveroughness"],
             Self::NormalRoughness => &["normalroughness", "normalsmoothness", "normalgloss"],
             Self::SpecularGlossiness => &["specularglossiness", "specgloss", "specularsmoothness"],
             Self::Ignored => IGNORED,
         }
     }
 
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 14] = [
         Self::Normal,
         Self::Base,
         Self::Diffuse,
@@ -220,7 +216,6 @@ impl Role {
         Self::RoughnessMetallicOcclusion,
         Self::MetallicRoughnessOcclusion,
         Self::MetallicSmoothness,
-        Self::MetallicEmissiveRoughness,
         Self::NormalRoughness,
         Self::SpecularGlossiness,
         Self::Ignored,
@@ -233,7 +228,6 @@ impl Role {
             Self::RoughnessMetallicOcclusion => Some([0, 1]),
             Self::MetallicRoughnessOcclusion => Some([1, 0]),
             Self::MetallicSmoothness => Some([3, 0]),
-            Self::MetallicEmissiveRoughness => Some([2, 0]),
             _ => None,
         }
     }

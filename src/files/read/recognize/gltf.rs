@@ -25,18 +25,8 @@ pub(super) fn material(
     pictures: Vec<DecodedPicture>,
     options: &ReadOptions,
 ) -> Result<StoredMaterial, Error> {
-    let LocatedGltf {
-        path,
-        name,
-        surface,
-        textures,
-        normal_scale,
-        buffers,
-        not_modelled,
-        materials,
-        normal_y,
-        ..
-    } = located;
+    let LocatedGltf { path, name, surface, textures, normal_scale, buffers, not_modelled, materials, .. } =
+        located;
     let mut maps = MapsByRole::default();
     pictures.iter().for_each(|picture| maps.record_size(picture.map.raster.size()));
     let map = |texture: Option<usize>| Some(pictures.get(texture?)?.map.clone());
@@ -66,10 +56,6 @@ pub(super) fn material(
     };
     found.is_mapped = true;
     specify(&mut found, roughness, is_linear);
-    if normal_y == NormalY::Down {
-        let why = StorageConvention::AsoboNormals.into();
-        found.inferred.normal_y = Some((normal_y, why, Certainty::Sure));
-    }
     if !not_modelled.is_empty() {
         found.notes.push(Note::NotModelled { features: not_modelled });
     }

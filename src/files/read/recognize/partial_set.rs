@@ -4,7 +4,7 @@ use super::field::Field;
 use super::roles::{CHANNELS, MapsByRole};
 use crate::error::Error;
 use crate::read::decode;
-use crate::read::located::set::{LabelledFile, ListedGray, ListingDocument, LocatedSet};
+use crate::read::located::set::{LabelledFile, LocatedSet};
 use crate::read::measure::{Channels, is_flat, normal_score};
 use crate::read::names::{Label, is_named_as};
 use crate::read::options::{Albedo, Reflectance, Role};
@@ -106,30 +106,6 @@ impl<'a> PartialSet<'a> {
             role => self.maps.add(role, source),
         }
         Ok(())
-    }
-
-    /// Takes roughness and metallic as a document binds them, where it lists the picture that seems to hold them.
-    pub(super) fn listed(&mut self, document: &ListingDocument) {
-        for ListedGray { role, picture, factor } in &document.grays {
-            let is_listed = |map: &&StoredMap| document.files.iter().any(|f| self.set.path_of(f) == map.file);
-            let Some(holder) = self.maps.holder(*role).filter(is_listed) else { continue };
-            let (map, chosen) = match picture {
-                None => {
-                    let path = self.set.path_of(&document.name);
-                    (StoredMap::constant(&path, &[*factor]), format!("{} {factor}", role.name()))
-                }
-                Some((file, channel)) if self.set.path_of(file) == holder.file => {
-                    let part = CHANNELS[*channel];
-                    let raster = holder.raster.channel_or_alpha(*channel).scaled(&[*factor]);
-                    let chosen = format!("{} in {part} of {file}", role.name());
-                    (StoredMap { raster, file: holder.file.clone(), part: part.to_owned() }, chosen)
-                }
-                Some(_) => continue,
-            };
-            let why = Reason::ListedChannels { document: document.name.clone() };
-            self.doubts.push(Assumption::new(What::Layout, chosen, why, Certainty::Likely));
-            self.maps.replace(*role, map);
-        }
     }
 
     /// The map that a label means in this set: `spec` of Texture Haven, beside `diff` and `rough`, scales 0.08.

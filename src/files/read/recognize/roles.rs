@@ -34,12 +34,6 @@ impl MapsByRole {
         self.all.iter().any(|(r, _)| *r == role)
     }
 
-    /// The picture that holds roughness or metallic, by itself or among others.
-    pub(super) fn holder(&self, role: Role) -> Option<&StoredMap> {
-        let of = |is: &dyn Fn(Role) -> bool| self.all.iter().find(|(r, _)| is(*r)).map(|(_, source)| source);
-        of(&|r| r == role).or_else(|| of(&|r| r.packing().is_some()))
-    }
-
     /// Replaces the picture of a role; diffuse and base colour replace each other.
     pub(super) fn replace(&mut self, role: Role, source: StoredMap) {
         let colours = [Role::Base, Role::Diffuse];

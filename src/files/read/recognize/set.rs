@@ -6,10 +6,8 @@ use crate::error::Error;
 use crate::read::decode::pictures::DecodedPicture;
 use crate::read::located::set::{LabelledFile, LocatedSet, NUMBERED};
 use crate::read::measure::{NORMAL_AT_LEAST, dark_metal, normal_score};
-use crate::read::options::{NormalY, ReadOptions, Role, Workflow};
-use crate::read::record::{
-    Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, Unused, What,
-};
+use crate::read::options::{ReadOptions, Role, Workflow};
+use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, Unused, What};
 use crate::read::stored::{StoredHeight, StoredMap, StoredMaterial};
 
 /// The material of the set `located`, whose files hold `pictures`, with the maps `bound`.
@@ -38,7 +36,6 @@ pub(super) fn material(
         }
         set.add(file, raster)?;
     }
-    located.files.documents.iter().for_each(|document| set.listed(document));
     // A caller who specifies a specular map wants it to be used.
     let has_specular = bound.iter().any(|(role, _)| *role == Role::Specular) && options.workflow.is_none();
     let workflow = if has_specular { Some(Workflow::Specular) } else { options.workflow };
@@ -69,15 +66,7 @@ pub(super) fn material(
     hints::add(&mut found, located, are_floats, is_glossy);
     let file = located.files.heights.first().map(|file| StoredHeight::File(located.file(file)));
     found.height = file.or(height);
-    let opening = located.files.documents.iter().filter(|one| one.opens);
-    notes.extend(opening.map(|one| Note::ListedBy { file: one.name.clone() }));
-    if let Some(document) = &located.listed_by {
-        let why = StorageConvention::ListedTextures;
-        found.assumptions.insert(0, Assumption::new(What::Layout, "texture set", why, Certainty::Sure));
-        found.add_file(document.clone());
-        let why = StorageConvention::TextureSetNormals.into();
-        found.inferred.normal_y = Some((NormalY::Up, why, Certainty::Unsure));
-    }
+    notes.extend(located.files.documents.iter().map(|one| Note::ListedBy { file: one.name.clone() }));
     let is_unused = |note: &&Note| !matches!(note, Note::Unused { what, .. } if is_bound(what));
     notes.extend(located.files.notes.iter().filter(is_unused).cloned());
     notes.append(&mut found.notes);

@@ -147,11 +147,6 @@ pub enum Reason {
     },
     #[display("the file declares primaries that enclose no white, and cannot be converted")]
     OtherPrimaries,
-    /// A document beside a picture that holds several maps.
-    #[display("{document} lists the picture and binds it so")]
-    ListedChannels {
-        document: String,
-    },
     /// Of a packed picture.
     #[display(
         "metallic is 1 everywhere, but the median of the base colour is {_0:.3}, darker than metals: where the surface is no \
@@ -249,7 +244,6 @@ impl Reason {
                 true
             }
             Self::MetallicMap { .. } | Self::SpecularMap | Self::NeitherMap => true,
-            Self::ListedChannels { .. } => true,
             Self::ColourSpace { known, .. } => *known == SpaceKnown::Exactly,
             // A flat map points nowhere.
             Self::Curl(None) => true,
@@ -264,7 +258,6 @@ impl Reason {
                 C::Native
                     | C::NativeText
                     | C::Gltf
-                    | C::AsoboNormals
                     | C::MaterialXNormals
                     | C::MaterialXSurface
                     | C::ListedTextures

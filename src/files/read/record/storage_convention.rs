@@ -39,9 +39,6 @@ pub enum StorageConvention {
     SurfaceNetFolder,
     #[display("the specification of glTF 2.0 defines it")]
     Gltf,
-    /// The exporter of Microsoft Flight Simulator.
-    #[display("the file declares DirectX by ASOBO_normal_map_convention")]
-    AsoboNormals,
     #[display("MaterialX defines normals in this way")]
     MaterialXNormals,
     #[display("computed as the specification of the surface defines it")]
@@ -55,8 +52,6 @@ pub enum StorageConvention {
     TextureHavenNames,
     #[display("the file lists its textures")]
     ListedTextures,
-    #[display("Minecraft does not define it, and most maps point up")]
-    TextureSetNormals,
     #[display("the file lists its textures, and none of normals; the surface is flat")]
     NoListedNormals,
     #[display("the names of the layers name the maps")]

@@ -7,14 +7,13 @@ mod vertex_colours;
 
 use std::path::Path;
 
-use gltf::json::Value;
 use gltf::{Material, Texture};
 
 use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::read::located::gltf::{GltfSurface, GltfTextures, LocatedGltf};
 use crate::read::located::picture::LocatedPicture;
-use crate::read::options::{NormalY, ReadOptions, Role};
+use crate::read::options::{ReadOptions, Role};
 use crate::read::record::Subject;
 
 use document::{GltfDocument, array};
@@ -80,19 +79,10 @@ pub(super) fn locate(path: &Path, options: &ReadOptions) -> Result<LocatedGltf, 
         pictures,
         textures,
         normal_scale: material.normal_texture().map_or(1.0, |texture| texture.scale()),
-        normal_y: normal_y(&file.declared),
         buffers: file.buffers(),
         not_modelled,
         materials: (names, index),
     })
-}
-
-/// Where y of the normals points: up, unless the exporter of Microsoft Flight Simulator declares otherwise.
-fn normal_y(document: &Value) -> NormalY {
-    let pointer = "/asset/extensions/ASOBO_normal_map_convention/tangent_space_convention";
-    let convention = document.pointer(pointer).and_then(Value::as_str);
-    let is_down = convention.is_some_and(|name| name.eq_ignore_ascii_case("DirectX"));
-    if is_down { NormalY::Down } else { NormalY::Up }
 }
 
 /// The name of a material, or else that of its file: materials of several files are compared.

@@ -17,8 +17,7 @@ use crate::read::located::picture::PictureSource;
 use crate::read::record::Subject;
 
 /// Extensions of a texture that name its picture, the one that is decoded to more exact values first.
-pub(super) const SOURCES: [&str; 4] =
-    ["EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu", "EXT_texture_avif"];
+pub(super) const SOURCES: [&str; 3] = ["EXT_texture_webp", "MSFT_texture_dds", "EXT_texture_avif"];
 
 /// A glTF and its binary part.
 pub(super) struct GltfFile {

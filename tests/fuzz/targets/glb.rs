@@ -1,4 +1,0 @@
-//! Binary glTF files.
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| svbrdf_fuzz::material("fuzzed.glb", bytes));

@@ -1,4 +1,0 @@
-//! glTF files in JSON.
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| svbrdf_fuzz::material("fuzzed.gltf", bytes));

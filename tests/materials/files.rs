@@ -1,0 +1,401 @@
+//! Files as the tables describe them: pictures by formulas, documents by their text, anything else by its bytes.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::Write as _;
+use std::path::Path;
+
+use exr::meta::attribute::Chromaticities;
+use exr::prelude::{
+    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds,
+    Layer, LayerAttributes, Text, Vec2, WritableImage, f16,
+};
+use image::metadata::Orientation;
+use image::{DynamicImage, ImageFormat};
+use serde::Deserialize;
+use smallvec::SmallVec;
+use tiff::encoder::{TiffEncoder, colortype};
+
+use super::formula::{Place, values};
+use crate::support::png::{self, Png};
+use crate::support::textures::dds;
+
+/// The side of a picture.
+const SIDE: usize = 16;
+
+/// A file: in a table a text, which is the formula of a picture or the text of a document, or these.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Content {
+    /// The formula of a picture: tiles of a row with `|` between them, rows with `;`. Of an EXR also `layer.RGB = formula;`, of an npz
+    /// `name 16x16x3 type = formula;`, channels first after `planes`.
+    pub is: String,
+    /// Of a document.
+    pub text: Option<String>,
+    /// Characters below 256.
+    pub bytes: Option<String>,
+    /// Of a tile.
+    size: Option<[usize; 2]>,
+    /// Of a sample: 8 by default, 16, `half` or `float`; `u32` and `i16` of a TIFF; 1 to 16 of a PNG of its own.
+    bits: Option<String>,
+    /// Of a PNG: `gray`, `palette` or `rgb`; of its chunks the name and content in hexadecimal.
+    colour: Option<String>,
+    interlaced: bool,
+    chunks: BTreeMap<String, String>,
+    /// Of a TIFF.
+    orientation: Option<String>,
+    pages: Option<usize>,
+    /// Of an EXR: the place of the data in the display window, and the size of that.
+    at: Option<[i32; 2]>,
+    display: Option<[usize; 2]>,
+    chromaticities: Option<[[f32; 2]; 4]>,
+    parts: bool,
+    compression: String,
+    /// Of a DDS: its code of four letters, or the number of its DXGI format, or the words of its pixel format; and its blocks in hexadecimal.
+    code: Option<String>,
+    blocks: String,
+    /// Bytes that are cut off its end.
+    cut: usize,
+}
+
+impl From<toml::Value> for Content {
+    fn from(value: toml::Value) -> Self {
+        match value {
+            toml::Value::String(text) => Self { is: text, ..Self::default() },
+            table => table.try_into().unwrap_or_else(|error| panic!("{error}")),
+        }
+    }
+}
+
+impl Content {
+    /// Writes the file.
+    pub fn put(&self, path: &Path) {
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match (extension.as_str(), &self.text, &self.bytes) {
+            (_, Some(text), _) => fs::write(path, text).unwrap(),
+            (_, _, Some(bytes)) => fs::write(path, latin(bytes)).unwrap(),
+            ("exr", ..) => self.exr(path),
+            ("npz", ..) => self.npz(path),
+            ("npy", ..) => fs::write(path, self.array(&self.is)).unwrap(),
+            ("dds", ..) => fs::write(path, self.dds()).unwrap(),
+            ("pfm", ..) => fs::write(path, self.pfm()).unwrap(),
+            ("tif" | "tiff", ..)
+                if self.orientation.is_some() || self.pages.is_some() || self.is_of("i16") =>
+            {
+                self.tiff(path);
+            }
+            ("png", ..) if self.colour.is_some() || !self.chunks.is_empty() => {
+                fs::write(path, self.own_png()).unwrap();
+            }
+            (
+                "png" | "jpg" | "jpeg" | "tga" | "bmp" | "webp" | "ppm" | "pgm" | "qoi" | "tif" | "tiff"
+                | "hdr",
+                ..,
+            ) => {
+                self.picture().save_with_format(path, ImageFormat::from_path(path).unwrap()).unwrap();
+            }
+            _ => fs::write(path, &self.is).unwrap(),
+        }
+        if self.cut > 0 {
+            let bytes = fs::read(path).unwrap();
+            fs::write(path, &bytes[..bytes.len() - self.cut]).unwrap();
+        }
+    }
+
+    fn is_of(&self, bits: &str) -> bool {
+        self.bits.as_deref() == Some(bits)
+    }
+
+    /// The size, the number of channels, and all samples, of the formula with its tiles.
+    fn samples(&self) -> ([usize; 2], usize, Vec<f64>) {
+        let size = self.size.unwrap_or([SIDE; 2]);
+        let rows: Vec<Vec<&str>> = self.is.split(';').map(|row| row.split('|').collect()).collect();
+        let [width, height] = [rows[0].len() * size[0], rows.len() * size[1]];
+        let texels: Vec<Vec<f64>> = (0..width * height)
+            .map(|i| [i % width, i / width])
+            .map(|[x, y]| {
+                let place = Place { x: x % size[0], y: y % size[1], size };
+                values(rows[y / size[1]][x / size[0]], place)
+            })
+            .collect();
+        let count = texels.iter().map(Vec::len).max().unwrap();
+        let texels = texels.into_iter().flat_map(|texel| match texel.len() {
+            1 => vec![texel[0]; count],
+            _ => texel,
+        });
+        ([width, height], count, texels.collect())
+    }
+
+    fn picture(&self) -> DynamicImage {
+        let (size, count, samples) = self.samples();
+        let [width, height] = size.map(|side| side as u32);
+        let codes = |top: f64| samples.iter().map(move |v| (top * v).round());
+        let eight = || codes(255.0).map(|code| code as u8).collect();
+        let sixteen = || codes(65_535.0).map(|code| code as u16).collect();
+        let floats = || samples.iter().map(|v| *v as f32).collect();
+        let image = match (self.bits.as_deref().unwrap_or("8"), count) {
+            ("8", 1) => image::GrayImage::from_raw(width, height, eight()).map(DynamicImage::from),
+            ("8", 2) => image::GrayAlphaImage::from_raw(width, height, eight()).map(DynamicImage::from),
+            ("8", 3) => image::RgbImage::from_raw(width, height, eight()).map(DynamicImage::from),
+            ("8", _) => image::RgbaImage::from_raw(width, height, eight()).map(DynamicImage::from),
+            ("16", 1) => {
+                image::ImageBuffer::from_raw(width, height, sixteen()).map(DynamicImage::ImageLuma16)
+            }
+            ("16", _) => image::ImageBuffer::from_raw(width, height, sixteen()).map(DynamicImage::ImageRgb16),
+            (_, 3) => image::Rgb32FImage::from_raw(width, height, floats()).map(DynamicImage::from),
+            other => panic!("{other:?}"),
+        };
+        image.unwrap()
+    }
+
+    /// A TIFF of an orientation, of several pages, of integers of 32 bits or of signed ones.
+    fn tiff(&self, path: &Path) {
+        let mut encoder = TiffEncoder::new(File::create(path).unwrap()).unwrap();
+        let tag: u16 = self.orientation.as_ref().map_or(1, |tag| tag.parse().unwrap());
+        let (size, _, samples) = self.samples();
+        let [width, height] = size.map(|side| side as u32);
+        for _ in 0..self.pages.unwrap_or(1) {
+            match self.bits.as_deref() {
+                Some("u32") => {
+                    let codes: Vec<u32> = samples.iter().map(|v| (v * f64::from(u32::MAX)) as u32).collect();
+                    encoder.write_image::<colortype::RGB32>(width, height, &codes).unwrap();
+                }
+                Some("i16") => {
+                    let codes: Vec<i16> = samples.iter().map(|v| (v * 100.0) as i16).collect();
+                    encoder.write_image::<colortype::GrayI16>(width, height, &codes).unwrap();
+                }
+                _ => {
+                    // As it is stored, so that the orientation brings it back.
+                    let inverse = [1, 2, 3, 4, 5, 8, 7, 6][usize::from(tag) - 1];
+                    let mut stored = self.picture();
+                    stored.apply_orientation(Orientation::from_exif(inverse).unwrap());
+                    let (width, height) = (stored.width(), stored.height());
+                    let mut page = encoder.new_image::<colortype::RGB8>(width, height).unwrap();
+                    page.encoder().write_tag(tiff::tags::Tag::Orientation, tag).unwrap();
+                    page.write_data(stored.as_bytes()).unwrap();
+                }
+            }
+        }
+    }
+
+    /// A PNG byte by byte. Entry k of a palette is gray 255 - k.
+    fn own_png(&self) -> Vec<u8> {
+        let (size, count, samples) = self.samples();
+        let depth: u8 = self.bits.as_deref().unwrap_or("8").parse().unwrap();
+        let colour = match self.colour.as_deref() {
+            Some("palette") => png::PALETTE,
+            Some("gray") if count == 1 => png::GRAY,
+            _ => [png::GRAY, png::GRAY_ALPHA, png::RGB, png::RGBA][count - 1],
+        };
+        let mut chunks: Vec<([u8; 4], Vec<u8>)> = Vec::new();
+        if colour == png::PALETTE {
+            chunks.push((*b"PLTE", (0..1_u16 << depth).flat_map(|k| [255 - k as u8; 3]).collect()));
+        }
+        for (name, content) in &self.chunks {
+            chunks.push((name.as_bytes().try_into().unwrap(), hex(content)));
+        }
+        let top = f64::from(u16::MAX >> (16 - depth));
+        let png = Png { size, depth, colour, interlaced: self.interlaced, chunks: &chunks };
+        png.bytes(|x, y, c| {
+            let value = samples[(y * size[0] + x) * count + c];
+            if colour == png::PALETTE {
+                (255.0 * (1.0 - value)).round() as u16
+            } else {
+                (top * value).round() as u16
+            }
+        })
+    }
+
+    /// A PFM, the lowest row first; big endian with `bits = "big"`.
+    fn pfm(&self) -> Vec<u8> {
+        let ([width, height], count, samples) = self.samples();
+        let is_big = self.is_of("big");
+        let bytes = |v: &f64| if is_big { (*v as f32).to_be_bytes() } else { (*v as f32).to_le_bytes() };
+        let values = samples.chunks(width * count).rev().flatten().flat_map(bytes);
+        let scale = if is_big { "1" } else { "-1.0" };
+        let kind = if count == 3 { "PF" } else { "Pf" };
+        format!("{kind}\n{width} {height}\n{scale}\n").into_bytes().into_iter().chain(values).collect()
+    }
+
+    fn dds(&self) -> Vec<u8> {
+        let (size, count, samples) = self.samples();
+        let [width, height] = size.map(|side| side as u32);
+        let codes = || samples.iter().map(|v| (255.0 * v).round() as u8).collect::<Vec<_>>();
+        match (self.code.as_deref().filter(|code| !code.is_empty()), count) {
+            (None, 4) => {
+                dds(width, height, [32, 0x41, 0, 32, 0xff, 0xff00, 0xff_0000, 0xff00_0000], &codes())
+            }
+            // Luminance and alpha, and alpha alone.
+            (None, 2) => dds(width, height, [32, 0x2_0001, 0, 16, 0xff, 0, 0, 0xff00], &codes()),
+            (None, _) => dds(width, height, [32, 2, 0, 8, 0, 0, 0, 0xff], &codes()),
+            (Some(code), _) if code.parse::<u32>().is_ok() => {
+                // Format, a picture of two dimensions, no cube, one picture, alpha not stated.
+                let head = [code.parse().unwrap(), 3, 0, 1, 0].into_iter().flat_map(u32::to_le_bytes);
+                let halves = samples.iter().flat_map(|v| f16::from_f64(*v).to_le_bytes());
+                let data = if self.blocks.is_empty() { halves.collect() } else { hex(&self.blocks) };
+                let pixels: Vec<u8> = head.chain(data).collect();
+                dds(width, height, [32, 4, u32::from_le_bytes(*b"DX10"), 0, 0, 0, 0, 0], &pixels)
+            }
+            (Some(code), _) => {
+                let letters = u32::from_le_bytes(code.as_bytes().try_into().unwrap());
+                dds(width, height, [32, 4, letters, 0, 0, 0, 0, 0], &hex(&self.blocks))
+            }
+        }
+    }
+
+    fn exr(&self, path: &Path) {
+        let size = self.size.unwrap_or([SIDE; 2]);
+        let flat = |values: Vec<f64>| match self.bits.as_deref() {
+            Some("half") => FlatSamples::F16(values.into_iter().map(f16::from_f64).collect()),
+            _ => FlatSamples::F32(values.into_iter().map(|v| v as f32).collect()),
+        };
+        // Parts with their channels.
+        let mut parts: BTreeMap<String, Vec<AnyChannel<FlatSamples>>> = BTreeMap::new();
+        for one in self.is.split(';').map(str::trim).filter(|one| !one.is_empty()) {
+            let (names, formula) = one.split_once('=').unwrap_or(("", one));
+            let (layer, letters) = names.trim().rsplit_once('.').unwrap_or(("", names.trim()));
+            let texels: Vec<_> = (0..size[0] * size[1])
+                .map(|i| values(formula, Place { x: i % size[0], y: i / size[0], size }))
+                .collect();
+            let letters = match (letters, texels[0].len()) {
+                ("", 1) => "Y",
+                ("", _) => "RGB",
+                _ => letters,
+            };
+            for (c, letter) in letters.chars().enumerate() {
+                let name = if layer.is_empty() || self.parts {
+                    letter.to_string()
+                } else {
+                    format!("{layer}.{letter}")
+                };
+                let plane = texels.iter().map(|texel| texel[c.min(texel.len() - 1)]).collect();
+                let part =
+                    parts.entry(if self.parts { layer.to_owned() } else { String::new() }).or_default();
+                part.push(AnyChannel::new(Text::new_or_none(name).unwrap(), flat(plane)));
+            }
+        }
+        let compression = match self.compression.as_str() {
+            "" | "none" => Compression::Uncompressed,
+            "rle" => Compression::RLE,
+            "zip" => Compression::ZIP16,
+            "zips" => Compression::ZIP1,
+            "piz" => Compression::PIZ,
+            "pxr24" => Compression::PXR24,
+            "b44" => Compression::B44,
+            "b44a" => Compression::B44A,
+            "dwaa" => Compression::DWAA(None),
+            "dwab" => Compression::DWAB(None),
+            other => panic!("no compression {other}"),
+        };
+        // Without a compression in tiles.
+        let usual =
+            if self.compression.is_empty() { Encoding::FAST_LOSSLESS } else { Encoding::SMALL_LOSSLESS };
+        let encoding = Encoding { compression, ..usual };
+        let [left, top] = self.at.unwrap_or([0; 2]);
+        let layer = |(name, channels): (String, Vec<AnyChannel<FlatSamples>>)| {
+            let attributes = LayerAttributes {
+                layer_name: if name.is_empty() { None } else { Text::new_or_none(name) },
+                layer_position: Vec2(left, top),
+                ..LayerAttributes::default()
+            };
+            Layer::new(
+                (size[0], size[1]),
+                attributes,
+                encoding,
+                AnyChannels::sort(channels.into_iter().collect()),
+            )
+        };
+        let layers: SmallVec<[Layer<AnyChannels<FlatSamples>>; 2]> = parts.into_iter().map(layer).collect();
+        let [width, height] = self.display.unwrap_or(size);
+        let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions((width, height)));
+        attributes.chromaticities = self.chromaticities.map(|all| {
+            let [red, green, blue, white] = all.map(|[x, y]| Vec2(x, y));
+            Chromaticities { red, green, blue, white }
+        });
+        Image::from_layers(attributes, layers).write().to_file(path).unwrap();
+    }
+
+    fn npz(&self, path: &Path) {
+        let mut zip = zip::ZipWriter::new(File::create(path).unwrap());
+        for one in self.is.split(';').map(str::trim).filter(|one| !one.is_empty()) {
+            let (head, formula) = one.split_once('=').unwrap();
+            let (name, shape) = head.trim().split_once(' ').unwrap_or((head.trim(), ""));
+            let name = if name.contains('.') { name.to_owned() } else { format!("{name}.npy") };
+            zip.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+            zip.write_all(&self.array(&format!("{shape} = {formula}"))).unwrap();
+        }
+        zip.finish().unwrap();
+    }
+
+    /// An array of NumPy, as in `16x16x3 f4 = N`.
+    fn array(&self, text: &str) -> Vec<u8> {
+        let (head, formula) = text.split_once('=').unwrap_or(("", text));
+        let (mut shape, mut kind, mut is_planar) = (Vec::new(), "f4", false);
+        for word in head.split_whitespace() {
+            match word {
+                "-" => {}
+                "planes" => is_planar = true,
+                word if word.contains('x') || word.parse::<u64>().is_ok() => {
+                    shape = word.split('x').map(|side| side.parse::<usize>().unwrap()).collect();
+                }
+                other => kind = other,
+            }
+        }
+        if shape.is_empty() && !head.contains('-') {
+            shape = vec![SIDE, SIDE, values(formula, Place { x: 0, y: 0, size: [SIDE; 2] }).len()];
+        }
+        let count: usize = shape.iter().product();
+        let (width, channels) =
+            match shape.iter().skip_while(|side| shape.len() == 4 && **side == 1).collect::<Vec<_>>()[..] {
+                [_, w, c] if !is_planar => (*w, *c),
+                [c, _, w] => (*w, *c),
+                [_, w] => (*w, 1),
+                _ => (1, 1),
+            };
+        let texels = count / channels.max(1);
+        let size = [width, texels / width.max(1)];
+        let value = |i: usize| {
+            let (texel, channel) =
+                if is_planar { (i % texels, i / texels) } else { (i / channels, i % channels) };
+            let of = values(formula, Place { x: texel % width, y: texel / width, size });
+            of[channel.min(of.len() - 1)]
+        };
+        let sides: String = shape.iter().map(|side| format!("{side},")).collect();
+        let order = if kind.starts_with('>') { ">" } else { "<" };
+        let kind = kind.trim_start_matches('>');
+        let header = format!("{{'descr': '{order}{kind}', 'fortran_order': False, 'shape': ({sides}), }}");
+        let header = format!("{header:117}\n");
+        let mut file = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+        file.extend(header.into_bytes());
+        for v in (0..count).map(value) {
+            let bytes = match kind {
+                "f2" => f16::from_f64(v).to_le_bytes().to_vec(),
+                "f4" => (v as f32).to_le_bytes().to_vec(),
+                "f8" => v.to_le_bytes().to_vec(),
+                integer => (v as i64).to_le_bytes()[..integer[1..].parse().unwrap()].to_vec(),
+            };
+            file.extend(if order == ">" { bytes.into_iter().rev().collect() } else { bytes });
+        }
+        file
+    }
+}
+
+/// The bytes of characters below 256.
+fn latin(text: &str) -> Vec<u8> {
+    text.chars().map(|c| u8::try_from(u32::from(c)).unwrap()).collect()
+}
+
+/// The bytes of hexadecimal digits; `*N` after some repeats them.
+fn hex(text: &str) -> Vec<u8> {
+    let mut all = Vec::new();
+    for word in text.split_whitespace() {
+        let (digits, times) = word.split_once('*').unwrap_or((word, "1"));
+        let bytes: Vec<u8> = (0..digits.len())
+            .step_by(2)
+            .map(|i| u8::from_str_radix(&digits[i..i + 2], 16).unwrap())
+            .collect();
+        all.extend(bytes.repeat(times.parse().unwrap()));
+    }
+    all
+}

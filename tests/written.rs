@@ -1,0 +1,441 @@
+//! Materials as they are written: what opens again as the same material, binary glTF by its specification, and sidecar files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+use tempfile::tempdir;
+
+use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::progress::Progress;
+use svbrdf_files::Error;
+use svbrdf_files::read::{Binding, Preset, Read, ReadOptions, Sidecar, read, read_bytes};
+use svbrdf_files::samples::generate;
+use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
+use svbrdf_needs::needs;
+
+use crate::materials::formula::{Place, values};
+
+/// Half a code of 8 bits, and as much of an encoding.
+const EIGHT_BITS: f32 = 0.006;
+
+/// Normals, diffuse, specular and roughness by formulas.
+fn material(size: [usize; 2], formulas: [&str; 4]) -> Material<f32> {
+    let [width, height] = size;
+    let place = |i: usize| Place { x: i % width, y: i / width, size };
+    let plane = |formula: &str, c: usize| -> Vec<f32> {
+        let value = |i| values(formula, place(i));
+        (0..width * height).map(value).map(|all| all[c.min(all.len() - 1)] as f32).collect()
+    };
+    let three = |formula: &str| [0, 1, 2].map(|c| plane(formula, c));
+    let [normal, diffuse, specular, roughness] = formulas;
+    let planes = Planes {
+        normal: three(normal),
+        diffuse: three(diffuse),
+        specular: three(specular),
+        roughness: plane(roughness, 0),
+    };
+    Material::new("1 brick & \"mortar\"", width, height, planes).unwrap()
+}
+
+fn same() -> Material<f32> {
+    material([16, 16], ["N", "d", "s", "r"])
+}
+
+/// Coloured specular on coloured diffuse, up to `most`: no base colour and metallic make it.
+fn coloured(size: [usize; 2], most: &str) -> Material<f32> {
+    material(size, ["N", "0.3, 0.6 * v, 0.02 + 0.9 * u", &format!("{most} * (u, v, u * v)"), "r"])
+}
+
+/// Materials, and whether base colour and metallic express them.
+fn cases() -> [(Material<f32>, bool); 7] {
+    let base = "(0.1 + 0.05 * x, 0.4, 0.03 * y)";
+    let metal = "less(3, x) * less(x, 9)";
+    let diffuse = format!("{base} * (1 - {metal})");
+    let specular = format!("0.04 * (1 - {metal}) + {base} * {metal}");
+    let noise = |a, b, c| {
+        format!("0.5 + 0.5 * (sin({a} * x + {b} * y), sin({b} * x - {c} * y), cos({c} * x + {a} * y))")
+    };
+    let slopes = "unit(sin(71 * x + 13 * y), cos(19 * x - 83 * y), 2)";
+    [
+        (material([16, 16], ["N", &diffuse, &specular, "r"]), true),
+        (coloured([16, 16], "0.1"), false),
+        (coloured([16, 16], "1"), false),
+        (coloured([23, 9], "0.3"), false),
+        (material([5, 7], ["N", "0, 0.0005 * y, 0.001", "0.001 * x, 0, 0.0002", "r"]), false),
+        (material([2, 1], ["0, 0, 1", "0", "0", "0"]), true),
+        (material([24, 24], [slopes, &noise(91, 37, 53), &noise(17, 61, 29), "u"]), false),
+    ]
+}
+
+fn open(path: &Path) -> Read<f32> {
+    read(path, &ReadOptions::AUTO, &Progress::default()).unwrap()
+}
+
+fn kind(path: &Path, options: &WriteOptions) -> FileKind {
+    FileKind::new(path, options).unwrap()
+}
+
+/// The largest difference of two materials.
+fn off(a: &Material<f32>, b: &Material<f32>) -> f32 {
+    let values = |material: &Material<f32>| {
+        let planes = material.planes().clone();
+        [planes.normal.concat(), planes.diffuse.concat(), planes.specular.concat(), planes.roughness].concat()
+    };
+    assert_eq!(a.size(), b.size());
+    values(a).into_iter().zip(values(b)).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    let folder = tempdir().unwrap();
+    let original = same();
+    let gan = Some(Preset::MaterialGan);
+    for (name, depth, like, bound) in [
+        ("h.exr", None, None, 0.001),
+        ("f.exr", Some(Depth::Float), None, 1e-7),
+        ("p.png", None, None, 0.005),
+        ("q.png", Some(Depth::Sixteen), None, 3e-5),
+        ("folder", Some(Depth::Sixteen), None, 1e-4),
+        ("g.png", Some(Depth::Sixteen), Some(Preset::Gao), EIGHT_BITS),
+        ("m.png", Some(Depth::Sixteen), gan, EIGHT_BITS),
+        ("l.png", Some(Depth::Sixteen), Some(Preset::LookAhead), EIGHT_BITS),
+        ("x.png", Some(Depth::Sixteen), Some(Preset::MatFusion), EIGHT_BITS),
+        ("materialgan", Some(Depth::Sixteen), gan, EIGHT_BITS),
+    ] {
+        let out = folder.path().join(name);
+        write::write(&original, &out, kind(&out, &WriteOptions { depth, like, preview: false })).unwrap();
+        // By what the file states or its names, and by the preset.
+        for preset in [None, like] {
+            let options = ReadOptions { preset, ..ReadOptions::AUTO };
+            let again = read(&out, &options, &Progress::default()).unwrap();
+            let worst = off(&original, &again.material);
+            assert!(worst <= bound, "{name}: off by {worst}");
+        }
+    }
+}
+
+#[test]
+fn a_native_exr_that_is_read_and_written_again_is_the_same_file_and_a_preview_changes_no_map() {
+    let folder = tempdir().unwrap();
+    let [one, two] = ["one.exr", "two.exr"].map(|name| folder.path().join(name));
+    for depth in [Depth::Half, Depth::Float] {
+        let options = WriteOptions { depth: Some(depth), ..WriteOptions::default() };
+        write::write(&same(), &one, kind(&one, &options)).unwrap();
+        write::write(&open(&one).material, &two, kind(&two, &options)).unwrap();
+        assert!(fs::read(&one).unwrap() == fs::read(&two).unwrap(), "{depth:?}");
+    }
+    write::write(&same(), &two, FileKind::Exr { half: false, preview: true }).unwrap();
+    let again = open(&two);
+    assert!(
+        off(&again.material, &open(&one).material) == 0.0 && again.messages().any(|m| m.contains("preview"))
+    );
+    let shown = exr::prelude::read_first_rgba_layer_from_file(
+        &two,
+        |size, _| vec![[0.0_f32; 3]; size.area()],
+        |pixels: &mut Vec<[f32; 3]>, at, (r, g, b, _): (f32, f32, f32, f32)| {
+            pixels[at.y() * 16 + at.x()] = [r, g, b]
+        },
+    );
+    let pixels = shown.unwrap().layer_data.channel_data.pixels;
+    assert!(pixels.iter().flatten().all(|v| v.is_finite() && *v > 0.0), "{pixels:?}");
+}
+
+#[test]
+fn forms_have_their_depths_and_presets() {
+    let new = |name: &str, depth, like, preview| {
+        FileKind::new(Path::new(name), &WriteOptions { depth, like, preview })
+    };
+    assert_eq!(new("a.GLB", None, None, false).unwrap(), FileKind::Glb { sixteen: false });
+    assert!(new("brick.v2/", None, None, false).is_ok(), "a folder ends with a slash");
+    for (name, depth, like, preview) in [
+        ("brick.v2", None, None, false),
+        ("a.glb", Some(Depth::Half), None, false),
+        ("a.glb", None, Some(Preset::Gltf), false),
+        ("a.glb", None, None, true),
+        ("a.gltf", None, None, false),
+        ("a.png", None, Some(Preset::Gltf), false),
+        ("a.png", None, None, true),
+        ("a", None, Some(Preset::Gao), false),
+        ("a.exr", None, Some(Preset::Gao), false),
+    ] {
+        let refused = new(name, depth, like, preview);
+        assert!(matches!(refused, Err(Error::UnsupportedOutput { .. })), "{name}: {refused:?}");
+    }
+}
+
+/// The largest difference of two materials in steps of 8 bits, as a PNG stores them.
+fn steps(a: &Material<f32>, b: &Material<f32>) -> f64 {
+    let coded = |material: &Material<f32>| {
+        let Planes { normal, diffuse, specular, roughness } = material.planes();
+        let colours = diffuse.iter().chain(specular).flatten();
+        let srgb = |v: f64| if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+        let normals = normal.iter().flatten().map(|n| 0.5 * f64::from(*n) + 0.5);
+        let all =
+            normals.chain(colours.map(|c| srgb((*c).into()))).chain(roughness.iter().map(|r| f64::from(*r)));
+        all.collect::<Vec<_>>()
+    };
+    coded(a).into_iter().zip(coded(b)).map(|(a, b)| 255.0 * (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_glb_opens_again_within_one_step_of_8_bits() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("a.glb");
+    for (number, (original, is_metallic)) in cases().into_iter().enumerate() {
+        for sixteen in [false, true] {
+            let note = write::write(&original, &path, FileKind::Glb { sixteen }).unwrap();
+            assert_eq!(note.is_none(), is_metallic, "{number}: {note:?}");
+            let again = open(&path);
+            let off = steps(&original, &again.material);
+            assert!(off <= 1.0, "{number}: off by {off} steps");
+            assert!(again.unsure().count() == 0 && again.notes.is_empty(), "{number}: {:?}", again.notes);
+        }
+    }
+}
+
+#[test]
+fn the_comparison_sees_every_convention_that_can_be_taken_wrongly() {
+    let original = coloured([16, 16], "0.3");
+    let changed = |change: &dyn Fn(&mut Planes<f32>)| {
+        let mut planes = original.planes().clone();
+        change(&mut planes);
+        steps(&original, &Material::new("changed", 16, 16, planes).unwrap())
+    };
+    assert_eq!(changed(&|_| {}), 0.0);
+    for (what, off) in [
+        ("y down", changed(&|planes| planes.normal[1].iter_mut().for_each(|y| *y = -*y))),
+        ("alpha for r", changed(&|planes| planes.roughness.iter_mut().for_each(|r| *r *= *r))),
+        ("linear for sRGB", changed(&|planes| planes.diffuse[2].iter_mut().for_each(|d| *d = d.powf(0.45)))),
+        ("red for blue", changed(&|planes| planes.specular.swap(0, 2))),
+        ("rows upside down", changed(&|planes| planes.roughness.reverse())),
+        ("1.1 steps", changed(&|planes| planes.roughness.iter_mut().for_each(|r| *r -= 1.1 / 255.0))),
+    ] {
+        assert!(off > 1.0, "{what}: {off}");
+    }
+}
+
+/// The document and the binary part of a glb, by the specification and without the reader.
+struct Parts(Value, Vec<u8>);
+
+fn index(value: &Value) -> usize {
+    value.as_u64().unwrap() as usize
+}
+
+impl Parts {
+    fn of(path: &Path) -> Self {
+        let bytes = fs::read(path).unwrap();
+        let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+        assert_eq!((&bytes[..4], number(4), number(8)), (&b"glTF"[..], 2, bytes.len()));
+        let json = &bytes[20..20 + number(12)];
+        Self(serde_json::from_slice(json).unwrap(), bytes[20 + number(12) + 8..].to_vec())
+    }
+
+    /// The bytes of a view of the buffer.
+    fn view(&self, number: &Value) -> &[u8] {
+        let view = &self.0["bufferViews"][index(number)];
+        &self.1[index(&view["byteOffset"])..][..index(&view["byteLength"])]
+    }
+
+    fn accessor(&self, number: &Value) -> &[u8] {
+        self.view(&self.0["accessors"][index(number)]["bufferView"])
+    }
+
+    /// The pixels of the texture that the material has at this place.
+    fn texture(&self, place: &str) -> image::RgbImage {
+        let texture = index(&self.0["materials"][0].pointer(place).unwrap()["index"]);
+        let image = &self.0["images"][index(&self.0["textures"][texture]["source"])];
+        image::load_from_memory(self.view(&image["bufferView"])).unwrap().into_rgb8()
+    }
+}
+
+/// sRGB colours, y up, roughness in green, metallic in blue, row 0 on top.
+#[test]
+fn a_glb_has_what_the_specification_says() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("a.glb");
+    let original = coloured([23, 9], "0.3");
+    write::write(&original, &path, FileKind::Glb { sixteen: false }).unwrap();
+    let parts = Parts::of(&path);
+    let of_material = &parts.0["materials"][0];
+    assert_eq!(parts.0["extensionsUsed"], serde_json::json!(["KHR_materials_specular", "KHR_materials_ior"]));
+    assert_eq!(of_material["pbrMetallicRoughness"]["metallicFactor"], 0.0);
+    let ior = of_material["extensions"]["KHR_materials_ior"]["ior"].as_f64().unwrap();
+    let reflectance = ((ior - 1.0) / (ior + 1.0)).powi(2);
+    assert!((0.3..0.301).contains(&reflectance), "{reflectance}");
+    let [base, rough, normal, colour] = [
+        "/pbrMetallicRoughness/baseColorTexture",
+        "/pbrMetallicRoughness/metallicRoughnessTexture",
+        "/normalTexture",
+        "/extensions/KHR_materials_specular/specularColorTexture",
+    ]
+    .map(|place| parts.texture(place));
+    for (x, y) in [(0, 0), (22, 0), (3, 8), (11, 4)] {
+        let near = |image: &image::RgbImage, c: usize, formula: &str| {
+            let place = Place { x: x as usize, y: y as usize, size: [23, 9] };
+            let all = values(formula, place);
+            let [got, expected] = [f64::from(image.get_pixel(x, y).0[c]), 255.0 * all[c.min(all.len() - 1)]];
+            assert!((got - expected).abs() <= 1.0, "{formula} at {x}, {y}: {got}, not {expected}");
+        };
+        for c in 0..3 {
+            near(&base, c, "srgb(0.3, 0.6 * v, 0.02 + 0.9 * u)");
+            near(&normal, c, "n");
+            near(&colour, c, &format!("srgb((u, v, u * v) * 0.3 / {reflectance})"));
+        }
+        near(&rough, 1, "r");
+    }
+    write::write(&cases()[0].0, &path, FileKind::Glb { sixteen: false }).unwrap();
+    let parts = Parts::of(&path);
+    assert!(parts.0.get("extensionsUsed").is_none());
+    let packed = parts.texture("/pbrMetallicRoughness/metallicRoughnessTexture");
+    assert_eq!([3, 4, 8, 9].map(|x| packed.get_pixel(x, 5).0[2]), [0, 255, 255, 0]);
+}
+
+#[test]
+fn a_glb_has_a_plane_of_the_size_of_the_material_that_faces_the_viewer() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("a.glb");
+    let original = coloured([23, 9], "0.3");
+    write::write(&original, &path, FileKind::Glb { sixteen: false }).unwrap();
+    let parts = Parts::of(&path);
+    let primitive = &parts.0["meshes"][0]["primitives"][0];
+    let floats = |name: &str, width: usize| -> Vec<Vec<f32>> {
+        let chunks = parts.accessor(&primitive["attributes"][name]).chunks(4);
+        let numbers: Vec<f32> = chunks.map(|b| f32::from_le_bytes(b.try_into().unwrap())).collect();
+        numbers.chunks(width).map(<[f32]>::to_vec).collect()
+    };
+    let half = original.grid().half_extent();
+    let positions = floats("POSITION", 3);
+    for (position, at) in positions.iter().zip(floats("TEXCOORD_0", 2)) {
+        // (0, 0) is the upper left corner of the pictures, x to the right and y up.
+        assert_eq!(*position, [half[0] * (2.0 * at[0] - 1.0), half[1] * (1.0 - 2.0 * at[1]), 0.0]);
+    }
+    assert!(floats("NORMAL", 3).iter().all(|normal| *normal == [0.0, 0.0, 1.0]));
+    assert!(floats("TANGENT", 4).iter().all(|tangent| *tangent == [1.0, 0.0, 0.0, 1.0]));
+    // Counterclockwise, seen from +z: each triangle has a positive area.
+    let indices = parts.accessor(&primitive["indices"]).chunks(2).map(|b| usize::from(b[0]));
+    for triangle in indices.take(6).collect::<Vec<_>>().chunks(3) {
+        let [a, b, c] = [0, 1, 2].map(|corner| &positions[triangle[corner]]);
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        assert!((area - 4.0 * half[0] * half[1]).abs() < 1e-5, "{area}");
+    }
+}
+
+/// The issues that the validator of Khronos finds in these files.
+fn issues(files: &[PathBuf]) -> Vec<Value> {
+    const SCRIPT: &str = "const validator = require('gltf-validator'), fs = require('fs');
+        const report = path => validator.validateBytes(new Uint8Array(fs.readFileSync(path)));
+        Promise.all(process.argv.slice(1).map(report)).then(found => console.log(JSON.stringify(found.map(one => one.issues))));";
+    let output = Command::new("node").args(["-e", SCRIPT]).args(files).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+#[needs(gltf_validator)]
+#[test]
+fn the_validator_of_khronos_finds_nothing_in_a_glb_and_sees_planted_faults() {
+    let folder = tempdir().unwrap();
+    let files = cases().map(|(material, _)| {
+        let path = folder.path().join(format!("{:p}.glb", &raw const material));
+        write::write(&material, &path, FileKind::Glb { sixteen: material.width() == 16 }).unwrap();
+        path
+    });
+    let found = issues(&files);
+    assert_eq!(found.len(), files.len());
+    for issues in found {
+        // It remarks on sizes that are no powers of two.
+        let of_size = |issue: &&Value| issue["code"] == "IMAGE_NPOT_DIMENSIONS";
+        let all = issues["messages"].as_array().unwrap();
+        assert_eq!(all.iter().filter(of_size).count(), all.len(), "{issues:#}");
+    }
+    for (from, to) in
+        [("\"SCALAR\"", "\"VEC999\""), ("image/png", "image/jpg"), ("\"POSITION\"", "\"POSITIOM\"")]
+    {
+        let bytes = fs::read(&files[0]).unwrap();
+        let at = bytes.windows(from.len()).position(|window| window == from.as_bytes()).unwrap();
+        let path = folder.path().join("changed.glb");
+        fs::write(&path, [&bytes[..at], to.as_bytes(), &bytes[at + from.len()..]].concat()).unwrap();
+        let issues = &issues(&[path])[0];
+        let count = |kind: &str| issues[kind].as_u64().unwrap();
+        assert!(count("numErrors") + count("numWarnings") > 0, "{from} as {to}: {issues:#}");
+    }
+}
+
+#[test]
+fn everything_that_can_be_specified_can_be_saved() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    write::write(&same(), &path, kind(&path, &WriteOptions::default())).unwrap();
+    let options = "albedo=linear,dielectric-f0=0.05,energy=unscaled,exemplar=1,flip-v=true,grid=4x1,non-finite=replace,\
+        normal-encoding=xy,normal-y=down,order=ndrs,preset=gao,roughness=gloss,specular-albedo=gamma2.2,workflow=specular";
+    let bindings: Vec<Binding> = ["normal", "specular"]
+        .map(|map| format!("{map}={}:r", folder.path().join("a b.png").display()).parse().unwrap())
+        .into();
+    let saved = Sidecar { options: options.parse().unwrap(), bindings };
+    let place = saved.save(&path, &Progress::default()).unwrap();
+    assert_eq!(Sidecar::load(&path).unwrap(), saved);
+    let written = fs::read_to_string(place).unwrap();
+    for line in
+        [r#""dielectric-f0": 0.05"#, r#""grid": "4x1""#, r#""normal": "a b.png:r""#, r#""flip-v": true"#]
+    {
+        assert!(written.contains(line), "{line} is missing in {written}");
+    }
+    // The name of a map alone does not make it one.
+    fs::copy(&path, folder.path().join("metal.png")).unwrap();
+    assert!(Sidecar::path_for(&folder.path().join("metal.png")).ends_with("metal.svbrdf.json"));
+    Sidecar::default().save(&path, &Progress::default()).unwrap();
+    assert_eq!(fs::read_to_string(Sidecar::path_for(&path)).unwrap(), "{}\n");
+    // What is saved for a file of a folder with options is its own.
+    fs::write(folder.path().join("svbrdf.json"), r#"{"albedo": "log0.01", "maps": {"roughness": "x.png"}}"#)
+        .unwrap();
+    let wood = folder.path().join("wood.png");
+    fs::copy(&path, &wood).unwrap();
+    let of_folder = Sidecar::load(&wood).unwrap();
+    assert!(of_folder.bindings.is_empty() && of_folder.options.albedo.is_some());
+    assert_eq!(of_folder.save(&wood, &Progress::default()).unwrap(), folder.path().join("wood.svbrdf.json"));
+}
+
+#[test]
+fn reading_reports_progress_stops_when_asked_and_takes_pictures_in_memory() {
+    let folder = tempdir().unwrap();
+    let path = folder.path().join("maps");
+    write::write(&same(), &path, kind(&path, &WriteOptions::default())).unwrap();
+    let progress = Progress::default();
+    read::<f32>(&path, &ReadOptions::AUTO, &progress).unwrap();
+    assert_eq!(progress.counts(), (4, 4));
+    progress.cancel();
+    let stopped = read::<f32>(&path, &ReadOptions::AUTO, &progress);
+    assert!(stopped.is_err_and(|error| error.is_cancelled()));
+    assert!(
+        write::write_watched(
+            &same(),
+            &folder.path().join("a.glb"),
+            FileKind::Glb { sixteen: false },
+            &progress
+        )
+        .is_err()
+    );
+    let strip = folder.path().join("a.png");
+    write::write(&same(), &strip, kind(&strip, &WriteOptions::default())).unwrap();
+    let bytes = fs::read(&strip).unwrap();
+    let found = read_bytes::<f32>("some name", &bytes, &ReadOptions::AUTO).unwrap();
+    assert!(found.material.name() == "some name" && found.files.is_empty());
+    assert_eq!(found.material.planes(), open(&strip).material.planes());
+}
+
+#[test]
+fn the_samples_are_what_their_generator_makes() {
+    let truth = generate::ground_truth();
+    let made = [
+        ("worn_tiles", generate::pack(&truth)),
+        ("blurred_normals", generate::pack(&generate::blurred_normals(&truth))),
+        ("wrong_roughness", generate::pack(&generate::wrong_roughness(&truth))),
+    ];
+    for (name, pixels) in made {
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples").join(name).with_extension("png");
+        let committed = image::open(path).unwrap().into_rgb8().into_raw();
+        assert!(committed == pixels, "{name} differs; run the example make_samples if that is meant");
+    }
+}
