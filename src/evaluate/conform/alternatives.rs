@@ -81,9 +81,8 @@ pub fn of_words(terms: &RendererTerms) -> Vec<RendererTerms> {
     F90::ALL.iter().for_each(|x| add(&|t| t.specular.f90 = *x));
     weights(terms.material.material).iter().for_each(|x| add(&|t| t.diffuse.diffuse = *x));
     Falloff::ALL.iter().for_each(|x| add(&|t| t.light.falloff = *x));
-    // One or the other: divided by l.z, a cone of exponent 1 is none.
-    [None, Some(0.0), Some(1e-3)].iter().for_each(|lz| add(&|t| (t.light.lz, t.light.spot) = (*lz, 0.0)));
-    SPOTS.iter().for_each(|x| add(&|t| (t.light.lz, t.light.spot) = (None, *x)));
+    [None, Some(0.0), Some(1e-3)].iter().for_each(|lz| add(&|t| t.light.lz = *lz));
+    SPOTS.iter().for_each(|x| add(&|t| t.light.spot = *x));
     for yes in [false, true] {
         add(&|t| t.material.clip_maps = yes);
         add(&|t| t.material.flip_below = yes);
@@ -109,7 +108,11 @@ pub fn without_numbers(terms: &RendererTerms) -> Vec<RendererTerms> {
     let differences = terms.differences(&base).into_iter();
     let numbers = differences
         .filter(|one| one.own.parse::<f64>().is_ok() && !matches!(one.key.as_str(), "lz" | "spot"));
-    numbers.map(|one| terms.with(&one.section, &one.key, &base)).collect()
+    // Divided by l.z, a cone of exponent 1 is none.
+    let mut even = *terms;
+    (even.light.lz, even.light.spot) = (None, 0.0);
+    let numbers = numbers.map(|one| terms.with(&one.section, &one.key, &base));
+    numbers.chain((even != *terms).then_some(even)).collect()
 }
 
 /// The weights of diffuse that a workflow has.
