@@ -3,10 +3,6 @@
 const MODE_VALUE = 0u;
 const MODE_WIPE = 1u;
 
-const TILING_ONCE = 0u;
-const TILING_COPIES = 1u;
-const TILING_PLANE = 2u;
-
 struct Display {
     camera: Camera,
     background: vec3f,
@@ -69,20 +65,6 @@ fn colour(value: vec3f, from_reference: bool, pixel: vec2u) -> vec3f {
     return encode(value, ENCODING, params.exposure, SHOW_CLIPPING, pixel);
 }
 
-// The texel of the pictures that is shown in the place of `texel`: another one where the material is repeated. The twin of
-// TexelPlane in src/viewer/model/view/texel_plane.rs.
-fn repeated(texel: vec2f) -> vec2f {
-    if TILING == TILING_ONCE {
-        return texel;
-    }
-    let size = vec2f(params.size);
-    let cell = 2.0 * texel + 0.5 * size;
-    if TILING == TILING_PLANE {
-        return clamp(cell - vec2f(first_cell(params.size)), vec2f(0.0), vec2f(repeated_cells(params.size)) - 0.001);
-    }
-    return clamp(cell - floor(cell / size) * size, vec2f(0.0), size - 0.001);
-}
-
 fn displayed(corner: Corner) -> vec4f {
     let seen = plane_from_ndc(params.camera, corner.ndc);
     let extent = abs(dpdx(seen.point)) + abs(dpdy(seen.point));
@@ -94,9 +76,8 @@ fn displayed(corner: Corner) -> vec4f {
     if !(seen.hit && inside) {
         return vec4f(params.background, 1.0);
     }
-    let repeats = select(2.0, 1.0, TILING == TILING_ONCE);
-    let scale = repeats / f32(params.stride);
-    let place = repeated(texel) / f32(params.stride);
+    let scale = 1.0 / f32(params.stride);
+    let place = texel / f32(params.stride);
     let pixel = vec2u(corner.position.xy) - params.corner;
     if NEAREST {
         let value = load(vec2i(floor(place)), from_reference);

@@ -6,7 +6,6 @@ override MODE: u32 = MODE_VALUE;
 override DIFFERENCE: u32 = DIFFERENCE_NONE;
 override ENCODING: u32 = ENCODING_RADIANCE;
 override SHOW_CLIPPING: bool = false;
-override TILING: u32 = TILING_ONCE;
 override FALSE_COLOUR: bool = false;
 // Whether pixels show the nearest texel: none covers more than one, or a draft is enough.
 override NEAREST: bool = false;

@@ -12,21 +12,6 @@ fn position(column: u32, row: u32, size: vec2u) -> vec3f {
     return vec3f(x, y, 0.0);
 }
 
-fn first_cell(size: vec2u) -> vec2u {
-    return size / 2u;
-}
-
-fn repeated_cells(size: vec2u) -> vec2u {
-    return 2u * size + size % 2u;
-}
-
-fn cell_position(column: u32, row: u32, size: vec2u) -> vec3f {
-    let scale = 2.0 * grid_scale(size);
-    let x = f32(i32(2u * column + 1u) - i32(3u * size.x)) / scale;
-    let y = f32(i32(3u * size.y) - i32(2u * row + 1u)) / scale;
-    return vec3f(x, y, 0.0);
-}
-
 // `place`, the inverse: (column, row) counted from the corner of the map, so that texel (i, j) covers [i, i+1) x [j, j+1).
 fn texel_from_plane(point: vec2f, size: vec2u) -> vec2f {
     return 0.5 * (vec2f(point.x, -point.y) * grid_scale(size) + vec2f(size));

@@ -10,7 +10,6 @@ var<private> MODE: u32;
 var<private> DIFFERENCE: u32;
 var<private> ENCODING: u32;
 const SHOW_CLIPPING = false;
-const TILING = TILING_ONCE;
 const FALSE_COLOUR = false;
 const NEAREST = false;
 

@@ -5,7 +5,6 @@ struct PageShading {
 }
 
 var<private> QUANTITY: u32;
-const REPEATED = false;
 
 @group(0) @binding(4) var<uniform> page: PageShading;
 

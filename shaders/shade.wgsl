@@ -35,14 +35,7 @@ fn shade_texel(c: vec3f, stored: vec2u) -> vec3f {
 fn shaded(corner: Corner) -> vec4f {
     let fragment = vec2u(corner.position.xy);
     // Reduced maps hold the texels of the fragments, and no others.
-    let stored_size = stored_size();
-    let is_reduced = any(stored_size != shading.size);
-    if REPEATED {
-        let cell = first_cell(shading.size) + shaded_place(fragment, shading.stride, repeated_cells(shading.size));
-        let texel = cell % shading.size;
-        let stored = select(texel, min(texel / shading.stride, stored_size - 1u), is_reduced);
-        return held(shade_texel(cell_position(cell.x, cell.y, shading.size), stored));
-    }
+    let is_reduced = any(stored_size() != shading.size);
     let place = shaded_place(fragment, shading.stride, shading.size);
     let c = position(place.x, place.y, shading.size);
     return held(shade_texel(c, select(place, fragment, is_reduced)));

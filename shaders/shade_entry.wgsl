@@ -2,8 +2,6 @@
 
 // What is shaded: a constant of the pipeline, so that no driver compiles or runs the rest.
 override QUANTITY: u32 = QUANTITY_RENDERING;
-// Whether the target holds the cells of the plane on which the material is repeated, each lit in its place.
-override REPEATED: bool = false;
 
 @fragment
 fn shade(corner: Corner) -> @location(0) vec4f {

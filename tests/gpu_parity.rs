@@ -4,7 +4,6 @@
 mod adapter;
 mod display;
 mod drafts;
-mod plane;
 
 use svbrdf_core::model::convention::{Convention, GUIDED_2020, PRINTED};
 use svbrdf_core::model::scene::{Kind, Scene};

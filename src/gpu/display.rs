@@ -10,7 +10,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_shaders as shaders;
 
 use super::fault::scoped;
-use super::params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, Tiling};
+use super::params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding};
 use super::pipeline::{Constants, Fullscreen, bind, buffer_type, texture_type, uniform_buffer};
 use super::uniforms::DisplayUniforms;
 use super::{Gpu, Shaded};
@@ -118,8 +118,7 @@ fn footprint(params: &DisplayParams, shaded: &Shaded, [across, down]: [u32; 2]) 
     let [width, height] = shaded.size();
     let [half_width, half_height] = Grid { width, height }.half_extent();
     let texel = 2.0 * Vec2::new(half_width / width as f32, half_height / height as f32);
-    let repeats = if params.tiling == Tiling::Once { 1.0 } else { 2.0 };
-    Some(extent * repeats / shaded.stride() as f32 / texel)
+    Some(extent / shaded.stride() as f32 / texel)
 }
 
 /// The constants of the pipeline that shows pictures in this way.
@@ -147,17 +146,11 @@ fn constants(params: &DisplayParams, nearest: bool) -> Constants {
         Encoding::Albedo => 1,
         Encoding::Data => 2,
     };
-    let tiling = match params.tiling {
-        Tiling::Once => 0,
-        Tiling::Copies => 1,
-        Tiling::Plane => 2,
-    };
     vec![
         ("MODE", mode),
         ("DIFFERENCE", difference),
         ("ENCODING", encoding),
         ("SHOW_CLIPPING", params.show_clipping.into()),
-        ("TILING", tiling),
         ("FALSE_COLOUR", params.false_colour.into()),
         ("NEAREST", nearest.into()),
     ]

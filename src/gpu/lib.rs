@@ -26,7 +26,7 @@ pub mod uniforms;
 pub use adapter::AdapterReport;
 pub use context::Gpu;
 pub use display::{DisplayPass, Pane, PanePlace, texels_a_pixel};
-pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams, Tiling};
+pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams};
 pub use read_back::read_rgba;
 pub use shading::{Shaded, Shading};
 pub use still::{Blit, Still};

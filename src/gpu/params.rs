@@ -12,18 +12,6 @@ pub struct ShadeParams {
     pub scene: Scene,
     pub convention: Convention,
     pub quantity: Quantity,
-    /// Whether the cells of the repeated plane are shaded, each in its place: what [`Tiling::Plane`] shows.
-    pub repeated: bool,
-}
-
-/// How often a pane shows a material, in the place of one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tiling {
-    Once,
-    /// 2 x 2 times, shifted by half of itself: every copy has the numbers of the texels in their own places.
-    Copies,
-    /// As copies, but lit as one plane: pictures of [`ShadeParams::repeated`].
-    Plane,
 }
 
 /// How a pane shows its pictures.
@@ -40,7 +28,6 @@ pub struct DisplayParams {
     pub show_clipping: bool,
     /// Epsilon of the difference's logarithms, from the convention.
     pub epsilon: f32,
-    pub tiling: Tiling,
     /// Whether [`Encoding::Data`] shows its first channel, in [0, 1], in the colours of
     /// [`heat`](svbrdf_core::picture::colour_map::heat).
     pub false_colour: bool,

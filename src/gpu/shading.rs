@@ -9,7 +9,6 @@ use wgpu::{
 
 use svbrdf_core::error::Error;
 use svbrdf_core::image::Image;
-use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_shaders::{self as shaders, MapShaders, Shader};
 
@@ -43,7 +42,7 @@ struct Passes {
 impl Passes {
     /// With these shaders, and these bindings of the maps.
     fn new(gpu: &Gpu, shaders: &'static MapShaders, maps: &[BindingType]) -> Self {
-        let shading = pipelines(gpu, &shaders.shade, maps, constants(Quantity::Rendering, false));
+        let shading = pipelines(gpu, &shaders.shade, maps, constants(Quantity::Rendering));
         let reduction = pipelines(gpu, &shaders.reduce, maps, reduced(0));
         Self { shading, reduction }
     }
@@ -60,7 +59,6 @@ pub struct Shaded {
     pub(super) view: TextureView,
     size: [usize; 2],
     stride: usize,
-    repeated: bool,
 }
 
 impl Shaded {
@@ -80,7 +78,7 @@ impl Shaded {
                 true
             })?;
             let view = texture.create_view(&Default::default());
-            Ok(Self { texture, view, size, stride: 1, repeated: false })
+            Ok(Self { texture, view, size, stride: 1 })
         })?
     }
 
@@ -92,11 +90,6 @@ impl Shaded {
     /// How many texels along an axis one stands for; 1 where all are shaded.
     pub fn stride(&self) -> usize {
         self.stride
-    }
-
-    /// Whether it holds the cells of the repeated plane.
-    pub fn is_repeated(&self) -> bool {
-        self.repeated
     }
 }
 
@@ -134,17 +127,12 @@ impl Shading {
     /// # Errors
     /// As [`Shading::target`].
     pub fn reduced_target(&self, gpu: &Gpu, size: [usize; 2], stride: usize) -> Result<Shaded, Error> {
-        shaded(gpu, size, size, stride)
-    }
-
-    /// As [`Shading::reduced_target`], for every `stride`-th cell of the plane on which the material is repeated.
-    ///
-    /// # Errors
-    /// As [`Shading::target`].
-    pub fn repeated_target(&self, gpu: &Gpu, size: [usize; 2], stride: usize) -> Result<Shaded, Error> {
-        let [width, height] = size;
-        let target = shaded(gpu, size, Grid { width, height }.repeated_cells(), stride)?;
-        Ok(Shaded { repeated: true, ..target })
+        let extent = extent(gpu, size.map(|side| side.div_ceil(stride)))?;
+        scoped(&gpu.device, "creating a picture to shade into", || {
+            let texture = floats(gpu, "shaded", extent);
+            let view = texture.create_view(&Default::default());
+            Shaded { texture, view, size, stride }
+        })
     }
 
     /// The texels of `textures`, which hold a material of `size` = (width, height), that a target of this `stride` shades. To
@@ -179,7 +167,7 @@ impl Shading {
         })
     }
 
-    /// Shades every texel of `target`, which is a repeated one where the parameters are, and submits that. `textures` hold the material, or its [`Shading::reduced_textures`] of the
+    /// Shades every texel of `target` and submits that. `textures` hold the material, or its [`Shading::reduced_textures`] of the
     /// target's stride.
     ///
     /// A failure waits in [`Gpu::take_fault`].
@@ -212,7 +200,7 @@ impl Shading {
         if let Some([left, top, width, height]) = part {
             pass.set_scissor_rect(left, top, width, height);
         }
-        pass.set_pipeline(&pipelines.with(&gpu.device, constants(params.quantity, params.repeated)));
+        pass.set_pipeline(&pipelines.with(&gpu.device, constants(params.quantity)));
         pass.set_bind_group(0, &group, &[]);
         pass.draw(0..3, 0..1);
         drop(pass);
@@ -238,16 +226,6 @@ fn bind_maps(gpu: &Gpu, pipelines: &Fullscreen, uniforms: &Buffer, textures: &Ma
     bind(&gpu.device, &pipelines.layout, &resources)
 }
 
-/// A target for every `stride`-th of `count` = [columns, rows] texels or cells of a material of `size`.
-fn shaded(gpu: &Gpu, size: [usize; 2], count: [usize; 2], stride: usize) -> Result<Shaded, Error> {
-    let extent = extent(gpu, count.map(|side| side.div_ceil(stride)))?;
-    scoped(&gpu.device, "creating a picture to shade into", || {
-        let texture = floats(gpu, "shaded", extent);
-        let view = texture.create_view(&Default::default());
-        Shaded { texture, view, size, stride, repeated: false }
-    })
-}
-
 /// A texture of floats to draw into.
 fn floats(gpu: &Gpu, label: &str, size: Extent3d) -> Texture {
     gpu.device.create_texture(&TextureDescriptor {
@@ -267,8 +245,8 @@ fn reduced(map: u32) -> Constants {
     vec![("MAP", map)]
 }
 
-/// The constants of the pipeline that shades this quantity of texels, or of the cells of the repeated plane.
-fn constants(quantity: Quantity, repeated: bool) -> Constants {
+/// The constants of the pipeline that shades this quantity.
+fn constants(quantity: Quantity) -> Constants {
     let number = match quantity {
         Quantity::Rendering => 0,
         Quantity::Normal => 1,
@@ -276,7 +254,7 @@ fn constants(quantity: Quantity, repeated: bool) -> Constants {
         Quantity::Specular => 3,
         Quantity::Roughness => 4,
     };
-    vec![("QUANTITY", number), ("REPEATED", repeated.into())]
+    vec![("QUANTITY", number)]
 }
 
 #[cfg(test)]
@@ -312,7 +290,7 @@ mod tests {
         let textures = Shading::new(gpu).unwrap().reduced_textures(gpu, &uploaded, size, 1).unwrap();
         let Maps::Floats([view, ..]) = textures.maps else { panic!("floats") };
         let texture = view.texture().clone();
-        Shaded { texture, view, size, stride: 1, repeated: false }.read_back(gpu).unwrap().pixels
+        Shaded { texture, view, size, stride: 1 }.read_back(gpu).unwrap().pixels
     }
 
     #[test]

@@ -78,8 +78,7 @@ impl Picture {
     }
 
     fn shade(&self, textures: &MaterialTextures) {
-        let params =
-            ShadeParams { scene: SCENE, convention: PRINTED, quantity: Quantity::Rendering, repeated: false };
+        let params = ShadeParams { scene: SCENE, convention: PRINTED, quantity: Quantity::Rendering };
         self.shading.draw(self.gpu, textures, &params, &self.target);
         self.wait();
     }

@@ -99,7 +99,7 @@ fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu
     let shading = Shading::new(&half).expect("compiled");
     let textures = MaterialTextures::upload(&half, &mirror()).expect("uploaded");
     let target = shading.target(&half, [2, 2]).expect("created");
-    let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering, repeated: false };
+    let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering };
     shading.draw(&half, &textures, &params, &target);
     let refused = target.read_back(&half).expect_err("16 bits are not enough").to_string();
     assert!(refused.contains("32-bit floats") && refused.contains("use the CPU"), "{refused}");

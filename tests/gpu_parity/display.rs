@@ -20,7 +20,7 @@ use crate::support::tolerance::SCREEN_LEVELS;
 const ABOVE: Scene = Scene { kind: Kind::Distant, view: [0.0, 0.0, 1.0], light: [0.0, 0.0, 1.0] };
 
 fn shaded(gpu: &Gpu, material: &Material<f32>, quantity: Quantity) -> Shaded {
-    shaded_by(gpu, material, &ShadeParams { scene: ABOVE, convention: PRINTED, quantity, repeated: false })
+    shaded_by(gpu, material, &ShadeParams { scene: ABOVE, convention: PRINTED, quantity })
 }
 
 /// The whole map of a quantity, to the outer edges of its texels.

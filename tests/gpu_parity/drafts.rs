@@ -32,7 +32,7 @@ fn coded_maps_are_the_numbers_of_the_core_bit_for_bit() {
     let shading = Shading::new(gpu).unwrap();
     let scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 1.5], light: [-0.6, 0.5, 1.0] };
     let values = |quantity: Quantity, stride: usize| {
-        let params = ShadeParams { scene, convention: PRINTED, quantity, repeated: false };
+        let params = ShadeParams { scene, convention: PRINTED, quantity };
         let maps = shading.reduced_textures(gpu, &textures, [70, 61], stride).unwrap();
         let target = shading.reduced_target(gpu, [70, 61], stride).unwrap();
         shading.draw(gpu, if stride == 1 { &textures } else { &maps }, &params, &target);
@@ -66,7 +66,7 @@ fn drafts_of(material: &Material<f32>, bytes: usize) {
     let shading = Shading::new(gpu).unwrap();
     for quantity in [Quantity::Rendering, Quantity::Normal, Quantity::Roughness] {
         let scene = Scene { kind: Kind::Near, view: [0.3, -0.2, 1.5], light: [-0.6, 0.5, 1.0] };
-        let params = ShadeParams { scene, convention: PRINTED, quantity, repeated: false };
+        let params = ShadeParams { scene, convention: PRINTED, quantity };
         let whole = shading.target(gpu, [width, height]).unwrap();
         shading.draw(gpu, &textures, &params, &whole);
         let full = whole.read_back(gpu).unwrap();

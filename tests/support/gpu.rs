@@ -50,23 +50,14 @@ pub fn shading() -> &'static Shading {
 
 /// A rendering by [`gpu`]; light and view may be below the plane.
 pub fn shaded(gpu: &Gpu, material: &Material<f32>, scene: &Scene, convention: &Convention) -> Shaded {
-    let params = ShadeParams {
-        scene: *scene,
-        convention: *convention,
-        quantity: Quantity::Rendering,
-        repeated: false,
-    };
+    let params = ShadeParams { scene: *scene, convention: *convention, quantity: Quantity::Rendering };
     shaded_by(gpu, material, &params)
 }
 
 /// A material shaded by [`gpu`].
 pub fn shaded_by(gpu: &Gpu, material: &Material<f32>, params: &ShadeParams) -> Shaded {
     let textures = MaterialTextures::upload(gpu, material).expect("uploaded");
-    let target = match params.repeated {
-        true => shading().repeated_target(gpu, material.size(), 1),
-        false => shading().target(gpu, material.size()),
-    };
-    let target = target.expect("created");
+    let target = shading().target(gpu, material.size()).expect("created");
     shading().draw(gpu, &textures, params, &target);
     target
 }
@@ -125,7 +116,6 @@ pub fn from_above([half_width, half_height]: [f32; 2], encoding: Encoding) -> Di
         encoding,
         show_clipping: false,
         epsilon: 0.01,
-        tiling: svbrdf_gpu::Tiling::Once,
         false_colour: false,
         nearest: false,
         background: BACKGROUND,

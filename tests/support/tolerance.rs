@@ -25,10 +25,6 @@ pub const GOLDEN_POINTS_F32_KAPPA: f64 = 1e5;
 /// within 2e-8.
 pub const NORMALIZATION: f64 = 1e-5; // measured: 4.2e-9, 1.1e-7, 1.1e-7
 
-/// The shader's cells of the repeated plane against f64: relative, of radiances of at least 1e-3.
-#[cfg(feature = "viewer")]
-pub const PLANE: f64 = 2e-5; // measured: 2.8e-6 (lavapipe)
-
 /// Reciprocity: the relative change of the reflectance when light and view are swapped, in units of u. Only v.h and
 /// l.h differ, by rounding, which a short l + v magnifies. Worst of 20,000 random points with light and view down to
 /// z = 0.01: 68.3 in f64, 32.8 in f32.

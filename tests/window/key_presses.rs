@@ -14,7 +14,7 @@ fn every_letter_does_what_the_help_says() {
     let mut window = built_in();
     let automatic = window.state().parts.model.view.exposure_ev;
     type Holds = fn(&Model, f32) -> bool;
-    let cases: [(egui::Key, &str, Holds); 24] = [
+    let cases: [(egui::Key, &str, Holds); 23] = [
         (egui::Key::C, "wipe", |m, _| m.view.display.layout == Layout::Wipe),
         (egui::Key::C, "single", |m, _| m.view.display.layout == Layout::Single),
         (egui::Key::C, "side by side", |m, _| m.view.display.layout == Layout::SideBySide),
@@ -34,11 +34,9 @@ fn every_letter_does_what_the_help_says() {
         (egui::Key::N, "automatic exposure", |m, automatic| {
             m.view.exposure_ev == automatic && m.view.display.auto_exposure == AutoExposure::Once
         }),
-        (egui::Key::T, "repeated", |m, _| m.view.display.tiled),
         (egui::Key::V, "false colours", |m, _| m.view.display.false_colour),
-        // The material is repeated: its copies are half as large.
         (egui::Key::Num0, "a texel per pixel", |m, _| {
-            m.view.display.framing.is_some_and(|framing| framing.pixels_per_texel == 2.0)
+            m.view.display.framing.is_some_and(|framing| framing.pixels_per_texel == 1.0)
         }),
         (egui::Key::F, "fitted", |m, _| m.view.display.framing.is_none()),
         // There are two predictions.

@@ -67,7 +67,6 @@ fn panes_are_drawn_at_every_size_and_scale() {
         for projection in [Projection::Flat, Projection::Perspective] {
             let display = &mut window.state_mut().parts.model.view.display;
             (display.layout, display.projection) = (layout, projection);
-            display.tiled = layout == Layout::SideBySide;
             display.difference = projection == Projection::Perspective;
             check(&mut window, &format!("{layout:?}, {projection:?}"));
         }

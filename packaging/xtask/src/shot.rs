@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use crate::{command, finish};
 
 /// States of the window: a name, the settings that it starts with, and the keys that are pressed.
-const STATES: [(&str, &str, &[&str]); 10] = [
+const STATES: [(&str, &str, &[&str]); 9] = [
     ("loss", "{}", &[]),
     ("why", r#"{"tab":"Why"}"#, &[]),
     ("metrics", r#"{"tab":"Why","sections":["metrics"]}"#, &[]),
@@ -19,7 +19,6 @@ const STATES: [(&str, &str, &[&str]); 10] = [
     ("difference", "{}", &["d"]),
     ("map", "{}", &["m"]),
     ("help", "{}", &["F1"]),
-    ("tiled", "{}", &["t"]),
     ("pinned", "{}", &["i"]),
 ];
 /// The longest that the window takes to come to rest.

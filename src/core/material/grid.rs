@@ -45,25 +45,6 @@ impl Grid {
         self.width.saturating_sub(1).max(1) as f32
     }
 
-    /// The first (column, row) of the cells of the plane on which the material is repeated 2 x 2 times in its own place, shifted by
-    /// half of itself. Cell i along an axis of n texels shows texel i mod n.
-    pub fn first_cell(&self) -> [usize; 2] {
-        [self.width, self.height].map(|count| count / 2)
-    }
-
-    /// How many (columns, rows) of cells the repeated plane has: two for each texel, and one more where its edges cut one.
-    pub fn repeated_cells(&self) -> [usize; 2] {
-        [self.width, self.height].map(|count| 2 * count + count % 2)
-    }
-
-    /// The middle of the cell in column `column` of row `row` of the repeated plane.
-    pub fn cell_position(&self, column: usize, row: usize) -> [f64; 2] {
-        let scale = 2.0 * f64::from(self.half_spacings());
-        let x = (2 * column + 1) as f64 - (3 * self.width) as f64;
-        let y = (3 * self.height) as f64 - (2 * row + 1) as f64;
-        [x / scale, y / scale]
-    }
-
     /// The position C of the texel in column `column` of row `row`.
     pub fn position<V: Vector>(&self, column: usize, row: usize) -> V {
         let scale = self.width.saturating_sub(1).max(1) as f64;

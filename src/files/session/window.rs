@@ -27,7 +27,7 @@ pub struct SessionWindow {
 #[serde(default)]
 pub struct SessionInspection {
     pub pins: Vec<[usize; 2]>,
-    /// The first and the last texel of the rectangle. Over a seam of a repeated material it ends in the next copy.
+    /// The first and the last texel of the rectangle.
     pub rectangle: Option<[[usize; 2]; 2]>,
 }
 
@@ -144,8 +144,6 @@ pub struct SessionDisplay {
     #[serde(default = "AutoExposure::of_older_sessions")]
     pub auto_exposure: AutoExposure,
     pub show_clipping: bool,
-    /// Whether the material is repeated 2 x 2 times, shifted by half of itself: shows its seams.
-    pub tiled: bool,
     /// Whether roughness is shown in false colours.
     pub false_colour: bool,
     /// Position of the wipe line: 0 at the left edge of the pane, 1 at the right.
@@ -180,7 +178,6 @@ impl Default for SessionDisplay {
             projection: Projection::Flat,
             auto_exposure: AutoExposure::Once,
             show_clipping: false,
-            tiled: false,
             false_colour: false,
             wipe: 0.5,
             framing: None,

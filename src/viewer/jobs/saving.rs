@@ -112,9 +112,7 @@ pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
         let ([left, top], [width, height]) = (region.first, region.size());
         Crop { left, top, width, height }
     };
-    let size = displayed.materials().first().map(|ground_truth| ground_truth.material().size());
-    let parts = region.zip(size).into_iter().flat_map(|(region, size)| region.parts(size));
-    let crops = parts.map(crop).collect();
+    let crops = region.into_iter().map(crop).collect();
     let (convention, exposure_ev) = (state.convention(), state.exposure_ev);
     let strip = Strip { columns, convention, exposure_ev, crops, paper: Paper::default() };
     Job::start(&displayed.jobs.waker, move |progress| {

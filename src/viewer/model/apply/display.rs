@@ -34,7 +34,6 @@ pub(super) fn apply(model: &mut Model, command: DisplayCommand) -> Vec<Effect> {
             model.exposed = Exposed::Pending;
         }
         DisplayCommand::ToggleClipping => state.display.show_clipping = !state.display.show_clipping,
-        DisplayCommand::ToggleTiled => state.display.tiled = !state.display.tiled,
         DisplayCommand::ToggleFalseColour => state.display.false_colour = !state.display.false_colour,
         DisplayCommand::SetWipe(at) => state.display.wipe = at.clamp(0.0, 1.0),
         DisplayCommand::ChoosePrediction(index) => {
@@ -80,9 +79,7 @@ fn set_exposure(state: &mut ViewState, ev: f32) {
 
 /// Shows a texel in this many pixels along an axis.
 fn show_at(model: &mut Model, pixels: f32) {
-    // Repeated, a texel takes half the side.
-    let scale = if model.view.display.tiled { 2.0 } else { 1.0 };
-    frame(model, |framed| framed.at_scale(scale * pixels));
+    frame(model, |framed| framed.at_scale(pixels));
 }
 
 /// Changes the part of the ground truth that the panes show.

@@ -131,8 +131,6 @@ pub enum DisplayCommand {
     /// Whether the exposure is automatic; it is computed at once.
     AutoExposure(AutoExposure),
     ToggleClipping,
-    /// Repeats the material 2 x 2 times, or not.
-    ToggleTiled,
     /// Shows roughness in false colours, or not.
     ToggleFalseColour,
     SetWipe(f32),

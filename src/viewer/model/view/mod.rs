@@ -4,4 +4,3 @@ pub mod endpoint;
 pub mod framing;
 pub mod geometry;
 pub mod state;
-pub mod texel_plane;

@@ -8,8 +8,6 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::window::SessionDisplay;
 
-use super::texel_plane::TexelPlane;
-
 pub use svbrdf_files::session::window::{AutoExposure, Layout, Projection};
 
 /// Light, view and display, as one value: undo returns to an earlier one.
@@ -65,11 +63,6 @@ impl ViewState {
             Projection::Flat => Camera::flat(grid, aspect),
             Projection::Perspective => Camera::of_scene(&self.scene, grid, aspect),
         }
-    }
-
-    /// The texels of a material of this grid as the panes show them.
-    pub fn texels(&self, grid: Grid) -> TexelPlane {
-        TexelPlane::new(grid, self.display.tiled)
     }
 
     /// The default light, view and display, with the current prediction, layout and convention.

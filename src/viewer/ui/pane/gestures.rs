@@ -8,9 +8,9 @@ use svbrdf_core::model::scene::Kind;
 use svbrdf_core::picture::quantity::Quantity;
 
 use crate::model::command::{Command, DisplayCommand, InspectionCommand, SceneCommand};
+use crate::model::inspection::Region;
 use crate::model::view::endpoint::{self, Endpoint};
 use crate::model::view::state::{Layout, Projection, ViewState};
-use crate::model::view::texel_plane::Seen;
 use crate::ui::pane::handles::{self, REACH};
 use crate::ui::pane::placed::Placed;
 
@@ -133,7 +133,7 @@ impl PaneTarget<'_> {
             }
             Gesture::Pin => None,
             Gesture::Rectangle(from) => {
-                let region = self.placed.texels.region(from, self.placed.point(pos)?)?;
+                let region = Region::between(self.placed.grid, from, self.placed.point(pos)?)?;
                 Some(InspectionCommand::SetRegion(Some(region)).into())
             }
             Gesture::Pan => {
@@ -198,7 +198,7 @@ pub fn commands(
             commands.extend(target.carry_on(gesture, pos, Vec2::ZERO));
         }
         if gesture == Gesture::Pin
-            && let Some(Seen { texel, .. }) = target.placed.seen(pos)
+            && let Some(texel) = target.placed.texel(pos)
         {
             commands.push(InspectionCommand::TogglePin(texel).into());
         }

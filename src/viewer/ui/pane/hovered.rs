@@ -2,7 +2,6 @@
 
 use eframe::egui;
 
-use crate::model::view::texel_plane::Seen;
 use crate::ui::pane::handles::ndc_from_pos;
 use crate::ui::pane::placed::Placed;
 use crate::ui::pane::scenery::{PaneContent, Scenery};
@@ -14,7 +13,7 @@ pub struct Hovered {
     /// The index of the material there; the number of materials for a photograph.
     pub index: usize,
     /// The texel there; `None` beside the material.
-    pub seen: Option<Seen>,
+    pub texel: Option<[usize; 2]>,
 }
 
 impl Hovered {
@@ -31,6 +30,6 @@ impl Hovered {
             return None;
         }
         let index = index_at(scenery, content, ndc_from_pos(placed.rect, pos)[0]);
-        placed.point(pos).map(|point| Self { index, seen: placed.texels.seen(point) })
+        placed.point(pos).map(|point| Self { index, texel: placed.grid.texel_at(point) })
     }
 }

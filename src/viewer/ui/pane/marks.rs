@@ -3,7 +3,6 @@
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, pos2, vec2};
 
 use crate::model::inspection::{Inspection, Region};
-use crate::model::view::texel_plane::{CellRect, Seen};
 use crate::ui::pane::placed::Placed;
 use crate::ui::widgets::readout::in_width;
 
@@ -16,54 +15,53 @@ const BRIGHT: Color32 = Color32::from_rgb(0xf5, 0xf5, 0xf5);
 const PIN: Color32 = Color32::from_rgb(0x7d, 0xd8, 0xff);
 
 impl Placed {
-    /// Marks one texel wherever it is seen: by its outline where it is large, otherwise by a cross that leaves it free.
+    /// Marks one texel: by its outline where it is large, otherwise by a cross that leaves it free.
     pub fn paint_crosshair(&self, painter: &Painter, texel: [usize; 2]) {
-        for copy in self.texels.copies(Region { first: texel, last: texel }) {
-            if self.side(copy.centre()) >= OUTLINED {
-                self.paint_outline(painter, copy, BRIGHT);
-            } else if let Some(at) = self.pos(copy.centre()) {
-                paint_cross(painter, at);
-            }
+        if self.side(centre(texel)) >= OUTLINED {
+            self.paint_outline(painter, Region { first: texel, last: texel });
+        } else if let Some(at) = self.pos(centre(texel)) {
+            paint_cross(painter, at);
         }
     }
 
-    fn paint_outline(&self, painter: &Painter, part: CellRect, colour: Color32) {
-        let Some(outline) = self.outline(part) else { return };
+    fn paint_outline(&self, painter: &Painter, region: Region) {
+        let Some(outline) = self.outline(region) else { return };
         painter.add(Shape::closed_line(outline.clone(), Stroke::new(3.0, DARK)));
-        painter.add(Shape::closed_line(outline, Stroke::new(1.0, colour)));
+        painter.add(Shape::closed_line(outline, Stroke::new(1.0, BRIGHT)));
     }
 
-    /// The pins with their numbers, and the rectangle, wherever they are seen.
+    /// The pins with their numbers, and the rectangle.
     pub fn paint_inspected(&self, painter: &Painter, inspection: &Inspection) {
-        for copy in inspection.region.into_iter().flat_map(|region| self.texels.copies(region)) {
-            self.paint_outline(painter, copy, BRIGHT);
-        }
+        inspection.region.into_iter().for_each(|region| self.paint_outline(painter, region));
         for (index, pin) in inspection.pins.iter().enumerate() {
-            let copies = self.texels.copies(Region { first: *pin, last: *pin });
-            for at in copies.iter().filter_map(|copy| self.pos(copy.centre())) {
+            if let Some(at) = self.pos(centre(*pin)) {
                 paint_pin(painter, at, index + 1);
             }
         }
     }
 
     /// The numbers of every visible texel of a flat view, on it; nothing where the texels are too small.
-    pub fn paint_numbers(&self, painter: &Painter, numbers: impl Fn(Seen) -> Vec<f64>) {
-        let Some([first, last]) = self.visible() else { return };
-        if self.side(CellRect::of_cell(first).centre()) < READABLE {
+    pub fn paint_numbers(&self, painter: &Painter, numbers: impl Fn([usize; 2]) -> Vec<f64>) {
+        let Some(Region { first, last }) = self.visible() else { return };
+        if self.side(centre(first)) < READABLE {
             return;
         }
-        let cells =
+        let texels =
             (first[1]..=last[1]).flat_map(|row| (first[0]..=last[0]).map(move |column| [column, row]));
-        for cell in cells {
-            let Some(at) = self.pos(CellRect::of_cell(cell).centre()) else { continue };
-            let text: Vec<String> =
-                numbers(self.texels.seen_in(cell)).iter().map(|v| in_width(*v, 6, 3)).collect();
+        for texel in texels {
+            let Some(at) = self.pos(centre(texel)) else { continue };
+            let text: Vec<String> = numbers(texel).iter().map(|v| in_width(*v, 6, 3)).collect();
             let galley = painter.layout_no_wrap(text.join("\n"), FontId::monospace(11.0), BRIGHT);
             let place = Align2::CENTER_CENTER.anchor_size(at, galley.size());
             painter.rect_filled(place.expand(1.5), 2.0, Color32::from_black_alpha(150));
             painter.galley(pos2(place.left(), place.top()), galley, BRIGHT);
         }
     }
+}
+
+/// The place of the middle of a texel.
+fn centre(texel: [usize; 2]) -> [f32; 2] {
+    texel.map(|number| number as f32 + 0.5)
 }
 
 fn paint_cross(painter: &Painter, at: Pos2) {

@@ -3,9 +3,10 @@
 use eframe::egui::{Pos2, Rect};
 use glam::Vec3;
 
+use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
 
-use crate::model::view::texel_plane::{CellRect, Seen, TexelPlane};
+use crate::model::inspection::Region;
 use crate::ui::pane::handles::{ndc_from_pos, pos_from_ndc};
 
 /// A pane's picture on the screen.
@@ -13,7 +14,7 @@ use crate::ui::pane::handles::{ndc_from_pos, pos_from_ndc};
 pub struct Placed {
     pub rect: Rect,
     pub camera: Camera,
-    pub texels: TexelPlane,
+    pub grid: Grid,
 }
 
 impl Placed {
@@ -24,26 +25,26 @@ impl Placed {
     }
 
     /// The texel that is seen at `pos`.
-    pub fn seen(&self, pos: Pos2) -> Option<Seen> {
-        self.texels.seen(self.point(pos)?)
+    pub fn texel(&self, pos: Pos2) -> Option<[usize; 2]> {
+        self.grid.texel_at(self.point(pos)?)
     }
 
-    /// Where a place of the plane is, in cells.
+    /// Where a place is, in texels.
     pub fn pos(&self, place: [f32; 2]) -> Option<Pos2> {
-        let [x, y] = self.texels.point(place);
+        let [x, y] = self.grid.point(place);
         self.camera.ndc_from_point(Vec3::new(x, y, 0.0)).map(|ndc| pos_from_ndc(self.rect, ndc))
     }
 
-    /// The outline of a part of the plane.
-    pub fn outline(&self, part: CellRect) -> Option<Vec<Pos2>> {
-        let ([left, top], [right, bottom]) = (part.min, part.max);
+    /// The outline of a region.
+    pub fn outline(&self, region: Region) -> Option<Vec<Pos2>> {
+        let [[left, top], [right, bottom]] = region.edges();
         [[left, top], [right, top], [right, bottom], [left, bottom]]
             .into_iter()
             .map(|place| self.pos(place))
             .collect()
     }
 
-    /// The side of the cell at a place, in points: the shorter one where perspective distorts it.
+    /// The side of the texel at a place, in points: the shorter one where perspective distorts it.
     pub fn side(&self, place: [f32; 2]) -> f32 {
         let [column, row] = place.map(f32::floor);
         let corners = [[column, row], [column + 1.0, row], [column, row + 1.0]];
@@ -51,15 +52,15 @@ impl Placed {
         a.distance(b).min(a.distance(c))
     }
 
-    /// The side of the cell in the middle of the pane, in points.
+    /// The side of a texel in the middle of the pane, in points.
     pub fn side_in_the_middle(&self) -> f32 {
         let middle = self.camera.plane_from_ndc(0.0, 0.0).unwrap_or_default();
-        self.side(self.texels.place(middle))
+        self.side(self.grid.place(middle))
     }
 
-    /// The first and the last visible cell of a flat view.
-    pub fn visible(&self) -> Option<[[i64; 2]; 2]> {
+    /// The visible texels of a flat view.
+    pub fn visible(&self) -> Option<Region> {
         let corner = |[x, y]: [f32; 2]| self.camera.plane_from_ndc(x, y);
-        self.texels.cells(corner([-1.0, 1.0])?, corner([1.0, -1.0])?)
+        Region::between(self.grid, corner([-1.0, 1.0])?, corner([1.0, -1.0])?)
     }
 }

@@ -1,8 +1,6 @@
 //! Scenery: which panes there are, and what each displays.
 
 use svbrdf_core::loss::Loss;
-use svbrdf_core::model::scene::Kind;
-use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::DisplayMode;
 
 use crate::jobs::panes::computed_maps::ComputedMaps;
@@ -67,18 +65,6 @@ impl Scenery<'_> {
     /// The index of the chosen prediction; the ground truth's where there is no prediction.
     pub fn chosen(&self) -> usize {
         (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1))
-    }
-
-    /// Whether a repeated material is lit as the one plane that it would be, and not each copy of it as the loss lights it. Under
-    /// distant light both are the same; photographs, and maps in a wipe, are of the texels in their own places.
-    pub fn lights_plane(&self) -> bool {
-        let display = &self.state.display;
-        let wipes_map = display.layout == Layout::Wipe && display.difference && self.state.is_computed();
-        display.tiled
-            && display.quantity == Quantity::Rendering
-            && self.state.scene.kind == Kind::Near
-            && self.photograph.is_none()
-            && !wipes_map
     }
 
     /// The index of the material that is displayed in the place of material `index`.

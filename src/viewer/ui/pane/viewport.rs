@@ -6,7 +6,7 @@ use eframe::egui::{self, Align, Layout, Rect, RichText, Sense, Vec2, vec2};
 
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams, Tiling};
+use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 
 use super::cells::{TITLE, cells, columns, picture_rect};
 use super::gestures::{self, Gesture, PaneTarget};
@@ -22,10 +22,9 @@ use crate::model::command::Command;
 use crate::model::material::loaded::drawable;
 use crate::model::view::framing;
 use crate::model::view::state::{Projection, ViewState};
-use crate::model::view::texel_plane::{Seen, TexelPlane};
 use crate::ui::shading::draft_policy::{DraftPolicy, PAUSE, PaneView};
 use crate::ui::shading::gpu_view::GpuView;
-use crate::ui::shading::shaded::{ShadedPart, ShadingRequest, shaded_size};
+use crate::ui::shading::shaded::{ShadedPart, ShadingRequest};
 use crate::ui::shading::visible::shaded_part;
 use crate::ui::widgets::hint::{note, paint_hint};
 use crate::ui::widgets::readout::{self, Readout};
@@ -48,8 +47,6 @@ pub struct Viewport {
     drawn: Vec<DrawnPane>,
     /// What is under the pointer.
     pub hovered: Option<Hovered>,
-    /// The plane, where a repeated material is lit as one.
-    pub plane: Option<TexelPlane>,
     /// The texel that was under the pointer last.
     pub last_texel: Option<[usize; 2]>,
     policy: DraftPolicy,
@@ -69,7 +66,6 @@ impl Default for Viewport {
             gesture: None,
             drawn: Vec::new(),
             hovered: None,
-            plane: None,
             last_texel: None,
             policy: DraftPolicy::default(),
             is_draft: false,
@@ -134,7 +130,6 @@ impl Viewport {
         }
         let contents = scenery.contents();
         let grid = scenery.materials[0].grid();
-        self.plane = scenery.lights_plane().then(|| scenery.state.texels(grid));
         // The strip comes and goes with the difference: the arrangement is that beside it.
         let beside_strip = if has_strip { area } else { area.with_max_y(area.bottom() - STRIP) };
         let columns = columns(beside_strip, contents.len(), grid);
@@ -156,9 +151,7 @@ impl Viewport {
             let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());
             Hovered::in_pane(ui, scenery, *content, &placed)
         });
-        if let Some(seen) = self.hovered.and_then(|hovered| hovered.seen) {
-            self.last_texel = Some(seen.texel);
-        }
+        self.last_texel = self.hovered.and_then(|hovered| hovered.texel).or(self.last_texel);
         let mut commands = Vec::new();
         for (i, (content, cell)) in panes.into_iter().enumerate() {
             let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
@@ -211,7 +204,6 @@ impl Viewport {
             encoding: state.display.quantity.into(),
             show_clipping: state.display.show_clipping,
             epsilon: state.convention().epsilon as f32,
-            tiling: tiling(scenery, content),
             false_colour: state.display.false_colour,
             nearest: self.is_draft,
             background: [background[0], background[1], background[2]],
@@ -262,7 +254,6 @@ impl Viewport {
             scene: state.scene,
             convention: state.convention(),
             quantity: state.display.quantity,
-            repeated: scenery.lights_plane(),
         };
         // Where the last frame did not ask for this one, the time between them is not that of a frame.
         let (now, seconds) = ui.input(|i| (i.time, i.stable_dt));
@@ -273,13 +264,12 @@ impl Viewport {
             ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
         }
         let grid = scenery.materials[0].grid();
-        let [columns, rows] = shaded_size([grid.width, grid.height], params.repeated);
-        let is_large = columns * rows > BAND && (software || self.policy.is_slow());
+        let is_large = grid.width * grid.height > BAND && (software || self.policy.is_slow());
         // What is compared with a computed map or a photograph, and what is saved, is never shaded in part.
         let is_exact = self.is_exact || state.is_computed() || scenery.photograph.is_some();
         self.is_draft = moves && !is_exact;
         let part = if self.is_draft || is_large && !is_exact {
-            shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state), params.repeated)
+            shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state))
         } else {
             ShadedPart::Whole
         };
@@ -311,18 +301,17 @@ impl Viewport {
                 state,
                 computed_maps: scenery.computed_maps,
                 photographs,
-                plane: self.plane,
             };
-            placed.paint_numbers(painter, |seen| match (content.photograph, photographs) {
+            placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
                 (PhotographUse::Displayed, Some(photographs)) => {
-                    readout::photograph(photographs, index, seen.texel)
+                    readout::photograph(photographs, index, texel)
                 }
-                _ => readout::numbers(readout, index, difference, seen),
+                _ => readout::numbers(readout, index, difference, texel),
             });
         }
         placed.paint_inspected(painter, scenery.inspection);
-        let seen = self.hovered.and_then(|hovered| hovered.seen);
-        if let Some(Seen { texel, .. }) = seen.filter(|_| self.gesture.is_none()) {
+        let texel = self.hovered.and_then(|hovered| hovered.texel);
+        if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
             placed.paint_crosshair(painter, texel);
         }
     }
@@ -339,19 +328,9 @@ impl Viewport {
     }
 }
 
-/// How often a pane shows its material. What is computed elsewhere is of texels in their own places.
-fn tiling(scenery: &Scenery<'_>, content: PaneContent) -> Tiling {
-    let is_computed = content.difference && scenery.state.is_computed();
-    match scenery.state.display.tiled {
-        false => Tiling::Once,
-        true if scenery.lights_plane() && !is_computed => Tiling::Plane,
-        true => Tiling::Copies,
-    }
-}
-
 /// A picture in `rect`, of panes of `pixels` = [width, height].
 fn placed(state: &ViewState, grid: Grid, rect: Rect, pixels: [f32; 2]) -> Placed {
-    Placed { rect, camera: state.camera(grid, pixels), texels: state.texels(grid) }
+    Placed { rect, camera: state.camera(grid, pixels), grid }
 }
 
 /// The badge of a pane whose adapter has no room for all texels, of which it takes at most `limit` along a side.

@@ -7,7 +7,6 @@ use crate::jobs::photograph::Photographs;
 use crate::model::command::{Command, DisplayCommand, InspectionCommand};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::ViewState;
-use crate::model::view::texel_plane::{Seen, TexelPlane};
 use crate::ui::widgets::number;
 use crate::ui::widgets::readout::{self, Readout};
 use crate::ui::widgets::theme;
@@ -29,9 +28,7 @@ pub struct StatusBar<'a> {
     /// Where renderings are compared with a photograph, the photograph beside every slot.
     pub photographs: Option<&'a Photographs>,
     /// The texel under the pointer.
-    pub seen: Option<Seen>,
-    /// The plane, where a repeated material is lit as one.
-    pub plane: Option<TexelPlane>,
+    pub texel: Option<[usize; 2]>,
     /// The slot of the pane under the pointer.
     pub hovered: Option<usize>,
     /// Screen pixels per texel.
@@ -73,8 +70,8 @@ impl StatusBar<'_> {
     fn columns(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
         let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 11.0 };
         let font = egui::FontId::monospace(size);
-        let place = match self.seen {
-            Some(Seen { texel: [column, row], .. }) => format!("{column},{row}"),
+        let place = match self.texel {
+            Some([column, row]) => format!("{column},{row}"),
             None => "-".to_owned(),
         };
         let mono = |text: String| RichText::new(text).font(font.clone());
@@ -119,8 +116,8 @@ impl StatusBar<'_> {
     /// The column of the photograph, at the exposure of the chosen material.
     fn photograph(&self, ui: &mut egui::Ui, photographs: &Photographs, mono: impl Fn(String) -> RichText) {
         let chosen = (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1));
-        let numbers: Vec<String> = match self.seen {
-            Some(Seen { texel, .. }) => {
+        let numbers: Vec<String> = match self.texel {
+            Some(texel) => {
                 readout::photograph(photographs, chosen, texel).into_iter().map(readout::fixed).collect()
             }
             None => vec![format!("{:>1$}", "-", readout::WIDTH); 3],
@@ -148,10 +145,10 @@ impl StatusBar<'_> {
     /// The numbers of material `index` at the texel, always of the same width.
     fn numbers(&self, index: usize) -> String {
         let unit = readout::unit(self.state, index);
-        let Self { materials, state, computed_maps, photographs, plane, .. } = *self;
-        let readout = Readout { materials, state, computed_maps, photographs, plane };
-        let numbers: Vec<String> = match self.seen {
-            Some(seen) => readout::numbers(readout, index, self.state.display.difference, seen)
+        let Self { materials, state, computed_maps, photographs, .. } = *self;
+        let readout = Readout { materials, state, computed_maps, photographs };
+        let numbers: Vec<String> = match self.texel {
+            Some(texel) => readout::numbers(readout, index, self.state.display.difference, texel)
                 .into_iter()
                 .map(readout::fixed)
                 .collect(),

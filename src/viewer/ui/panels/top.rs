@@ -58,7 +58,14 @@ impl<'a> TopBar<'a> {
             let hover = "Save view, renderings, strip or session (Ctrl+S)";
             item(ui, icons::ICON_SAVE.codepoint, "Save", hover, None, WindowCommand::ShowSave(true).into());
             let hover = "Copy the view as a picture (Ctrl+Shift+C)";
-            item(ui, icons::ICON_CONTENT_COPY.codepoint, "Copy", hover, None, WindowCommand::CopyPicture.into());
+            item(
+                ui,
+                icons::ICON_CONTENT_COPY.codepoint,
+                "Copy",
+                hover,
+                None,
+                WindowCommand::CopyPicture.into(),
+            );
             ui.separator();
             self.layouts(ui, &mut commands);
             ui.separator();
@@ -74,13 +81,6 @@ impl<'a> TopBar<'a> {
                     "The plane seen from the view position, or the flat texture (P)",
                     Some(display.projection == Projection::Perspective),
                     DisplayCommand::ToggleProjection,
-                ),
-                (
-                    icons::ICON_GRID_VIEW.codepoint,
-                    "Tile",
-                    "Repeat the material 2 × 2 times, shifted by half of itself: shows its seams; for display only (T)",
-                    Some(display.tiled),
-                    DisplayCommand::ToggleTiled,
                 ),
                 (
                     icons::ICON_PALETTE.codepoint,

@@ -62,8 +62,7 @@ mod tests {
     fn view(x: f64) -> PaneView {
         let mut scene = ViewState::default().scene;
         scene.light[0] = x;
-        let params =
-            ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering, repeated: false };
+        let params = ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering };
         PaneView { params, framing: None }
     }
 

@@ -1,6 +1,5 @@
 //! Shaded texels of one material, and how much of them is shaded in a frame.
 
-use svbrdf_core::material::Grid;
 use svbrdf_files::Error;
 use svbrdf_files::disk::memory::Reserved;
 use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
@@ -97,20 +96,20 @@ impl ShadedMaterial {
         size: [usize; 2],
         ShadingRequest { params, part, sharpens, .. }: ShadingRequest,
     ) -> Result<(), Error> {
-        let (is_whole, repeated) = (self.is_whole(params), params.repeated);
+        let is_whole = self.is_whole(params);
         self.shows_quick = matches!(part, ShadedPart::EveryNth(_));
         match part {
             ShadedPart::EveryNth(stride) => {
-                with_stride(&mut self.quick, device, size, stride, repeated)?.draw(device, params, None);
+                with_stride(&mut self.quick, device, size, stride)?.draw(device, params, None);
             }
             ShadedPart::Visible(region) if !is_whole => {
-                let full = with_stride(&mut self.full, device, size, 1, repeated)?;
+                let full = with_stride(&mut self.full, device, size, 1)?;
                 if !full.has(params, region) {
                     full.draw(device, params, Some(region));
                 }
             }
             ShadedPart::Whole if !is_whole => {
-                with_stride(&mut self.full, device, size, 1, repeated)?.draw(device, params, None);
+                with_stride(&mut self.full, device, size, 1)?.draw(device, params, None);
                 return Ok(());
             }
             _ => {}
@@ -125,9 +124,9 @@ impl ShadedMaterial {
         size: [usize; 2],
         params: ShadeParams,
     ) -> Result<(), Error> {
-        let [width, height] = shaded_size(size, params.repeated);
+        let [width, height] = size;
         let top = self.sharpened.filter(|(of, _)| *of == params).map_or(0, |(_, rows)| rows);
-        let full = with_stride(&mut self.full, device, size, 1, params.repeated)?;
+        let full = with_stride(&mut self.full, device, size, 1)?;
         if self.shows_quick {
             // Its texels are a mixture from now on.
             full.drawn = None;
@@ -172,33 +171,21 @@ fn next(versions: &mut u64) -> u64 {
     *versions
 }
 
-/// How many (columns, rows) are shaded of a material of this size: of its texels, or of the cells of the repeated plane.
-pub fn shaded_size([width, height]: [usize; 2], repeated: bool) -> [usize; 2] {
-    if repeated { Grid { width, height }.repeated_cells() } else { [width, height] }
-}
-
 /// The texels in `place`, which are made where there are none of this stride.
 fn with_stride<'a>(
     place: &'a mut Option<ShadedTexels>,
     device: &ShadingDevice<'_>,
     size: [usize; 2],
     stride: usize,
-    repeated: bool,
 ) -> Result<&'a mut ShadedTexels, Error> {
-    let fits = |shaded: &Shaded| shaded.stride() == stride && shaded.is_repeated() == repeated;
-    let last = place.take().filter(|texels| fits(&texels.shaded));
+    let last = place.take().filter(|texels| texels.shaded.stride() == stride);
     let texels = match last {
         Some(texels) => texels,
         None => {
             let ShadingDevice { gpu, shading, textures, .. } = device;
-            let count = shaded_size(size, repeated);
-            let texels = count.map(|side| side.div_ceil(stride)).into_iter().product();
+            let texels = size.map(|side| side.div_ceil(stride)).into_iter().product();
             let _reserved = reserve_for(gpu, texels, TARGET_BYTES)?;
-            let shaded = if repeated {
-                shading.repeated_target(gpu, size, stride)?
-            } else {
-                shading.reduced_target(gpu, size, stride)?
-            };
+            let shaded = shading.reduced_target(gpu, size, stride)?;
             let reduce = || shading.reduced_textures(gpu, textures, size, stride);
             let reduced = (stride > 1 && !device.are_reduced).then(reduce).transpose()?;
             ShadedTexels { shaded, _reserved, reduced, drawn: None, version: 0 }
@@ -257,7 +244,7 @@ mod tests {
     fn params(x: f64) -> ShadeParams {
         let mut scene = ViewState::default().scene;
         scene.light[0] = x;
-        ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering, repeated: false }
+        ShadeParams { scene, convention: PRINTED, quantity: Quantity::Rendering }
     }
 
     #[needs(adapter)]

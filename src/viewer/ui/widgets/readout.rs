@@ -7,7 +7,6 @@ use crate::jobs::panes::computed_maps::ComputedMaps;
 use crate::jobs::photograph::Photographs;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::ViewState;
-use crate::model::view::texel_plane::{Seen, TexelPlane};
 
 /// Characters of a number.
 pub const WIDTH: usize = 8;
@@ -44,22 +43,19 @@ pub struct Readout<'a> {
     pub computed_maps: Option<&'a ComputedMaps>,
     /// Where renderings are compared with a photograph, the photograph beside every material.
     pub photographs: Option<&'a Photographs>,
-    /// The plane, where a repeated material is lit as one.
-    pub plane: Option<TexelPlane>,
 }
 
 /// The numbers of a pane at a texel: its value, or its difference from the ground truth or the photograph where the panes
 /// show that.
-pub fn numbers(read: Readout<'_>, index: usize, difference: bool, seen: Seen) -> Vec<f64> {
-    let Readout { materials, state, computed_maps, photographs, plane } = read;
-    let texel = seen.texel;
+pub fn numbers(read: Readout<'_>, index: usize, difference: bool, texel: [usize; 2]) -> Vec<f64> {
+    let Readout { materials, state, computed_maps, photographs } = read;
     if difference && index > 0 && state.is_computed() {
         return vec![computed_maps.map_or(f64::NAN, |maps| maps.at(index, texel))];
     }
     let convention = state.convention();
-    let scene = plane.map_or(state.scene, |plane| plane.scene_of_cell(&state.scene, seen.cell));
-    let value =
-        |index: usize| state.display.quantity.at(materials[index].material(), &scene, &convention, texel);
+    let value = |index: usize| {
+        state.display.quantity.at(materials[index].material(), &state.scene, &convention, texel)
+    };
     if let (true, Some(photographs)) = (difference, photographs) {
         let kind = state.difference_kind();
         return vec![kind.of_texel(photographs.at(index, texel), value(index), convention.epsilon)];
