@@ -110,11 +110,10 @@ pub fn write(
     files: Vec<PathBuf>,
     depth: Option<&str>,
     preset: Option<&str>,
-    preview: bool,
 ) -> PyResult<Option<&'static str>> {
     let depth = depth.map(str::parse).transpose().map_err(exception)?;
     let like = preset.map(str::parse).transpose().map_err(exception)?;
-    let kind = writing::FileKind::new(&path, &WriteOptions { depth, like, preview }).map_err(exception)?;
+    let kind = writing::FileKind::new(&path, &WriteOptions { depth, like }).map_err(exception)?;
     check_output_of(&path, &files).map_err(exception)?;
     let material = material.single();
     work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))

@@ -42,10 +42,6 @@ pub struct ConvertArgs {
     #[arg(value_parser = offered(str::parse::<Preset>, Preset::ALL), hide_possible_values = true)]
     like: Option<Preset>,
 
-    /// Adds a rendering to an EXR as its R, G and B, for programs that do not read layers
-    #[arg(long)]
-    preview: bool,
-
     /// Takes a map from another file, or from a channel or layer of it; may be given several times
     ///
     /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer; a
@@ -67,8 +63,8 @@ struct ConvertJob {
 
 impl ConvertArgs {
     pub fn job(self) -> NewJob {
-        let Self { material, output, depth, like, preview, bindings, reading } = self;
-        let kind = FileKind::new(&output, &WriteOptions { depth, like, preview })?;
+        let Self { material, output, depth, like, bindings, reading } = self;
+        let kind = FileKind::new(&output, &WriteOptions { depth, like })?;
         let material = OneMaterial::new(material, bindings, &reading)?;
         Ok(Box::new(ConvertJob { material, output, kind }))
     }

@@ -194,8 +194,6 @@ pub enum OutputProblem {
     Kind,
     #[error("cannot have that depth; EXR has half and float, every other form 8 and 16")]
     Depth,
-    #[error("cannot have a preview; only EXR has one")]
-    Preview,
     /// EXR and glTF state what they hold.
     #[error("cannot follow a preset; only a packed PNG and a folder do")]
     NoPreset,

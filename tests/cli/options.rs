@@ -12,7 +12,7 @@ const USED: [(&str, &str); 6] = [
     ("scenes gt.png a.png", "--sampler random"),
     ("worst gt.png a.png", "--distance-tail 0.001%"),
     ("map gt.png a.png -o x.csv --over lights --side 8", "--fixed 0.1,0.2,1"),
-    ("convert gt.png x.exr", "--preview"),
+    ("convert gt.png x.exr", "--depth float"),
 ];
 
 /// What a run prints, and the file that it writes.

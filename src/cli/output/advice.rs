@@ -33,7 +33,6 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
         }
         Error::UnsupportedOutput { problem: OutputProblem::NoPreset, .. } => "leave out --like",
         Error::UnsupportedOutput { problem: OutputProblem::Depth, .. } => "leave out --depth",
-        Error::UnsupportedOutput { problem: OutputProblem::Preview, .. } => "leave out --preview",
         Error::UnsupportedOutput { problem: OutputProblem::FolderPreset, .. } => {
             "--like materialgan, or no --like, writes a folder"
         }

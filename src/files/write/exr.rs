@@ -11,10 +11,6 @@ use exr::meta::header::Header;
 use exr::prelude::{Encoding, Image, Layer, LayerAttributes, Text, Vec2, WritableImage, f16};
 
 use svbrdf_core::material::{Material, Planes, half_normal};
-use svbrdf_core::model::convention::PRINTED;
-use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::progress::Progress;
-use svbrdf_core::render::render_f32;
 
 use crate::disk::atomic::SOFTWARE;
 use crate::read::decode::exr::NATIVE;
@@ -22,16 +18,8 @@ use crate::read::decode::exr::NATIVE;
 /// The meaning of the values of such an EXR.
 const MEANING: &str = "svbrdf:workflow=specular, linear Rec. 709\nsvbrdf:normal=signed, +y\n\
     svbrdf:roughness=r, alpha = r^2\n";
-/// The scene of previews: that in which the window starts.
-const PREVIEW: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.4, 0.5, 1.2] };
 
-pub(crate) fn write(
-    file: impl Write + Seek,
-    material: &Material<f32>,
-    half: bool,
-    preview: bool,
-) -> io::Result<()> {
-    let rendering = if preview { Some(rendering(material)?) } else { None };
+pub(crate) fn write(file: impl Write + Seek, material: &Material<f32>, half: bool) -> io::Result<()> {
     let attributes = LayerAttributes {
         software_name: Text::new_or_none(SOFTWARE),
         comments: Text::new_or_none(format!("{NATIVE}{MEANING}")),
@@ -41,24 +29,15 @@ pub(crate) fn write(
         (material.width(), material.height()),
         attributes,
         Encoding::SMALL_LOSSLESS,
-        MaterialChannels { material, half, rendering },
+        MaterialChannels { material, half },
     );
     Image::from_layer(layer).write().to_buffered(file).map_err(io::Error::other)
-}
-
-/// Red, green and blue of the material in the scene of previews, no more than a half can hold.
-fn rendering(material: &Material<f32>) -> io::Result<[Vec<f32>; 3]> {
-    let image = render_f32(material, &PREVIEW, &PRINTED, &Progress::default()).map_err(io::Error::other)?;
-    let most = f16::MAX.to_f32();
-    Ok([0, 1, 2].map(|c| image.pixels.iter().map(|rgb| rgb[c].min(most)).collect()))
 }
 
 /// The channels of a material. They become halves block by block: planes of them would take half of its memory again.
 struct MaterialChannels<'a> {
     material: &'a Material<f32>,
     half: bool,
-    /// The planes of a preview.
-    rendering: Option<[Vec<f32>; 3]>,
 }
 
 /// The channels of these names.
@@ -81,14 +60,12 @@ impl MaterialChannels<'_> {
     /// All channels in the order of their names, as they are in a file.
     fn channels(&self) -> Vec<ExrChannel<'_>> {
         let Planes { normal, diffuse, specular, roughness } = self.material.planes();
-        let preview = self.rendering.iter().flat_map(|planes| named_channels(["R", "G", "B"], planes));
         let diffuse = named_channels(["diffuse.R", "diffuse.G", "diffuse.B"], diffuse);
         let specular = named_channels(["specular.R", "specular.G", "specular.B"], specular);
         let normal = named_channels(["normal.X", "normal.Y", "normal.Z"], normal);
         let normal = normal.enumerate().map(|(c, channel)| ExrChannel { normal: Some(c), ..channel });
         let roughness = ExrChannel { name: "roughness.Y", plane: roughness, normal: None };
-        let mut all: Vec<_> =
-            preview.chain(diffuse).chain(specular).chain(normal).chain([roughness]).collect();
+        let mut all: Vec<_> = diffuse.chain(specular).chain(normal).chain([roughness]).collect();
         all.sort_by_key(|channel| channel.name);
         all
     }

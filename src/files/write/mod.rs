@@ -24,15 +24,13 @@ pub struct WriteOptions {
     pub depth: Option<Depth>,
     /// Whose names, order and encoding the files get.
     pub like: Option<Preset>,
-    /// Whether an EXR gets a rendering as its R, G and B, for programs that know no layers.
-    pub preview: bool,
 }
 
 /// The kind of file that is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// One layered EXR: signed normals, y up, everything linear.
-    Exr { half: bool, preview: bool },
+    Exr { half: bool },
     /// Four tiles in a row, in the order and encoding of a research code that packs maps.
     Packed { sixteen: bool, like: Preset },
     /// Four PNG files, colours in sRGB.
@@ -47,9 +45,9 @@ impl FileKind {
     /// The kind that the extension of `path` and the `options` specify. A folder exists, ends with `/` or has no extension.
     ///
     /// # Errors
-    /// [`Error::UnsupportedOutput`] for a kind of file that is not written, and for a depth, a preset or a preview that it has not.
+    /// [`Error::UnsupportedOutput`] for a kind of file that is not written, and for a depth or a preset that it has not.
     pub fn new(path: &Path, options: &WriteOptions) -> Result<Self, Error> {
-        let WriteOptions { depth, like, preview } = *options;
+        let WriteOptions { depth, like } = *options;
         let refuse = |problem| Err(Error::UnsupportedOutput { path: path.to_owned(), problem });
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         let extension = if is_folder(path) { "" } else { &extension };
@@ -63,12 +61,9 @@ impl FileKind {
         if depth.is_some_and(|depth| !depths.contains(&depth)) {
             return refuse(OutputProblem::Depth);
         }
-        if preview && extension != "exr" {
-            return refuse(OutputProblem::Preview);
-        }
         let sixteen = depth == Some(Depth::Sixteen);
         match (extension, like) {
-            ("exr", None) => Ok(Self::Exr { half: depth != Some(Depth::Float), preview }),
+            ("exr", None) => Ok(Self::Exr { half: depth != Some(Depth::Float) }),
             ("glb", None) => Ok(Self::Glb { sixteen }),
             ("exr" | "glb", Some(_)) => refuse(OutputProblem::NoPreset),
             ("png", like) => {
@@ -115,8 +110,8 @@ pub fn write_watched(
         written.map_err(|source| Error::unwritten(path, source, remedy, progress))
     };
     match kind {
-        FileKind::Exr { half, preview } => {
-            atomic::replace(path, progress, |file| exr::write(file, material, half, preview))?;
+        FileKind::Exr { half } => {
+            atomic::replace(path, progress, |file| exr::write(file, material, half))?;
         }
         FileKind::Packed { sixteen, like } => {
             atomic::replace(path, progress, |file| png::packed(file, material, like, sixteen, progress))?;
