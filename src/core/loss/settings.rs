@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::question::{Question, counts};
 use super::request::{Request, Sampling, Texels};
@@ -71,28 +71,15 @@ pub struct LossSettings {
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct SavedSettings {
-    #[serde(deserialize_with = "given")]
     ask: Option<Ask>,
-    #[serde(deserialize_with = "given")]
     near: Option<usize>,
-    #[serde(deserialize_with = "given")]
     distant: Option<usize>,
-    #[serde(deserialize_with = "given")]
     sampler: Option<Sampler>,
-    #[serde(deserialize_with = "given")]
     texels: Option<Texels>,
-    #[serde(deserialize_with = "given")]
     seed: Option<u64>,
-    #[serde(deserialize_with = "given")]
     target_percent: Option<f64>,
-    #[serde(deserialize_with = "given")]
     time_ms: Option<u64>,
     file: Option<FileScenes>,
-}
-
-/// A field that is there: not every format writes a value and `Some` of it alike.
-fn given<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
-    T::deserialize(deserializer).map(Some)
 }
 
 impl From<SavedSettings> for LossSettings {
