@@ -12,7 +12,6 @@ use svbrdf_needs::needs;
 use crate::support::gpu::{bumpy, gpu_f32, shaded};
 
 #[needs(f32_adapter)]
-#[test]
 fn a_member_of_the_grammar_is_drawn_as_the_nearest_of_the_two_models() {
     let scene = Scene { kind: Kind::Near, view: [-0.5, 0.25, 1.5], light: [0.9, 0.8, 0.3] };
     let of = |convention: &Convention| {

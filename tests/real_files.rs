@@ -90,7 +90,6 @@ fn problems(case: &Value, result: Result<Read<f32>, Error>) -> Vec<String> {
 const NOT_READ: [&str; 3] = ["bedrock", "asobo", "urho"];
 
 #[needs(shared)]
-#[test]
 fn real_files_are_read_as_their_formats_specify() {
     let cases: Value = serde_json::from_slice(&fs::read(shared("real/expected.json")).unwrap()).unwrap();
     let cases = cases.as_object().unwrap().iter();
@@ -150,7 +149,6 @@ fn difference(a: &Material<f32>, b: &Material<f32>) -> f64 {
 }
 
 #[needs(shared)]
-#[test]
 fn what_is_detected_in_all_of_the_data_and_every_layout_of_a_material_is_the_same() {
     let mut reference = None;
     for row in DATA.lines() {
@@ -170,7 +168,6 @@ fn what_is_detected_in_all_of_the_data_and_every_layout_of_a_material_is_the_sam
 }
 
 #[needs(shared)]
-#[test]
 fn every_single_file_opens_or_is_refused_by_its_name() {
     let (mut opened, mut refused, mut folders) = (0, 0, vec![shared("data")]);
     while let Some(folder) = folders.pop() {
@@ -233,7 +230,6 @@ fn inferred(pictures: &[(&str, PathBuf)], what: What) -> (String, bool) {
 }
 
 #[needs(shared)]
-#[test]
 fn what_pixels_tell_is_right_or_doubted() {
     for row in COLOURS.lines() {
         let [folder, colour, specular, how] = row.split(' ').collect::<Vec<_>>().try_into().unwrap();

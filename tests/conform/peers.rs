@@ -60,7 +60,6 @@ fn points() -> Vec<Point> {
 const OF_THE_PROBES: [&str; 6] = ["intensity", "factor", "normal_y", "ambient", "clip", "clip_terms"];
 
 #[needs(shared)]
-#[test]
 fn every_peer_is_found_and_no_other_renderer_has_a_name() {
     let points = points();
     for (name, array, convention) in ALL {

@@ -168,7 +168,6 @@ fn loss(description: &Description) -> Option<f64> {
 }
 
 #[needs(shared)]
-#[test]
 fn every_peer_is_met_by_the_grammar() {
     for (name, peer) in ALL {
         let (description, peer) = (convention(name), file(peer));
@@ -182,7 +181,6 @@ fn every_peer_is_met_by_the_grammar() {
 }
 
 #[needs(shared)]
-#[test]
 fn losses_are_the_authors() {
     for (name, peer) in ALL {
         let description = convention(name);
@@ -196,7 +194,6 @@ fn losses_are_the_authors() {
 }
 
 #[needs(shared)]
-#[test]
 fn a_planted_fault_is_seen_in_every_peer() {
     for (name, peer) in ALL {
         let (mut description, peer) = (convention(name), file(peer));

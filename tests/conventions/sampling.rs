@@ -73,7 +73,6 @@ fn off(name: &str, peer: &str, change: impl Fn(&mut Convention)) -> f64 {
 }
 
 #[needs(shared)]
-#[test]
 fn means_over_sampled_scenes_are_those_of_the_authors_own_samplers() {
     for (name, peer) in SAMPLERS {
         assert!(off(name, peer, |_| ()) < 4.0, "{name}");
@@ -81,7 +80,6 @@ fn means_over_sampled_scenes_are_those_of_the_authors_own_samplers() {
 }
 
 #[needs(shared)]
-#[test]
 fn another_sampler_is_seen() {
     for (name, peer) in SAMPLERS {
         let flatter = |convention: &mut Convention| convention.u1_max = 0.5;

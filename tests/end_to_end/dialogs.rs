@@ -39,7 +39,6 @@ fn wait_for_tiles(desktop: &Desktop) {
 }
 
 #[needs(f32_adapter, desktop)]
-#[test]
 fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
     let desktop = Desktop::start();
     let (program, before) = browsed(&desktop);
@@ -52,7 +51,6 @@ fn without_a_file_dialog_browse_says_so_and_the_cursor_is_in_the_path_field() {
 }
 
 #[needs(f32_adapter, desktop)]
-#[test]
 fn with_zenity_browse_takes_the_path_that_it_prints() {
     let desktop = Desktop::start();
     let zenity = desktop.bin().join("zenity");
@@ -71,7 +69,6 @@ fn with_zenity_browse_takes_the_path_that_it_prints() {
 }
 
 #[needs(f32_adapter, desktop)]
-#[test]
 fn a_signal_while_a_picture_is_saved_leaves_no_temporary_file() {
     const SIDE: u32 = 1024;
     let desktop = Desktop::start();

@@ -31,7 +31,6 @@ fn pixels(desktop: &Desktop, name: &str) -> RgbImage {
 }
 
 #[needs(f32_adapter, desktop)]
-#[test]
 fn a_session_gives_the_pixels_and_the_numbers_of_its_window() {
     let desktop = Desktop::start();
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/samples");

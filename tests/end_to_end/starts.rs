@@ -5,7 +5,6 @@ use svbrdf_needs::needs;
 use super::*;
 
 #[needs(f32_adapter, desktop)]
-#[test]
 fn a_window_opens_with_damaged_settings() {
     for text in [
         r#"{"settings": {"ui_scale": 1e30, "window": [0.0, 1e30]}}"#,

@@ -16,7 +16,6 @@ use svbrdf_needs::{has, needs};
 use crate::support::gpu::{STALE_BUILD, bumpy, find_gpu, from_above, gpu, picture};
 
 #[needs(adapter)]
-#[test]
 fn the_report_is_one_line_that_says_what_is_used_and_why() {
     let gpu = gpu();
     let line = gpu.report.to_string();
@@ -74,7 +73,6 @@ fn a_missing_adapter_fails_the_tests_that_need_one_and_ci() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_material_beyond_the_limits_is_refused_with_both_sizes() {
     let gpu = gpu();
     let mut small = gpu.clone();
@@ -90,7 +88,6 @@ fn a_material_beyond_the_limits_is_refused_with_both_sizes() {
 }
 
 #[needs(adapter)]
-#[test]
 fn an_adapter_with_16_bit_targets_shows_pictures_and_sends_renderings_to_the_cpu() {
     let gpu = gpu();
     let mut half = gpu.clone();
@@ -117,7 +114,6 @@ fn mirror() -> Material<f32> {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_failure_that_no_function_can_return_waits_to_be_taken() {
     // A device of its own: other tests take faults too.
     let gpu = Gpu::headless().expect("an adapter");

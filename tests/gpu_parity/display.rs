@@ -62,7 +62,6 @@ fn gray(value: f32) -> Material<f32> {
 }
 
 #[needs(adapter)]
-#[test]
 fn known_values_are_encoded_as_the_standard_says() {
     let gpu = gpu();
     let known = [(0.0, 0, 0), (0.002, 7, 1), (0.2, 124, 51), (0.5, 188, 128), (1.0, 255, 255)];
@@ -76,7 +75,6 @@ fn known_values_are_encoded_as_the_standard_says() {
 }
 
 #[needs(f32_adapter)]
-#[test]
 fn radiance_is_exposed_before_it_is_encoded() {
     let gpu = gpu_f32();
     let material = gray(0.3);
@@ -91,7 +89,6 @@ fn radiance_is_exposed_before_it_is_encoded() {
 }
 
 #[needs(adapter)]
-#[test]
 fn every_texel_is_crisp_and_in_its_place_when_magnified() {
     let gpu = gpu();
     for size in [[5, 3], [4, 4], [1, 1], [1, 3], [3, 1], [16, 9]] {
@@ -110,7 +107,6 @@ fn every_texel_is_crisp_and_in_its_place_when_magnified() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_comparison_of_pictures_goes_red_on_planted_faults() {
     let gpu = gpu();
     let material = bumpy(6, 6);
@@ -128,7 +124,6 @@ fn the_comparison_of_pictures_goes_red_on_planted_faults() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_perspective_view_shows_what_the_camera_says() {
     let gpu = gpu();
     let camera = Camera {
@@ -184,7 +179,6 @@ fn box_average(material: &Material<f32>, pane: [usize; 2], column: usize, row: u
 }
 
 #[needs(adapter)]
-#[test]
 fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
     let gpu = gpu();
     for (size, pane) in
@@ -200,7 +194,6 @@ fn what_a_pixel_covers_is_averaged_before_it_is_encoded_when_minified() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_very_large_map_is_averaged_with_a_stride() {
     let gpu = gpu();
     let material = bumpy(400, 400);
@@ -215,7 +208,6 @@ fn a_very_large_map_is_averaged_with_a_stride() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_wipe_shows_the_reference_on_the_left() {
     let gpu = gpu();
     let white = shaded(gpu, &gray(1.0), Quantity::Diffuse);
@@ -229,7 +221,6 @@ fn a_wipe_shows_the_reference_on_the_left() {
 }
 
 #[needs(adapter)]
-#[test]
 fn clipped_pixels_are_striped_on_demand() {
     let gpu = gpu();
     let striped = |value: f32, exposure_ev: f32, show_clipping: bool| {
@@ -244,7 +235,6 @@ fn clipped_pixels_are_striped_on_demand() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_draft_shows_the_nearest_texel_where_a_pixel_covers_several() {
     let gpu = gpu();
     let size = [15, 9];

@@ -12,7 +12,6 @@ use crate::support::gpu::{bumpy, gpu, gpu_f32, of_8_bits};
 /// A draft shades the texels in the middle of squares, each as it is shaded in full: from the whole material, from its reduced
 /// textures, which are all that is read while a light moves, and from those that are sent before the rest.
 #[needs(adapter)]
-#[test]
 fn a_draft_shades_every_nth_texel_as_it_is_shaded_in_full() {
     // As floats, and as codes.
     [(bumpy(23, 14), 48), (of_8_bits(&bumpy(23, 14)), 16)]
@@ -22,7 +21,6 @@ fn a_draft_shades_every_nth_texel_as_it_is_shaded_in_full() {
 
 /// Maps of few values are sent as codes, and are the numbers of the core, bit for bit, in whole and reduced textures.
 #[needs(adapter)]
-#[test]
 fn coded_maps_are_the_numbers_of_the_core_bit_for_bit() {
     let gpu = gpu_f32();
     let material = of_8_bits(&bumpy(70, 61));

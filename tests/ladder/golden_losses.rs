@@ -104,7 +104,6 @@ fn worst<T: Compute>(rung: &dyn Backend<T>) -> (f64, usize) {
 }
 
 #[needs(shared)]
-#[test]
 fn losses_and_renderings_are_the_golden_ones_in_both_precisions() {
     let (in_f64, in_f32) = (worst::<f64>(&Plain), worst::<f32>(&Plain));
     println!("worst errors {:e} in f64, {:e} in f32", in_f64.0, in_f32.0);
@@ -116,7 +115,6 @@ fn losses_and_renderings_are_the_golden_ones_in_both_precisions() {
 }
 
 #[needs(shared)]
-#[test]
 fn losses_are_the_golden_ones_on_every_rung() {
     for (case, convention) in cases().iter().flat_map(|case| ALL.map(|convention| (case, convention))) {
         let ([gt, prediction], scenes): (_, Vec<Scene>) = (materials::<f32>(case), scenes(case));

@@ -123,7 +123,6 @@ fn defects_of_the_kernel_are_seen() {
 
 #[cfg(feature = "viewer")]
 #[svbrdf_needs::needs(f32_adapter)]
-#[test]
 fn defects_of_the_shader_are_seen() {
     use exr::prelude::f16;
 

@@ -1,4 +1,4 @@
-//! `#[needs(adapter, desktop)]` ignores a test, with the reason, where the machine lacks one of these; `has!(adapter)` tells.
+//! `#[needs(adapter, desktop)]` is a test, ignored with the reason where the machine lacks one of these; `has!(adapter)` tells.
 //!
 //! `build.rs` looks for them.
 
@@ -17,13 +17,13 @@ const NEEDS: [(&str, &str); 6] = [
     ("shared", "../shared"),
 ];
 
-/// Ignores a test without one of the needs. Stands before `#[test]`.
+/// A test, ignored without one of the needs: in the place of `#[test]`.
 #[proc_macro_attribute]
 pub fn needs(names: TokenStream, test: TokenStream) -> TokenStream {
     let names = names.to_string();
     let missing = names.split(',').map(str::trim).find(|name| !found(name));
     let ignored = missing.map_or(String::new(), |name| format!("#[ignore = \"needs {}\"]", described(name)));
-    ignored.parse::<TokenStream>().into_iter().chain([test]).collect()
+    format!("#[test]{ignored}").parse::<TokenStream>().into_iter().chain([test]).collect()
 }
 
 /// Whether the machine has it. No constant, which Clippy would not let a test assert.

@@ -48,7 +48,6 @@ fn assert_readouts(page: &mut Page, begin: &str) {
 }
 
 #[needs(browser)]
-#[test]
 fn mouse_fingers_and_pen_move_light_view_picture_and_wipe() {
     let mut page = open();
     let page = &mut page;
@@ -104,7 +103,6 @@ fn mouse_fingers_and_pen_move_light_view_picture_and_wipe() {
 }
 
 #[needs(browser)]
-#[test]
 fn keys_and_controls_change_the_figure_and_the_page_requests_nothing() {
     let mut page = open();
     let keys = [
@@ -182,7 +180,6 @@ fn keys_and_controls_change_the_figure_and_the_page_requests_nothing() {
 }
 
 #[needs(browser)]
-#[test]
 fn a_window_without_room_for_all_predictions_has_the_chosen_one_beside_the_ground_truth() {
     let materials: Vec<_> = (1..=16).map(noise).collect();
     let mut page = Page::open(&figure(&materials, PRINTED), [360, 640]);

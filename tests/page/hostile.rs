@@ -46,7 +46,6 @@ fn hostile_names_add_no_elements() {
 }
 
 #[needs(browser)]
-#[test]
 fn hostile_names_run_nothing_and_are_read_as_lines() {
     let mut page = Page::open(&report_of(NAMES), [900, 900]);
     assert_eq!(page.after_frame("window.hit === undefined"), json!(true));

@@ -68,7 +68,6 @@ fn sparse(material: &Material<f32>) -> Material<f32> {
 }
 
 #[needs(browser)]
-#[test]
 fn pixels_are_those_of_render_in_every_convention() {
     let scenes = std::env::var("SVBRDF_PAGE_SCENES").ok().and_then(|n| n.parse().ok()).unwrap_or(SCENES);
     let built_in: Vec<_> = built_in().iter().map(sparse).collect();
@@ -100,7 +99,6 @@ fn pixels_are_those_of_render_in_every_convention() {
 }
 
 #[needs(browser)]
-#[test]
 fn maps_and_coloured_differences_are_those_of_render() {
     let materials = built_in();
     let refs: Vec<&Material<f32>> = materials.iter().collect();
@@ -129,7 +127,6 @@ fn maps_and_coloured_differences_are_those_of_render() {
 }
 
 #[needs(browser)]
-#[test]
 fn readouts_are_those_of_the_core() {
     let materials = [noise(1), noise(2)];
     let mut page = Page::open(&figure(&materials, PRINTED), [800, 600]);
@@ -166,7 +163,6 @@ fn readouts_are_those_of_the_core() {
 }
 
 #[needs(browser)]
-#[test]
 fn the_camera_and_the_texels_below_it_are_those_of_the_core() {
     let material = noise(1);
     let mut page = Page::open(&figure(&[noise(1)], PRINTED), [800, 600]);
@@ -194,7 +190,6 @@ fn the_camera_and_the_texels_below_it_are_those_of_the_core() {
 }
 
 #[needs(browser)]
-#[test]
 fn a_fault_planted_in_the_shader_is_seen() {
     let materials = [noise(1)];
     let html = figure(&materials, PRINTED);
@@ -212,7 +207,6 @@ fn a_fault_planted_in_the_shader_is_seen() {
 }
 
 #[needs(browser)]
-#[test]
 fn without_webgl_the_still_picture_stays_with_the_reason() {
     let html = figure(&[noise(1)], PRINTED).replace("#version 300 es", "#version 999");
     let mut page = Page::open(&html, [800, 600]);

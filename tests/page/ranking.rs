@@ -116,7 +116,6 @@ fn names_add_no_elements_to_a_ranking() {
 }
 
 #[needs(browser)]
-#[test]
 fn a_click_on_a_heading_sorts_and_the_next_one_turns_it_around() {
     let mut page = Page::open_until(&page(), [1000, 900], READY);
     let names = |page: &mut Page| {

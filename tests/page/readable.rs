@@ -63,7 +63,6 @@ fn each_page(names: [&str; 2], size: [u32; 2], look: fn(&mut Page)) {
 }
 
 #[needs(browser)]
-#[test]
 fn texts_have_contrast_in_light_and_dark_and_what_is_used_has_a_name() {
     each_page(hostile::NAMES, [1000, 900], |page| {
         for scheme in ["light", "dark"] {
@@ -92,7 +91,6 @@ const MISPLACED: &str = "(() => { const found = []; const width = document.docum
     return found; })()";
 
 #[needs(browser)]
-#[test]
 fn long_names_fit_a_phone_and_every_target_a_fingertip() {
     let long = "a_long_name".repeat(11);
     each_page([&long, &long], [360, 640], |page| {

@@ -54,7 +54,6 @@ fn loss(window: &mut Window<'_>) -> f64 {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     let (_folder, paths) = two_strips();
     let mut window = on_two_strips(paths);
@@ -75,7 +74,6 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
 }
 
 #[needs(adapter)]
-#[test]
 fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
     let (_folder, paths) = two_strips();
     let mut window = on_two_strips(paths);
@@ -103,7 +101,6 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
 }
 
 #[needs(adapter)]
-#[test]
 fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("wide.png");
@@ -126,7 +123,6 @@ fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
 }
 
 #[needs(adapter)]
-#[test]
 fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
     let (folder, paths) = two_strips();
     let kept = folder.path().join("guess.svbrdf.json");

@@ -10,7 +10,6 @@ fn panes(window: &Window<'_>) -> [egui::Rect; 3] {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_drawer_takes_its_room_from_the_panes_and_covers_none_of_them() {
     let mut window = built_in();
     for size in [vec2(1360.0, 860.0), vec2(700.0, 600.0)] {
@@ -42,7 +41,6 @@ fn the_drawer_takes_its_room_from_the_panes_and_covers_none_of_them() {
 }
 
 #[needs(adapter)]
-#[test]
 fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     let mut window = built_in();
     // The losses are in the titles.
@@ -98,7 +96,6 @@ pub(super) fn controls(window: &Window<'_>) -> Vec<(String, Pos2)> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_exposure_is_automatic_once_follows_and_stays_where_a_hand_puts_it() {
     let mut window = built_in();
     let exposure = |window: &Window<'_>| window.state().parts.model.view.exposure_ev;

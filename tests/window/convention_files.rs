@@ -35,7 +35,6 @@ fn assert_losses(window: &mut Window<'_>, expected: &ChosenConvention) {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_losses_are_those_of_the_file_and_change_with_its_content() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");
@@ -68,7 +67,6 @@ fn the_losses_are_those_of_the_file_and_change_with_its_content() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_session_and_the_command_line_open_it() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.toml");

@@ -17,7 +17,6 @@ impl egui::DroppedFile for Planted {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_panic_or_a_lost_device_closes_the_window_with_its_reason_and_no_frame_is_drawn_after_it() {
     type End = fn(&mut Window<'_>);
     let ends: [(End, &str); 2] = [

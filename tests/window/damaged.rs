@@ -48,7 +48,6 @@ fn damaged(session: &Value, random: &mut ChaCha8Rng) -> Value {
 }
 
 #[needs(adapter)]
-#[test]
 fn sessions_of_random_values_open_or_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();

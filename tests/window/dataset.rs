@@ -63,7 +63,6 @@ fn loss(window: &Window<'_>, case: usize, method: usize) -> Option<KnownLoss> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_losses_in_the_list_are_those_of_rank_to_the_last_bit_and_what_fails_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = dataset(folders(folder.path()), Some(folder.path().join("results")));
@@ -95,7 +94,6 @@ fn the_losses_in_the_list_are_those_of_rank_to_the_last_bit_and_what_fails_is_to
 }
 
 #[needs(adapter)]
-#[test]
 fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), None));
@@ -147,7 +145,6 @@ fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_a
 }
 
 #[needs(adapter)]
-#[test]
 fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), Some(folder.path().join("results"))));
@@ -196,7 +193,6 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_returns_from() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), None));
@@ -234,7 +230,6 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
 }
 
 #[needs(adapter)]
-#[test]
 fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let all = folders(folder.path());
@@ -262,7 +257,6 @@ fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_i
 }
 
 #[needs(adapter)]
-#[test]
 fn a_data_set_is_opened_in_the_window_and_closed_by_another_comparison() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();
@@ -292,7 +286,6 @@ fn many(folder: &Path) -> ViewerOptions {
 }
 
 #[needs(adapter)]
-#[test]
 fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the_pinned_ones() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = window(many(folder.path()));
@@ -352,7 +345,6 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
 
 /// Panes without a material say why there is none.
 #[needs(adapter)]
-#[test]
 fn a_ground_truth_that_cannot_be_read_is_told_in_the_panes() {
     let folder = tempfile::tempdir().unwrap();
     let folders = folders(folder.path());

@@ -8,7 +8,6 @@ use super::materials::materials;
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn exposure_changes_values_and_no_difference() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -22,7 +21,6 @@ fn exposure_changes_values_and_no_difference() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_ground_truth_is_never_compared_with_itself() {
     let mut window = built_in();
     let colours = |window: &mut Window<'_>, title: &str| {
@@ -52,7 +50,6 @@ fn the_ground_truth_is_never_compared_with_itself() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_range_is_dragged_and_automatic_again() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -78,7 +75,6 @@ fn the_range_is_dragged_and_automatic_again() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_range_of_a_signed_difference_is_dragged_at_either_end() {
     let mut window = built_in();
     let display = &mut window.state_mut().parts.model.view.display;
@@ -98,7 +94,6 @@ fn the_range_of_a_signed_difference_is_dragged_at_either_end() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is() {
     let mut window = built_in();
     for _ in 0..4 {
@@ -119,7 +114,6 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
 }
 
 #[needs(adapter)]
-#[test]
 fn every_pane_in_false_colours_has_a_scale_and_no_other() {
     use svbrdf_viewer::ui::pane::scale::PaneScale;
     let mut window = built_in();

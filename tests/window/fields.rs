@@ -43,7 +43,6 @@ fn tab_through(window: &mut Window<'_>) -> usize {
 }
 
 #[needs(adapter)]
-#[test]
 fn tab_through_all_fields_changes_no_number() {
     let mut window = precise();
     window.set_size(vec2(1400.0, 1600.0));
@@ -72,7 +71,6 @@ fn type_x(window: &mut Window<'_>, texts: &[&str]) {
 }
 
 #[needs(adapter)]
-#[test]
 fn what_is_typed_into_a_field_is_written_in_full_however_it_is_left() {
     for leave in [egui::Key::Tab, egui::Key::Enter] {
         let mut window = precise();

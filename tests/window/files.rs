@@ -6,7 +6,6 @@ use super::*;
 const FIELD: &str = "Files, folders or name prefixes, one a line:";
 
 #[needs(adapter)]
-#[test]
 fn every_one_of_several_files_of_one_name_is_told() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -28,7 +27,6 @@ fn every_one_of_several_files_of_one_name_is_told() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_file_that_is_not_there_is_an_error_in_the_dialog_and_keeps_what_was_open() {
     let mut window = built_in();
     click(&mut window, "Open");
@@ -55,7 +53,6 @@ fn a_file_that_is_not_there_is_an_error_in_the_dialog_and_keeps_what_was_open() 
 }
 
 #[needs(adapter)]
-#[test]
 fn a_file_is_replaced_only_by_a_person_who_knows() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -75,7 +72,6 @@ fn a_file_is_replaced_only_by_a_person_who_knows() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
     let folder = tempfile::tempdir().unwrap();
     let [large, small] = strips(folder.path(), ["large.png", "small.png"]);
@@ -100,7 +96,6 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
 }
 
 #[needs(adapter)]
-#[test]
 fn guesses_are_refused_where_the_window_was_told_to() {
     let folder = tempfile::tempdir().unwrap();
     for map in 0..4 {

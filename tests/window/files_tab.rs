@@ -3,7 +3,6 @@
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn a_file_of_several_materials_has_a_chooser() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("two.mtl");

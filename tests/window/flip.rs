@@ -38,7 +38,6 @@ fn shown<'a>() -> Window<'a> {
 }
 
 #[needs(adapter)]
-#[test]
 fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
     let mut window = shown();
     let first = settle(&mut window);
@@ -55,7 +54,6 @@ fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
 }
 
 #[needs(adapter)]
-#[test]
 fn panes_readout_and_saved_file_have_the_numbers_of_flip() {
     let mut window = shown();
     press(&mut window, egui::Key::Num0);

@@ -3,7 +3,6 @@
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn dragging_the_light_puts_it_where_it_goes_and_changes_the_rendering() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -18,7 +17,6 @@ fn dragging_the_light_puts_it_where_it_goes_and_changes_the_rendering() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -40,7 +38,6 @@ fn a_right_drag_moves_the_view_and_a_middle_drag_pans() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
     let mut window = built_in();
     let at = pane(&window, GROUND_TRUTH).center();
@@ -61,7 +58,6 @@ fn the_wheel_zooms_at_the_pointer_and_with_shift_raises_the_light() {
 }
 
 #[needs(adapter)]
-#[test]
 fn movements_before_the_press_are_no_part_of_a_drag() {
     let mut window = built_in();
     press(&mut window, egui::Key::P);
@@ -82,7 +78,6 @@ fn movements_before_the_press_are_no_part_of_a_drag() {
 }
 
 #[needs(adapter)]
-#[test]
 fn what_a_drag_changes_is_in_the_frame_that_read_it() {
     let mut window = built_in();
     let [rect, other] = [GROUND_TRUTH, PREDICTIONS[0]].map(|title| pane(&window, title));

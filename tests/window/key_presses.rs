@@ -9,7 +9,6 @@ use svbrdf_viewer::ui::input::keys;
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn every_letter_does_what_the_help_says() {
     let mut window = built_in();
     let automatic = window.state().parts.model.view.exposure_ev;
@@ -53,7 +52,6 @@ fn every_letter_does_what_the_help_says() {
 }
 
 #[needs(adapter)]
-#[test]
 fn holding_g_shows_the_ground_truth_everywhere_and_x_swaps_the_sides() {
     let mut window = built_in();
     let prediction = "Pane 1  blurred normals";
@@ -81,7 +79,6 @@ fn the_page_of_the_window_lists_every_key() {
 }
 
 #[needs(adapter)]
-#[test]
 fn undo_and_redo_go_through_the_changes() {
     let mut window = built_in();
     window.run_steps(30);
@@ -98,7 +95,6 @@ fn undo_and_redo_go_through_the_changes() {
 }
 
 #[needs(adapter)]
-#[test]
 fn escape_closes_an_open_drop_down_and_nothing_else() {
     let mut window = built_in();
     apply(&mut window, WindowCommand::ShowHelp(true));

@@ -16,7 +16,6 @@ fn expected(sampling: &Sampling) -> Vec<Loss> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_loss_button_yields_the_number_that_the_core_gives() {
     let mut window = by_scenes();
     click(&mut window, "Auto");
@@ -42,7 +41,6 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
 
 /// The picker has all that have a name; what the grammar alone renders is drawn and computed, too.
 #[needs(adapter)]
-#[test]
 fn a_convention_of_the_grammar_is_drawn_and_has_the_loss_of_the_core() {
     let mut window = by_scenes();
     for name in ["gltf-viewer", "svbrdf-estimation-2022"] {
@@ -60,7 +58,6 @@ fn a_convention_of_the_grammar_is_drawn_and_has_the_loss_of_the_core() {
 }
 
 #[needs(adapter)]
-#[test]
 fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
     let mut window = by_scenes();
     wait(&mut window, "the loss", |app| app.losses().is_some());

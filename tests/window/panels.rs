@@ -3,7 +3,6 @@
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn a_double_click_on_a_number_puts_back_its_default() {
     let mut window = built_in();
     press(&mut window, egui::Key::E);
@@ -18,7 +17,6 @@ fn a_double_click_on_a_number_puts_back_its_default() {
 }
 
 #[needs(adapter)]
-#[test]
 fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
     let mut window = built_in();
     window.set_size(vec2(1200.0, 2000.0));
@@ -36,7 +34,6 @@ fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
     let mut window = by_scenes();
     for name in ["Near-field scenes", "Distant scenes"] {

@@ -72,7 +72,6 @@ pub(super) fn opened<'a>() -> (Window<'a>, tempfile::TempDir) {
 }
 
 #[needs(adapter)]
-#[test]
 fn renderings_are_compared_with_the_photograph_as_the_core_does() {
     let (mut window, folder) = opened();
     let path = folder.path().join("photo.npy");
@@ -120,7 +119,6 @@ fn renderings_are_compared_with_the_photograph_as_the_core_does() {
 }
 
 #[needs(adapter)]
-#[test]
 fn panes_readout_pictures_and_sessions_have_the_photograph() {
     let (mut window, folder) = opened();
     let path = folder.path().join("photo.npy");
@@ -163,7 +161,6 @@ fn panes_readout_pictures_and_sessions_have_the_photograph() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_open_dialog_takes_photographs_and_a_list_of_them_has_its_own_lights() {
     let folder = tempfile::tempdir().unwrap();
     let path = photograph(folder.path(), 4.0);

@@ -101,7 +101,6 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
 }
 
 #[needs(adapter)]
-#[test]
 fn every_difference_of_every_quantity_has_its_statistics_histogram_and_range() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);

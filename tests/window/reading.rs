@@ -24,7 +24,6 @@ fn repaint_delay(window: &Window<'_>) -> Duration {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_second_is_read() {
     let folder = tempfile::tempdir().unwrap();
     let paths: Vec<_> = (0..4).map(|i| folder.path().join(format!("m{i}.png"))).collect();
@@ -57,7 +56,6 @@ fn window_of_files() -> (tempfile::TempDir, [PathBuf; 2], Window<'static>) {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_material_whose_file_is_broken_is_marked_until_it_is_whole_again() {
     let (_folder, paths, mut window) = window_of_files();
     apply(&mut window, MaterialsCommand::SetWatch(true));
@@ -72,7 +70,6 @@ fn a_material_whose_file_is_broken_is_marked_until_it_is_whole_again() {
 }
 
 #[needs(adapter)]
-#[test]
 fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
     let (_folder, _, mut window) = window_of_files();
     // Longer than it takes for a state to become one to return to.
@@ -88,7 +85,6 @@ fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
 }
 
 #[needs(adapter)]
-#[test]
 fn messages_take_no_room_from_the_panes() {
     let mut window = built_in();
     let before = pane(&window, GROUND_TRUTH);
@@ -105,7 +101,6 @@ fn messages_take_no_room_from_the_panes() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_prediction_replaced_by_one_of_another_size_makes_its_loss_stale() {
     let (_folder, paths, mut window) = window_of_files();
     wait(&mut window, "the loss", |app| app.losses().is_some());

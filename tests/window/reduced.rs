@@ -25,7 +25,6 @@ fn losses(window: &mut Window<'_>) -> Vec<f64> {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_material_for_which_there_is_no_room_is_displayed_reduced_with_a_badge_and_its_losses_are_whole() {
     let mut window = by_scenes();
     let (rect, expected) = (pane(&window, GROUND_TRUTH), losses(&mut window));

@@ -20,7 +20,6 @@ fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     let mut window = by_scenes();
     let folder = tempfile::tempdir().unwrap();
@@ -60,7 +59,6 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();

@@ -17,7 +17,6 @@ use super::materials::strips;
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn saved_renderings_are_what_is_selected() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -42,7 +41,6 @@ fn saved_renderings_are_what_is_selected() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_saved_strip_is_that_of_the_session_and_has_the_rectangle_as_a_crop() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -75,7 +73,6 @@ fn a_saved_strip_is_that_of_the_session_and_has_the_rectangle_as_a_crop() {
 const CAPTION: u32 = 20;
 
 #[needs(adapter)]
-#[test]
 fn the_saved_view_has_the_pixels_of_the_window_with_a_caption() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
@@ -110,7 +107,6 @@ fn the_saved_view_has_the_pixels_of_the_window_with_a_caption() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let folder = tempfile::tempdir().unwrap();
     let mut first = on_files(strips(folder.path(), ["gt.png", "p.png"]));
@@ -161,7 +157,6 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
 }
 
 #[needs(adapter)]
-#[test]
 fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
     let mut window = built_in();
     click(&mut window, "Save");
@@ -174,7 +169,6 @@ fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
 }
 
 #[needs(adapter)]
-#[test]
 fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
     let folder = tempfile::tempdir().unwrap();
     let [gt, p] = strips(folder.path(), ["gt.png", "p.png"]);

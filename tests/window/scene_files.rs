@@ -30,7 +30,6 @@ fn capture(folder: &tempfile::TempDir) -> PathBuf {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     let folder = tempfile::tempdir().unwrap();
     let path = capture(&folder);
@@ -66,7 +65,6 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = by_scenes();
@@ -98,7 +96,6 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     let folder = tempfile::tempdir().unwrap();
     let path = capture(&folder);
@@ -127,7 +124,6 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
 }
 
 #[needs(adapter)]
-#[test]
 fn scenes_with_a_name_are_those_of_the_loss_until_they_are_removed() {
     let mut window = by_scenes();
     click(&mut window, "Named...");

@@ -58,7 +58,6 @@ fn inspect(window: &mut Window<'_>) {
 }
 
 #[needs(adapter)]
-#[test]
 fn panes_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     check(&mut window, "a start");
@@ -76,7 +75,6 @@ fn panes_are_drawn_at_every_size_and_scale() {
 }
 
 #[needs(adapter)]
-#[test]
 fn tabs_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     wait(&mut window, "the loss", |app| app.losses().is_some());
@@ -96,7 +94,6 @@ fn tabs_are_drawn_at_every_size_and_scale() {
 }
 
 #[needs(adapter)]
-#[test]
 fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     for opened in ["Open", "Save"] {
@@ -120,14 +117,12 @@ fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_photograph_is_drawn_at_every_size_and_scale() {
     let (mut window, _folder) = super::photograph::opened();
     check(&mut window, "a photograph");
 }
 
 #[needs(adapter)]
-#[test]
 fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_brings_it_back() {
     let mut window = built_in();
     for (key, expected) in [(egui::Key::Plus, 4.0), (egui::Key::Minus, 0.75)] {

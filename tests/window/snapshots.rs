@@ -80,7 +80,6 @@ fn settled<'a>(size: Vec2) -> Window<'a> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_window_has_the_words_and_the_order_of_the_snapshots() {
     let mut window = settled(vec2(1360.0, 860.0));
     assert_snapshot(&window, "loss");
@@ -116,7 +115,6 @@ fn the_window_has_the_words_and_the_order_of_the_snapshots() {
 }
 
 #[needs(adapter)]
-#[test]
 fn dialogs_menu_and_small_windows_have_the_words_of_the_snapshots() {
     let mut window = settled(vec2(900.0, 600.0));
     assert_snapshot(&window, "small");

@@ -160,7 +160,6 @@ fn texture_pixels(window: &Window<'_>) -> usize {
 }
 
 #[needs(adapter)]
-#[test]
 fn five_hundred_events_of_a_monkey_crash_nothing() {
     let files = Files::new();
     // Nothing is saved beside them but what the monkey saves itself.

@@ -28,7 +28,6 @@ fn texel_at_the_centre(window: &mut Window<'_>, title: &str) -> Option<[usize; 2
 }
 
 #[needs(adapter)]
-#[test]
 fn the_magnified_texel_stays_at_the_centre_of_its_pane_whatever_opens_and_closes() {
     let mut window = built_in();
     let framing = Framing { pixels_per_texel: 12.0, centre: [62.5, 53.5] };
@@ -52,7 +51,6 @@ fn the_magnified_texel_stays_at_the_centre_of_its_pane_whatever_opens_and_closes
 }
 
 #[needs(adapter)]
-#[test]
 fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
     let mut window = built_in();
     press(&mut window, egui::Key::P);
@@ -72,7 +70,6 @@ fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_side_panel_has_one_width_and_a_click_beside_a_dialog_moves_nothing() {
     let mut window = built_in();
     let scene = window.state().parts.model.view.scene;
@@ -91,7 +88,6 @@ fn the_side_panel_has_one_width_and_a_click_beside_a_dialog_moves_nothing() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_automatic_range_is_that_of_the_predictions_also_of_a_mixture() {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
@@ -139,7 +135,6 @@ fn write_pair(folder: &Path, kind: u32, side: u32) -> Vec<PathBuf> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_layout_is_the_same_in_every_frame_of_every_kind_of_pair() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();

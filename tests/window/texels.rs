@@ -87,7 +87,6 @@ fn check_readout(window: &mut Window<'_>, scale: f32, what: &str) -> usize {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_projection() {
     for scale in [1.25, 2.0] {
         let (mut window, _, _folder) = opened(Quantity::Diffuse, scale);
@@ -108,7 +107,6 @@ fn the_readout_names_the_texel_that_the_screen_shows_at_every_scale_zoom_and_pro
 }
 
 #[needs(adapter)]
-#[test]
 fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
     let (mut window, rect, _folder) = opened(Quantity::Diffuse, 1.0);
     hover(&mut window, Pos2::ZERO);
@@ -129,7 +127,6 @@ fn numbers_are_drawn_on_texels_of_more_than_48_pixels() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_key_pins_a_texel_whose_numbers_are_in_the_drawer_and_again_removes_it() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -151,7 +148,6 @@ fn the_key_pins_a_texel_whose_numbers_are_in_the_drawer_and_again_removes_it() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_click_within_one_frame_pins_and_moves_the_light_as_a_longer_one() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);
@@ -179,7 +175,6 @@ fn a_click_within_one_frame_pins_and_moves_the_light_as_a_longer_one() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_rectangle_is_drawn_by_q_anywhere_and_by_shift_on_maps_and_escape_removes_it() {
     let mut window = built_in();
     let rect = pane(&window, GROUND_TRUTH);

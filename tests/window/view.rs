@@ -6,7 +6,6 @@ use svbrdf_viewer::model::view::state::Layout;
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn the_wipe_line_wins_over_the_handle_of_the_view() {
     let mut window = built_in();
     press(&mut window, egui::Key::C);
@@ -27,7 +26,6 @@ fn the_wipe_line_wins_over_the_handle_of_the_view() {
 
 /// The pane that changes is drawn into the window, and from the next frame on its kept pixels are copied.
 #[needs(adapter)]
-#[test]
 fn a_pane_that_changes_has_the_pixels_that_are_kept_of_it() {
     for scale in [1.0, 1.25] {
         let mut window = scaled_window(ViewerOptions::default(), scale);
@@ -54,7 +52,6 @@ fn a_pane_that_changes_has_the_pixels_that_are_kept_of_it() {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_magnification_is_a_number_that_can_be_typed() {
     let mut window = built_in();
     let before = window.state().parts.model.view.display.framing;

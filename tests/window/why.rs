@@ -33,7 +33,6 @@ fn wait_for_scene_losses(window: &mut Window<'_>) -> Vec<f64> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
     let mut window = opened();
     let before = wait_for_scene_losses(&mut window);
@@ -62,7 +61,6 @@ fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_folded_section_and_a_hidden_tab_compute_nothing() {
     let mut window = built_in();
     window.set_size(vec2(1200.0, 1800.0));
@@ -85,7 +83,6 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
 
 /// Results come while a hand is on its way to a control. The diagnosis is folded: how many lines it marks is known afterwards only.
 #[needs(adapter)]
-#[test]
 fn the_controls_of_why_stay_where_they_are_while_results_come() {
     let mut window = opened();
     let controls = |window: &Window<'_>| {

@@ -34,7 +34,6 @@ fn colours_of(values: &[f32], DisplayedDifference { kind, range, .. }: Displayed
 }
 
 #[needs(f32_adapter)]
-#[test]
 fn differences_have_the_colours_of_the_core_s_numbers_at_any_exposure() {
     let gpu = gpu_f32();
     let up = Texel {

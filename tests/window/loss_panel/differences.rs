@@ -24,7 +24,6 @@ fn difference(window: &Window<'_>, verdict: &str) -> String {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_difference_to_the_chosen_prediction_has_its_sign_and_its_verdict() {
     let mut window = by_scenes();
     wait(&mut window, "the loss", |app| app.losses().is_some());

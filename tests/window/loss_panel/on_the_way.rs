@@ -17,7 +17,6 @@ fn shown(window: &Window<'_>) -> Vec<String> {
 }
 
 #[needs(adapter)]
-#[test]
 fn an_accuracy_is_asked_for_and_kept_and_a_time_gives_a_loss_with_its_interval() {
     let mut window = by_scenes();
     wait(&mut window, "the first loss", |app| app.losses().is_some());
@@ -41,7 +40,6 @@ fn an_accuracy_is_asked_for_and_kept_and_a_time_gives_a_loss_with_its_interval()
 }
 
 #[needs(adapter)]
-#[test]
 fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
     let mut window = by_scenes();
     start_a_long_one(&mut window);
@@ -73,7 +71,6 @@ fn a_long_loss_tightens_and_cancelling_keeps_what_was_reached() {
 }
 
 #[needs(adapter)]
-#[test]
 fn escape_cancels_and_a_change_starts_again() {
     let mut window = by_scenes();
     start_a_long_one(&mut window);
@@ -90,7 +87,6 @@ fn escape_cancels_and_a_change_starts_again() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_newer_request_supersedes_a_running_one() {
     let mut window = by_scenes();
     start_a_long_one(&mut window);

@@ -6,7 +6,6 @@ use svbrdf_viewer::ui::content;
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
     let folder = tempfile::tempdir().unwrap();
     let picture = crate::pictures::packed(|value| value);

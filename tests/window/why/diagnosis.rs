@@ -74,7 +74,6 @@ fn lines(window: &Window<'_>) -> Vec<String> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_folded() {
     let (_folder, mut window) = diagnosed();
     let found = wait_for_diagnosis(&mut window);
@@ -126,7 +125,6 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
 
 /// The maps are mixed when the first line is there, or at once where it is folded.
 #[needs(adapter)]
-#[test]
 fn the_first_line_has_the_processors_to_itself() {
     let mixes = |window: &Window<'_>| window.state().parts.jobs.why.attribution.busy().is_some();
     let mut window = built_in();
@@ -147,7 +145,6 @@ fn the_first_line_has_the_processors_to_itself() {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_prediction_itself() {
     let (_folder, mut window) = diagnosed();
     wait_for_diagnosis(&mut window);
@@ -189,7 +186,6 @@ fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_predic
 }
 
 #[needs(adapter)]
-#[test]
 fn one_click_reads_the_file_as_the_finding_says_and_undo_goes_back() {
     let (_folder, mut window) = diagnosed();
     wait_for_diagnosis(&mut window);

@@ -31,7 +31,6 @@ fn shown<'a>() -> Window<'a> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
     let mut window = shown();
     let found = statistics(&mut window);
@@ -60,7 +59,6 @@ fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
 }
 
 #[needs(adapter)]
-#[test]
 fn panes_readout_and_saved_file_have_the_numbers_of_the_error_map() {
     let mut window = shown();
     press(&mut window, egui::Key::Num0);

@@ -20,7 +20,6 @@ fn wait_for_attribution(window: &mut Window<'_>) -> Attribution {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_convention() {
     let mut window = opened();
     let first = expected(1, &convention::PRINTED);
@@ -63,7 +62,6 @@ fn wait_for_pane(window: &mut Window<'_>, name: &str) -> egui::Rect {
 }
 
 #[needs(adapter)]
-#[test]
 fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
     let mut window = opened();
     let materials = materials();
@@ -99,7 +97,6 @@ fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
 }
 
 #[needs(adapter)]
-#[test]
 fn every_way_back_shows_the_prediction_itself() {
     let mut window = opened();
     let name = "blurred normals, only its normal wrong";
@@ -127,7 +124,6 @@ fn every_way_back_shows_the_prediction_itself() {
 }
 
 #[needs(adapter)]
-#[test]
 fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
     let mut window = opened();
     press(&mut window, egui::Key::D);

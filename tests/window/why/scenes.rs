@@ -19,7 +19,6 @@ fn wait_for_scenes(window: &mut Window<'_>) -> Vec<RankedScene> {
 }
 
 #[needs(adapter)]
-#[test]
 fn the_listed_scenes_and_their_thumbnails_are_those_of_the_core_and_a_click_loads_one() {
     let mut window = opened();
     let listed = wait_for_scenes(&mut window);
@@ -50,7 +49,6 @@ fn the_listed_scenes_and_their_thumbnails_are_those_of_the_core_and_a_click_load
 }
 
 #[needs(adapter)]
-#[test]
 fn the_search_finds_the_scene_of_the_core_and_shows_it_unless_it_is_cancelled() {
     let mut window = opened();
     // The list does not push the button away under the click.

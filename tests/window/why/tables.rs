@@ -9,7 +9,6 @@ use svbrdf_evaluate::report::{AnalysisInput, Cell, Reader};
 use super::*;
 
 #[needs(adapter)]
-#[test]
 fn the_other_metrics_are_those_of_the_core_of_the_chosen_prediction() {
     let mut window = by_scenes();
     window.set_size(vec2(1200.0, 2400.0));

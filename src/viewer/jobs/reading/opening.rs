@@ -271,7 +271,6 @@ mod tests {
     use svbrdf_files::samples;
 
     #[needs(adapter)]
-    #[test]
     fn a_material_that_is_displayed_becomes_whole_though_the_rest_of_its_opening_is_cancelled() {
         let gpu = Gpu::headless().unwrap();
         let mut read = samples::load::<f32>().unwrap().ground_truth;

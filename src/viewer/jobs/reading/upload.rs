@@ -208,7 +208,6 @@ mod tests {
     use svbrdf_files::samples;
 
     #[needs(adapter)]
-    #[test]
     fn only_of_a_large_material_and_only_on_the_cpu_a_draft_is_there_first() {
         let gpu = Gpu::headless().unwrap();
         let small: Material<f32> = samples::load().unwrap().ground_truth.material;
@@ -224,7 +223,6 @@ mod tests {
     }
 
     #[needs(adapter)]
-    #[test]
     fn where_all_texels_do_not_fit_as_many_as_fit_are_there() {
         let gpu = Gpu::headless().unwrap();
         let material: Material<f32> = samples::load().unwrap().ground_truth.material;

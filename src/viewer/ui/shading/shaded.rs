@@ -248,7 +248,6 @@ mod tests {
     }
 
     #[needs(adapter)]
-    #[test]
     fn what_sharpens_in_bands_is_what_is_shaded_at_once_also_where_the_light_moves_in_between() {
         let mut bench = ShadingBench::new();
         let mut at_once = ShadedMaterial::default();
