@@ -134,12 +134,15 @@ impl WindowUi {
         let has_panes = !displayed.model.dataset.sheet.is_open;
         let hovered = self.viewport.hovered.filter(|_| has_panes);
         let grid = displayed.model.materials.ground_truth().map(|ground_truth| ground_truth.grid());
+        // The pointer was over a texel in the frame before: the materials of this one may be smaller.
+        let size = displayed.materials().first().map_or([0, 0], |one| one.material().size());
+        let texel = hovered.and_then(|hovered| hovered.texel);
         let bar = StatusBar {
             state: view,
             materials: displayed.materials(),
             computed_maps: displayed.computed_maps().map(AsRef::as_ref),
             photographs: displayed.photographs().map(AsRef::as_ref),
-            texel: hovered.and_then(|hovered| hovered.texel),
+            texel: texel.filter(|texel| (0..2).all(|axis| texel[axis] < size[axis])),
             hovered: hovered.map(|hovered| hovered.index),
             magnification: grid.map_or(1.0, |grid| self.viewport.magnification(grid, view)),
             is_armed: displayed.model.inspection.is_armed,
