@@ -1,8 +1,5 @@
 //! The drop-downs of assumptions: what they switch is switched in the material, the panes and the loss.
 
-use svbrdf_core::material::Material;
-
-use super::materials::strips;
 use super::*;
 
 /// The built-in ground truth as two files, `truth` and `guess`.
@@ -44,13 +41,13 @@ fn choose(window: &mut Window<'_>, name: &str, choice: &str) {
     super::choose(window, name, choice);
 }
 
-fn material(app: &App, index: usize) -> Material<f32> {
-    app.materials().nth(index).unwrap().clone()
+fn material(window: &Window<'_>, index: usize) -> Material<f32> {
+    window.materials().nth(index).unwrap().clone()
 }
 
 fn loss(window: &mut Window<'_>) -> f64 {
     wait(window, "the loss", |app| app.losses().is_some());
-    window.state().losses().unwrap()[0].estimate.mean
+    window.losses().unwrap()[0].estimate.mean
 }
 
 #[needs(adapter)]
@@ -60,10 +57,10 @@ fn a_click_on_another_albedo_changes_material_pane_and_loss() {
     assert_eq!(loss(&mut window), 0.0, "a material beside itself");
     let panes = ["GROUND TRUTH  truth", "1  guess"].map(|title| pane(&window, title));
     let before = panes.map(|rect| pixels(&mut window, rect));
-    let inferred = material(window.state(), 1);
+    let inferred = material(&window, 1);
     choose(&mut window, "albedo of guess", "albedo srgb");
     wait(&mut window, "the material to be read again", |app| *app.materials().nth(1).unwrap() != inferred);
-    let switched = material(window.state(), 1);
+    let switched = material(&window, 1);
     let decode = |v: f32| if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) };
     let [stored, decoded] = [&inferred, &switched].map(|m| m.planes().diffuse.iter().flatten());
     assert!(stored.zip(decoded).all(|(old, new)| (decode(*old) - new).abs() < 1e-6));
@@ -87,15 +84,15 @@ fn every_assumption_of_the_ground_truth_can_be_switched_by_a_click() {
         ("roughness", "gloss"),
         ("energy", "unscaled"),
     ] {
-        let before = material(window.state(), 0);
+        let before = material(&window, 0);
         choose(&mut window, &format!("{what} of truth"), &format!("{what} {choice}"));
         wait(&mut window, choice, |app| *app.materials().next().unwrap() != before);
-        assert!(window.state().messages().is_empty(), "{choice}: {:?}", window.state().messages());
+        assert!(window.messages().is_empty(), "{choice}: {:?}", window.messages());
         assert!(loss(&mut window) > 0.0, "{choice}");
-        let changed = material(window.state(), 0);
+        let changed = material(&window, 0);
         choose(&mut window, &format!("{what} of truth"), &format!("auto: infer {what}"));
         wait(&mut window, "auto", |app| *app.materials().next().unwrap() != changed);
-        assert!(material(window.state(), 0) == before, "{choice}, and back");
+        assert!(material(&window, 0) == before, "{choice}, and back");
     }
     assert_eq!(loss(&mut window), 0.0);
 }
@@ -109,7 +106,7 @@ fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
     image::RgbImage::from_fn(3 * 32, 16, tile).save(&path).unwrap();
     let mut window = opened([path]);
     change(&mut window);
-    assert_eq!(material(window.state(), 0).size(), [16, 16]);
+    assert_eq!(material(&window, 0).size(), [16, 16]);
     super::choose(&mut window, "order of wide", "order dnr");
     wait(&mut window, "the order", |app| !app.is_reading());
     enter(&mut window, "columns of tiles of wide", "3");
@@ -127,11 +124,11 @@ fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
     let (folder, paths) = two_strips();
     let kept = folder.path().join("guess.svbrdf.json");
     let mut window = on_two_strips(paths.clone());
-    let before = material(window.state(), 1);
+    let before = material(&window, 1);
     assert!(window.query_by_label("Save assumptions of guess").is_none(), "there is nothing to keep");
     choose(&mut window, "roughness of guess", "roughness gloss");
     wait(&mut window, "the material to be read again", |app| *app.materials().nth(1).unwrap() != before);
-    let gloss = material(window.state(), 1);
+    let gloss = material(&window, 1);
     assert!(!kept.exists());
     click(&mut window, "Save assumptions of guess");
     wait(&mut window, "the material to be opened again", |app| !app.is_reading());
@@ -142,11 +139,32 @@ fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
 
     // A new window opens it so; a drop-down wins over it, also over what it says.
     let mut window = on_two_strips(paths);
-    assert!(material(window.state(), 1) == gloss);
+    assert!(material(&window, 1) == gloss);
     choose(&mut window, "roughness of guess", "auto: infer roughness");
     wait(&mut window, "auto", |app| *app.materials().nth(1).unwrap() == before);
     click(&mut window, "Save assumptions of guess");
     wait(&mut window, "the material to be opened again", |app| !app.is_reading());
     assert_eq!(std::fs::read_to_string(&kept).unwrap(), "{}\n");
-    assert!(material(window.state(), 1) == before);
+    assert!(material(&window, 1) == before);
+}
+
+#[needs(adapter)]
+fn a_file_of_several_materials_has_a_chooser() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("two.mtl");
+    for (name, rgb) in [("red", [180, 0, 0]), ("green", [0, 180, 0])] {
+        let picture = image::RgbImage::from_pixel(8, 8, rgb.into());
+        picture.save(folder.path().join(format!("{name}.png"))).unwrap();
+    }
+    let text = "newmtl red\nmap_Kd red.png\nPr 0.2\nnewmtl green\nmap_Kd green.png\nPr 0.7\n";
+    std::fs::write(&path, text).unwrap();
+    let mut window = on_files([path]);
+    tab(&mut window, "Files");
+    let diffuse = |app: &App| app.materials().next().unwrap().texel(0).diffuse;
+    assert_eq!((diffuse(window.state())[0] > 0.0, diffuse(window.state())[1] > 0.0), (true, false));
+    let name = window.names()[0].clone();
+    super::choose(&mut window, &format!("material of {name}"), "1: green");
+    wait(&mut window, "the other material", |app| !app.is_reading() && diffuse(app)[1] > 0.0);
+    assert_eq!(diffuse(window.state())[0], 0.0);
+    assert!(window.messages().is_empty(), "{:?}", window.messages());
 }

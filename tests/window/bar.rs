@@ -1,7 +1,5 @@
 //! Controls of the window: the drawer, the clipboard, the exposure.
 
-use svbrdf_viewer::model::command::SceneCommand;
-
 use super::*;
 
 /// The panes of all materials.
@@ -46,19 +44,13 @@ fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     // The losses are in the titles.
     wait(&mut window, "the losses", |app| app.losses().is_some());
     window.run_steps(2);
-    let [width, height] = window.state().picture_size();
+    let [width, height] = window.model().geometry.picture;
     let (key, modifiers) = (egui::Key::C, Modifiers::COMMAND | Modifiers::SHIFT);
     window.event(egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers });
-    // Each frame has its own output: the copy is in one of them.
-    let mut copied = None;
-    for _ in 0..20 {
-        window.step();
-        for command in &window.output().platform_output.commands {
-            if let egui::OutputCommand::CopyImage(image) = command {
-                copied = Some(image.clone());
-            }
-        }
-    }
+    let copied = commands(&mut window).into_iter().find_map(|command| match command {
+        egui::OutputCommand::CopyImage(image) => Some(image),
+        _ => None,
+    });
     let copied = copied.expect("an image is copied");
     assert_eq!(copied.size.map(|side| side as u32), [width, height + 20]);
     let colours: std::collections::HashSet<_> = copied.pixels.iter().collect();
@@ -77,37 +69,27 @@ fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
 
 /// The controls of the window: role and label, and the centre.
 pub(super) fn controls(window: &Window<'_>) -> Vec<(String, Pos2)> {
-    const ROLES: [Role; 7] = [
-        Role::Button,
-        Role::CheckBox,
-        Role::RadioButton,
-        Role::ComboBox,
-        Role::SpinButton,
-        Role::Slider,
-        Role::Tab,
-    ];
+    use Role::{Button, CheckBox, ComboBox, RadioButton, Slider, SpinButton, Tab};
     let of = |role: Role| {
         window.query_all_by_role(role).map(move |node| {
-            let label = egui_kittest::kittest::NodeT::accesskit_node(&node).label().unwrap_or_default();
+            let label = node.accesskit_node().label().unwrap_or_default();
             (format!("{role:?} {label}"), node.rect().center())
         })
     };
-    ROLES.into_iter().flat_map(of).collect()
+    [Button, CheckBox, RadioButton, ComboBox, SpinButton, Slider, Tab].into_iter().flat_map(of).collect()
 }
 
 #[needs(adapter)]
 fn the_exposure_is_automatic_once_follows_and_stays_where_a_hand_puts_it() {
     let mut window = built_in();
-    let exposure = |window: &Window<'_>| window.state().parts.model.view.exposure_ev;
+    let exposure = |window: &Window<'_>| window.view().exposure_ev;
     let start = exposure(&window);
     assert_ne!(start, 0.0, "it is automatic once at the start");
     let rect = pane(&window, GROUND_TRUTH);
-    let move_light = |window: &mut Window<'_>| {
-        drag_primary(window, rect, vec2(0.5, 0.5), vec2(0.85, 0.8));
-    };
+    let move_light = |window: &mut Window<'_>| drag_primary(window, rect, vec2(0.5, 0.5), vec2(0.85, 0.8));
     move_light(&mut window);
     assert_eq!(exposure(&window), start, "a drag leaves it");
-    let mut grazing = window.state().parts.model.view.scene;
+    let mut grazing = window.scene();
     grazing.light = [-1.3, 0.0, 0.2];
     apply(&mut window, SceneCommand::Choose(grazing));
     let chosen = exposure(&window);

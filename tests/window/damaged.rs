@@ -1,11 +1,7 @@
-//! Sessions with random values: no window crashes on them.
+//! Sessions with random values, a panic in a frame, a lost device.
 
-use rand::SeedableRng as _;
-use rand::rngs::ChaCha8Rng;
-use serde_json::{Value, json};
-use svbrdf_files::session::Session;
+use serde_json::Value;
 
-use super::soak::below;
 use super::*;
 
 /// Sessions of the usual run.
@@ -25,22 +21,20 @@ fn leaves(value: &Value, place: &str, found: &mut Vec<String>) {
 /// A session with one or two values replaced: a number mostly by another number.
 fn damaged(session: &Value, random: &mut ChaCha8Rng) -> Value {
     let numbers = [0.0, -0.0, -1.0, 0.5, 1e-30, 1e9, -1e9, 1e39, 1e308].map(|number| json!(number));
-    let mut others = [0, -1, 4_294_967_296, i64::MIN].map(|number| json!(number)).to_vec();
-    others.extend([json!(u64::MAX), json!(true), json!(null), json!([]), json!({})]);
-    others.extend(["".to_owned(), "\u{202e}".repeat(300)].map(|text| json!(text)));
+    let long = "\u{202e}".repeat(300);
+    let others = json!([0, -1, 4_294_967_296_u64, i64::MIN, u64::MAX, true, null, [], {}, "", long]);
     let (mut damaged, mut places) = (session.clone(), Vec::new());
     leaves(session, "", &mut places);
+    let is_number = |place: &&String| session.pointer(place).is_some_and(Value::is_f64);
+    let of_numbers: Vec<_> = places.iter().filter(is_number).cloned().collect();
     for _ in 0..=below(random, 2) {
-        let is_number = |place: &&String| session.pointer(place).is_some_and(Value::is_f64);
-        let of_numbers: Vec<_> = places.iter().filter(is_number).collect();
         let is_other = below(random, 3) == 0;
-        let place = if is_other {
-            &places[below(random, places.len())]
+        let (places, replacements) = if is_other {
+            (&places, others.as_array().unwrap().as_slice())
         } else {
-            of_numbers[below(random, of_numbers.len())]
+            (&of_numbers, &numbers[..])
         };
-        let replacements = if is_other { &others[..] } else { &numbers[..] };
-        if let Some(value) = damaged.pointer_mut(place) {
+        if let Some(value) = damaged.pointer_mut(&places[below(random, places.len())]) {
             *value = replacements[below(random, replacements.len())].clone();
         }
     }
@@ -52,7 +46,7 @@ fn sessions_of_random_values_open_or_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();
     let whole: Value = serde_json::from_str(
-        &window.state().parts.model.session().text(&folder.path().join("s.svbrdf-session.json")).unwrap(),
+        &window.model().session().text(&folder.path().join("s.svbrdf-session.json")).unwrap(),
     )
     .unwrap();
     let (mut opened, mut random) = (0, ChaCha8Rng::seed_from_u64(30));
@@ -74,4 +68,34 @@ fn sessions_of_random_values_open_or_are_refused() {
     }
     // Neither comparator is idle: some are opened, and some are refused.
     assert!((5..SESSIONS - 5).contains(&opened), "{opened} of {SESSIONS} sessions can be read");
+}
+
+#[needs(adapter)]
+fn a_panic_or_a_lost_device_closes_the_window_with_its_reason_and_no_frame_is_drawn_after_it() {
+    type End = fn(&mut Window<'_>);
+    let ends: [(End, &str); 2] = [
+        (|window| window.input_mut().dropped_files.push(Arc::new(Dropped(None))), "a planted fault"),
+        (|window| window.state().parts.gpu.as_ref().unwrap().gpu.lose(), "the graphics device was lost ("),
+    ];
+    for (end, reason) in ends {
+        let guard = CrashGuard::default();
+        let mut window = guarded_window(ViewerOptions::default(), guard.clone(), 1.0);
+        assert!(!guard.has_crashed());
+        end(&mut window);
+        window.step();
+        let output = window.output();
+        assert!(output.shapes.is_empty() || reason.contains("planted"), "nothing is drawn on a lost device");
+        let commands = &output.viewport_output[&egui::ViewportId::ROOT].commands;
+        assert!(commands.contains(&egui::ViewportCommand::Close), "{commands:?}");
+        let exposure = window.view().exposure_ev;
+        window.key_press(egui::Key::E);
+        window.step();
+        assert_eq!(window.view().exposure_ev, exposure);
+        drop(window);
+        let session = guard.loss().map(|loss| loss.session.unwrap());
+        assert_eq!(session.is_some(), reason.contains("lost"), "a restart goes on with the session");
+        assert!(session.is_none_or(|session| session.materials.len() == 3 && session.exposure == exposure));
+        let error = guard.outcome(Ok(Ok(()))).unwrap_err().to_string();
+        assert!(error.contains(reason), "{error}");
+    }
 }

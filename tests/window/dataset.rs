@@ -1,41 +1,36 @@
 //! A data set in the window.
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
-use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{DatasetReading, Evaluation, KnownLoss, Source};
-use svbrdf_files::session::Session;
-use svbrdf_files::source::MaterialSource;
 use svbrdf_viewer::OpenDataset;
-use svbrdf_viewer::model::command::{DatasetCommand, DisplayCommand, SceneCommand};
 use svbrdf_viewer::model::dataset::list::{Filter, ListView, Order};
 
-use super::materials::write_packed;
+use super::observed::Observed;
 use super::*;
+
+/// Writes a material whose error is so many times the least.
+fn write(path: &Path, side: u32, error: u32) {
+    write_packed(path, side, |tile, x, y| {
+        let shade = |value: u32| (value + error).min(255) as u8;
+        [[128, 128, 255], [shade(60 + 4 * x); 3], [shade(90 + 3 * y); 3], [20; 3]][tile as usize]
+    });
+}
 
 /// Materials a to f, all of which `ours` has; `theirs` lacks b, has a damaged c, and d in another size. The material e is larger.
 fn folders(folder: &Path) -> [PathBuf; 3] {
     let [gt, ours, theirs] = ["gt", "ours", "theirs"].map(|name| folder.join(name));
     [&gt, &ours, &theirs].into_iter().for_each(|folder| std::fs::create_dir(folder).unwrap());
-    for (index, name) in ["a", "b", "c", "d", "e", "f"].into_iter().enumerate() {
+    for (name, times) in ["a", "b", "c", "d", "e", "f"].into_iter().zip(1..) {
         let side = if name == "e" { 24 } else { 16 };
-        let write = |folder: &Path, side: u32, error: u32| {
-            write_packed(&folder.join(format!("{name}.png")), side, |tile, x, y| {
-                let shade = |value: u32| (value + error * (1 + index as u32)).min(255) as u8;
-                [[128, 128, 255], [shade(60 + 4 * x); 3], [shade(90 + 3 * y); 3], [20; 3]][tile as usize]
-            });
-        };
-        write(&gt, side, 0);
-        write(&ours, side, 5);
+        let [truth, our, their] = [&gt, &ours, &theirs].map(|folder| folder.join(format!("{name}.png")));
+        write(&truth, side, 0);
+        write(&our, side, 5 * times);
         match name {
             "b" => {}
-            "c" => std::fs::write(theirs.join("c.png"), "no picture").unwrap(),
-            "d" => write(&theirs, 8, 9),
-            _ => write(&theirs, side, 9),
+            "c" => std::fs::write(their, "no picture").unwrap(),
+            "d" => write(&their, 8, 9 * times),
+            _ => write(&their, side, 9 * times),
         }
     }
     [gt, ours, theirs]
@@ -46,28 +41,27 @@ fn dataset([gt, ours, theirs]: [PathBuf; 3], results: Option<PathBuf>) -> OpenDa
     OpenDataset::new(source, DatasetReading::default(), (0.02, 0), results).unwrap()
 }
 
+/// The window on a data set, once its losses are there.
 fn on_dataset<'a>(dataset: &OpenDataset) -> Window<'a> {
-    window(ViewerOptions { dataset: Some(Box::new(dataset.clone())), ..ViewerOptions::default() })
+    let mut window =
+        window(ViewerOptions { dataset: Some(Box::new(dataset.clone())), ..ViewerOptions::default() });
+    wait_for_losses(&mut window);
+    window
 }
 
 fn wait_for_losses(window: &mut Window<'_>) {
-    wait(window, "all losses", |app| app.parts.jobs.dataset.losses.count() == 6);
+    wait(window, "all losses", |app| app.jobs().dataset.losses.count() == 6);
 }
 
-fn shown(window: &Window<'_>) -> String {
-    window.state().names()[0].clone()
-}
-
-fn loss(window: &Window<'_>, case: usize, method: usize) -> Option<KnownLoss> {
-    window.state().parts.jobs.dataset.losses.row(case)?.by_method[method]
+fn loss(window: &impl Observed, case: usize, method: usize) -> Option<KnownLoss> {
+    window.jobs().dataset.losses.row(case)?.by_method[method]
 }
 
 #[needs(adapter)]
 fn the_losses_in_the_list_are_those_of_rank_to_the_last_bit_and_what_fails_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let dataset = dataset(folders(folder.path()), Some(folder.path().join("results")));
-    let mut window = on_dataset(&dataset);
-    wait_for_losses(&mut window);
+    let window = on_dataset(&dataset);
     let progress = Progress::default();
     let ranked = Evaluation::new(&dataset.settings, &dataset.reading, None, &progress).unwrap();
     for case in &dataset.cases {
@@ -79,17 +73,15 @@ fn the_losses_in_the_list_are_those_of_rank_to_the_last_bit_and_what_fails_is_to
     let known: Vec<usize> = (0..6).filter(|case| loss(&window, *case, 1).is_some()).collect();
     assert_eq!(known, [0, 4, 5], "theirs lacks b, c and d");
     // Another window finds all of them in the results folder.
-    let mut other = on_dataset(&dataset);
+    let other = on_dataset(&dataset);
     let found =
         Evaluation::new(&dataset.settings, &dataset.reading, dataset.results.as_deref(), &progress).unwrap();
     assert!(found.known(&dataset.cases[0]).is_some());
-    wait_for_losses(&mut other);
     assert_eq!(loss(&other, 0, 0), loss(&window, 0, 0));
     // A planted fault: other scenes, another loss.
     let mut planted = dataset.clone();
     planted.settings.seed = 1;
-    let mut planted = on_dataset(&planted);
-    wait_for_losses(&mut planted);
+    let planted = on_dataset(&planted);
     assert_ne!(loss(&planted, 0, 0), loss(&window, 0, 0));
 }
 
@@ -97,33 +89,25 @@ fn the_losses_in_the_list_are_those_of_rank_to_the_last_bit_and_what_fails_is_to
 fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_at_once() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), None));
-    wait_for_losses(&mut window);
-    assert_eq!(window.state().names(), ["a", "ours", "theirs"]);
+    assert_eq!(window.names(), ["a", "ours", "theirs"]);
     apply(&mut window, SceneCommand::MoveOverPlane(Endpoint::Light, [0.4, -0.2]));
     apply(&mut window, DisplayCommand::ChoosePrediction(1));
     apply(&mut window, DisplayCommand::StepExposure(0.5));
     apply(&mut window, DisplayCommand::SetMagnification(37.0));
-    let before = window.state().parts.model.view.clone();
+    let before = window.view().clone();
     let mut seen = Vec::new();
     for name in ["b", "c", "d", "e", "f"] {
         window.key_press(egui::Key::PageDown);
-        for _ in 0..600 {
-            window.step();
-            let (names, materials) = (window.state().names(), &window.state().parts.model.materials);
+        wait(&mut window, name, |app| {
             // In every frame, all materials are of one case: their files have one name.
-            let files = materials.all.iter().map(|one| one.read.path().file_name().unwrap().to_owned());
-            let mut files: Vec<_> = files.collect();
-            files.dedup();
+            let files = app.model().materials.all.iter().map(|one| one.read.path().file_name().unwrap());
+            let files: std::collections::BTreeSet<_> = files.collect();
             assert_eq!(files.len(), 1, "{files:?}");
-            if names[0] == name {
-                break;
-            }
-            std::thread::sleep(std::time::Duration::from_millis(5));
-        }
-        assert_eq!(shown(&window), name);
-        let view = &window.state().parts.model.view;
+            app.names()[0] == name
+        });
+        let view = window.view();
         assert_eq!((view.scene, view.exposure_ev), (before.scene, before.exposure_ev), "{name}");
-        seen.push((window.state().names().len(), view.display.prediction, view.display.framing.unwrap()));
+        seen.push((window.names().len(), view.display.prediction, view.display.framing.unwrap()));
     }
     // Chosen is `theirs` wherever it is.
     assert_eq!(seen.iter().map(|(count, ..)| *count).collect::<Vec<_>>(), [2, 2, 2, 3, 3]);
@@ -135,11 +119,8 @@ fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_a
     assert!((large.centre[0] / 24.0 - small.centre[0] / 16.0).abs() < 1e-6);
     window.key_press(egui::Key::PageUp);
     wait(&mut window, "the one before", |app| app.names()[0] == "e");
-    assert!(window.state().parts.model.dataset.problems.is_empty());
-    for _ in 0..3 {
-        window.key_press(egui::Key::PageUp);
-        window.run_steps(2);
-    }
+    assert!(window.model().dataset.problems.is_empty());
+    (0..3).for_each(|_| press(&mut window, egui::Key::PageUp));
     wait(&mut window, "b", |app| app.names()[0] == "b");
     assert!(has(&window, "theirs: no prediction named b"));
 }
@@ -148,7 +129,6 @@ fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_a
 fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), Some(folder.path().join("results"))));
-    wait_for_losses(&mut window);
     let list = ListView { order: Order::Loss(0), ..ListView::default() };
     apply(&mut window, DatasetCommand::SetList(list));
     let title = |window: &Window<'_>| window.state().parts.ui.dataset.title(window.state().parts.displayed());
@@ -183,11 +163,10 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     wait(&mut window, "the session", |app| app.messages().iter().any(|text| text.starts_with("Saved")));
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("\"gt\"") && !text.contains(folder.path().to_str().unwrap()), "{text}");
-    let session = Some(Session::read(&path).unwrap());
-    let mut other = super::window(ViewerOptions { session, ..ViewerOptions::default() });
+    let mut other = on_session(&path);
     wait_for_losses(&mut other);
     wait(&mut other, "the marked one", |app| app.parts.model.dataset.shown == Some(case));
-    let mark = other.state().parts.model.dataset.mark(name).cloned().unwrap();
+    let mark = other.model().dataset.mark(name).cloned().unwrap();
     assert!(mark.is_marked && mark.note == "blotches");
     assert_eq!(loss(&other, case, 0), loss(&window, case, 0));
 }
@@ -195,38 +174,38 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
 #[needs(adapter)]
 fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_returns_from() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = on_dataset(&dataset(folders(folder.path()), None));
+    let mut window = built_in();
+    drop_files(&mut window, folders(folder.path()));
+    wait(&mut window, "the first material", |app| app.names()[0] == "a");
     wait_for_losses(&mut window);
+    tab(&mut window, "Methods");
+    wait(&mut window, "the summary", |app| app.jobs().dataset.summary.get().is_some());
+    see(&mut window, "theirs has 3 of 6 materials");
     window.key_press(egui::Key::S);
     window.run_steps(3);
-    let cell = |window: &Window<'_>, name: &str| window.get_by_label(&format!("Cell {name}")).rect();
     wait_in(&mut window, "the cells", |window| {
-        let sheet = window.state().parts.jobs.dataset.sheet.get();
+        let sheet = window.jobs().dataset.sheet.get();
         let of = |case, column| svbrdf_viewer::jobs::dataset::cells::Cell { case, column };
         sheet.is_some_and(|sheet| sheet.part(of(0, 1)).is_some() && sheet.part(of(2, 2)).is_none())
     });
-    let before = window.state().parts.jobs.dataset.sheet.get().unwrap().picture.clone();
-    let rect = cell(&window, "b, ours");
-    let at = rect.left_top() + rect.size() * vec2(0.75, 0.25);
-    window.drag_at(rect.center());
-    window.run_steps(2);
-    window.hover_at(at);
-    window.run_steps(2);
-    window.drop_at(at);
-    window.run_steps(2);
-    let light = window.state().parts.model.view.scene.light;
+    let before = window.jobs().dataset.sheet.get().unwrap().picture.clone();
+    let rect = window.get_by_label("Cell b, ours").rect();
+    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.75, 0.25));
+    let light = window.scene().light;
     assert!((light[0] - 0.5).abs() < 0.05 && (light[1] - 0.5).abs() < 0.05, "{light:?}");
     wait_in(&mut window, "other pictures", |window| {
-        let sheet = window.state().parts.jobs.dataset.sheet.get();
+        let sheet = window.jobs().dataset.sheet.get();
         sheet.is_some_and(|sheet| !Arc::ptr_eq(&sheet.picture, &before) && sheet.picture != before)
     });
-    assert_eq!(shown(&window), "a", "a drag opens nothing");
+    assert_eq!(window.names()[0], "a", "a drag opens nothing");
     click(&mut window, "Cell e, theirs");
     wait(&mut window, "the material", |app| app.names()[0] == "e");
-    assert!(!window.state().parts.model.dataset.sheet.is_open);
-    window.key_press(egui::Key::Escape);
-    window.run_steps(3);
-    assert!(window.state().parts.model.dataset.sheet.is_open);
+    assert!(!window.model().dataset.sheet.is_open);
+    press(&mut window, egui::Key::Escape);
+    assert!(window.model().dataset.sheet.is_open);
+    apply(&mut window, MaterialsCommand::OpenBuiltIn);
+    wait(&mut window, "the built-in materials", |app| app.names()[0] == "worn tiles");
+    assert!(!has(&window, "Tab Methods"), "another comparison closes it");
 }
 
 #[needs(adapter)]
@@ -234,68 +213,44 @@ fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_i
     let folder = tempfile::tempdir().unwrap();
     let all = folders(folder.path());
     let mut window = on_dataset(&dataset(all.clone(), None));
-    wait_for_losses(&mut window);
     let before = loss(&window, 0, 0).unwrap();
     std::fs::copy(all[2].join("a.png"), all[1].join("a.png")).unwrap();
     std::fs::remove_file(all[2].join("a.png")).unwrap();
     window.key_press_modifiers(Modifiers::COMMAND, egui::Key::R);
     wait(&mut window, "the losses again", |app| {
-        let now = app.parts.jobs.dataset.losses.row(0).and_then(|row| row.by_method[0]);
-        now.is_some_and(|now| now != before) && app.names().len() == 2
+        loss(app, 0, 0).is_some_and(|now| now != before) && app.names().len() == 2
     });
     assert_eq!(loss(&window, 0, 1), None);
     assert!(has(&window, "theirs: "));
     // Watched files are read again with their losses, without a key.
-    apply(&mut window, svbrdf_viewer::model::command::MaterialsCommand::SetWatch(true));
+    apply(&mut window, MaterialsCommand::SetWatch(true));
     rest(&mut window, 20);
     let before = loss(&window, 0, 0).unwrap();
     std::fs::copy(all[0].join("a.png"), all[1].join("a.png")).unwrap();
     wait(&mut window, "the loss of what was written", |app| {
-        let now = app.parts.jobs.dataset.losses.row(0).and_then(|row| row.by_method[0]);
-        now.is_some_and(|now| now != before && now.loss == 0.0)
+        loss(app, 0, 0).is_some_and(|now| now != before && now.loss == 0.0)
     });
-}
-
-#[needs(adapter)]
-fn a_data_set_is_opened_in_the_window_and_closed_by_another_comparison() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut window = built_in();
-    drop_files(&mut window, folders(folder.path()));
-    wait(&mut window, "the first material", |app| app.names()[0] == "a");
-    wait_for_losses(&mut window);
-    click(&mut window, "Tab Methods");
-    wait(&mut window, "the summary", |app| app.parts.jobs.dataset.summary.get().is_some());
-    see(&mut window, "theirs has 3 of 6 materials");
-    apply(&mut window, svbrdf_viewer::model::command::MaterialsCommand::OpenBuiltIn);
-    wait(&mut window, "the built-in materials", |app| app.names()[0] == "worn tiles");
-    assert!(!has(&window, "Tab Methods"));
-}
-
-/// A ground truth and 25 predictions of it, each worse than the one before.
-fn many(folder: &Path) -> ViewerOptions {
-    let write = |name: &str, error: u32| {
-        let path = folder.join(format!("{name}.png"));
-        write_packed(&path, 16, |tile, x, y| {
-            let shade = |value: u32| (value + error).min(255) as u8;
-            [[128, 128, 255], [shade(60 + 4 * x); 3], [shade(90 + 3 * y); 3], [20; 3]][tile as usize]
-        });
-        MaterialSource::from(path)
-    };
-    let predictions = (0..25).map(|number| write(&format!("p{number:02}"), 3 + number)).collect();
-    ViewerOptions { ground_truth: Some(write("gt", 0)), predictions, ..ViewerOptions::default() }
 }
 
 #[needs(adapter)]
 fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the_pinned_ones() {
     let folder = tempfile::tempdir().unwrap();
-    let mut window = window(many(folder.path()));
+    let files = (0..26).map(|number| match number {
+        0 => ("gt".to_owned(), 0),
+        _ => (format!("p{:02}", number - 1), 2 + number),
+    });
+    let mut window = on_files(files.map(|(name, error)| {
+        let path = folder.path().join(format!("{name}.png"));
+        write(&path, 16, error);
+        path
+    }));
     wait(&mut window, "the first prediction", |app| app.names() == ["gt", "p00"]);
-    wait(&mut window, "all losses", |app| app.parts.jobs.dataset.losses.count() == 25);
+    wait(&mut window, "all losses", |app| app.jobs().dataset.losses.count() == 25);
     see(&mut window, "25 predictions");
     // Assistive software is told what is open.
     assert_eq!(window.root().accesskit_node().label().as_deref(), Some("p00 (1 of 25) - svbrdf"));
     // The losses are those of one comparison each, over the same scenes.
-    let materials = |window: &Window<'_>| window.state().materials().cloned().collect::<Vec<_>>();
+    let materials = |window: &Window<'_>| window.materials().cloned().collect::<Vec<_>>();
     let pair = materials(&window);
     let by_seed = |seed| {
         let comparison = Comparison::new(&pair[0], &[&pair[1]], Convention::default()).unwrap();
@@ -307,10 +262,10 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     let losses: Vec<f64> = (0..25).map(|case| loss(&window, case, 0).unwrap().loss).collect();
     assert!(losses.is_sorted(), "{losses:?}");
     // A pinned one stays, beside those that are flipped through; the ground truth is read once.
-    let id = |window: &Window<'_>| window.state().parts.model.materials.all[0].id();
+    let id = |window: &Window<'_>| window.model().materials.all[0].id();
     let first = id(&window);
     apply(&mut window, SceneCommand::MoveOverPlane(Endpoint::Light, [0.4, -0.2]));
-    let scene = window.state().parts.model.view.scene;
+    let scene = window.scene();
     window.key_press(egui::Key::K);
     for name in ["p01", "p02"] {
         window.key_press(egui::Key::PageDown);
@@ -321,7 +276,7 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     wait(&mut window, "two pinned ones", |app| app.names() == ["gt", "p03", "p00", "p02"]);
     window.key_press(egui::Key::PageUp);
     wait(&mut window, "a pinned one once", |app| app.names() == ["gt", "p02", "p00"]);
-    assert_eq!((id(&window), window.state().parts.model.view.scene), (first, scene));
+    assert_eq!((id(&window), window.scene()), (first, scene));
     // Worst first.
     let list = ListView { order: Order::Loss(0), ..ListView::default() };
     apply(&mut window, DatasetCommand::SetList(list));
@@ -329,16 +284,14 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     assert_eq!(listed[..3], [24, 23, 22]);
     let session = folder.path().join("many.svbrdf-session.json");
     save(&mut window, SaveKind::Session, &session);
-    let session = Some(Session::read(&session).unwrap());
-    let mut later = super::window(ViewerOptions { session, ..ViewerOptions::default() });
+    let mut later = on_session(&session);
     wait(&mut later, "the session", |app| app.names() == ["gt", "p02", "p00"]);
     // The ground truth that all have changes: all losses are of the new one.
     let before = loss(&window, 5, 0);
     std::fs::copy(folder.path().join("p10.png"), folder.path().join("gt.png")).unwrap();
     window.key_press_modifiers(Modifiers::COMMAND, egui::Key::R);
     wait(&mut window, "losses of another ground truth", |app| {
-        let row = app.parts.jobs.dataset.losses.row(5);
-        row.is_some_and(|row| row.by_method[0] != before) && app.parts.jobs.dataset.losses.count() == 25
+        loss(app, 5, 0) != before && app.jobs().dataset.losses.count() == 25
     });
     assert!(loss(&window, 10, 0).unwrap().loss == 0.0);
 }
@@ -349,12 +302,13 @@ fn a_ground_truth_that_cannot_be_read_is_told_in_the_panes() {
     let folder = tempfile::tempdir().unwrap();
     let folders = folders(folder.path());
     std::fs::write(folders[0].join("b.png"), "no picture").unwrap();
-    let mut window = on_dataset(&dataset(folders, None));
+    let dataset = Some(Box::new(dataset(folders, None)));
+    let mut window = window(ViewerOptions { dataset, ..ViewerOptions::default() });
     press(&mut window, egui::Key::PageDown);
     wait(&mut window, "the problem", |app| !app.parts.model.dataset.problems.is_empty());
     window.run_steps(3);
-    let problem = window.state().parts.model.dataset.problems[0].1.clone();
-    assert!(problem.contains("b.png") && window.state().names().is_empty(), "{problem}");
+    let problem = window.model().dataset.problems[0].1.clone();
+    assert!(problem.contains("b.png") && window.names().is_empty(), "{problem}");
     window.get_by_label(&problem);
     assert!(!has(&window, "Open a material with Ctrl+O, or drop files or folders here."));
     press(&mut window, egui::Key::PageDown);

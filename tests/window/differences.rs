@@ -1,17 +1,12 @@
 //! The difference as a quantity: in every layout, with its numbers, its range and its colours.
 
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_viewer::model::view::state::Layout;
+use svbrdf_core::picture::flip::flip;
 
-use super::materials::materials;
 use super::*;
 
 #[needs(adapter)]
 fn exposure_changes_values_and_no_difference() {
-    let mut window = built_in();
-    press(&mut window, egui::Key::D);
-    statistics(&mut window);
+    let mut window = with_differences();
     let [ground_truth, prediction] = [GROUND_TRUTH, PREDICTIONS[0]].map(|title| pane(&window, title));
     let before = [ground_truth, prediction].map(|rect| pixels(&mut window, rect));
     press(&mut window, egui::Key::E);
@@ -30,7 +25,7 @@ fn the_ground_truth_is_never_compared_with_itself() {
     };
     press(&mut window, egui::Key::D);
     for layout in [Layout::SideBySide, Layout::Wipe, Layout::Single] {
-        assert_eq!(window.state().parts.model.view.display.layout, layout);
+        assert_eq!(window.view().display.layout, layout);
         for key in [egui::Key::X, egui::Key::G] {
             window.key_down(key);
             window.run_steps(4);
@@ -50,46 +45,38 @@ fn the_ground_truth_is_never_compared_with_itself() {
 }
 
 #[needs(adapter)]
-fn the_range_is_dragged_and_automatic_again() {
-    let mut window = built_in();
-    press(&mut window, egui::Key::D);
-    statistics(&mut window);
-    let auto = window.state().difference_range();
-    let scale = window.get_by_label("Difference range").rect();
-    let before = pane(&window, PREDICTIONS[0]);
-    let automatic = pixels(&mut window, before);
-    drag_primary(&mut window, scale, vec2(0.6, 0.5), vec2(0.5, 0.5));
-    let range = window.state().difference_range();
-    assert!((range - 0.75 * auto).abs() < 0.02 * auto, "half of an axis to 1.5 {auto}: {range}");
-    assert!(pixels(&mut window, before) != automatic, "other colours");
-    // Another quantity has its own range.
-    press(&mut window, egui::Key::M);
-    statistics(&mut window);
-    assert!(window.state().difference_range() != range);
-    press_with(&mut window, Modifiers::SHIFT, egui::Key::M);
-    statistics(&mut window);
-    assert_eq!(window.state().difference_range(), range);
-    click(&mut window, "Auto range");
-    assert_eq!(window.state().difference_range(), auto);
-    assert!(pixels(&mut window, before) == automatic);
-}
-
-#[needs(adapter)]
-fn the_range_of_a_signed_difference_is_dragged_at_either_end() {
-    let mut window = built_in();
-    let display = &mut window.state_mut().parts.model.view.display;
-    display.differences.choose(Quantity::Rendering, Difference::SignedLog);
-    press(&mut window, egui::Key::D);
-    statistics(&mut window);
-    let auto = window.state().difference_range();
-    // The axis goes from -1.5 to 1.5 times the automatic range, between margins of 8 points.
-    let scale = window.get_by_label("Difference range").rect().shrink2(vec2(8.0, 0.0));
-    let at = |value: f32| vec2((value + 1.5) / 3.0, 0.5);
-    for (from, to) in [(-1.0, -0.75), (0.75, 1.2), (-1.2, -0.5)] {
-        drag_primary(&mut window, scale, at(from), at(to));
-        let range = window.state().difference_range();
-        let expected = f64::from(to.abs()) * auto;
-        assert!((range - expected).abs() < 0.01 * auto, "from {from} to {to}: {range}, expected {expected}");
+fn the_range_is_dragged_at_either_end_and_automatic_again() {
+    let mut window = with_differences();
+    for (kind, low, drags) in [
+        (Difference::SignedLog, -1.5, [(-1.0, -0.75), (0.75, 1.2), (-1.2, -0.5)]),
+        (Difference::Log, 0.0, [(1.0, 0.75), (0.75, 1.2), (1.2, 0.5)]),
+    ] {
+        apply(&mut window, DisplayCommand::SetDifference(kind));
+        statistics(&mut window);
+        let auto = window.difference_range();
+        let prediction = pane(&window, PREDICTIONS[0]);
+        let automatic = pixels(&mut window, prediction);
+        // The axis goes to 1.5 times the automatic range, between margins of 8 points.
+        let scale = window.get_by_label("Difference range").rect().shrink2(vec2(8.0, 0.0));
+        let at = |value: f32| vec2((value - low) / (1.5 - low), 0.5);
+        for (from, to) in drags {
+            drag_primary(&mut window, scale, at(from), at(to));
+            let range = window.difference_range();
+            let expected = f64::from(to.abs()) * auto;
+            assert!((range - expected).abs() < 0.01 * auto, "from {from} to {to}: {range}, not {expected}");
+        }
+        let range = window.difference_range();
+        assert!(pixels(&mut window, prediction) != automatic, "other colours");
+        // Another quantity has its own range.
+        press(&mut window, egui::Key::M);
+        statistics(&mut window);
+        assert!(window.difference_range() != range);
+        press_with(&mut window, Modifiers::SHIFT, egui::Key::M);
+        statistics(&mut window);
+        assert_eq!(window.difference_range(), range);
+        click(&mut window, "Auto range");
+        assert_eq!(window.difference_range(), auto);
+        assert!(pixels(&mut window, prediction) == automatic);
     }
 }
 
@@ -110,13 +97,13 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
             assert_eq!(column(&window, start), expected, "under the pointer is slot {slot}");
         }
     }
-    assert_eq!(window.state().parts.model.view.display.prediction, 0, "the pointer chooses none");
+    assert_eq!(window.view().display.prediction, 0, "the pointer chooses none");
 }
 
 #[needs(adapter)]
 fn every_pane_in_false_colours_has_a_scale_and_no_other() {
     use svbrdf_viewer::ui::pane::scale::PaneScale;
-    let mut window = built_in();
+    let mut window = with_differences();
     let scales = |window: &Window<'_>| {
         let parts = &window.state().parts;
         let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
@@ -124,10 +111,7 @@ fn every_pane_in_false_colours_has_a_scale_and_no_other() {
         let contents = scenery.contents();
         contents.into_iter().map(|content| PaneScale::of(&scenery, content)).collect::<Vec<_>>()
     };
-    assert_eq!(scales(&window), [None, None, None], "values have their own colours");
-    press(&mut window, egui::Key::D);
-    statistics(&mut window);
-    let range = window.state().difference_range();
+    let range = window.difference_range();
     let log = PaneScale { is_signed: false, range, unit: "" };
     assert_eq!(scales(&window), [None, Some(log.clone()), Some(log.clone())]);
     press(&mut window, egui::Key::C);
@@ -136,13 +120,68 @@ fn every_pane_in_false_colours_has_a_scale_and_no_other() {
     press(&mut window, egui::Key::C);
     press(&mut window, egui::Key::M);
     statistics(&mut window);
-    let angle = PaneScale { is_signed: false, range: window.state().difference_range(), unit: "\u{b0}" };
+    let angle = PaneScale { is_signed: false, range: window.difference_range(), unit: "\u{b0}" };
     assert_eq!(scales(&window)[1], Some(angle));
-    // The roughness itself, in false colours.
     press(&mut window, egui::Key::D);
+    assert_eq!(scales(&window), [None, None, None], "values have their own colours");
+    // The roughness itself, in false colours.
     for key in [egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::V] {
         press(&mut window, key);
     }
     let roughness = PaneScale { is_signed: false, range: 1.0, unit: "" };
     assert_eq!(scales(&window), vec![Some(roughness); 3]);
+}
+
+/// The FLIP of both predictions in the scene and at the exposure of the window, as the mean of three equal channels.
+fn flips(window: &Window<'_>) -> [Vec<f32>; 2] {
+    let view = window.view();
+    let materials: Vec<_> = window.materials().collect();
+    let render =
+        |index: usize| render_f32(materials[index], &view.scene, &PRINTED, &Progress::default()).unwrap();
+    let of = |index| flip(&render(0), &render(index), view.exposure_ev);
+    [1, 2].map(|index| of(index).into_iter().map(|v| (v + v + v) / 3.0).collect())
+}
+
+/// Waits for the statistics of the current scene and exposure.
+fn settle(window: &mut Window<'_>) -> [Vec<f32>; 2] {
+    let expected = flips(window);
+    let statistics = expected.each_ref().map(|map| Statistics::of(map));
+    wait(window, "the FLIP of this scene", |app| {
+        app.difference_statistics().is_some_and(|found| *found == statistics)
+    });
+    expected
+}
+
+/// The window with FLIP in its panes.
+fn with_flip<'a>() -> Window<'a> {
+    let mut window = built_in();
+    press(&mut window, egui::Key::D);
+    apply(&mut window, DisplayCommand::SetDifference(Difference::Flip));
+    window
+}
+
+#[needs(adapter)]
+fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
+    let mut window = with_flip();
+    let first = settle(&mut window);
+    window.get_by_label("Title 1  blurred normals: FLIP");
+    let rect = pane(&window, GROUND_TRUTH);
+    drag_primary(&mut window, rect, vec2(0.7, 0.3), vec2(0.2, 0.8));
+    let moved = settle(&mut window);
+    apply(&mut window, DisplayCommand::StepExposure(2.0));
+    let brighter = settle(&mut window);
+    let mean = |map: &[f32]| map.iter().sum::<f32>() / map.len() as f32;
+    let means = [&first, &moved, &brighter].map(|maps| mean(&maps[0]));
+    assert!((means[0] - means[1]).abs() > 1e-4 && (means[1] - means[2]).abs() > 1e-4, "{means:?}");
+    assert!((mean(&first[0]) - mean(&first[1])).abs() > 1e-3, "a planted fault: the other prediction");
+}
+
+#[needs(adapter)]
+fn panes_readout_and_saved_file_have_the_numbers_of_flip() {
+    let mut window = with_flip();
+    press(&mut window, egui::Key::Num0);
+    apply(&mut window, DisplayCommand::Zoom { factor: 4.3, at: [0.0, 0.0] });
+    apply(&mut window, DisplayCommand::SetExposure(1.0));
+    let maps = settle(&mut window).map(|map| map.into_iter().map(|value| [value; 3]).collect());
+    assert_differences(&mut window, &maps, 1e-6);
 }

@@ -1,8 +1,6 @@
-//! Number fields: one that nobody edited writes nothing.
+//! Fields and buttons: a number that nobody edited is not written.
 
 use svbrdf_core::loss::{Ask, Texels};
-use svbrdf_viewer::model::settings::Tab;
-use svbrdf_viewer::model::view::state::AutoExposure;
 
 use super::*;
 
@@ -50,14 +48,14 @@ fn tab_through_all_fields_changes_no_number() {
         window.state_mut().parts.model.settings.loss.ask = ask;
         window.state_mut().parts.model.settings.tab = Tab::Loss;
         window.run_steps(4);
-        let model = &window.state().parts.model;
+        let model = &window.model();
         let before = (model.view.clone(), model.settings.loss.clone());
         let fields = tab_through(&mut window);
         assert!(fields >= 8, "{ask:?}: {fields} fields had the focus");
-        let model = &window.state().parts.model;
+        let model = &window.model();
         assert_eq!((model.view.clone(), model.settings.loss.clone()), before, "{ask:?}");
     }
-    assert_eq!(window.state().parts.model.view.display.auto_exposure, AutoExposure::Once);
+    assert_eq!(window.view().display.auto_exposure, AutoExposure::Once);
 }
 
 /// Types texts into a field, one after the other.
@@ -78,13 +76,57 @@ fn what_is_typed_into_a_field_is_written_in_full_however_it_is_left() {
         let at = field(&window).center();
         type_x(&mut window, &["0.12345678"]);
         press(&mut window, leave);
-        assert_eq!(window.state().parts.model.view.scene.light[0], 0.123_456_78, "{leave:?}");
+        assert_eq!(window.scene().light[0], 0.123_456_78, "{leave:?}");
         // The very text that the field shows of another number.
         window.state_mut().parts.model.view.scene.light[0] = -0.08779578655958176;
         window.run_steps(3);
         assert!(field(&window).contains(at));
         type_x(&mut window, &["-0.08", "8"]);
         press(&mut window, leave);
-        assert_eq!(window.state().parts.model.view.scene.light[0], -0.088, "{leave:?}");
+        assert_eq!(window.scene().light[0], -0.088, "{leave:?}");
     }
+}
+
+#[needs(adapter)]
+fn a_double_click_on_a_number_puts_back_its_default() {
+    let mut window = built_in();
+    press(&mut window, egui::Key::E);
+    assert_ne!(window.view().exposure_ev, 0.0);
+    let at = window.get_by_role_and_label(Role::SpinButton, "Exposure").rect().center();
+    for pressed in [true, false, true, false] {
+        window.event(egui::Event::PointerMoved(at));
+        window.event(primary(at, pressed));
+    }
+    window.run_steps(6);
+    assert_eq!(window.view().exposure_ev, 0.0);
+}
+
+#[needs(adapter)]
+fn closing_another_prediction_keeps_the_one_that_is_looked_at() {
+    let mut window = built_in();
+    window.set_size(vec2(1200.0, 2000.0));
+    window.run_steps(4);
+    tab(&mut window, "Files");
+    press(&mut window, egui::Key::Num2);
+    assert_eq!(window.view().display.prediction, 1);
+    window.get_all_by_label("Close").next().unwrap().click();
+    window.run_steps(4);
+    assert_eq!(window.names(), ["worn tiles", "wrong roughness"]);
+    assert_eq!(window.view().display.prediction, 0);
+    window.get_all_by_label("Close").next().unwrap().click();
+    window.run_steps(4);
+    assert_eq!((window.names().len(), window.view().display.prediction), (1, 0));
+}
+
+#[needs(adapter)]
+fn a_loss_that_cannot_be_computed_says_why_in_its_panel() {
+    let mut window = by_scenes();
+    for name in ["Near-field scenes", "Distant scenes"] {
+        enter(&mut window, name, "0");
+    }
+    see(&mut window, "at least one scene");
+    assert!(window.messages().is_empty(), "{:?}", window.messages());
+    enter(&mut window, "Near-field scenes", "3");
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    assert!(!has(&window, "at least one scene"));
 }

@@ -1,6 +1,6 @@
 //! Opening and saving.
 
-use super::materials::{SIDE, strip, strips, write_packed};
+use super::materials::SIDE;
 use super::*;
 
 const FIELD: &str = "Files, folders or name prefixes, one a line:";
@@ -9,17 +9,16 @@ const FIELD: &str = "Files, folders or name prefixes, one a line:";
 fn every_one_of_several_files_of_one_name_is_told() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
-    let strip = |name: &str, side: u32| {
+    let paths = [("a", 8), ("b", 16), ("c", 16), ("d", 8)].map(|(name, side)| {
         let path = folder.path().join(name).join("same.png");
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         let tiles = [[128, 128, 255], [120, 90, 60], [140; 3], [20; 3]];
         write_packed(&path, side, |tile, _, _| tiles[tile as usize]);
         path
-    };
-    let paths = [("a", 8), ("b", 16), ("c", 16), ("d", 8)].map(|(name, side)| strip(name, side));
+    });
     drop_files(&mut window, paths.clone());
     wait(&mut window, "the end of reading", |app| !app.is_reading() && app.names().len() == 2);
-    let messages = window.state().messages();
+    let messages = window.messages();
     for path in &paths[1..3] {
         let path = path.display().to_string();
         assert!(messages.iter().any(|message| message.contains(&path)), "{path}: {messages:?}");
@@ -37,19 +36,19 @@ fn a_file_that_is_not_there_is_an_error_in_the_dialog_and_keeps_what_was_open() 
     type_text(&window, "no");
     // Shift and return begin a line, return opens, and letters are no commands.
     press_with(&mut window, Modifiers::SHIFT, egui::Key::Enter);
-    let view = window.state().parts.model.view.clone();
+    let view = window.view().clone();
     type_text(&window, "such/mcex.png");
     press(&mut window, egui::Key::M);
-    assert_eq!(window.state().parts.model.view, view);
+    assert_eq!(*window.view(), view);
     assert_eq!(text(&window).as_deref(), Some("no\nsuch/mcex.png"));
     press(&mut window, egui::Key::Enter);
     wait(&mut window, "the end of reading", |app| !app.is_reading());
-    assert_eq!(window.state().names().len(), 3);
+    assert_eq!(window.names().len(), 3);
     // The dialog stays open, with its text and the error.
     window.get_by_label_contains("cannot read no");
     assert_eq!(text(&window).as_deref(), Some("no\nsuch/mcex.png"));
     window.get_by_label("Open these");
-    assert!(window.state().messages().is_empty(), "it is said once: {:?}", window.state().messages());
+    assert!(window.messages().is_empty(), "it is said once: {:?}", window.messages());
 }
 
 #[needs(adapter)]
@@ -81,16 +80,16 @@ fn a_prediction_of_another_size_is_refused_or_resized_and_said() {
         window.set_size(vec2(1200.0, 2000.0));
         wait(&mut window, "the end of reading", |app| !app.is_reading());
         if fit {
-            assert_eq!(window.state().names(), ["large", "small"]);
+            assert_eq!(window.names(), ["large", "small"]);
             tab(&mut window, "Files");
             window.get_by_label("Resized from 128 x 128 to the 256 x 256 of the ground truth.");
             wait(&mut window, "the loss", |app| app.losses().is_some());
         } else {
-            assert_eq!(window.state().names(), ["large"]);
-            assert_eq!(window.state().messages().len(), 1, "{:?}", window.state().messages());
+            assert_eq!(window.names(), ["large"]);
+            assert_eq!(window.messages().len(), 1, "{:?}", window.messages());
             click(&mut window, "Fit and open");
             wait(&mut window, "the fitted prediction", |app| app.names().len() == 2);
-            assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+            assert!(window.messages().is_empty(), "{:?}", window.messages());
         }
     }
 }
@@ -106,8 +105,38 @@ fn guesses_are_refused_where_the_window_was_told_to() {
     for strict in [false, true] {
         let ground_truth = Some(folder.path().join("map").into());
         let window = window(ViewerOptions { ground_truth, strict, ..ViewerOptions::default() });
-        assert_eq!(window.state().names().len(), usize::from(!strict));
-        let refused = window.state().messages().iter().any(|text| text.contains("ambiguous"));
-        assert_eq!(refused, strict, "{:?}", window.state().messages());
+        assert_eq!(window.names().len(), usize::from(!strict));
+        let refused = window.messages().iter().any(|text| text.contains("ambiguous"));
+        assert_eq!(refused, strict, "{:?}", window.messages());
     }
+}
+
+/// A glTF file that names its picture by an absolute path, and the picture, elsewhere.
+fn gltf(folder: &Path, elsewhere: &Path) -> (PathBuf, PathBuf) {
+    let picture = elsewhere.join("albedo.png");
+    image::RgbImage::from_pixel(256, 256, image::Rgb([90, 120, 150])).save(&picture).unwrap();
+    let text = format!(
+        r#"{{"asset": {{"version": "2.0"}}, "images": [{{"uri": {:?}}}], "textures": [{{"source": 0}}],
+            "materials": [{{"name": "wall", "pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0}}}}}}]}}"#,
+        picture.to_str().unwrap()
+    );
+    let path = folder.join("wall.gltf");
+    std::fs::write(&path, text).unwrap();
+    (path, picture)
+}
+
+#[test]
+#[ignore = "allows absolute paths in all of this process: run it alone, as `cargo test outside -- --ignored`"]
+fn a_file_outside_is_not_read_before_the_window_has_asked_and_named_it() {
+    let [folder, elsewhere] = [(); 2].map(|()| tempfile::tempdir().unwrap());
+    let (file, picture) = gltf(folder.path(), elsewhere.path());
+    let mut window = built_in();
+    drop_files(&mut window, [file]);
+    wait(&mut window, "the question", |app| !app.messages().is_empty());
+    let message = window.messages().remove(0);
+    assert!(message.contains(picture.to_str().unwrap()), "{message}");
+    assert!(!window.names().contains(&"wall".to_owned()));
+    window.get_by_label("Allow absolute paths").click();
+    wait(&mut window, "the material", |app| app.names().iter().any(|name| name.contains("wall")));
+    assert!(window.messages().is_empty(), "{:?}", window.messages());
 }

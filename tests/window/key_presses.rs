@@ -1,9 +1,5 @@
 //! Keys and their commands.
 
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_viewer::model::Model;
-use svbrdf_viewer::model::command::WindowCommand;
-use svbrdf_viewer::model::view::state::{AutoExposure, Layout, Projection};
 use svbrdf_viewer::ui::input::keys;
 
 use super::*;
@@ -11,7 +7,7 @@ use super::*;
 #[needs(adapter)]
 fn every_letter_does_what_the_help_says() {
     let mut window = built_in();
-    let automatic = window.state().parts.model.view.exposure_ev;
+    let automatic = window.view().exposure_ev;
     type Holds = fn(&Model, f32) -> bool;
     let cases: [(egui::Key, &str, Holds); 23] = [
         (egui::Key::C, "wipe", |m, _| m.view.display.layout == Layout::Wipe),
@@ -47,7 +43,7 @@ fn every_letter_does_what_the_help_says() {
     ];
     for (key, what, holds) in cases {
         press(&mut window, key);
-        assert!(holds(&window.state().parts.model, automatic), "{key:?}: {what}");
+        assert!(holds(&window.model(), automatic), "{key:?}: {what}");
     }
 }
 
@@ -82,15 +78,15 @@ fn the_page_of_the_window_lists_every_key() {
 fn undo_and_redo_go_through_the_changes() {
     let mut window = built_in();
     window.run_steps(30);
-    let before = window.state().parts.model.view.exposure_ev;
+    let before = window.view().exposure_ev;
     press(&mut window, egui::Key::E);
     window.run_steps(30);
     let redo = [(Modifiers::COMMAND | Modifiers::SHIFT, egui::Key::Z), (Modifiers::COMMAND, egui::Key::Y)];
     for (modifiers, key) in redo {
         press_with(&mut window, Modifiers::COMMAND, egui::Key::Z);
-        assert_eq!(window.state().parts.model.view.exposure_ev, before);
+        assert_eq!(window.view().exposure_ev, before);
         press_with(&mut window, modifiers, key);
-        assert_eq!(window.state().parts.model.view.exposure_ev, before + 0.5, "{key:?}");
+        assert_eq!(window.view().exposure_ev, before + 0.5, "{key:?}");
     }
 }
 
@@ -103,7 +99,7 @@ fn escape_closes_an_open_drop_down_and_nothing_else() {
     window.get_by_label("guided-2020");
     press(&mut window, egui::Key::Escape);
     assert!(window.query_by_label("guided-2020").is_none(), "the drop-down is closed");
-    assert!(window.state().parts.model.help);
+    assert!(window.model().help);
     press(&mut window, egui::Key::Escape);
-    assert!(!window.state().parts.model.help, "then the help");
+    assert!(!window.model().help, "then the help");
 }

@@ -5,29 +5,21 @@
 
 mod assumptions;
 mod bar;
-mod convention_files;
-mod crash;
 mod damaged;
 mod dataset;
 mod differences;
 mod fields;
 mod files;
-mod files_tab;
-mod flip;
 mod gestures;
 mod key_presses;
 mod loss_panel;
-mod mapping;
 mod materials;
 mod observed;
 mod order;
-mod outside;
-mod panels;
 mod photograph;
 mod pictures;
 mod quantities;
 mod reading;
-mod reduced;
 mod report;
 mod saving;
 mod scene_files;
@@ -55,15 +47,38 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Modifiers, Pos2, Vec2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use materials::{loss_in, losses, losses_in, materials, strip, strips, write_packed};
 use observed::Observed as _;
+use rand::rngs::ChaCha8Rng;
+use rand::{Rng as _, SeedableRng as _};
+use serde_json::json;
+use soak::below;
+use svbrdf_core::loss::{Comparison, Request};
+use svbrdf_core::material::Material;
+use svbrdf_core::model::convention::PRINTED;
+use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
+use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Statistics;
+use svbrdf_core::progress::Progress;
+use svbrdf_core::render::render_f32;
+use svbrdf_files::convention::ChosenConvention;
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::Session;
+use svbrdf_files::session::window::Framing;
 use svbrdf_needs::needs;
 use svbrdf_viewer::ViewerOptions;
 use svbrdf_viewer::app::storage::Storage;
 use svbrdf_viewer::app::{App, CrashGuard};
-use svbrdf_viewer::model::command::{Command, WindowCommand};
+use svbrdf_viewer::model::Model;
+use svbrdf_viewer::model::command::{
+    Command, DatasetCommand, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
+};
+use svbrdf_viewer::model::inspection::{Inspection, Region};
+use svbrdf_viewer::model::settings::Tab;
 use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf_viewer::model::view::state::{AutoExposure, Layout, Projection, ViewState};
 
 type Window<'a> = Harness<'a, App>;
 
@@ -132,6 +147,14 @@ fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
 
 fn built_in<'a>() -> Window<'a> {
     window(ViewerOptions::default())
+}
+
+/// The built-in pair with the differences of its predictions.
+fn with_differences<'a>() -> Window<'a> {
+    let mut window = built_in();
+    press(&mut window, egui::Key::D);
+    statistics(&mut window);
+    window
 }
 
 /// The window on the materials of these files, the ground truth first.
@@ -215,7 +238,7 @@ fn save(window: &mut Window<'_>, kind: SaveKind, path: &Path) {
     let message = format!("Saved {}", path.display());
     apply(window, WindowCommand::Save(SaveRequest { kind, path: path.to_owned() }));
     wait(window, "the file", |app| !app.messages().is_empty());
-    assert_eq!(window.state().messages(), [message]);
+    assert_eq!(window.messages(), [message]);
     apply(window, WindowCommand::DismissMessages);
 }
 
@@ -236,20 +259,42 @@ fn read_exr(path: &Path) -> (usize, Vec<[f32; 3]>) {
     read.unwrap().layer_data.channel_data.pixels
 }
 
+/// Opens files in the place of those of before.
+fn open(window: &mut Window<'_>, paths: impl Into<Vec<PathBuf>>) {
+    let (paths, read) = (paths.into(), ReadOptions::AUTO);
+    apply(window, MaterialsCommand::Open { paths, replace: true, read });
+}
+
+/// The window on a saved session.
+fn on_session<'a>(path: &Path) -> Window<'a> {
+    let session = Some(Session::read(path).unwrap());
+    window(ViewerOptions { session, ..ViewerOptions::default() })
+}
+
+/// What the window asks of the system in the next frames.
+fn commands(window: &mut Window<'_>) -> Vec<egui::OutputCommand> {
+    let mut frame = || {
+        window.step();
+        window.output().platform_output.commands.clone()
+    };
+    (0..20).flat_map(|_| frame()).collect()
+}
+
 /// Drops files on the window.
 fn drop_files(window: &mut Window<'_>, paths: impl IntoIterator<Item = PathBuf>) {
-    window.input_mut().dropped_files = paths.into_iter().map(|path| Arc::new(Dropped(path)) as _).collect();
+    window.input_mut().dropped_files =
+        paths.into_iter().map(|path| Arc::new(Dropped(Some(path))) as _).collect();
 }
 
 /// The statistics of the displayed differences, once they are there.
 fn statistics(window: &mut Window<'_>) -> Vec<Statistics> {
     wait(window, "the statistics", |app| app.difference_statistics().is_some());
-    window.state().difference_statistics().unwrap().iter().map(|one| one.unwrap()).collect()
+    window.difference_statistics().unwrap().iter().map(|one| one.unwrap()).collect()
 }
 
 /// Asserts that magnified texels of the pane `title` have the readout of the `start` of a column, and the colours, of `values`.
 fn assert_texels(window: &mut Window<'_>, title: &str, start: &str, values: &[f32]) {
-    let range = window.state().difference_range() as f32;
+    let range = window.difference_range() as f32;
     let rect = pane(window, title);
     let mut reads = Vec::new();
     for share in [vec2(0.12, 0.17), vec2(0.83, 0.31), vec2(0.41, 0.88), vec2(0.62, 0.93)] {
@@ -279,6 +324,33 @@ fn assert_texels(window: &mut Window<'_>, title: &str, start: &str, values: &[f3
     assert!(reads.iter().any(|(at, value)| far(*at, 2.0 * value + 0.1) > 20), "a planted fault");
 }
 
+/// The means of the channels.
+fn means(pixels: &[[f32; 3]]) -> Vec<f32> {
+    pixels.iter().map(|rgb| rgb.iter().sum::<f32>() / 3.0).collect()
+}
+
+/// Asserts that panes, readout and a saved file have these differences of both predictions; the file in its folder.
+fn assert_differences(
+    window: &mut Window<'_>,
+    maps: &[Vec<[f32; 3]>],
+    slack: f32,
+) -> (tempfile::TempDir, PathBuf) {
+    for (slot, title) in PREDICTIONS.into_iter().enumerate() {
+        assert_texels(window, title, &format!("{} ", slot + 1), &means(&maps[slot]));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("difference.exr");
+    save(window, SaveKind::Renderings, &path);
+    let (width, saved) = read_exr(&path);
+    let gap = svbrdf_files::export::GAP;
+    assert_eq!((width, saved.len()), (2 * 256 + gap, 256 * (2 * 256 + gap)));
+    for (i, rgb) in maps[1].iter().enumerate().step_by(97) {
+        let found = saved[i / 256 * width + 256 + gap + i % 256];
+        assert!((0..3).all(|c| (found[c] - rgb[c]).abs() <= slack), "{i}: {found:?}, expected {rgb:?}");
+    }
+    (folder, path)
+}
+
 fn press(window: &mut Window<'_>, key: egui::Key) {
     window.key_press(key);
     window.run_steps(3);
@@ -292,7 +364,7 @@ fn hover(window: &mut Window<'_>, at: Pos2) {
 /// The magnification in the status line, in pixels per texel.
 fn magnification(window: &Window<'_>) -> f64 {
     let field = window.get_by_role_and_label(Role::SpinButton, "Magnification");
-    egui_kittest::kittest::NodeT::accesskit_node(&field).numeric_value().unwrap()
+    field.accesskit_node().numeric_value().unwrap()
 }
 
 /// The text of the status line's column that begins with `start`.
@@ -321,7 +393,6 @@ fn wheel(delta: Vec2, unit: egui::MouseWheelUnit, modifiers: Modifiers) -> egui:
     egui::Event::MouseWheel { unit, delta, phase, source, modifiers }
 }
 
-/// Drags with the primary button.
 fn drag_primary(window: &mut Window<'_>, rect: egui::Rect, from: Vec2, to: Vec2) {
     drag(window, egui::PointerButton::Primary, rect, from, to);
 }
@@ -348,7 +419,7 @@ fn fitted_scale(rect: egui::Rect, [width, height]: [usize; 2]) -> f32 {
 
 /// Asserts that a material of 256 x 256 texels, fitted before, has moved by `by`, in shares of the pane.
 fn assert_panned(window: &Window<'_>, rect: egui::Rect, by: [f32; 2]) {
-    let framing = window.state().parts.model.view.display.framing.unwrap();
+    let framing = window.view().display.framing.unwrap();
     let fitted = fitted_scale(rect, [256, 256]);
     assert!((framing.pixels_per_texel / fitted - 1.0).abs() < 0.01, "{framing:?}, fitted {fitted}");
     let moved = [0, 1].map(|axis| (128.0 - framing.centre[axis]) * fitted / rect.size()[axis]);
@@ -361,16 +432,27 @@ fn pixels(window: &mut Window<'_>, rect: egui::Rect) -> image::RgbaImage {
     image::imageops::crop_imm(&picture, x, y, w, h).to_image()
 }
 
-/// A file as a window system drops it.
+/// Pixels over the background of a window: that of the tests is transparent, with premultiplied colours.
+fn opaque(window: &Window<'_>, pixels: image::RgbaImage) -> image::RgbImage {
+    let fill = window.ctx.style_of(egui::Theme::Dark).visuals.panel_fill.to_array();
+    let over = |[r, g, b, a]: [u8; 4], c: usize| {
+        let rest = 1.0 - f32::from(a) / 255.0;
+        (f32::from([r, g, b][c]) + rest * f32::from(fill[c])).min(255.0) as u8
+    };
+    let pixel = |x, y| image::Rgb([0, 1, 2].map(|c| over(pixels.get_pixel(x, y).0, c)));
+    image::RgbImage::from_fn(pixels.width(), pixels.height(), pixel)
+}
+
+/// A file as a window system drops it; without a path, a planted fault.
 #[derive(Debug)]
-struct Dropped(PathBuf);
+struct Dropped(Option<PathBuf>);
 
 impl egui::DroppedFile for Dropped {
     fn path(&self) -> &Path {
-        &self.0
+        self.0.as_deref().expect("a planted fault")
     }
 
     fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|e| e.to_string())
+        std::fs::read(self.path()).map_err(|e| e.to_string())
     }
 }

@@ -1,20 +1,12 @@
 //! A photograph in the place of the ground truth.
 
-use serde_json::json;
-
-use svbrdf_core::model::convention::PRINTED;
-use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::progress::Progress;
-use svbrdf_core::render::render_f32;
+use svbrdf_core::model::scene::Kind;
 use svbrdf_evaluate::photograph::{PhotographComparison, compare, on_texels};
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::{Transfer, read_photograph};
-use svbrdf_files::session::Session;
-use svbrdf_viewer::model::command::{DisplayCommand, PhotographCommand, SceneCommand};
+use svbrdf_viewer::model::command::PhotographCommand;
 
-use super::materials::materials;
 use super::*;
 
 const SCENE: Scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 1.7], light: [0.0, 0.0, 1.7] };
@@ -28,7 +20,7 @@ fn photograph(folder: &Path, factor: f32) -> PathBuf {
     };
     let values: Vec<f32> = (0..256 * 256).flat_map(at).collect();
     let path = folder.join("photo.npy");
-    std::fs::write(&path, crate::npy::npy([256, 256, 3], &values)).unwrap();
+    std::fs::write(&path, npy::npy([256, 256, 3], &values)).unwrap();
     path
 }
 
@@ -36,22 +28,17 @@ fn photograph(folder: &Path, factor: f32) -> PathBuf {
 fn expected(path: &Path, falloff: bool) -> Vec<PhotographComparison> {
     let photograph = read_photograph(&NamedFile::by_user(path), None).unwrap();
     let on_texels = on_texels(&photograph, "", [256, 256], falloff.then_some(&SCENE)).unwrap();
-    let photographs = [(on_texels, SCENE)];
-    let one =
-        |material| compare(&photographs, material, "", &PRINTED, &Progress::default()).unwrap().remove(0);
-    materials().iter().map(one).collect()
+    let of = |material| compare(&[(on_texels.clone(), SCENE)], material, "", &PRINTED, &Progress::default());
+    materials().iter().map(|material| of(material).unwrap().remove(0)).collect()
 }
 
 /// Whether the window compares as the core does: factors and bits of every picture, since NaN is not equal to itself.
 fn agrees(window: &Window<'_>, core: &[PhotographComparison]) -> bool {
-    let bits = |all: &[PhotographComparison]| -> Vec<(f64, Vec<u32>)> {
-        let pixels = |one: &PhotographComparison| {
-            let both = one.photograph.pixels.as_flattened().iter().chain(one.rendering.pixels.as_flattened());
-            both.map(|value| value.to_bits()).collect()
-        };
-        all.iter().map(|one| (one.factor, pixels(one))).collect()
+    let bits = |one: &PhotographComparison| -> (u64, Vec<u32>) {
+        let pixels = [&one.photograph, &one.rendering].map(|image| image.pixels.as_flattened()).concat();
+        (one.factor.to_bits(), pixels.into_iter().map(f32::to_bits).collect())
     };
-    bits(window.state().against_photograph().unwrap()) == bits(core)
+    window.against_photograph().unwrap().iter().map(bits).eq(core.iter().map(bits))
 }
 
 fn wait_for_it(window: &mut Window<'_>) {
@@ -113,7 +100,7 @@ fn renderings_are_compared_with_the_photograph_as_the_core_does() {
 
     // Without it, the ground truth is compared with again.
     apply(&mut window, PhotographCommand::Close);
-    assert!(statistics(&mut window).len() == 2 && window.state().against_photograph().is_none());
+    assert!(statistics(&mut window).len() == 2 && window.against_photograph().is_none());
     assert!(!has(&window, "PHOTOGRAPH"));
     window.get_by_label("Pane GROUND TRUTH  worn tiles");
 }
@@ -151,10 +138,9 @@ fn panes_readout_pictures_and_sessions_have_the_photograph() {
 
     save(&mut window, SaveKind::Session, &session);
     assert!(file_contains(&session, r#""path": "photo.npy""#));
-    let session = Session::read(&session).unwrap();
-    assert_eq!(session.photograph, Some(SessionPhotograph { path, transfer: None, falloff: false }));
-    let options = ViewerOptions { session: Some(session), ..ViewerOptions::default() };
-    let mut again = super::window(options);
+    let photograph = Some(SessionPhotograph { path, transfer: None, falloff: false });
+    assert_eq!(Session::read(&session).unwrap().photograph, photograph);
+    let mut again = on_session(&session);
     wait_for_it(&mut again);
     assert!(agrees(&again, &core));
     assert_eq!(statistics(&mut again).len(), 3);
@@ -170,30 +156,29 @@ fn the_open_dialog_takes_photographs_and_a_list_of_them_has_its_own_lights() {
         .map(|(file, scene)| json!({"file": file, "scene": scene}));
     std::fs::write(folder.path().join("capture.json"), json!({"photographs": listed}).to_string()).unwrap();
     let mut window = built_in();
-    apply(&mut window, WindowCommand::ShowOpen(true));
-    window.run_steps(3);
+    click(&mut window, "Open");
     click(&mut window, "A photograph in the place of the ground truth");
     let dialog = window.state_mut().parts.ui.dialogs.open.as_mut().unwrap();
     dialog.add(&folder.path().display().to_string());
     window.run_steps(3);
     click(&mut window, "Open these");
     wait_for_it(&mut window);
-    assert_eq!(window.state().parts.model.view.scene, SCENE);
+    assert_eq!(window.scene(), SCENE);
     let factor = |app: &App| app.against_photograph().map(|all| all[0].factor);
     let before = factor(window.state());
     apply(&mut window, PhotographCommand::Choose(1));
     wait(&mut window, "the second", |app| factor(app).is_some() && factor(app) != before);
-    assert_eq!(window.state().parts.model.view.scene, other);
+    assert_eq!(window.scene(), other);
     // A photograph that cannot be read or has another shape is reported, and the ground truth comes back.
     let narrow = folder.path().join("narrow.npy");
-    std::fs::write(&narrow, crate::npy::npy([256, 128, 3], &[0.5; 256 * 128 * 3])).unwrap();
+    std::fs::write(&narrow, npy::npy([256, 128, 3], &[0.5; 256 * 128 * 3])).unwrap();
     for (path, words) in
         [(folder.path().join("absent.png"), "absent.png"), (narrow, "rectify the photograph")]
     {
         apply(&mut window, PhotographCommand::Open(path));
         wait(&mut window, "the message", |app| !app.messages().is_empty());
-        assert!(window.state().messages()[0].contains(words), "{:?}", window.state().messages());
-        assert!(window.state().against_photograph().is_none());
+        assert!(window.messages()[0].contains(words), "{:?}", window.messages());
+        assert!(window.against_photograph().is_none());
         apply(&mut window, WindowCommand::DismissMessages);
     }
 }

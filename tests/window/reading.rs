@@ -3,19 +3,13 @@
 use std::time::Duration;
 
 use image::imageops::{FilterType, resize};
-use svbrdf_files::read::ReadOptions;
-use svbrdf_viewer::model::command::{DisplayCommand, MaterialsCommand};
 
-use super::materials::{SIDE, strip};
+use super::materials::SIDE;
 use super::*;
 
 /// Writes the built-in ground truth as a strip, enlarged.
 fn write(path: &Path, times: u32) {
     resize(&strip(), 4 * SIDE * times, SIDE * times, FilterType::Nearest).save(path).unwrap();
-}
-
-fn open(paths: Vec<PathBuf>) -> MaterialsCommand {
-    MaterialsCommand::Open { paths, replace: true, read: ReadOptions::AUTO }
 }
 
 /// The time until the window wants to be drawn again.
@@ -31,19 +25,19 @@ fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_secon
     let mut window = built_in();
     // The loss of the built-in pair is computed while it is shown.
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    apply(&mut window, open(paths));
+    open(&mut window, paths);
     window.run_steps(2);
     let (mut first_alone, mut longest) = (false, Duration::ZERO);
-    while window.state().is_reading() {
+    while window.is_reading() {
         window.step();
-        first_alone |= window.state().names() == ["m0"];
+        first_alone |= window.names() == ["m0"];
         longest = longest.max(repaint_delay(&window));
         std::thread::sleep(Duration::from_millis(2));
     }
     assert!(first_alone, "all materials came at once");
     // Another frame is wanted when a material has been read, and otherwise for the progress bar.
     assert!(longest >= Duration::from_millis(100), "frames are wanted every {longest:?}");
-    assert_eq!(window.state().names(), ["m0", "m1", "m2", "m3"]);
+    assert_eq!(window.names(), ["m0", "m1", "m2", "m3"]);
 }
 
 /// A window on the files of a ground truth and one prediction.
@@ -63,10 +57,10 @@ fn a_material_whose_file_is_broken_is_marked_until_it_is_whole_again() {
     let whole = std::fs::read(&paths[1]).unwrap();
     std::fs::write(&paths[1], &whole[..whole.len() / 2]).unwrap();
     wait(&mut window, "the error", |app| !app.messages().is_empty());
-    assert!(window.state().problems()[1].is_some_and(|text| text.contains("Not read again")));
+    assert!(window.problem(1).is_some_and(|text| text.contains("Not read again")));
     std::fs::write(&paths[1], &whole).unwrap();
-    wait(&mut window, "the whole file", |app| app.problems()[1].is_none());
-    assert!(window.state().messages().is_empty(), "it is settled: {:?}", window.state().messages());
+    wait(&mut window, "the whole file", |app| app.problem(1).is_none());
+    assert!(window.messages().is_empty(), "it is settled: {:?}", window.messages());
 }
 
 #[needs(adapter)]
@@ -89,15 +83,15 @@ fn messages_take_no_room_from_the_panes() {
     let mut window = built_in();
     let before = pane(&window, GROUND_TRUTH);
     for name in ["no/such/a.png", "no/such/b.png", "no/such/c.png"] {
-        apply(&mut window, open(vec![name.into()]));
+        open(&mut window, [name.into()]);
         wait(&mut window, "the error", |app| app.messages().iter().any(|text| text.contains(name)));
     }
     assert_eq!(pane(&window, GROUND_TRUTH), before);
-    let message = window.state().messages()[0].clone();
+    let message = window.messages()[0].clone();
     click(&mut window, &format!("Dismiss: {message}"));
-    assert_eq!(window.state().messages().len(), 2);
+    assert_eq!(window.messages().len(), 2);
     click(&mut window, "Dismiss all");
-    assert!(window.state().messages().is_empty());
+    assert!(window.messages().is_empty());
 }
 
 #[needs(adapter)]
@@ -114,7 +108,7 @@ fn a_prediction_replaced_by_one_of_another_size_makes_its_loss_stale() {
     assert_eq!(stale(&window), [true, true], "the loss and the pane are of a file that is no more");
     window.get_by_label("Stale: materials or settings have changed.");
     write(&paths[1], 1);
-    wait(&mut window, "the file of the right size", |app| app.problems()[1].is_none());
+    wait(&mut window, "the file of the right size", |app| app.problem(1).is_none());
     wait(&mut window, "its loss", |app| app.losses().is_some());
     window.run_steps(3);
     assert_eq!(stale(&window), [false, false]);

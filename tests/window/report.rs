@@ -1,17 +1,8 @@
 //! Saving a report.
 
 use svbrdf_core::loss::Ask;
-use svbrdf_files::session::Session;
-use svbrdf_viewer::model::command::{DisplayCommand, LossCommand, SceneCommand};
-use svbrdf_viewer::model::view::state::Layout;
 
 use super::*;
-
-/// Begins to save.
-fn start(window: &mut Window<'_>, path: &Path) {
-    let (kind, path) = (SaveKind::Report, path.to_owned());
-    apply(window, WindowCommand::Save(SaveRequest { kind, path }));
-}
 
 /// The text between two others.
 fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
@@ -26,15 +17,13 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     let path = folder.path().join("a report.html");
     apply(&mut window, DisplayCommand::SetLayout(Layout::Wipe));
     apply(&mut window, DisplayCommand::SetExposure(1.5));
-    apply(&mut window, DisplayCommand::Zoom { factor: 3.0, at: [0.2, -0.1] });
-    let framing = window.state().parts.model.view.display.framing.unwrap();
-    let mut scene = window.state().parts.model.view.scene;
+    let mut scene = window.scene();
     scene.light = [0.1, -0.7, 1.3];
     apply(&mut window, SceneCommand::Set(scene));
     apply(&mut window, DisplayCommand::ShowDifference(true));
     apply(&mut window, DisplayCommand::SetRange(Some(0.75)));
     wait(&mut window, "the losses", |app| app.losses().is_some());
-    let losses: Vec<f64> = window.state().losses().unwrap().iter().map(|loss| loss.estimate.mean).collect();
+    let losses: Vec<f64> = window.losses().unwrap().iter().map(|loss| loss.estimate.mean).collect();
     save(&mut window, SaveKind::Report, &path);
     let html = std::fs::read_to_string(&path).unwrap();
     let data: serde_json::Value = serde_json::from_str(between(&html, r#"id="data">"#, "</script>")).unwrap();
@@ -42,10 +31,6 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     assert_eq!(start["scene"], serde_json::to_value(scene).unwrap());
     assert_eq!([&start["layout"], &start["difference"]], [&"wipe".into(), &serde_json::Value::from(true)]);
     assert_eq!([start["exposure"].as_f64(), start["ranges"]["log"].as_f64()], [Some(1.5), Some(0.75)]);
-    let begins = &start["framing"];
-    let single = |value: &serde_json::Value| value.as_f64().unwrap() as f32;
-    assert_eq!(single(&begins["pixelsPerTexel"]), framing.pixels_per_texel);
-    assert_eq!([0, 1].map(|i| single(&begins["centre"][i])), framing.centre);
     for loss in losses {
         assert!(html.contains(&format!("<td>{loss:.4}</td>")), "{loss}");
     }
@@ -55,7 +40,7 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     let text = between(&html, "<summary>a report.svbrdf-session.json</summary><pre><code>", "</code>");
     let session = folder.path().join("a report.svbrdf-session.json");
     std::fs::write(&session, text.replace("&quot;", "\"")).unwrap();
-    assert_eq!(Session::read(&session).unwrap(), window.state().parts.model.session());
+    assert_eq!(Session::read(&session).unwrap(), window.model().session());
 }
 
 #[needs(adapter)]
@@ -63,18 +48,18 @@ fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("report.html");
-    let mut settings = window.state().parts.model.settings.loss.clone();
+    let mut settings = window.model().settings.loss.clone();
     (settings.ask, settings.target_percent) = (Ask::Accuracy, 0.05);
     apply(&mut window, LossCommand::SetSettings(settings));
     click(&mut window, "Save");
     click(&mut window, "Report");
-    start(&mut window, &path);
+    apply(&mut window, WindowCommand::Save(SaveRequest { kind: SaveKind::Report, path }));
     wait(&mut window, "some progress", |app| {
         app.parts.jobs.saving.as_ref().is_some_and(|job| job.fraction() > 0.0)
     });
     click(&mut window, "Cancel saving");
     wait(&mut window, "the end", |app| app.parts.jobs.saving.is_none());
     window.get_by_label("Save file");
-    assert!(window.state().messages().is_empty(), "{:?}", window.state().messages());
+    assert!(window.messages().is_empty(), "{:?}", window.messages());
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }

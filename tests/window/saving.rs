@@ -1,19 +1,9 @@
 //! Saving the view, renderings, strips and sessions.
 
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_core::progress::Progress;
-use svbrdf_files::convention::ChosenConvention;
-use svbrdf_files::read::{NormalY, ReadOptions};
-use svbrdf_files::session::Session;
-use svbrdf_viewer::model::command::{
-    DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand,
-};
-use svbrdf_viewer::model::inspection::{Inspection, Region};
-use svbrdf_viewer::model::view::state::{Layout, Projection};
+use svbrdf_files::read::NormalY;
+use svbrdf_viewer::model::command::InspectionCommand;
 
-use super::materials::strips;
 use super::*;
 
 #[needs(adapter)]
@@ -27,10 +17,10 @@ fn saved_renderings_are_what_is_selected() {
     apply(&mut window, DisplayCommand::SetExposure(3.0));
     save(&mut window, SaveKind::Renderings, &path);
     let got = image::open(&path).unwrap().to_rgb8();
-    let materials: Vec<_> = window.state().materials().collect();
+    let materials: Vec<_> = window.materials().collect();
     let difference = ColouredDifference { kind: Difference::Angle, range: Some(20.0) };
     let shown = PictureContent { quantity: Quantity::Normal, difference: Some(difference) };
-    let view = &window.state().parts.model.view;
+    let view = window.view();
     let pictures = shown.pictures(&materials, &view.scene, &view.convention(), 3.0, &Progress::default());
     let image = &pictures.unwrap().images[0];
     for (i, rgb) in image.pixels.iter().enumerate() {
@@ -82,23 +72,15 @@ fn the_saved_view_has_the_pixels_of_the_window_with_a_caption() {
     save(&mut window, SaveKind::View, &path);
     window.run_steps(8);
     let whole = image::open(&path).unwrap().to_rgb8();
-    let [width, height] = window.state().picture_size();
+    let [width, height] = window.model().geometry.picture;
     assert_eq!([whole.width(), whole.height()], [width, height + CAPTION]);
     let caption = image::imageops::crop_imm(&whole, 0, height, width, CAPTION).to_image();
     assert!(caption.pixels().filter(|pixel| pixel.0[0] > 90).count() > 300, "no caption");
     let top = pane(&window, GROUND_TRUTH).top() - 24.0;
-    let seen = pixels(
-        &mut window,
-        egui::Rect::from_min_size(egui::pos2(0.0, top), vec2(width as f32, height as f32)),
-    );
-    // The tests' window is transparent where the real one has its background: premultiplied colours over that.
-    let fill = window.ctx.style_of(egui::Theme::Dark).visuals.panel_fill;
-    let over = |b: &image::Rgba<u8>, c: usize| {
-        f32::from(b.0[c]) + f32::from(fill.to_array()[c]) * (1.0 - f32::from(b.0[3]) / 255.0)
-    };
-    let far = |(a, b): (&image::Rgb<u8>, &image::Rgba<u8>)| {
-        (0..3).any(|c| (f32::from(a.0[c]) - over(b, c)).abs() > 8.0)
-    };
+    let rect = egui::Rect::from_min_size(egui::pos2(0.0, top), vec2(width as f32, height as f32));
+    let seen = pixels(&mut window, rect);
+    let seen = opaque(&window, seen);
+    let far = |(a, b): (&image::Rgb<u8>, &image::Rgb<u8>)| (0..3).any(|c| a.0[c].abs_diff(b.0[c]) > 8);
     let different = whole.pixels().zip(seen.pixels()).filter(|pair| far(*pair)).count();
     assert!(different * 100 < (width * height) as usize, "{different} pixels differ");
     for text in ["svbrdf:layout", "side by side", "svbrdf:zoom"] {
@@ -113,39 +95,31 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let read = ReadOptions { normal_y: Some(NormalY::Down), ..ReadOptions::AUTO };
     apply(&mut first, MaterialsCommand::ReadAs { index: 1, read });
     wait(&mut first, "the other assumption", |app| !app.is_reading());
-    apply(&mut first, DisplayCommand::SetLayout(Layout::Wipe));
-    apply(&mut first, DisplayCommand::ToggleProjection);
-    apply(&mut first, DisplayCommand::SetQuantity(Quantity::Normal));
-    apply(&mut first, DisplayCommand::SetExposure(1.5));
     apply(&mut first, SceneCommand::SetConvention(ChosenConvention::read("guided-2020").unwrap()));
-    let mut scene = first.state().parts.model.view.scene;
-    scene.light = [0.1, -0.7, 1.3];
-    apply(&mut first, SceneCommand::Set(scene));
-    let mut settings = first.state().parts.model.settings.loss.clone();
-    settings.near = 17;
-    apply(&mut first, LossCommand::SetSettings(settings));
+    apply(&mut first, DisplayCommand::SetExposure(1.5));
+    let model = &mut first.state_mut().parts.model;
+    let display = &mut model.view.display;
+    (display.layout, display.projection) = (Layout::Wipe, Projection::Perspective);
+    display.quantity = Quantity::Normal;
+    (model.view.scene.light, model.settings.loss.near) = ([0.1, -0.7, 1.3], 17);
     let region = Some(Region { first: [2, 1], last: [5, 3] });
     let inspection = Inspection { pins: vec![[3, 2], [0, 0]], region, is_armed: false };
     first.state_mut().parts.model.inspection = inspection.clone();
     let path = folder.path().join("a.svbrdf-session.json");
     save(&mut first, SaveKind::Session, &path);
-    let (state, materials) =
-        (first.state().parts.model.view.clone(), first.state().materials().cloned().collect::<Vec<_>>());
-    assert!(state.display.projection == Projection::Perspective && state.exposure_ev == 1.5);
+    let (state, materials) = (first.view().clone(), first.materials().cloned().collect::<Vec<_>>());
 
     let same = |window: &Window<'_>| {
-        assert_eq!(window.state().parts.model.view, state);
-        assert_eq!(window.state().materials().cloned().collect::<Vec<_>>(), materials);
-        assert_eq!(window.state().parts.model.settings.loss.near, 17);
-        assert_eq!(window.state().parts.model.inspection, inspection);
+        assert_eq!(*window.view(), state);
+        assert_eq!(window.materials().cloned().collect::<Vec<_>>(), materials);
+        assert_eq!(window.model().settings.loss.near, 17);
+        assert_eq!(window.model().inspection, inspection);
     };
-    let session = Some(Session::read(&path).unwrap());
-    same(&window(ViewerOptions { session, ..ViewerOptions::default() }));
+    same(&on_session(&path));
 
     let mut later = built_in();
-    assert!(later.state().messages().is_empty());
-    let open = MaterialsCommand::Open { paths: vec![path], replace: true, read: ReadOptions::AUTO };
-    apply(&mut later, open);
+    assert!(later.messages().is_empty());
+    open(&mut later, [path]);
     wait(&mut later, "the session", |app| app.names() == ["gt", "p"] && !app.is_reading());
     same(&later);
     later.run_steps(3);
@@ -165,7 +139,7 @@ fn an_error_in_saving_stays_in_the_dialog_with_its_text() {
     see(&mut window, "its folder does not exist");
     let field = window.get_by_role_and_label(Role::TextInput, "To file:");
     assert_eq!(field.value().as_deref(), Some("no/such/folder/view.png"));
-    assert!(window.state().messages().is_empty());
+    assert!(window.messages().is_empty());
 }
 
 #[needs(adapter)]
@@ -186,7 +160,7 @@ fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
         let path = all[number].clone();
         apply(&mut window, WindowCommand::Save(SaveRequest { kind, path }));
         wait(&mut window, "the refusal", |app| app.messages().len() > number);
-        let message = window.state().messages().last().unwrap().clone();
+        let message = window.messages().last().unwrap().clone();
         assert!(message.contains("which the result is made from"), "{message}");
     }
     assert!(before == bytes(), "a file was replaced");

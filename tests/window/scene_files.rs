@@ -1,22 +1,12 @@
-//! Scene files: the scenes of the loss, from a file and to one.
+//! Files of scenes and of conventions: the losses are those of the file, whatever it is called.
 
-use svbrdf_core::loss::Request;
 use svbrdf_core::model::named_scenes::flash_9;
-use svbrdf_files::read::ReadOptions;
 use svbrdf_files::scene_file;
-use svbrdf_files::session::Session;
-use svbrdf_viewer::model::command::{DisplayCommand, LossCommand, MaterialsCommand};
 
-use super::materials::losses;
 use super::*;
 
 const CAPTURE: &str = r#"{"im_size": 4, "camera_pos": [[-3, 3, 16], [0, 3, 16], [3, 1, 16]],
     "light_pos": [[-1, 3, 16], [0, 3, 16], [3, 2, 8]]}"#;
-
-fn open(window: &mut Window<'_>, path: &Path) {
-    let (paths, read) = (vec![path.to_owned()], ReadOptions::AUTO);
-    apply(window, MaterialsCommand::Open { paths, replace: false, read });
-}
 
 /// Whether the loss is over so many listed scenes.
 fn is_over(count: usize) -> impl Fn(&App) -> bool {
@@ -36,11 +26,11 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     let scenes = scene_file::read(&path).unwrap();
     let mut window = built_in();
     window.run_steps(30);
-    open(&mut window, &path);
+    open(&mut window, [path.clone()]);
     wait(&mut window, "the loss over the file", is_over(3));
-    assert_eq!(window.state().losses().unwrap(), losses(&Request::Listed(scenes)));
+    assert_eq!(window.losses().unwrap(), losses(&Request::Listed(scenes)));
     window.get_by_label("3 scenes of render.json");
-    assert_eq!(window.state().names().len(), 3, "the materials stay");
+    assert_eq!(window.names().len(), 3, "the materials stay");
     let listed = |app: &App| app.listed_scenes().is_some_and(|(scenes, _)| scenes.len() == 3);
     tab(&mut window, "Why");
     wait(&mut window, "the list of the file", listed);
@@ -48,7 +38,7 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     click(&mut window, "Remove scenes");
     window.run_steps(26);
     assert!(window.query_by_label("3 scenes of render.json").is_none());
-    assert!(window.state().parts.model.settings.loss.file.is_none());
+    assert!(window.model().settings.loss.file.is_none());
     apply(&mut window, DisplayCommand::Undo);
     wait(&mut window, "the loss over the file", is_over(3));
     apply(&mut window, LossCommand::RemoveFileScenes);
@@ -57,11 +47,11 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     // What is no scene file is an error, and changes nothing.
     let wrong = folder.path().join("wrong.json");
     std::fs::write(&wrong, "{}").unwrap();
-    open(&mut window, &wrong);
+    open(&mut window, [wrong]);
     wait(&mut window, "the error", |app| {
         app.messages().iter().any(|text| text.contains("not a usable scene file"))
     });
-    assert!(window.state().parts.model.settings.loss.file.is_none());
+    assert!(window.model().settings.loss.file.is_none());
 }
 
 #[needs(adapter)]
@@ -70,10 +60,10 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     let mut window = by_scenes();
     tab(&mut window, "Why");
     wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
-    let ranked = window.state().listed_scenes().unwrap().0.to_vec();
+    let ranked = window.listed_scenes().unwrap().0.to_vec();
     wait(&mut window, "the loss", is_over(9));
     let mean = ranked.iter().map(|ranked| ranked.losses[0]).sum::<f64>() / 9.0;
-    let loss = window.state().losses().unwrap()[0].estimate.mean;
+    let loss = window.losses().unwrap()[0].estimate.mean;
     assert!(ranked.len() == 9 && (mean / loss - 1.0).abs() < 1e-12, "{mean} and {loss}");
     let path = folder.path().join("scenes.json");
     save(&mut window, SaveKind::Scenes, &path);
@@ -84,15 +74,14 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     assert_eq!(json["results"][0]["losses"], serde_json::json!(of_chosen));
     assert_eq!(json["results"].as_array().unwrap().len(), 1, "of the chosen prediction");
 
-    open(&mut window, &path);
+    open(&mut window, [path.clone()]);
     wait(&mut window, "the scenes of the file", |app| app.parts.model.settings.loss.file_scenes().is_some());
     let session = folder.path().join("a.svbrdf-session.json");
     apply(&mut window, WindowCommand::DismissMessages);
     save(&mut window, SaveKind::Session, &session);
-    let session = Some(Session::read(&session).unwrap());
-    let mut other = super::window(ViewerOptions { session, ..ViewerOptions::default() });
+    let mut other = on_session(&session);
     wait(&mut other, "the loss", is_over(9));
-    assert_eq!(other.state().losses().unwrap(), losses(&Request::Listed(saved)));
+    assert_eq!(other.losses().unwrap(), losses(&Request::Listed(saved)));
 }
 
 #[needs(adapter)]
@@ -103,14 +92,14 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     let options = ViewerOptions { scenes: Some(scenes.clone()), ..ViewerOptions::default() };
     let mut window = super::window(options);
     wait(&mut window, "the loss over the file", is_over(3));
-    assert_eq!(window.state().losses().unwrap(), losses(&Request::Listed(scenes.scenes)));
+    assert_eq!(window.losses().unwrap(), losses(&Request::Listed(scenes.scenes)));
     window.get_by_label("3 scenes of render.json");
 
     let mut window = built_in();
     let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/samples/worn_tiles.png");
     drop_files(&mut window, [material.clone(), path.clone(), material]);
     wait(&mut window, "materials and scenes", |app| app.names().len() == 2 && is_over(3)(app));
-    assert_eq!(window.state().messages(), ["The loss is over the 3 scenes of render.json"]);
+    assert_eq!(window.messages(), ["The loss is over the 3 scenes of render.json"]);
 
     // Two of them are refused, and those of before stay.
     let other = folder.path().join("other.json");
@@ -118,7 +107,7 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     apply(&mut window, WindowCommand::DismissMessages);
     drop_files(&mut window, [path, other]);
     wait(&mut window, "the refusal", |app| !app.messages().is_empty());
-    let messages = window.state().messages();
+    let messages = window.messages();
     assert!(messages[0].contains("expected one scene file, found"), "{messages:?}");
     window.get_by_label("3 scenes of render.json");
 }
@@ -128,9 +117,83 @@ fn scenes_with_a_name_are_those_of_the_loss_until_they_are_removed() {
     let mut window = by_scenes();
     click(&mut window, "Named...");
     click(&mut window, "flash-9");
-    let request = |window: &Window<'_>| window.state().parts.model.settings.loss.request();
+    let request = |window: &Window<'_>| window.model().settings.loss.request();
     assert_eq!(request(&window), Request::Listed(flash_9().into()));
     window.get_by_label("9 scenes of flash-9");
     click(&mut window, "Remove scenes");
     assert!(matches!(request(&window), Request::Accuracy { .. }));
+}
+
+/// A convention by the name `mine`, of this brightness.
+fn write_convention(path: &Path, factor: f64) {
+    let text = format!(
+        "name = \"mine\"\n[specular]\nF = \"schlick5\"\n[light]\nlz = \"none\"\nfactor = {factor:?}\n\
+         [loss]\nnorm = \"log-l1\"\nepsilon = 0.01\n"
+    );
+    std::fs::write(path, text).unwrap();
+}
+
+fn chosen(path: &Path) -> ChosenConvention {
+    ChosenConvention::read(path.to_str().unwrap()).unwrap()
+}
+
+/// The loss over the 6 + 3 scenes, of the convention of now.
+fn assert_losses(window: &mut Window<'_>, expected: &ChosenConvention) {
+    let wanted = losses_in(&Request::default(), expected.convention);
+    wait(window, "the losses", |app| app.losses().is_some());
+    assert_eq!(window.losses().unwrap(), wanted);
+    assert_eq!(window.view().convention, *expected);
+}
+
+#[needs(adapter)]
+fn the_losses_are_those_of_the_file_and_change_with_its_content() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    write_convention(&path, 2.0);
+    let first = chosen(&path);
+    let mut window = by_scenes();
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    open(&mut window, [path.clone()]);
+    assert_eq!(window.names().len(), 3, "the materials stay");
+    assert_losses(&mut window, &first);
+    // Of the same name, and another one.
+    write_convention(&path, 8.0);
+    let second = chosen(&path);
+    assert_eq!(first.convention.name, second.convention.name);
+    open(&mut window, [path.clone()]);
+    assert_losses(&mut window, &second);
+    // The picker keeps it, and undo knows both.
+    choose(&mut window, "Convention", "printed");
+    assert_losses(&mut window, &ChosenConvention::default());
+    choose(&mut window, "Convention", "mine.toml");
+    assert_losses(&mut window, &second);
+    rest(&mut window, 30);
+    apply(&mut window, DisplayCommand::Undo);
+    assert_losses(&mut window, &ChosenConvention::default());
+    // What is none is told, and changes nothing.
+    std::fs::write(&path, "F = 5").unwrap();
+    open(&mut window, [path.clone()]);
+    see(&mut window, "not a convention");
+    assert_losses(&mut window, &ChosenConvention::default());
+}
+
+#[needs(adapter)]
+fn a_session_and_the_command_line_open_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    write_convention(&path, 3.0);
+    let convention = Some(chosen(&path));
+    let with = window(ViewerOptions { convention, ..ViewerOptions::default() });
+    let session = with.model().session();
+    assert_eq!(session.convention, path.to_str().unwrap());
+    let mut window = window(ViewerOptions { session: Some(session.clone()), ..ViewerOptions::default() });
+    assert_eq!(window.view().convention, chosen(&path));
+    choose(&mut window, "Convention", "printed");
+    choose(&mut window, "Convention", "mine.toml");
+    assert_eq!(window.view().convention, chosen(&path));
+    // Gone since: told, and not taken for another.
+    std::fs::remove_file(&path).unwrap();
+    let mut window = self::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });
+    assert_eq!(window.view().convention().name, "printed");
+    see(&mut window, "mine.toml");
 }

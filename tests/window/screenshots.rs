@@ -2,11 +2,9 @@
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf_files::read::ReadOptions;
 use svbrdf_files::samples::generate;
-use svbrdf_viewer::model::command::{DatasetCommand, MaterialsCommand};
 
-use super::materials::{SIDE, strip};
+use super::materials::SIDE;
 use super::*;
 
 /// Size of a picture, in pixels.
@@ -15,57 +13,48 @@ const SIZE: Vec2 = vec2(1240.0, 760.0);
 /// Quality of the pictures.
 const QUALITY: u8 = 76;
 
-/// The differences of the built-in pair.
-fn differences() {
+/// The built-in pair in a window of the size of a picture.
+fn sized<'a>() -> Window<'a> {
     let mut window = built_in();
     window.set_size(SIZE);
     window.run_steps(4);
-    press(&mut window, egui::Key::D);
-    wait(&mut window, "the losses", |app| app.losses().is_some());
-    wait(&mut window, "the statistics", |app| app.difference_statistics().is_some());
-    write(&mut window, "window.jpg");
+    window
 }
 
-/// The built-in pair with the tab *Why* open and room for it.
-fn opened<'a>() -> Window<'a> {
-    let mut window = built_in();
-    window.set_size(SIZE);
-    window.run_steps(4);
-    tab(&mut window, "Why");
-    for section in ["Would something trivial explain it?", "Light and view"] {
-        click(&mut window, section);
-        window.run_steps(8);
-    }
-    wait(&mut window, "the attribution", |app| app.attribution().is_some());
-    wait(&mut window, "the thumbnails", |app| app.listed_scenes().is_some());
-    window
+/// Waits for all of the tab *Why* but the diagnosis.
+fn wait_for_why(window: &mut Window<'_>) {
+    wait(window, "the attribution", |app| app.attribution().is_some());
+    wait(window, "the thumbnails", |app| app.listed_scenes().is_some());
 }
 
 /// Moves the pointer to where nothing is under it, and writes the window to this file of `assets/pictures/`.
 fn write(window: &mut Window<'_>, name: &str) {
     window.event(egui::Event::PointerMoved(egui::pos2(2.0, SIZE.y - 2.0)));
     window.run_steps(12);
-    let fill = window.ctx.style_of(egui::Theme::Dark).visuals.panel_fill;
-    let mut picture = window.render().unwrap();
-    // The tests' window is transparent where the real one has its background: premultiplied colours over that.
-    for pixel in picture.pixels_mut() {
-        let rest = 1.0 - f32::from(pixel.0[3]) / 255.0;
-        for c in 0..3 {
-            pixel.0[c] = (f32::from(pixel.0[c]) + rest * f32::from(fill.to_array()[c])).min(255.0) as u8;
-        }
-    }
+    let picture = window.render().unwrap();
+    let picture = opaque(window, picture);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/pictures").join(name);
     let file = std::io::BufWriter::new(std::fs::File::create(path).unwrap());
     // At most 250 KB.
     let encoder = JpegEncoder::new_with_quality(file, QUALITY);
-    image::DynamicImage::from(picture).to_rgb8().write_with_encoder(encoder).unwrap();
+    picture.write_with_encoder(encoder).unwrap();
 }
 
 #[test]
 #[ignore = "writes the pictures in assets/pictures"]
 fn the_pictures_of_the_readme() {
-    differences();
-    let mut window = opened();
+    let mut window = sized();
+    press(&mut window, egui::Key::D);
+    wait(&mut window, "the losses", |app| app.losses().is_some());
+    statistics(&mut window);
+    write(&mut window, "window.jpg");
+    let mut window = sized();
+    tab(&mut window, "Why");
+    for section in ["Would something trivial explain it?", "Light and view"] {
+        click(&mut window, section);
+        window.run_steps(8);
+    }
+    wait_for_why(&mut window);
     window.get_by_label("normal: 80.9% of the loss").click();
     wait(&mut window, "the mixture", |app| app.displayed_materials()[1].0.contains("only its normal"));
     write(&mut window, "why.jpg");
@@ -83,16 +72,14 @@ fn the_picture_of_a_diagnosis() {
         pixel.0[1] = if x < SIDE { 255 - pixel.0[1] } else { pixel.0[1] };
     }
     strip.save(&flipped).unwrap();
-    let mut window = built_in();
-    window.set_size(SIZE);
+    let mut window = sized();
     let read = ReadOptions { order: Some("ndrs".parse().unwrap()), ..ReadOptions::AUTO };
     let read = ReadOptions { preset: Some("deschaintre".parse().unwrap()), ..read };
     apply(&mut window, MaterialsCommand::Open { paths: vec![truth, flipped], replace: true, read });
     wait(&mut window, "the materials", |app| app.names() == ["worn tiles", "Y down"]);
     tab(&mut window, "Why");
     wait(&mut window, "the diagnosis", |app| app.diagnosis().is_some());
-    wait(&mut window, "the attribution", |app| app.attribution().is_some());
-    wait(&mut window, "the thumbnails", |app| app.listed_scenes().is_some());
+    wait_for_why(&mut window);
     write(&mut window, "diagnosis.jpg");
 }
 
@@ -120,10 +107,9 @@ fn the_picture_of_a_data_set() {
             picture.save(folder.path().join(name).join(format!("tiles {index}.png"))).unwrap();
         }
     }
-    let mut window = built_in();
-    window.set_size(SIZE);
+    let mut window = sized();
     drop_files(&mut window, sets.each_ref().map(|(name, _)| folder.path().join(name)));
-    wait(&mut window, "all losses", |app| app.parts.jobs.dataset.losses.count() == 9);
+    wait(&mut window, "all losses", |app| app.jobs().dataset.losses.count() == 9);
     tab(&mut window, "Methods");
     click(&mut window, "Light and view");
     window.key_press(egui::Key::S);

@@ -1,12 +1,5 @@
 //! Windows of every size at every scale of text and controls: none crashes.
 
-use rand::SeedableRng as _;
-use rand::rngs::ChaCha8Rng;
-use svbrdf_viewer::model::inspection::Region;
-use svbrdf_viewer::model::settings::Tab;
-use svbrdf_viewer::model::view::state::{Layout, Projection};
-
-use super::soak::below;
 use super::*;
 
 /// Scales of text and controls.
@@ -35,9 +28,9 @@ fn check(window: &mut Window<'_>, state: &str) {
         let most = [90, 1300][below(&mut random, 2)];
         10.0 + below(&mut random, most) as f32
     };
-    let random: Vec<[f32; 2]> = (0..RANDOM).map(|_| [side(), side()]).collect();
+    let random = SCALES[..RANDOM].iter().map(|scale| ([side(), side()], *scale));
     let small = SMALL.into_iter().flat_map(|size| [(size, SCALES[0]), (size, SCALES[SCALES.len() - 1])]);
-    let all = small.chain(random.into_iter().zip(SCALES.into_iter().cycle()));
+    let all = small.chain(random.collect::<Vec<_>>());
     for (number, (size, scale)) in all.enumerate() {
         resize(window, size, scale);
         assert!(!window.state().has_crashed(), "{state}: {size:?} pixels at a scale of {scale}");
@@ -46,22 +39,17 @@ fn check(window: &mut Window<'_>, state: &str) {
         }
     }
     resize(window, [1200.0, 800.0], 1.0);
-    assert!(window.state().names().len() > 1, "{state}: its materials are still there");
-}
-
-/// A pin at each end of the material, and a rectangle.
-fn inspect(window: &mut Window<'_>) {
-    let inspection = &mut window.state_mut().parts.model.inspection;
-    inspection.pins = vec![[0, 0], [255, 255]];
-    inspection.region = Some(Region { first: [100, 20], last: [180, 90] });
-    window.run_steps(4);
+    assert!(window.names().len() > 1, "{state}: its materials are still there");
 }
 
 #[needs(adapter)]
 fn panes_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     check(&mut window, "a start");
-    inspect(&mut window);
+    let inspection = &mut window.state_mut().parts.model.inspection;
+    inspection.pins = vec![[0, 0], [255, 255]];
+    inspection.region = Some(Region { first: [100, 20], last: [180, 90] });
+    window.run_steps(4);
     for layout in [Layout::SideBySide, Layout::Wipe, Layout::Single] {
         for projection in [Projection::Flat, Projection::Perspective] {
             let display = &mut window.state_mut().parts.model.view.display;
@@ -86,7 +74,7 @@ fn tabs_are_drawn_at_every_size_and_scale() {
         }
         // Narrow windows have no side panel until it is asked for.
         resize(&mut window, [700.0, 500.0], 1.0);
-        if !window.state().parts.model.side_panel() {
+        if !window.model().side_panel() {
             press(&mut window, egui::Key::B);
         }
         check(&mut window, &format!("{tab:?}"));
@@ -94,19 +82,13 @@ fn tabs_are_drawn_at_every_size_and_scale() {
 }
 
 #[needs(adapter)]
-fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
+fn dialogs_messages_and_photographs_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
-    for opened in ["Open", "Save"] {
+    for opened in ["Open", "Save", "Menu", "Help"] {
         click(&mut window, opened);
         check(&mut window, opened);
         press(&mut window, egui::Key::Escape);
     }
-    click(&mut window, "Menu");
-    check(&mut window, "menu");
-    press(&mut window, egui::Key::Escape);
-    apply(&mut window, WindowCommand::ShowHelp(true));
-    check(&mut window, "help");
-    apply(&mut window, WindowCommand::ShowHelp(false));
     for number in 0..4 {
         let path = format!("no/such/{}/material {number}.png", "folder".repeat(20));
         drop_files(&mut window, [path.into()]);
@@ -114,10 +96,6 @@ fn dialogs_and_messages_are_drawn_at_every_size_and_scale() {
     }
     wait(&mut window, "the messages", |app| !app.is_reading() && app.messages().len() > 1);
     check(&mut window, "messages");
-}
-
-#[needs(adapter)]
-fn a_photograph_is_drawn_at_every_size_and_scale() {
     let (mut window, _folder) = super::photograph::opened();
     check(&mut window, "a photograph");
 }
@@ -131,8 +109,8 @@ fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_brings_it_back() {
             window.step();
         }
         window.run_steps(3);
-        assert_eq!([window.ctx.zoom_factor(), window.state().parts.model.settings.ui_scale], [expected; 2]);
+        assert_eq!([window.ctx.zoom_factor(), window.model().settings.ui_scale], [expected; 2]);
     }
     press_with(&mut window, Modifiers::COMMAND, egui::Key::Num0);
-    assert_eq!(window.state().parts.model.settings.ui_scale, 1.0);
+    assert_eq!(window.model().settings.ui_scale, 1.0);
 }

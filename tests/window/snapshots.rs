@@ -4,8 +4,6 @@
 use std::fmt::Write as _;
 
 use eframe::egui::accesskit::Toggled;
-use svbrdf_viewer::model::command::DisplayCommand;
-use svbrdf_viewer::model::settings::Tab;
 
 use super::*;
 

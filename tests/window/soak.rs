@@ -1,8 +1,6 @@
 //! Long use: a seeded monkey presses, drags, scrolls, types and clicks everything, while files change underneath.
 
 use egui::{Key, PointerButton};
-use rand::rngs::ChaCha8Rng;
-use rand::{Rng as _, SeedableRng as _};
 
 use super::*;
 
@@ -14,47 +12,33 @@ const MOST_TEXTURE_PIXELS: usize = 40_000_000;
 /// What a person types into fields.
 const TEXTS: [&str; 8] = ["0.5", "-1e9", "NaN", "12", "no/such/file.png", "\u{202e}abc", "", "1, 2, 3"];
 
-/// The materials on disk, which change.
-struct Files {
-    _folder: tempfile::TempDir,
-    names: Vec<PathBuf>,
-}
-
-impl Files {
-    fn new() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let names = ["truth.png", "a.png", "b.png"].map(|name| folder.path().join(name)).into();
-        let files = Self { _folder: folder, names };
-        (0..3).for_each(|index| files.write(index, index as f64));
-        files
-    }
-
-    /// Writes a material whose albedo depends on `shift`.
-    fn write(&self, index: usize, shift: f64) {
-        let strip = pictures::packed(|value| (value + 0.03 * shift).fract());
-        strip.save(&self.names[index]).unwrap();
-    }
-
-    /// Changes one file as programs do: other pixels, another size, half of it, gone, or back.
-    fn change(&self, random: &mut ChaCha8Rng) {
-        let index = below(random, 3);
-        let path = &self.names[index];
-        match below(random, 6) {
-            0 => std::fs::write(path, b"no picture").unwrap(),
-            1 => drop(std::fs::remove_file(path)),
-            2 => image::RgbImage::from_pixel(128, 32, image::Rgb([128, 128, 255])).save(path).unwrap(),
-            3 => {
-                self.write(index, 1.0);
-                let bytes = std::fs::read(path).unwrap();
-                std::fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
-            }
-            _ => self.write(index, below(random, 20) as f64),
-        }
-    }
-}
-
 pub fn below(random: &mut ChaCha8Rng, limit: usize) -> usize {
     random.next_u32() as usize % limit.max(1)
+}
+
+fn one_of<T: Copy>(random: &mut ChaCha8Rng, all: &[T]) -> T {
+    all[below(random, all.len())]
+}
+
+/// Writes a material whose albedo depends on `shift`.
+fn write(path: &Path, shift: usize) {
+    let strip = pictures::packed(|value| (value + 0.03 * shift as f64).fract());
+    strip.save(path).unwrap();
+}
+
+/// Changes a file as programs do: other pixels, another size, half of it, gone, or back.
+fn change(path: &Path, random: &mut ChaCha8Rng) {
+    match below(random, 6) {
+        0 => std::fs::write(path, b"no picture").unwrap(),
+        1 => drop(std::fs::remove_file(path)),
+        2 => image::RgbImage::from_pixel(128, 32, image::Rgb([128, 128, 255])).save(path).unwrap(),
+        3 => {
+            write(path, 1);
+            let bytes = std::fs::read(path).unwrap();
+            std::fs::write(path, &bytes[..bytes.len() / 2]).unwrap();
+        }
+        _ => write(path, below(random, 20)),
+    }
 }
 
 /// A point of the window.
@@ -70,116 +54,94 @@ fn control(window: &Window<'_>, random: &mut ChaCha8Rng) -> Pos2 {
     let fields = fields.into_iter().flat_map(|role| window.query_all_by_role(role));
     let mut all: Vec<Pos2> = super::bar::controls(window).into_iter().map(|(_, at)| at).collect();
     all.extend(fields.map(|node| node.rect().center()));
-    if all.is_empty() { place(window, random) } else { all[below(random, all.len())] }
+    if all.is_empty() { place(window, random) } else { one_of(random, &all) }
 }
 
-fn modifiers(random: &mut ChaCha8Rng) -> Modifiers {
-    match below(random, 8) {
-        0 | 1 => Modifiers::COMMAND,
-        2 => Modifiers::SHIFT,
-        3 => Modifiers::COMMAND | Modifiers::SHIFT,
-        4 => Modifiers::ALT,
-        _ => Modifiers::NONE,
-    }
-}
-
-fn click_at(window: &mut Window<'_>, at: Pos2, button: PointerButton) {
-    window.event(egui::Event::PointerMoved(at));
-    window.event(pointer(at, button, true));
-    window.step();
-    window.event(pointer(at, button, false));
-}
-
-/// One event, and its name.
-fn event(window: &mut Window<'_>, files: &Files, random: &mut ChaCha8Rng) -> String {
-    let button =
-        [PointerButton::Primary, PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle]
-            [below(random, 4)];
+/// One event, and its description.
+fn event(window: &mut Window<'_>, files: &[PathBuf], random: &mut ChaCha8Rng) -> String {
+    const MODIFIERS: [Modifiers; 8] = [
+        Modifiers::COMMAND,
+        Modifiers::COMMAND,
+        Modifiers::SHIFT,
+        Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        Modifiers::ALT,
+        Modifiers::NONE,
+        Modifiers::NONE,
+        Modifiers::NONE,
+    ];
+    const BUTTONS: [PointerButton; 4] =
+        [PointerButton::Primary, PointerButton::Primary, PointerButton::Secondary, PointerButton::Middle];
+    let (modifiers, button) = (one_of(random, &MODIFIERS), one_of(random, &BUTTONS));
+    let (from, to) = (place(window, random), place(window, random));
     match below(random, 20) {
         0..=5 => {
-            let (key, with) = (Key::ALL[below(random, Key::ALL.len())], modifiers(random));
-            window.key_press_modifiers(with, key);
-            format!("{with:?} {key:?}")
+            let key = one_of(random, Key::ALL);
+            window.key_press_modifiers(modifiers, key);
+            format!("{modifiers:?} {key:?}")
         }
-        6..=9 => {
-            let at = control(window, random);
-            click_at(window, at, PointerButton::Primary);
-            format!("control at {at:?}")
-        }
-        10 => {
-            let at = place(window, random);
-            click_at(window, at, button);
+        action @ 6..=10 => {
+            let (at, button) =
+                if action < 10 { (control(window, random), PointerButton::Primary) } else { (from, button) };
+            window.event(egui::Event::PointerMoved(at));
+            window.event(pointer(at, button, true));
+            window.step();
+            window.event(pointer(at, button, false));
             format!("{button:?} at {at:?}")
         }
         11..=14 => {
-            let (from, to) = (place(window, random), place(window, random));
-            window.event(egui::Event::PointerMoved(from));
-            window.event(pointer(from, button, true));
-            for share in [0.3, 0.7, 1.0] {
-                window.step();
-                window.event(egui::Event::PointerMoved(from + (to - from) * share));
-            }
-            window.step();
-            window.event(pointer(to, button, false));
+            let screen = egui::Rect::from_min_size(Pos2::ZERO, vec2(1.0, 1.0));
+            drag(window, button, screen, from.to_vec2(), to.to_vec2());
             format!("drag {button:?} {from:?} {to:?}")
         }
         15 | 16 => {
-            let at = place(window, random);
-            window.event(egui::Event::PointerMoved(at));
-            let delta = vec2(0.0, [-120.0, -10.0, 10.0, 120.0][below(random, 4)]);
-            window.event(wheel(delta, egui::MouseWheelUnit::Point, modifiers(random)));
+            window.event(egui::Event::PointerMoved(from));
+            let delta = vec2(0.0, one_of(random, &[-120.0, -10.0, 10.0, 120.0]));
+            window.event(wheel(delta, egui::MouseWheelUnit::Point, modifiers));
             format!("wheel {delta:?}")
         }
         17 => {
-            let text = TEXTS[below(random, TEXTS.len())];
+            let text = one_of(random, &TEXTS);
             window.event(egui::Event::Text(text.to_owned()));
             format!("text {text:?}")
         }
         18 => {
-            let size = [vec2(1200.0, 800.0), vec2(640.0, 420.0), vec2(1500.0, 500.0)][below(random, 3)];
+            let size = one_of(random, &[vec2(1200.0, 800.0), vec2(640.0, 420.0), vec2(1500.0, 500.0)]);
             window.set_size(size);
             format!("size {size:?}")
         }
         _ => {
-            files.change(random);
+            change(&files[below(random, files.len())], random);
             "a file changes".to_owned()
         }
     }
 }
 
-/// Opens the materials again, as a person does after the window has lost all of them.
-fn reopen(window: &mut Window<'_>, files: &Files) {
-    (0..3).for_each(|index| files.write(index, 0.0));
-    drop_files(window, files.names.clone());
-}
-
-/// Pixels of the textures of panels and fonts.
-fn texture_pixels(window: &Window<'_>) -> usize {
-    let textures = window.ctx.tex_manager();
-    textures.read().allocated().map(|(_, meta)| meta.size[0] * meta.size[1]).sum()
-}
-
 #[needs(adapter)]
 fn five_hundred_events_of_a_monkey_crash_nothing() {
-    let files = Files::new();
+    let folder = tempfile::tempdir().unwrap();
+    let files = ["truth.png", "a.png", "b.png"].map(|name| folder.path().join(name));
+    files.iter().enumerate().for_each(|(index, path)| write(path, index));
     // Nothing is saved beside them but what the monkey saves itself.
-    let mut window = on_files(files.names.clone());
+    let mut window = on_files(files.clone());
     let mut random = ChaCha8Rng::seed_from_u64(1);
-    let mut last = Vec::new();
+    let mut played = Vec::new();
     for number in 0..EVENTS {
-        last.push(event(&mut window, &files, &mut random));
-        if last.len() > 8 {
-            last.remove(0);
-        }
+        played.push(event(&mut window, &files, &mut random));
         window.run_steps(1 + below(&mut random, 3));
+        let last = &played[number.saturating_sub(7)..];
         assert!(!window.state().has_crashed(), "event {number}: {last:#?}");
         // Nothing is written where the tests run.
         window.state_mut().parts.ui.dialogs.save = None;
         if number % 100 == 99 {
-            let (pixels, messages) = (texture_pixels(&window), window.state().messages().len());
+            let textures = window.ctx.tex_manager();
+            let textures = textures.read();
+            let pixels: usize = textures.allocated().map(|(_, meta)| meta.size[0] * meta.size[1]).sum();
+            let messages = window.messages().len();
             assert!(pixels < MOST_TEXTURE_PIXELS && messages < 60, "{pixels} pixels, {messages} messages");
-            if window.state().names().len() < 2 {
-                reopen(&mut window, &files);
+            // Opened again, as a person does after the window has lost all of them.
+            if window.names().len() < 2 {
+                files.iter().for_each(|path| write(path, 0));
+                drop_files(&mut window, files.clone());
             }
         }
         if number % 25 == 24 {

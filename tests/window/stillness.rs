@@ -1,13 +1,7 @@
 //! Stillness: what is seen changes only by what the hand does.
 
-use rand::rngs::ChaCha8Rng;
-use rand::{Rng as _, SeedableRng as _};
 use svbrdf_core::material::Map as MaterialMap;
-use svbrdf_files::read::ReadOptions;
-use svbrdf_files::session::window::Framing;
-use svbrdf_viewer::model::command::{DisplayCommand, MaterialsCommand};
 
-use super::materials::write_packed;
 use super::*;
 
 /// Changes of the layout, the panels, the legend and the drawer, each its own inverse.
@@ -43,7 +37,7 @@ fn the_magnified_texel_stays_at_the_centre_of_its_pane_whatever_opens_and_closes
         window.run_steps(4);
         for layout in ["wipe", "single", "side by side"] {
             press(&mut window, egui::Key::C);
-            let framing = window.state().parts.model.view.display.framing.unwrap();
+            let framing = window.view().display.framing.unwrap();
             assert_eq!((framing.pixels_per_texel, framing.centre), (12.0, [62.5, 53.5]), "{size:?} {layout}");
         }
         assert_eq!(texel_at_the_centre(&mut window, GROUND_TRUTH), Some([62, 53]), "{size:?}");
@@ -55,7 +49,7 @@ fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
     let mut window = built_in();
     press(&mut window, egui::Key::P);
     let rect = pane(&window, GROUND_TRUTH);
-    let view = |window: &Window<'_>| window.state().parts.model.view.scene.view;
+    let view = |window: &Window<'_>| window.scene().view;
     drag(&mut window, egui::PointerButton::Secondary, rect, vec2(0.5, 0.5), vec2(0.6, 0.4));
     let [x, y, z] = view(&window);
     assert!(x < -0.1 && y < -0.1, "the view goes against the hand: {x}, {y}, {z}");
@@ -72,14 +66,14 @@ fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
 #[needs(adapter)]
 fn the_side_panel_has_one_width_and_a_click_beside_a_dialog_moves_nothing() {
     let mut window = built_in();
-    let scene = window.state().parts.model.view.scene;
+    let scene = window.scene();
     let rect = pane(&window, GROUND_TRUTH);
     press(&mut window, egui::Key::F1);
     drag_primary(&mut window, rect, vec2(0.05, 0.9), vec2(0.1, 0.95));
-    assert_eq!(window.state().parts.model.view.scene, scene, "behind the help");
+    assert_eq!(window.scene(), scene, "behind the help");
     press(&mut window, egui::Key::Escape);
     drag_primary(&mut window, rect, vec2(0.05, 0.9), vec2(0.1, 0.95));
-    assert_ne!(window.state().parts.model.view.scene, scene);
+    assert_ne!(window.scene(), scene);
     for name in ["Why", "Files", "Loss"] {
         tab(&mut window, name);
         window.run_steps(30);
@@ -89,39 +83,32 @@ fn the_side_panel_has_one_width_and_a_click_beside_a_dialog_moves_nothing() {
 
 #[needs(adapter)]
 fn the_automatic_range_is_that_of_the_predictions_also_of_a_mixture() {
-    let mut window = built_in();
-    press(&mut window, egui::Key::D);
-    statistics(&mut window);
-    let range = |window: &Window<'_>| window.state().parts.displayed().range();
-    let before = range(&window);
+    let mut window = with_differences();
+    let before = window.difference_range();
     let mut mixed = Vec::new();
     for only_right in [false, true] {
         apply(&mut window, DisplayCommand::Isolate(Some(MaterialMap::Normal)));
         apply(&mut window, DisplayCommand::SetOnlyRight(only_right));
         wait(&mut window, "the mixture", |app| {
-            let displayed = app.parts.displayed();
-            let chosen = displayed.model.view.display.prediction + 1;
-            displayed.materials()[chosen].id() != displayed.model.materials.all[chosen].id()
+            app.displayed_materials()[1].0.contains(if only_right { "right" } else { "wrong" })
         });
         wait(&mut window, "the statistics", |app| app.difference_distributions().is_some());
-        mixed.extend(window.state().difference_distributions().map(|one| one.auto_range));
-        assert_eq!(range(&window), before, "only right: {only_right}");
+        mixed.extend(window.difference_distributions().map(|one| one.auto_range));
+        assert_eq!(window.difference_range(), before, "only right: {only_right}");
     }
-    assert!(
-        mixed.iter().any(|range| *range != before),
-        "a planted fault: a mixture's own range is another one"
-    );
+    assert!(mixed.iter().any(|range| *range != before), "a planted fault: the own range of a mixture");
 }
 
 /// The ground truth of a pair of this kind, and its prediction: equal, black and white, mirror and matte, noise, normals to
 /// either side.
-fn write_pair(folder: &Path, kind: u32, side: u32) -> Vec<PathBuf> {
+fn write_pair(folder: &Path, kind: u32, side: u32) -> [PathBuf; 2] {
     let noise = |seed: u32, x: u32, y: u32| {
         (x.wrapping_mul(73) ^ y.wrapping_mul(151) ^ (seed * 97)).wrapping_mul(2_654_435_761) >> 24
     };
-    let write = |number: u32, name: &str| {
+    let long = "a prediction whose name is too long for every place it is shown in.png";
+    [(0, "ground truth.png"), (1, long)].map(|(number, name)| {
         let path = folder.join(format!("{kind} {side} {name}"));
-        let extreme = [0, 255][number as usize];
+        let extreme = 255 * number as u8;
         write_packed(&path, side, |tile, x, y| match (kind, tile) {
             (1, 1) | (2, 2) => [extreme; 3],
             (3, 1..) => [noise(tile + number, x, y) as u8; 3],
@@ -129,9 +116,7 @@ fn write_pair(folder: &Path, kind: u32, side: u32) -> Vec<PathBuf> {
             _ => [[128, 128, 255], [120, 90, 60], [140; 3], [20; 3]][tile as usize],
         });
         path
-    };
-    let long = "a prediction whose name is too long for every place it is shown in.png";
-    vec![write(0, "ground truth.png"), write(1, long)]
+    })
 }
 
 #[needs(adapter)]
@@ -141,36 +126,29 @@ fn the_layout_is_the_same_in_every_frame_of_every_kind_of_pair() {
     window.set_size(vec2(1000.0, 640.0));
     window.run_steps(4);
     let controls = |window: &Window<'_>| {
-        let names = ["Tab Why", " loss", "Seed", "Copy losses", "Near-field", "Convention", "Help"];
-        // The button is "Compute loss" or "Cancel loss".
-        let rect = |name: &str| match name {
-            " loss" => {
-                let either = ["Compute loss", "Cancel loss"];
-                either.into_iter().find_map(|name| Some(window.query_by_label(name)?.rect()))
-            }
-            _ => window.query_all_by_label(name).map(|node| node.rect()).next(),
-        };
-        let rects = names.map(|name| rect(name).unwrap_or_else(|| panic!("no {name}")));
-        let panes: Vec<egui::Rect> = window.query_all_by_label_contains("Pane ").map(|n| n.rect()).collect();
-        (rects, panes)
+        let names = ["Tab Why", "Seed", "Copy losses", "Near-field", "Convention", "Help", "Pane "];
+        // One of them is there at a time.
+        let either = ["Compute loss", "Cancel loss"].map(|name| window.query_by_label(name));
+        let rects = names.map(|name| {
+            let rects: Vec<_> = window.query_all_by_label_contains(name).map(|node| node.rect()).collect();
+            assert!(!rects.is_empty(), "no {name}");
+            rects
+        });
+        (rects, either.into_iter().flatten().map(|node| node.rect()).next().unwrap())
     };
-    let mut layouts = Vec::new();
-    for side in [1, 40] {
-        for kind in 0..5 {
-            let paths = write_pair(folder.path(), kind, side);
-            apply(&mut window, MaterialsCommand::Open { paths, replace: true, read: ReadOptions::AUTO });
-            wait(&mut window, "the pair", |app| {
-                !app.is_reading() && app.names()[0].starts_with(&format!("{kind} {side} "))
-            });
-            let before = controls(&window);
-            for frame in 0..60 {
-                window.step();
-                assert_eq!(controls(&window), before, "kind {kind}, {side} texels, frame {frame}");
-            }
-            layouts.push(before);
+    // The texel under the pointer is none of the first pair, which is smaller.
+    let at = pane(&window, GROUND_TRUTH).center();
+    hover(&mut window, at);
+    let mut first = None;
+    for (side, kind) in [1, 40].into_iter().flat_map(|side| (0..5).map(move |kind| (side, kind))) {
+        open(&mut window, write_pair(folder.path(), kind, side));
+        wait(&mut window, "the pair", |app| {
+            !app.is_reading() && app.names()[0].starts_with(&format!("{kind} {side} "))
+        });
+        let first = first.get_or_insert_with(|| controls(&window));
+        for frame in 0..60 {
+            window.step();
+            assert_eq!(controls(&window), *first, "kind {kind}, {side} texels, frame {frame}");
         }
-    }
-    for (kind, layout) in layouts.iter().enumerate() {
-        assert_eq!(*layout, layouts[0], "all pairs have one layout: {kind}");
     }
 }

@@ -1,15 +1,12 @@
 //! The tab *Why*: maps, scenes, and the loss while the light moves.
 
 mod diagnosis;
-mod error_map;
 mod maps;
 mod scenes;
-mod tables;
 
 use svbrdf_core::loss::{Sampling, Texels};
 use svbrdf_core::model::sampler::Sampler;
 
-use super::materials::{loss_in, losses, materials};
 use super::*;
 
 /// The scenes of the loss to 1% that are listed and averaged.
@@ -29,14 +26,14 @@ fn opened<'a>() -> Window<'a> {
 
 fn wait_for_scene_losses(window: &mut Window<'_>) -> Vec<f64> {
     wait(window, "the losses in this scene", |app| app.scene_losses().is_some_and(|(_, current)| current));
-    window.state().scene_losses().unwrap().0.to_vec()
+    window.scene_losses().unwrap().0.to_vec()
 }
 
 #[needs(adapter)]
 fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
     let mut window = opened();
     let before = wait_for_scene_losses(&mut window);
-    assert_eq!(before, [1, 2].map(|prediction| loss_in(window.state().parts.model.view.scene, prediction)));
+    assert_eq!(before, [1, 2].map(|prediction| loss_in(window.scene(), prediction)));
     assert!(before.iter().all(|loss| has(&window, &format!("{loss:.4}"))), "{before:?}");
     let rect = pane(&window, GROUND_TRUTH);
     let at = |share: f32| rect.min + rect.size() * vec2(0.2 + 0.6 * share, 0.4);
@@ -46,7 +43,7 @@ fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
     for step in 0..2000 {
         window.event(egui::Event::PointerMoved(at((step % 500) as f32 / 500.0)));
         window.step();
-        let latest = window.state().scene_losses().map(|(losses, _)| losses.to_vec());
+        let latest = window.scene_losses().map(|(losses, _)| losses.to_vec());
         seen.extend(latest.filter(|latest| seen.last() != Some(latest)));
         if seen.len() > 10 {
             break;
@@ -57,7 +54,7 @@ fn the_losses_of_the_scene_follow_the_light_while_it_is_dragged() {
     window.event(primary(at(0.5), false));
     window.run_steps(2);
     let after = wait_for_scene_losses(&mut window);
-    assert_eq!(after[0], loss_in(window.state().parts.model.view.scene, 1));
+    assert_eq!(after[0], loss_in(window.scene(), 1));
 }
 
 #[needs(adapter)]
@@ -75,8 +72,8 @@ fn a_folded_section_and_a_hidden_tab_compute_nothing() {
     click(&mut window, "Would something trivial explain it?");
     wait(&mut window, "the scenes", |app| app.listed_scenes().is_some());
     rest(&mut window, 60);
-    assert!(window.state().attribution().is_none(), "its section is folded");
-    assert!(window.state().diagnosis().is_none(), "its section is folded");
+    assert!(window.attribution().is_none(), "its section is folded");
+    assert!(window.diagnosis().is_none(), "its section is folded");
     click(&mut window, "Which map");
     wait(&mut window, "the attribution", |app| app.attribution().is_some());
 }
@@ -94,27 +91,18 @@ fn the_controls_of_why_stay_where_they_are_while_results_come() {
     let before = (controls(&window), search(&window));
     for prediction in [egui::Key::Num1, egui::Key::Num2] {
         window.key_press(prediction);
-        window.step();
-        for frame in 0..6000 {
-            let now = (controls(&window), search(&window));
-            assert_eq!(now, before, "{prediction:?}, frame {frame}");
-            let state = window.state();
-            let listed = state.listed_scenes().is_some_and(|(_, thumbnails)| !thumbnails.is_empty());
-            if listed && state.attribution().is_some() {
-                break;
-            }
-            assert!(frame < 5999, "waited in vain for the results");
-            std::thread::sleep(std::time::Duration::from_millis(20));
-            window.step();
-        }
+        wait_in(&mut window, "the results", |window| {
+            assert_eq!((controls(window), search(window)), before, "{prediction:?}");
+            let listed = window.listed_scenes().is_some_and(|(_, thumbnails)| !thumbnails.is_empty());
+            listed && window.attribution().is_some()
+        });
     }
     window.get_by_label("Find worst scene").click();
     window.run_steps(2);
-    while window.state().worst().is_none() {
-        assert_eq!(controls(&window), before.0, "while it searches");
-        std::thread::sleep(std::time::Duration::from_millis(20));
-        window.step();
-    }
+    wait_in(&mut window, "the worst scene", |window| {
+        assert_eq!(controls(window), before.0, "while it searches");
+        window.worst().is_some()
+    });
     window.run_steps(2);
     assert_eq!((controls(&window), search(&window)), before, "with the worst scene");
 }

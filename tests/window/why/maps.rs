@@ -1,9 +1,7 @@
 //! Which map the loss comes from, and one map alone in the panes.
 
-use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Map;
-use svbrdf_core::model::convention::{self, Convention, PRINTED};
-use svbrdf_core::progress::Progress;
+use svbrdf_core::model::convention::{self, Convention};
 use svbrdf_evaluate::why::{Attribution, attribute};
 
 use super::*;
@@ -16,7 +14,7 @@ fn expected(prediction: usize, convention: &Convention) -> Attribution {
 
 fn wait_for_attribution(window: &mut Window<'_>) -> Attribution {
     wait(window, "the attribution", |app| app.attribution().is_some());
-    window.state().attribution().unwrap().clone()
+    window.attribution().unwrap().clone()
 }
 
 #[needs(adapter)]
@@ -33,25 +31,22 @@ fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_co
     let other = "roughness of wrong roughness: 60.1% of the loss";
     see(&mut window, other);
     click(&mut window, other);
-    let display = &window.state().parts.model.view.display;
+    let display = &window.view().display;
     assert_eq!((display.prediction, display.isolated), (1, Some(Map::Roughness)), "a click chooses it");
     press(&mut window, egui::Key::Escape);
-    assert_eq!(window.state().attribution(), Some(&second), "it is not computed again");
+    assert_eq!(window.attribution(), Some(&second), "it is not computed again");
     window.get_by_label("roughness: 60.1% of the loss");
     window.get_by_label("normal of blurred normals: 80.9% of the loss");
     choose(&mut window, "Convention", "guided-2020");
     assert_eq!(wait_for_attribution(&mut window), expected(2, &"guided-2020".parse().unwrap()));
 }
 
-/// Clicks on a map once its share is known.
+/// Clicks on a map of the chosen prediction once its share is known.
 fn isolate(window: &mut Window<'_>, map: &str) {
     wait_for_attribution(window);
     let start = format!("{map}: ");
-    let row = {
-        let rows = window.get_all_by_role(Role::Button);
-        let mut labels = rows.filter_map(|node| egui_kittest::kittest::NodeT::accesskit_node(&node).label());
-        labels.find(|label| label.starts_with(&start) && label.ends_with("of the loss"))
-    };
+    let buttons = window.get_all_by_role(Role::Button).filter_map(|node| node.accesskit_node().label());
+    let row = buttons.into_iter().find(|label| label.starts_with(&start) && label.ends_with("of the loss"));
     click(window, &row.expect("the row of the map"));
 }
 
@@ -65,9 +60,8 @@ fn wait_for_pane(window: &mut Window<'_>, name: &str) -> egui::Rect {
 fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
     let mut window = opened();
     let materials = materials();
-    let whole = pane(&window, "1  blurred normals");
-    let whole = pixels(&mut window, whole);
     let rect = pane(&window, "1  blurred normals");
+    let whole = pixels(&mut window, rect);
     window.key_down(egui::Key::G);
     window.run_steps(3);
     let ground_truth = pixels(&mut window, rect);
@@ -113,9 +107,9 @@ fn every_way_back_shows_the_prediction_itself() {
         window.run_steps(30);
         isolate(&mut window, "normal");
         wait_for_pane(&mut window, name);
-        assert_eq!(window.state().parts.model.view.display.isolated, Some(Map::Normal));
+        assert_eq!(window.view().display.isolated, Some(Map::Normal));
         back(&mut window);
-        assert_eq!(window.state().parts.model.view.display.isolated, None);
+        assert_eq!(window.view().display.isolated, None);
         window.get_by_label("Pane 1  blurred normals");
         assert!(window.query_by_label("Show all maps").is_none());
     }
@@ -130,7 +124,7 @@ fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
     isolate(&mut window, "diffuse");
     wait_for_pane(&mut window, "blurred normals, only its diffuse wrong");
     let found = statistics(&mut window)[0].mean;
-    let scene = window.state().parts.model.view.scene;
+    let scene = window.scene();
     let materials = materials();
     let mixture = materials[0].with_maps_of(&materials[1], |map| map == Map::Diffuse).unwrap();
     let comparison = Comparison::new(&materials[0], &[&mixture], PRINTED).unwrap();
