@@ -1,11 +1,7 @@
 //! Whether the 95% interval holds the loss over all scenes in 95% of the seeds.
-//!
-//! The whole table, over pairs made for it, the built-in ones and those of `../shared`:
-//! `cargo test --release --no-default-features -- --ignored coverage --nocapture`
 
 pub(crate) mod measured;
 mod pairs;
-mod table;
 
 use svbrdf_core::loss::{Compute, Estimate, Request, Sampling, Texels};
 use svbrdf_core::model::convention::PRINTED;

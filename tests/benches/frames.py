@@ -3,17 +3,13 @@
 
     cargo build --release
     tests/benches/frames.py target/release/svbrdf [GT PRED...] [--only-latency]
-    tests/benches/frames.py target/release/svbrdf GT PRED --why
-    tests/benches/frames.py target/release/svbrdf --dataset GT METHOD...
 
 Needs Xvfb and xdotool, and a machine that does nothing else. The window has 1360 x 860 points. The pointer hovers over a pane, then
 drags the light; then both again with magnified materials, and with differences. The screen is read from the memory of Xvfb every
 millisecond; a frame is a change of it. Prints the median and the 95th percentile of the times between frames, and the processor time
 per frame. Then single motions: from the event of the mouse to the first changed pixel of another pane, which is what a hand feels
 (`--only-latency`: nothing else). With materials also the time from the start to the first picture and to the last one, beside that of `svbrdf info`, which
-reads them and does no more. With --why: from a click on the tab Why to its
-first line. With --dataset: flips, memory, and drags in the contact sheet of a data set, such as that of
-`cargo run --release --example make_dataset -- FOLDER`. A large material, here of 2048 x 2048 texels, of a small one:
+reads them and does no more. A large material, here of 2048 x 2048 texels, of a small one:
 
     convert assets/samples/worn_tiles.png -sample 800% -attenuate 0.02 +noise Gaussian gt.png
 """
@@ -36,12 +32,6 @@ RATE = 120
 ONE_FRAME = 0.004
 # Single motions, and the seconds between them: everything is sharp again by then.
 MOTIONS, BETWEEN_MOTIONS = 40, 0.4
-# Keys to the next material of a data set whose times are measured.
-FLIPS = 30
-# What flips change: rows and columns inside the picture of the first method, beside titles and lists, which change before.
-FLIPPED = ((540, 740), range(120, 320, 9))
-# The tab Why, and where the first line of its diagnosis is, of one prediction.
-WHY, FIRST_LINE = (1120, 45), ((1049, 1340), range(204, 229, 2))
 # What is compared: rows of the other panes. The server itself draws the pointer, which is not a frame.
 ROWS = range(8, HEIGHT, 9)
 COLUMNS = (530, 1030)
@@ -144,46 +134,6 @@ def latency(screen, environment, name, centre, radius):
     )
 
 
-def first_line(screen, environment):
-    """The time from a click on the tab Why to the first line of its diagnosis."""
-    move = ["mousemove", *map(str, WHY)]
-    subprocess.run(["xdotool", *move, "sleep", "0.5"], env=environment, check=True)
-    before, start = screen.rows(*FIRST_LINE), time.perf_counter()
-    subprocess.run(["xdotool", "click", "1"], env=environment, check=True)
-    last = start
-    # First what another tab had there goes, then the line comes.
-    while time.perf_counter() - start < 20 and (last == start or time.perf_counter() - last < 5):
-        if (now := screen.rows(*FIRST_LINE)) != before:
-            before, last = now, time.perf_counter()
-        time.sleep(0.002)
-    print(f"first line of the diagnosis {last - start:.2f} s after the click")
-
-
-def flips(screen, process, environment):
-    """Times from the key to the first changed pixel of a picture, and the memory after many flips."""
-    press = lambda key: subprocess.run(["xdotool", "key", key], env=environment, check=True)
-    times = []
-    for flip in range(FLIPS):
-        before = screen.rows(*FLIPPED)
-        # To and fro: a small data set has an end.
-        press("Next" if flip % 20 < 10 else "Prior")
-        start = time.perf_counter()
-        while screen.rows(*FLIPPED) == before and time.perf_counter() - start < 2.0:
-            time.sleep(0.0005)
-        times.append(1e3 * (time.perf_counter() - start))
-        time.sleep(0.8)
-    times.sort()
-    print(f"{'flips':<28} {len(times):4} keys, p50 {times[len(times) // 2]:6.1f} ms, p95 {times[int(0.95 * len(times))]:6.1f} ms to the changed pixel")
-    for count in (0, 100, 200, 300, 400, 500):
-        for flip in range(100 if count else 0):
-            press("Next" if flip % 40 < 20 else "Prior")
-            time.sleep(0.1)
-        time.sleep(1)
-        status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
-        resident = int(status.split("VmRSS:")[1].split()[0]) / 1024
-        print(f"  after {count} flips {resident:.0f} MiB")
-
-
 def until_still(screen, start):
     """Waits until nothing has changed for a while: the materials are there, and the loss is computed. The times of the first picture and
     of the last change."""
@@ -204,9 +154,8 @@ def reading(program, material):
 
 
 def main():
-    options = ("--only-latency", "--dataset", "--why")
-    only_latency, is_dataset, is_why = (option in sys.argv for option in options)
-    arguments = [argument for argument in sys.argv[1:] if argument not in options]
+    only_latency = "--only-latency" in sys.argv
+    arguments = [argument for argument in sys.argv[1:] if argument != "--only-latency"]
     program, materials = pathlib.Path(arguments[0]).resolve(), [str(pathlib.Path(p).resolve()) for p in arguments[1:]]
     with tempfile.TemporaryDirectory() as folder:
         screen = Screen(folder)
@@ -219,15 +168,12 @@ def main():
         }
         environment.pop("WAYLAND_DISPLAY", None)
         # Twice: the first time the files come from the disk.
-        alone = [] if is_dataset else [[reading(program, material) for material in materials] for _ in range(2)][1]
+        alone = [[reading(program, material) for material in materials] for _ in range(2)][1]
         start = time.perf_counter()
-        command = [program, *(["view", "--dataset"] if is_dataset else []), *materials]
-        process = subprocess.Popen(command, env=environment, cwd=folder, stderr=subprocess.DEVNULL)
+        process = subprocess.Popen([program, *materials], env=environment, cwd=folder, stderr=subprocess.DEVNULL)
         try:
             first, last = until_still(screen, start)
-            if is_dataset:
-                print(f"first picture {first:.2f} s, all losses {last:.2f} s")
-            elif materials:
+            if materials:
                 print(
                     f"first picture {first:.2f} s (reading it alone {alone[0]:.2f} s), all {last:.2f} s ({sum(alone):.2f} s)"
                 )
@@ -252,15 +198,6 @@ def main():
                 stdout=subprocess.DEVNULL,
             )
             print(f"load {os.getloadavg()[0]:.1f} before the measurement")
-            if is_dataset:
-                flips(screen, process, environment)
-                subprocess.run(["xdotool", "key", "s"], env=environment, check=True)
-                time.sleep(5)
-                measure(screen, process, environment, "drag the light in the sheet", True, (600, 400), 30)
-                return
-            if is_why:
-                first_line(screen, environment)
-                return
             pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
             latency(screen, environment, "motions of the light", pane, 90)
             if only_latency:

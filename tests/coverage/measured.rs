@@ -1,7 +1,5 @@
 //! Pairs of materials, and what many seeds show of their losses.
 
-use std::path::Path;
-
 use rayon::prelude::*;
 use statrs::distribution::{Binomial, DiscreteCDF};
 
@@ -10,19 +8,16 @@ use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::read::{Albedo, ReadOptions, read};
 use svbrdf_files::samples;
 
 use super::pairs;
 
-/// Coverage in percent that 2,000 seeds or more may show.
-pub const ALLOWED: [f64; 2] = [93.5, 96.5];
-/// The same where an accuracy was promised: to hold it more often breaks no promise.
-pub const PROMISED: [f64; 2] = [93.5, 98.0];
+/// Coverage in percent that all seeds may have.
+const ALLOWED: [f64; 2] = [93.5, 96.5];
 /// The probability of a sound interval to fail in one cell of a test with few seeds, on either side.
 const MISHAP: f64 = 1e-3;
 
-/// The coverage in percent that `seeds` may show where that of all seeds is within [`ALLOWED`]: quantiles of the binomial
+/// The coverage in percent that `seeds` may show where that of all seeds is within `ALLOWED`: quantiles of the binomial
 /// distribution.
 pub fn allowed(seeds: u64) -> [f64; 2] {
     let count = |coverage: f64, p| Binomial::new(coverage / 100.0, seeds).unwrap().inverse_cdf(p);
@@ -34,8 +29,6 @@ pub struct Pair {
     pub prediction: Material<f32>,
     /// The loss over all scenes, in the weights 2 : 1.
     pub reference: f64,
-    /// Standard error of `reference`, in percent of it.
-    pub reference_error: f64,
 }
 
 /// What many seeds have shown, in percent: of the seeds, and of the reference.
@@ -75,13 +68,11 @@ impl Pair {
         log_points: u32,
     ) -> Self {
         let [ground_truth, prediction] = [ground_truth, prediction].map(|m| thinned(m, step));
-        let mut pair = Self { ground_truth, prediction, reference: 0.0, reference_error: 0.0 };
+        let mut pair = Self { ground_truth, prediction, reference: 0.0 };
         let (near, distant) = (16 << log_points, 8 << log_points);
         let sampling =
             Sampling { near, distant, seed: 1 << 40, sampler: Sampler::Sobol, texels: Texels::All };
-        let estimate = pair.loss(sampling).estimate;
-        pair.reference = estimate.mean;
-        pair.reference_error = 100.0 * estimate.standard_error.unwrap() / estimate.mean;
+        pair.reference = pair.loss(sampling).estimate.mean;
         pair
     }
 
@@ -150,18 +141,4 @@ pub fn built_in(step: usize, log_points: u32) -> Vec<Pair> {
     let samples = samples::load::<f32>().unwrap();
     let gt = samples.ground_truth.material;
     samples.predictions.iter().map(|p| Pair::new(&gt, &p.material, step, log_points)).collect()
-}
-
-/// Every pair of maps of one size in `../shared`, with about `side` x `side` texels left of each; none where absent.
-pub fn golden(side: usize, log_points: u32) -> Vec<Pair> {
-    let maps = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/golden/maps");
-    let options = ReadOptions { albedo: Some(Albedo::Gamma22), ..ReadOptions::default() };
-    let Ok(folder) = std::fs::read_dir(maps) else { return Vec::new() };
-    let mut paths: Vec<_> = folder.map(|entry| entry.unwrap().path()).collect();
-    paths.sort();
-    let materials: Vec<_> =
-        paths.iter().map(|path| read(path, &options, &Progress::default()).unwrap().material).collect();
-    let pairs = materials.iter().enumerate().flat_map(|(i, a)| materials[..i].iter().map(move |b| [b, a]));
-    let of_one_size = pairs.filter(|[a, b]| a.size() == b.size());
-    of_one_size.map(|[a, b]| Pair::new(a, b, (a.width() / side).max(1), log_points)).collect()
 }
