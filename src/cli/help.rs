@@ -68,7 +68,6 @@ convert: the same material as EXR, PNG, glTF or a folder
   textures/ gao.png --like gao
 conventions: lists the named conventions, or prints one
   svbrdf-estimation-2022
-schema: the JSON Schema of a report
   loss
 completions: completions for a shell
   bash > svbrdf.bash

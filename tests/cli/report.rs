@@ -63,8 +63,7 @@ fn a_report_of_a_session_begins_as_it_was_saved_and_has_its_losses_unless_an_acc
         "svbrdf-session": 1, "convention": "multi-image-2019", "scene": scene, "exposure": 1.5,
         "materials": [{"path": "gt.png"}, {"path": "a.png"}],
         "window": {"loss": {"ask": "Scenes", "near": 5, "distant": 2, "seed": 4},
-            "view": {"quantity": "Roughness", "difference": true, "layout": "Wipe", "prediction": 7, "wipe": 0.25,
-            "framing": {"pixels_per_texel": 12.5, "centre": [3.0, 5.5]}}},
+            "view": {"quantity": "Roughness", "difference": true, "layout": "Wipe", "prediction": 7, "wipe": 0.25}},
     });
     fs::write(at.join("s.svbrdf-session.json"), session.to_string()).unwrap();
     let data = data(&page(at, "s.svbrdf-session.json --figure"));
@@ -72,7 +71,6 @@ fn a_report_of_a_session_begins_as_it_was_saved_and_has_its_losses_unless_an_acc
     assert_eq!([&start["scene"], &start["exposure"]], [&scene, &json!(1.5)]);
     assert_eq!(json!([start["quantity"], start["difference"]]), json!(["roughness", true]));
     assert_eq!(json!([start["layout"], start["prediction"], start["wipe"]]), json!(["wipe", 0, 0.25]));
-    assert_eq!(start["framing"], json!({"pixelsPerTexel": 12.5, "centre": [3.0, 5.5]}));
     assert_eq!(data["epsilon"], json!(0.1));
     for options in ["", "--seed 9"] {
         let page = page(at, &format!("s.svbrdf-session.json {options}"));
