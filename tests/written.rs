@@ -415,8 +415,8 @@ fn the_samples_are_what_their_generator_makes() {
     ];
     for (name, pixels) in made {
         let path =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("src/files/samples").join(name).with_extension("png");
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/samples").join(name).with_extension("png");
         let committed = image::open(path).unwrap().into_rgb8().into_raw();
-        assert!(committed == pixels, "{name} differs; run the example make_samples if that is meant");
+        assert!(committed == pixels, "{name} differs; run the example make_assets if that is meant");
     }
 }
