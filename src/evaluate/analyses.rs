@@ -53,7 +53,7 @@ impl AnyAnalysis {
             scenes: A::SCENES,
             options: A::OPTIONS,
             #[cfg(feature = "schema")]
-            schemas: [crate::schema::schema_of::<A::Options>, crate::schema::schema_of::<A>],
+            schemas: [crate::json_schema::schema_of::<A::Options>, crate::json_schema::schema_of::<A>],
             answer: answer::<A>,
         }
     }

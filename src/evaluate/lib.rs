@@ -19,6 +19,8 @@ pub mod conform;
 pub mod dataset;
 pub mod diagnose;
 mod error;
+#[cfg(feature = "schema")]
+mod json_schema;
 pub mod metrics;
 pub mod photograph;
 pub mod rank;

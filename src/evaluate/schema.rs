@@ -3,13 +3,12 @@
 use crate::report::{
     ConformReport, DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, RobustReport,
 };
-use schemars::generate::SchemaSettings;
-use schemars::transform::RecursiveTransform;
-use schemars::{JsonSchema, Schema};
-use serde_json::{Value, json};
+use schemars::Schema;
+use serde_json::json;
 
 use crate::analyses::{ANALYSES, AnyAnalysis};
 use crate::dataset::DatasetReport;
+use crate::json_schema::schema_of;
 use crate::photograph::PhotoReport;
 
 /// The name of a report, and its schema.
@@ -46,17 +45,4 @@ pub fn named(name: &str) -> Option<Schema> {
     let mut schema = report();
     schema.insert("x-analysis".to_owned(), words);
     Some(schema)
-}
-
-/// The schema of what is written, not of what could be read.
-pub(crate) fn schema_of<T: JsonSchema>() -> Schema {
-    let settings = SchemaSettings::draft2020_12().for_serialize();
-    settings.with_transform(RecursiveTransform(reworded)).into_generator().into_root_schema_for::<T>()
-}
-
-/// A doc comment for readers of JSON: on one line, with null in place of `None`.
-fn reworded(schema: &mut Schema) {
-    if let Some(Value::String(text)) = schema.get_mut("description") {
-        *text = text.replace('\n', " ").replace("`None`", "null").replace("[`", "`").replace("`]", "`");
-    }
 }

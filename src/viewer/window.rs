@@ -5,11 +5,13 @@ use std::sync::Arc;
 use eframe::egui;
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 
+use svbrdf_core::error::Error as CoreError;
+use svbrdf_files::disk::signals;
 use svbrdf_gpu::Gpu;
 
 use super::app::restart;
-use super::app::storage::{self, Storage};
-use super::app::{App, CrashGuard, NAME};
+use super::app::storage::{self, NAME, Storage};
+use super::app::{App, CrashGuard};
 use super::jobs::work::{panics, priority};
 use super::model::settings::options::ViewerOptions;
 use crate::error::Error;
@@ -18,6 +20,9 @@ use crate::error::Error;
 const FIRST: [f32; 2] = [1340.0, 700.0];
 const LEAST: [f32; 2] = [640.0, 420.0];
 const MOST: f32 = 16_384.0;
+
+/// The exit code after a signal, as of the command line.
+const INTERRUPTED: i32 = 130;
 
 /// Opens the window and returns when it is closed.
 ///
@@ -31,7 +36,7 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
     priority::yield_to_window();
     let result = Gpu::check_environment().map_err(Error::from).and_then(|()| open(options));
     panics::print(true);
-    if result.is_err() {
+    if result.as_ref().is_err_and(|error| !error.is_cancelled()) {
         restart::while_driver_is_gone();
     }
     result
@@ -40,13 +45,30 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
 fn open(options: ViewerOptions) -> Result<(), Error> {
     let (storage, guard) = (Storage::read(storage::folder()), CrashGuard::default());
     let (native, of_app) = (native_options(storage.window()), guard.clone());
-    let create = move |cc: &eframe::CreationContext<'_>| App::new(cc, options, storage).guarded(of_app);
+    let create = move |cc: &eframe::CreationContext<'_>| {
+        stop_at_signals(&of_app, &cc.egui_ctx);
+        App::new(cc, options, storage).guarded(of_app)
+    };
     let run = || eframe::run_native(NAME, native, Box::new(|cc| Ok(Box::new(create(cc)))));
     let result = panics::caught(|| Ok(run()));
+    if guard.is_stopped() {
+        return Err(CoreError::Cancelled.into());
+    }
     if let Some(loss) = guard.loss() {
         restart::after_loss(&loss.reason, loss.session.as_ref());
     }
     guard.outcome(result)
+}
+
+/// Closes the window at a signal that ends the program. A second one ends it at once.
+fn stop_at_signals(guard: &CrashGuard, ctx: &egui::Context) {
+    let (guard, ctx) = (guard.clone(), ctx.clone());
+    signals::on_end(move || {
+        if !guard.stop() {
+            std::process::exit(INTERRUPTED);
+        }
+        ctx.request_repaint();
+    });
 }
 
 fn native_options(size: Option<[f32; 2]>) -> eframe::NativeOptions {

@@ -1,6 +1,7 @@
 //! Crash guard: a panic in a frame, or a lost graphics device, closes the window as a normal exit does, and becomes the error of the
 //! program.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use eframe::egui_wgpu::WgpuError;
@@ -16,6 +17,7 @@ use crate::jobs::work::panics;
 pub struct CrashGuard {
     error: Arc<Mutex<Option<Error>>>,
     loss: Arc<Mutex<Option<Loss>>>,
+    stopped: Arc<AtomicBool>,
 }
 
 /// A lost device.
@@ -37,6 +39,16 @@ impl CrashGuard {
             Ok(())
         });
         caught.map_err(|error| self.fail(error)).is_ok()
+    }
+
+    /// Asks the window to close at a signal that ends the program; false where one has asked before.
+    pub fn stop(&self) -> bool {
+        !self.stopped.swap(true, Ordering::SeqCst)
+    }
+
+    /// Whether a signal ends the program.
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::SeqCst)
     }
 
     /// Keeps what a restart goes on with.

@@ -19,7 +19,7 @@ pub use crash::CrashGuard;
 use crash::Loss;
 use parts::Parts;
 use restart::Restarts;
-use storage::Storage;
+use storage::{NAME, Storage};
 
 use super::jobs::Jobs;
 use super::jobs::displayed::Displayed;
@@ -34,9 +34,6 @@ use super::ui::WindowUi;
 use super::ui::shading::gpu_view::GpuView;
 use super::ui::widgets::theme;
 use crate::error::Error;
-
-/// The name of the program, in its title and among the programs of the desktop.
-pub(crate) const NAME: &str = "svbrdf";
 
 /// The viewer.
 #[derive(Debug)]
@@ -189,7 +186,7 @@ impl eframe::App for App {
             // egui-wgpu 0.37 would panic.
             ui.ctx().graphics_mut(|graphics| *graphics = Default::default());
         }
-        if crash.has_crashed() {
+        if crash.has_crashed() || crash.is_stopped() {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
         } else if is_drawn && !ui.input(|i| i.pointer.any_down()) {
             self.storage.store(&self.parts.model);
@@ -207,8 +204,11 @@ impl eframe::App for App {
         self.parts.model.remember_session(self.parts.jobs.openings.is_empty());
         self.parts.model.settings.window = Some(self.parts.model.geometry.window);
         self.storage.store(&self.parts.model);
-        // A file that is being written is completed.
+        // A file that is being written is completed, unless a signal ends the program.
         if let Some(saving) = self.parts.jobs.saving.take() {
+            if self.crash.is_stopped() {
+                saving.cancel();
+            }
             let _ = saving.wait();
         }
     }

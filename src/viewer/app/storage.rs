@@ -15,6 +15,9 @@ use crate::model::message::Message;
 use crate::model::ranges::bring_into_range;
 use crate::model::settings::Settings;
 
+/// The name of the program, in its title, among the programs of the desktop and of its folder.
+pub const NAME: &str = "svbrdf";
+
 /// The name of the file, and the name of one that cannot be read.
 const FILE: &str = "settings.json";
 const DAMAGED: &str = "settings.json.damaged";
@@ -108,7 +111,7 @@ pub fn folder() -> Option<PathBuf> {
     } else {
         variable("XDG_DATA_HOME").map(PathBuf::from).or_else(|| Some(home()?.join(".local/share")))?
     };
-    Some(of_programs.join(super::NAME))
+    Some(of_programs.join(NAME))
 }
 
 #[cfg(test)]
