@@ -152,7 +152,8 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     apply(&mut window, DatasetCommand::SetList(ListView::default()));
     let path = folder.path().join("list.csv");
     apply(&mut window, WindowCommand::Save(SaveRequest { kind: SaveKind::Materials, path: path.clone() }));
-    wait(&mut window, "the list", |_| path.exists());
+    wait(&mut window, "the list", |app| app.messages().iter().any(|text| text.ends_with("list.csv")));
+    apply(&mut window, WindowCommand::DismissMessages);
     let list = std::fs::read_to_string(path).unwrap();
     let known = loss(&window, case, 0).unwrap().loss;
     assert!(list.contains(&format!("\n{name},true,blotches,{known},")), "{list}");
