@@ -130,22 +130,22 @@ mod tests {
     #[test]
     fn settings_and_sessions_come_back_without_the_scenes_of_a_file() {
         let folder = tempfile::tempdir().unwrap();
-        let loss = LossSettings { ask: Ask::Time, seed: 7, ..LossSettings::default() };
+        let timed = LossSettings { ask: Ask::Time, seed: 7, ..LossSettings::default() };
+        let plain = LossSettings { seed: 7, ..LossSettings::default() };
         let scenes = vec![Model::default().view.scene];
         let file = FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes };
         let mut model = Model::default();
-        model.settings = Settings { dark: false, loss: loss.with_file(Some(file)), ..Settings::default() };
         model.recent = vec![model.session()];
         let mut storage = Storage::read(Some(folder.path().to_owned()));
         assert!(storage.is_new());
-        storage.store(&model);
-        let next = started(folder.path());
-        assert_eq!(
-            next.settings,
-            Settings { dark: false, loss: loss.with_file(None), ..Settings::default() }
-        );
-        assert_eq!(next.recent, model.recent);
-        assert_eq!(next.messages.iter().count(), 0);
+        for (stored, loss) in [(timed.clone(), timed), (plain.with_file(Some(file)), plain)] {
+            model.settings = Settings { dark: false, loss: stored, ..Settings::default() };
+            storage.store(&model);
+            let next = started(folder.path());
+            assert_eq!(next.settings, Settings { loss, ..model.settings.clone() });
+            assert_eq!(next.recent, model.recent);
+            assert_eq!(next.messages.iter().count(), 0);
+        }
     }
 
     #[test]
