@@ -43,7 +43,7 @@ fn every_letter_does_what_the_help_says() {
     ];
     for (key, what, holds) in cases {
         press(&mut window, key);
-        assert!(holds(&window.model(), automatic), "{key:?}: {what}");
+        assert!(holds(window.model(), automatic), "{key:?}: {what}");
     }
 }
 

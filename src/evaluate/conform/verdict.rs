@@ -71,9 +71,17 @@ fn adopted(problem: &Problem, first: &Fit, asked: &RendererTerms) -> Fit {
         differences.filter(|difference| !is_decided_elsewhere(difference)).collect::<Vec<_>>()
     };
     let with = |terms: RendererTerms, one: &TermDifference| terms.with(&one.section, &one.key, asked);
-    let whole = problem.fit(&open(&fit.terms).iter().fold(fit.terms, with));
-    if problem.is_as_good(&whole, first, WORTH) {
-        return whole;
+    // Terms depend on each other: few other terms come before a way of one term after the other.
+    let all = open(&fit.terms);
+    let keeping = |kept: Vec<usize>| {
+        let others = all.iter().enumerate().filter(|(i, _)| !kept.contains(i)).map(|(_, one)| one);
+        problem.fit(&others.fold(first.terms, with))
+    };
+    let one = (0..all.len()).map(|i| vec![i]);
+    let two = (0..all.len()).flat_map(|i| (i + 1..all.len()).map(move |j| vec![i, j]));
+    let mut fewest = std::iter::once(Vec::new()).chain(one).chain(two).map(keeping);
+    if let Some(next) = fewest.find(|next| problem.is_as_good(next, first, WORTH)) {
+        return next;
     }
     loop {
         let tried = open(&fit.terms).into_iter().map(|one| problem.fit(&with(fit.terms, &one)));

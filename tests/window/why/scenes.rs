@@ -62,7 +62,7 @@ fn the_search_finds_the_scene_of_the_core_and_shows_it_unless_it_is_cancelled() 
         window.run_steps(2);
         assert!(window.jobs().why.search.busy().is_some());
         cancel(&mut window);
-        assert!(!window.jobs().why.search.busy().is_some());
+        assert!(window.jobs().why.search.busy().is_none());
         window.run_steps(10);
         assert_eq!((window.worst(), window.scene()), (None, before));
         assert!(window.messages().is_empty(), "{:?}", window.messages());

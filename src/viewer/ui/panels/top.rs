@@ -45,27 +45,9 @@ impl<'a> TopBar<'a> {
 
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
-        let display = &self.state.display;
         ui.spacing_mut().item_spacing.x = GAP;
         ui.horizontal_wrapped(|ui| {
-            let mut item = |ui: &mut egui::Ui, text: &str, name, hover: &str, on, command: Command| {
-                if button(ui, text, name, true, on).on_hover_text(hover).clicked() {
-                    commands.push(command);
-                }
-            };
-            let open = WindowCommand::ShowOpen(true).into();
-            item(ui, icons::ICON_FOLDER_OPEN.codepoint, "Open", "Open materials (Ctrl+O)", None, open);
-            let hover = "Save view, renderings, strip or session (Ctrl+S)";
-            item(ui, icons::ICON_SAVE.codepoint, "Save", hover, None, WindowCommand::ShowSave(true).into());
-            let hover = "Copy the view as a picture (Ctrl+Shift+C)";
-            item(
-                ui,
-                icons::ICON_CONTENT_COPY.codepoint,
-                "Copy",
-                hover,
-                None,
-                WindowCommand::CopyPicture.into(),
-            );
+            files(ui, &mut commands);
             ui.separator();
             self.layouts(ui, &mut commands);
             ui.separator();
@@ -74,64 +56,69 @@ impl<'a> TopBar<'a> {
             ui.separator();
             self.exposure(ui, &mut commands);
             ui.separator();
-            for (icon, name, hover, on, command) in [
-                (
-                    icons::ICON_VIEW_IN_AR.codepoint,
-                    "3D",
-                    "The plane seen from the view position, or the flat texture (P)",
-                    Some(display.projection == Projection::Perspective),
-                    DisplayCommand::ToggleProjection,
-                ),
-                (
-                    icons::ICON_PALETTE.codepoint,
-                    "False colour",
-                    "Roughness from 0 (black) to 1 (light yellow) (V)",
-                    Some(display.false_colour),
-                    DisplayCommand::ToggleFalseColour,
-                ),
-                (
-                    icons::ICON_SWAP_HORIZ.codepoint,
-                    "Swap",
-                    "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
-                    Some(self.swapped),
-                    DisplayCommand::Swap,
-                ),
-                (
-                    icons::ICON_BRIGHTNESS_ALERT.codepoint,
-                    "Clipped pixels",
-                    "Mark clipped pixels: too bright (magenta) or black (blue) (L)",
-                    Some(display.show_clipping),
-                    DisplayCommand::ToggleClipping,
-                ),
-                (
-                    icons::ICON_FIT_SCREEN.codepoint,
-                    "Fit",
-                    "Fit the material into its pane (F)",
-                    None,
-                    DisplayCommand::Fit,
-                ),
-                ("1:1", "One texel per pixel", "One texel per pixel (0)", None, DisplayCommand::OneToOne),
-                (
-                    icons::ICON_RESTART_ALT.codepoint,
-                    "Reset",
-                    "Reset light, view, zoom, exposure and clipping marks (R)",
-                    None,
-                    DisplayCommand::Reset,
-                ),
-                (icons::ICON_UNDO.codepoint, "Undo", "Undo (Ctrl+Z)", None, DisplayCommand::Undo),
-                (icons::ICON_REDO.codepoint, "Redo", "Redo (Ctrl+Shift+Z)", None, DisplayCommand::Redo),
-            ] {
-                // Nothing comes and goes in the bar: what has no effect now is disabled.
-                let applies = name != "False colour" || display.quantity == Quantity::Roughness;
-                let response = button(ui, icon, name, applies, on.map(|on| on && applies));
-                if response.on_hover_text(hover).on_disabled_hover_text(hover).clicked() {
-                    commands.push(command.into());
-                }
-            }
+            self.view(ui, &mut commands);
             ui.separator();
             self.window(ui, &mut commands);
         });
         commands
+    }
+
+    fn view(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+        let display = &self.state.display;
+        for (icon, name, hover, on, command) in [
+            (
+                icons::ICON_VIEW_IN_AR.codepoint,
+                "3D",
+                "The plane seen from the view position, or the flat texture (P)",
+                Some(display.projection == Projection::Perspective),
+                DisplayCommand::ToggleProjection,
+            ),
+            (
+                icons::ICON_PALETTE.codepoint,
+                "False colour",
+                "Roughness from 0 (black) to 1 (light yellow) (V)",
+                Some(display.false_colour),
+                DisplayCommand::ToggleFalseColour,
+            ),
+            (
+                icons::ICON_SWAP_HORIZ.codepoint,
+                "Swap",
+                "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
+                Some(self.swapped),
+                DisplayCommand::Swap,
+            ),
+            (
+                icons::ICON_BRIGHTNESS_ALERT.codepoint,
+                "Clipped pixels",
+                "Mark clipped pixels: too bright (magenta) or black (blue) (L)",
+                Some(display.show_clipping),
+                DisplayCommand::ToggleClipping,
+            ),
+            (
+                icons::ICON_FIT_SCREEN.codepoint,
+                "Fit",
+                "Fit the material into its pane (F)",
+                None,
+                DisplayCommand::Fit,
+            ),
+            ("1:1", "One texel per pixel", "One texel per pixel (0)", None, DisplayCommand::OneToOne),
+            (
+                icons::ICON_RESTART_ALT.codepoint,
+                "Reset",
+                "Reset light, view, zoom, exposure and clipping marks (R)",
+                None,
+                DisplayCommand::Reset,
+            ),
+            (icons::ICON_UNDO.codepoint, "Undo", "Undo (Ctrl+Z)", None, DisplayCommand::Undo),
+            (icons::ICON_REDO.codepoint, "Redo", "Redo (Ctrl+Shift+Z)", None, DisplayCommand::Redo),
+        ] {
+            // Nothing comes and goes in the bar: what has no effect now is disabled.
+            let applies = name != "False colour" || display.quantity == Quantity::Roughness;
+            let response = button(ui, icon, name, applies, on.map(|on| on && applies));
+            if response.on_hover_text(hover).on_disabled_hover_text(hover).clicked() {
+                commands.push(command.into());
+            }
+        }
     }
 
     fn layouts(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
@@ -249,6 +236,29 @@ impl<'a> TopBar<'a> {
         let help = button(ui, icons::ICON_HELP.codepoint, "Help", true, None);
         if help.on_hover_text("Keys and mouse (?)").clicked() {
             commands.push(WindowCommand::ShowHelp(true).into());
+        }
+    }
+}
+
+/// What opens and saves.
+fn files(ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    for (icon, name, hover, command) in [
+        (icons::ICON_FOLDER_OPEN, "Open", "Open materials (Ctrl+O)", WindowCommand::ShowOpen(true)),
+        (
+            icons::ICON_SAVE,
+            "Save",
+            "Save view, renderings, strip or session (Ctrl+S)",
+            WindowCommand::ShowSave(true),
+        ),
+        (
+            icons::ICON_CONTENT_COPY,
+            "Copy",
+            "Copy the view as a picture (Ctrl+Shift+C)",
+            WindowCommand::CopyPicture,
+        ),
+    ] {
+        if button(ui, icon.codepoint, name, true, None).on_hover_text(hover).clicked() {
+            commands.push(command.into());
         }
     }
 }
