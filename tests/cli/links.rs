@@ -43,7 +43,9 @@ fn nothing_that_was_read_is_replaced() {
     fs::write(of("m.mtl"), "newmtl m\nmap_Kd set/diffuse.png\nmap_Pr set/roughness.png\n").unwrap();
     // In a folder of their own: a kept result depends on the other files beside a material.
     fs::create_dir(of("pair")).unwrap();
-    ["gt.png", "a.png"].map(|name| fs::copy(of(name), of("pair").join(name)).unwrap());
+    for name in ["gt.png", "a.png"] {
+        fs::copy(of(name), of("pair").join(name)).unwrap();
+    }
     fs::write(of("pairs.csv"), "ground_truth,prediction\npair/gt.png,pair/a.png\n").unwrap();
     let session = r#"{"svbrdf-session": 1, "convention": "printed", "materials": [{"path": "gt.png"}, {"path": "a.png"}],
         "scene": {"kind": "near", "view": [0, 0, 2], "light": [0.5, 0.5, 1]}}"#;

@@ -275,23 +275,10 @@ impl Content {
                 part.push(AnyChannel::new(Text::new_or_none(name).unwrap(), flat(plane)));
             }
         }
-        let compression = match self.compression.as_str() {
-            "" | "none" => Compression::Uncompressed,
-            "rle" => Compression::RLE,
-            "zip" => Compression::ZIP16,
-            "zips" => Compression::ZIP1,
-            "piz" => Compression::PIZ,
-            "pxr24" => Compression::PXR24,
-            "b44" => Compression::B44,
-            "b44a" => Compression::B44A,
-            "dwaa" => Compression::DWAA(None),
-            "dwab" => Compression::DWAB(None),
-            other => panic!("no compression {other}"),
-        };
         // Without a compression in tiles.
         let usual =
             if self.compression.is_empty() { Encoding::FAST_LOSSLESS } else { Encoding::SMALL_LOSSLESS };
-        let encoding = Encoding { compression, ..usual };
+        let encoding = Encoding { compression: self.compression(), ..usual };
         let [left, top] = self.at.unwrap_or([0; 2]);
         let layer = |(name, channels): (String, Vec<AnyChannel<FlatSamples>>)| {
             let attributes = LayerAttributes {
@@ -314,6 +301,22 @@ impl Content {
             Chromaticities { red, green, blue, white }
         });
         Image::from_layers(attributes, layers).write().to_file(path).unwrap();
+    }
+
+    fn compression(&self) -> Compression {
+        match self.compression.as_str() {
+            "" | "none" => Compression::Uncompressed,
+            "rle" => Compression::RLE,
+            "zip" => Compression::ZIP16,
+            "zips" => Compression::ZIP1,
+            "piz" => Compression::PIZ,
+            "pxr24" => Compression::PXR24,
+            "b44" => Compression::B44,
+            "b44a" => Compression::B44A,
+            "dwaa" => Compression::DWAA(None),
+            "dwab" => Compression::DWAB(None),
+            other => panic!("no compression {other}"),
+        }
     }
 
     fn npz(&self, path: &Path) {

@@ -27,6 +27,7 @@ struct Browser {
 }
 
 impl Browser {
+    #[allow(clippy::zombie_processes, reason = "it lives as long as the tests")]
     fn start() -> Self {
         let profile = tempfile::tempdir().unwrap().keep();
         let names = ["chromium", "chromium-browser"];

@@ -52,17 +52,17 @@ fn mouse_fingers_and_pen_move_light_view_picture_and_wipe() {
     let mut page = open();
     let page = &mut page;
     // From the middle, in halves of the material.
-    let drags: [(&str, u32, [f64; 2], &str, &[f64]); 5] = [
-        ("left", 0, [0.5, 0.25], "scene.light", &[0.5, 0.25, 1.2]),
-        ("right", 0, [-0.5, -0.25], "scene.view", &[-0.5, -0.25, 2.5]),
-        ("left", SHIFT, [0.1, 0.0], "scene.view", &[0.1, 0.0, 2.5]),
-        ("middle", 0, [0.5, 0.0], "pan", &[0.475, 0.0]),
-        ("middle", 0, [0.0, 0.5], "pan", &[0.0, 0.475]),
+    let drags = [
+        ("left", 0, [0.5, 0.25], "scene.light", vec![0.5, 0.25, 1.2]),
+        ("right", 0, [-0.5, -0.25], "scene.view", vec![-0.5, -0.25, 2.5]),
+        ("left", SHIFT, [0.1, 0.0], "scene.view", vec![0.1, 0.0, 2.5]),
+        ("middle", 0, [0.5, 0.0], "pan", vec![0.475, 0.0]),
+        ("middle", 0, [0.0, 0.5], "pan", vec![0.0, 0.475]),
     ];
     for (button, modifiers, [dx, dy], member, expected) in drags {
         let ([x, y], unit) = start(page, "{}");
         page.drag(button, modifiers, [x, y], [x + dx * unit, y - dy * unit]);
-        assert_near(page, member, expected);
+        assert_near(page, member, &expected);
     }
     assert_readouts(page, "(2");
     let ([x, y], _) = start(page, "{}");
@@ -161,6 +161,10 @@ fn keys_and_controls_change_the_figure_and_the_page_requests_nothing() {
     page.click("reset");
     assert_eq!(state(&mut page, "quantity"), json!("rendering"));
 
+    assert_nothing_is_requested(&mut page);
+}
+
+fn assert_nothing_is_requested(page: &mut Page) {
     let (requests, complaints) = page.traffic();
     assert!(requests.len() >= 2 && complaints.is_empty(), "{requests:?} {complaints:?}");
     let inside = |address: &String| {
