@@ -139,6 +139,7 @@ fn commands_of_documents_print_what_they_show() {
 }
 
 /// The commands of the blocks of shell lines.
+#[cfg(feature = "viewer")]
 fn shell_lines(text: &str) -> impl Iterator<Item = &str> {
     let blocks = text.split("```sh\n").skip(1).filter_map(|rest| rest.split("```").next());
     blocks.flat_map(str::lines).filter(|line| line.starts_with("svbrdf "))

@@ -46,19 +46,25 @@ impl<'a> TopBar<'a> {
     pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
         let mut commands = Vec::new();
         ui.spacing_mut().item_spacing.x = GAP;
-        ui.horizontal_wrapped(|ui| {
-            files(ui, &mut commands);
-            ui.separator();
-            self.layouts(ui, &mut commands);
-            ui.separator();
-            self.quantities(ui, &mut commands);
-            self.differences(ui, &mut commands);
-            ui.separator();
-            self.exposure(ui, &mut commands);
-            ui.separator();
-            self.view(ui, &mut commands);
-            ui.separator();
-            self.window(ui, &mut commands);
+        // Text does not break within a button.
+        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+        // In a window that is small for its scale the bar leaves most of the room to the panes.
+        let highest = ui.ctx().content_rect().height() / 3.0;
+        egui::ScrollArea::vertical().max_height(highest).auto_shrink([false, true]).show(ui, |ui| {
+            ui.horizontal_wrapped(|ui| {
+                files(ui, &mut commands);
+                ui.separator();
+                self.layouts(ui, &mut commands);
+                ui.separator();
+                self.quantities(ui, &mut commands);
+                self.differences(ui, &mut commands);
+                ui.separator();
+                self.exposure(ui, &mut commands);
+                ui.separator();
+                self.view(ui, &mut commands);
+                ui.separator();
+                self.window(ui, &mut commands);
+            });
         });
         commands
     }
