@@ -4,7 +4,9 @@ use std::sync::LazyLock;
 
 use ab_glyph::{Font as _, FontRef, GlyphId};
 use epaint_default_fonts::UBUNTU_LIGHT;
-use harfrust::{Feature, GlyphInfo, GlyphPosition, ShapeOptions, ShaperData, Tag, UnicodeBuffer};
+use ttf_parser::Face;
+use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
+use ttf_parser::opentype_layout::{LayoutTable, Lookup};
 
 /// The file of the font.
 pub(super) const FILE: &[u8] = UBUNTU_LIGHT;
@@ -12,46 +14,56 @@ pub(super) const FILE: &[u8] = UBUNTU_LIGHT;
 pub(super) static FONT: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(FILE).ok());
 
-/// The same font for shaping, with its kerning and marks.
-static SHAPING: LazyLock<Option<(harfrust::FontRef<'static>, ShaperData)>> = LazyLock::new(|| {
-    let font = harfrust::FontRef::from_index(FILE, 0).ok()?;
-    Some((font.clone(), ShaperData::new(&font)))
+/// The lookups of its kerning.
+static KERNING: LazyLock<Vec<Lookup<'static>>> = LazyLock::new(|| {
+    let of = |table: LayoutTable<'static>| {
+        let feature = table.features.find(ttf_parser::Tag::from_bytes(b"kern"))?;
+        Some(feature.lookup_indices.into_iter().filter_map(|index| table.lookups.get(index)).collect())
+    };
+    Face::parse(FILE, 0).ok().and_then(|face| of(face.tables().gpos?)).unwrap_or_default()
 });
 
 /// A glyph of a text.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed<'a> {
+pub(super) struct Placed {
     pub id: GlyphId,
-    /// The characters that it shows: none where another glyph shows them.
-    pub characters: &'a str,
+    pub character: char,
     /// From the beginning of the text, in ems.
     pub x: f32,
     /// Of the glyph alone, without kerning, in ems.
     pub advance: f32,
 }
 
-/// The glyphs of a text, kerned; each letter has its own.
-pub(super) fn glyphs(text: &str) -> Vec<Placed<'_>> {
-    let Some((font, (shaping, data))) = FONT.as_ref().zip(SHAPING.as_ref()) else { return Vec::new() };
-    let mut buffer = UnicodeBuffer::new();
-    buffer.push_str(text);
-    buffer.guess_segment_properties();
-    let no_ligatures = [*b"liga", *b"clig"].map(|tag| Feature::new(Tag::new(&tag), 0, ..));
-    let shaped = data.shaper(shaping).build().shape(buffer, ShapeOptions::new().features(&no_ligatures));
+/// The glyphs of a text, kerned, one for each character.
+pub(super) fn glyphs(text: &str) -> Vec<Placed> {
+    let Some(font) = FONT.as_ref() else { return Vec::new() };
     let em = font.units_per_em().unwrap_or(1000.0);
-    let mut starts: Vec<usize> = shaped.glyph_infos().iter().map(|info| info.cluster as usize).collect();
-    starts.sort_unstable();
-    let (mut x, mut last) = (0.0, None);
-    let place = |(info, position): (&GlyphInfo, &GlyphPosition)| {
-        let id = GlyphId(info.glyph_id as u16);
-        let start = info.cluster as usize;
-        let end = starts.iter().copied().find(|other| *other > start).unwrap_or(text.len());
-        let characters = if last.replace(start) == Some(start) { "" } else { &text[start..end] };
-        let at = x + position.x_offset as f32 / em;
-        x += position.x_advance as f32 / em;
-        Placed { id, characters, x: at, advance: font.h_advance_unscaled(id) / em }
+    let (mut end, mut last) = (0.0, None);
+    let place = |character| {
+        let id = font.glyph_id(character);
+        let x = end + last.replace(id).map_or(0.0, |last| kern(last, id) / em);
+        let advance = font.h_advance_unscaled(id) / em;
+        end = x + advance;
+        Placed { id, character, x, advance }
     };
-    shaped.glyph_infos().iter().zip(shaped.glyph_positions()).map(place).collect()
+    text.chars().map(place).collect()
+}
+
+/// How much farther the second of two glyphs stands from the first, in units of the font (OpenType, GPOS, lookup type 2).
+fn kern(first: GlyphId, second: GlyphId) -> f32 {
+    let [first, second] = [first, second].map(|glyph| ttf_parser::GlyphId(glyph.0));
+    let of_subtable = |subtable| {
+        let PositioningSubtable::Pair(pairs) = subtable else { return None };
+        let index = pairs.coverage().get(first)?;
+        let (adjusted, _) = match pairs {
+            PairAdjustment::Format1 { sets, .. } => sets.get(index)?.get(second)?,
+            PairAdjustment::Format2 { classes, matrix, .. } => {
+                matrix.get((classes.0.get(first), classes.1.get(second)))?
+            }
+        };
+        Some(f32::from(adjusted.x_advance))
+    };
+    KERNING.iter().filter_map(|lookup| lookup.subtables.into_iter().find_map(of_subtable)).sum()
 }
 
 /// The width of a text of this size, in its unit.
@@ -86,8 +98,7 @@ mod tests {
     #[test]
     fn glyphs_follow_one_another_and_pairs_are_kerned() {
         let placed = glyphs("AVAV");
-        let characters: Vec<&str> = placed.iter().map(|glyph| glyph.characters).collect();
-        assert_eq!(characters, ["A", "V", "A", "V"]);
+        assert!(placed.iter().map(|glyph| glyph.character).eq("AVAV".chars()), "{placed:?}");
         assert_eq!(glyphs("office").len(), 6, "no ligatures");
         assert!(placed.windows(2).all(|pair| pair[0].x < pair[1].x), "{placed:?}");
         let apart: f32 = placed.iter().map(|glyph| glyph.advance).sum();

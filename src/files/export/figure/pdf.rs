@@ -72,7 +72,7 @@ fn reference(number: usize) -> Ref {
 }
 
 /// What is drawn.
-fn content<'a>(figure: &'a Figure, used: &mut Used<'a>) -> Vec<u8> {
+fn content(figure: &Figure, used: &mut Used) -> Vec<u8> {
     let height = figure.size[1];
     let mut content = Content::new();
     for (number, picture) in figure.pictures.iter().enumerate() {
@@ -116,15 +116,15 @@ fn content<'a>(figure: &'a Figure, used: &mut Used<'a>) -> Vec<u8> {
     content.finish().into_vec()
 }
 
-/// The glyphs of all texts: each with its characters and its advance in ems, by its code.
+/// The glyphs of all texts: each with its character and its advance in ems, by its code.
 #[derive(Default)]
-struct Used<'a> {
+struct Used {
     remapper: GlyphRemapper,
-    glyphs: BTreeMap<u16, Placed<'a>>,
+    glyphs: BTreeMap<u16, Placed>,
 }
 
-impl<'a> Used<'a> {
-    fn code(&mut self, glyph: Placed<'a>) -> u16 {
+impl Used {
+    fn code(&mut self, glyph: Placed) -> u16 {
         let code = self.remapper.remap(glyph.id.0);
         self.glyphs.entry(code).or_insert(glyph);
         code
@@ -164,9 +164,7 @@ impl<'a> Used<'a> {
             .stem_v(60.0)
             .font_file2(FONT_FILE);
         let mut characters = UnicodeCmap::new(Name(b"Characters"), SYSTEM);
-        self.glyphs
-            .iter()
-            .for_each(|(code, glyph)| characters.pair_with_multiple(*code, glyph.characters.chars()));
+        self.glyphs.iter().for_each(|(code, glyph)| characters.pair(*code, glyph.character));
         pdf.cmap(TO_UNICODE, &characters.finish());
         Ok(())
     }
