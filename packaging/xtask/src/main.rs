@@ -1,26 +1,22 @@
-//! `cargo xtask bless [NAME...]` renews what is generated; `cargo xtask shot STATE` takes a screenshot of the window;
-//! `cargo xtask size` prints the size of each room.
+//! `cargo xtask bless [NAME...]` renews what is generated; `cargo xtask size` prints the size of each room.
 
 #![allow(clippy::disallowed_methods, reason = "it reads files of this repository")]
 
 mod bless;
-mod shot;
 mod size;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 const USAGE: &str = "usage: cargo xtask bless [NAME...]
-       cargo xtask shot STATE [--size WIDTHxHEIGHT] [--output FILE]
        cargo xtask size [--lower]";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let done = match arguments.split_first() {
         Some((name, rest)) if name == "bless" => bless::run(rest),
-        Some((name, rest)) if name == "shot" => shot::run(rest),
         Some((name, rest)) if name == "size" => size::run(rest),
-        _ => Err(format!("{USAGE}\n\n{}\n{}\n{}", bless::help(), shot::help(), size::help())),
+        _ => Err(format!("{USAGE}\n\n{}\n{}", bless::help(), size::help())),
     };
     done.map_or_else(
         |problem| {
