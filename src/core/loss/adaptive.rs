@@ -6,7 +6,7 @@
 //! independent of it (Stein 1945, with fresh samples in place of his pilot). This run gives a loss without bias and an
 //! interval of a fixed size. Only where it still misses the accuracy does it go on; the prediction is generous, so that
 //! this is rare, and none are ever dropped for their error. To go on favours draws that look quiet after all: it makes
-//! losses low by less than a twentieth of the accuracy (up to 0.11% at +-3%; at +-1% nothing is seen in 2,000 seeds).
+//! losses low by less than a twentieth of the accuracy (up to 0.11% at +-3%).
 //!
 //! A run that stops because its error looks small has seen none of the scenes that make it large. The pilot, which has scenes of
 //! its own, tells of them: where it predicts a larger error, its prediction is a quarter of the variance of the interval. That
