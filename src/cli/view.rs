@@ -55,6 +55,10 @@ pub struct DatasetArgs {
     #[arg(long, requires = "ground_truth", conflicts_with = "photo")]
     pairs: bool,
 
+    /// Uses the losses of a data set, or of that of a session, that are in this folder, and adds the others to it as they come
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
+
     #[command(flatten)]
     losses: DatasetLossArgs,
 }
@@ -63,10 +67,6 @@ pub struct DatasetArgs {
 #[derive(Debug, clap::Args)]
 #[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
 pub struct DatasetLossArgs {
-    /// Uses the losses of a data set that are in this folder, and adds the others to it as they come
-    #[arg(long, value_name = "DIR")]
-    results: Option<PathBuf>,
-
     /// Computes the floor of every ground truth, too, as `svbrdf rank --diagnose` does: losses below it are not resolvable
     #[arg(long)]
     diagnose: bool,
@@ -75,15 +75,18 @@ pub struct DatasetLossArgs {
     accuracy: AccuracyArgs,
 }
 
+const ONLY_OF_DATASET: &str =
+    "only the losses of a data set (--dataset, --pairs) are kept and asked for here";
+
 impl ViewArgs {
     #[cfg_attr(not(feature = "viewer"), allow(unused_mut, reason = "there is no window to open"))]
     pub fn job(mut self, given: &Given) -> NewJob {
         let materials = &self.materials;
         let is_dataset = self.dataset.dataset || self.dataset.pairs;
         if !is_dataset {
-            given.refuse::<DatasetLossArgs>(
-                "only the losses of a data set (--dataset, --pairs) are kept and asked for here",
-            )?;
+            given.refuse::<DatasetLossArgs>(ONLY_OF_DATASET)?;
+            let is_session = materials.paths().any(|path| Session::is_named(path));
+            refuse(self.dataset.results.is_some() && !is_session, "results", ONLY_OF_DATASET)?;
         }
         refuse(materials.reading.both.verbose, "verbose", "the window lists what is noticed and assumed")?;
         match materials.paths().find(|path| !scene_file::is_named(path)) {
@@ -147,6 +150,9 @@ impl ViewArgs {
         let materials = &mut self.materials;
         let scenes = take_scenes(materials)?;
         let session = session::given(materials)?;
+        let results = self.dataset.results.take();
+        let is_of_dataset = session.as_ref().is_some_and(|session| session.dataset.is_some());
+        refuse(results.is_some() && !is_of_dataset, "results", ONLY_OF_DATASET)?;
         let has_sources = session.is_none() && materials.ground_truth.is_some();
         let mut sources = if has_sources { materials.sources()? } else { Vec::new() }.into_iter();
         Ok(svbrdf::ViewerOptions {
@@ -159,6 +165,7 @@ impl ViewArgs {
             ground_truth: sources.next(),
             predictions: sources.collect(),
             dataset: None,
+            results,
         })
     }
 }
@@ -166,11 +173,10 @@ impl ViewArgs {
 /// The data set, matched by name.
 #[cfg(feature = "viewer")]
 fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
-    let DatasetArgs { pairs, losses, .. } = &args.dataset;
+    let DatasetArgs { pairs, losses, results, .. } = &args.dataset;
     let source = cases::source(&args.materials, *pairs)?;
     let accuracy = losses.accuracy.target_and_seed();
-    let mut dataset =
-        svbrdf::OpenDataset::new(source, DatasetReading::default(), accuracy, losses.results.clone())?;
+    let mut dataset = svbrdf::OpenDataset::new(source, DatasetReading::default(), accuracy, results.clone())?;
     dataset.settings.diagnose = losses.diagnose;
     dataset.reading = cases::reading(&args.materials.reading, dataset.methods())?;
     Ok(dataset)

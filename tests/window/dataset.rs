@@ -173,6 +173,31 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
 }
 
 #[needs(adapter)]
+fn a_session_names_no_folder_that_is_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |name: &str| folder.path().join(name);
+    let window = on_dataset(&dataset(folders(folder.path()), Some(of("results"))));
+    let path = of("stranger.svbrdf-session.json");
+    let mut session: serde_json::Value =
+        serde_json::from_str(&window.model().session().text(&path).unwrap()).unwrap();
+    assert_eq!(session["dataset"]["results"], serde_json::Value::Null);
+    session["dataset"]["results"] = json!("victim");
+    std::fs::write(&path, session.to_string()).unwrap();
+    std::fs::create_dir(of("victim")).unwrap();
+    let old = std::fs::File::create(of("victim/.svbrdf-a1B2c3")).unwrap();
+    old.set_modified(std::time::SystemTime::UNIX_EPOCH).unwrap();
+    wait_for_losses(&mut on_session(&path));
+    let files: Vec<_> =
+        std::fs::read_dir(of("victim")).unwrap().map(|one| one.unwrap().file_name()).collect();
+    assert_eq!(files, [".svbrdf-a1B2c3"]);
+    // A person names one.
+    let (session, results) = (Session::read(&path).ok(), Some(of("results")));
+    let mut named = self::window(ViewerOptions { session, results: results.clone(), ..Default::default() });
+    wait_for_losses(&mut named);
+    assert_eq!(named.model().dataset.open.as_ref().unwrap().results, results);
+}
+
+#[needs(adapter)]
 fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_returns_from() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();

@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::read::ReadOptions;
 
-/// A data set that a window shows, material by material. In a file, paths are relative to its folder.
+/// A data set that a window shows, material by material. In a file, paths are relative to its folder. All of them are read: a results
+/// folder, which is written, is named by a person alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct SessionDataset {
@@ -18,9 +19,6 @@ pub struct SessionDataset {
     /// Predictions of one ground truth.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub predictions: Vec<SessionMethod>,
-    /// The folder of losses that are known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub results: Option<PathBuf>,
     /// Half of the 95% interval of each loss over scenes, as a share of the loss.
     pub target_error: f64,
     pub seed: u64,
@@ -63,12 +61,12 @@ impl SessionDataset {
     /// Every path, to be changed.
     pub(super) fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let methods = self.methods.iter_mut().chain(&mut self.predictions).map(|method| &mut method.path);
-        std::iter::once(&mut self.ground_truths).chain(methods).chain(&mut self.results)
+        std::iter::once(&mut self.ground_truths).chain(methods)
     }
 
     /// Every path.
     pub fn paths(&self) -> impl Iterator<Item = &PathBuf> {
         let methods = self.methods.iter().chain(&self.predictions).map(|method| &method.path);
-        std::iter::once(&self.ground_truths).chain(methods).chain(&self.results)
+        std::iter::once(&self.ground_truths).chain(methods)
     }
 }

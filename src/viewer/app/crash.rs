@@ -1,6 +1,7 @@
 //! Crash guard: a panic in a frame, or a lost graphics device, closes the window as a normal exit does, and becomes the error of the
 //! program.
 
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -26,6 +27,8 @@ pub struct Loss {
     pub reason: String,
     /// `None` where materials were still being read.
     pub session: Option<Session>,
+    /// The results folder of its data set, which is none of the session.
+    pub results: Option<PathBuf>,
 }
 
 impl CrashGuard {

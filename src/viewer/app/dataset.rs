@@ -30,11 +30,11 @@ pub(super) fn open_many(parts: &mut Parts, open: OpenDataset) {
     parts.model.open_dataset(DatasetState::of(Arc::new(open), 0, Default::default()));
 }
 
-/// Matches the materials of a session.
-pub(super) fn restore(parts: &mut Parts, session: SessionDataset) {
+/// Matches the materials of a session; `results` is a folder that a person named.
+pub(super) fn restore(parts: &mut Parts, session: SessionDataset, results: Option<PathBuf>) {
     let strict = parts.model.materials.rules.strict;
     parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
-        let SessionDataset { ground_truths, methods, predictions, results, shown, marks, .. } = session;
+        let SessionDataset { ground_truths, methods, predictions, shown, marks, .. } = session;
         let named = |all: Vec<SessionMethod>| -> Vec<Method> {
             all.into_iter().map(|one| Method { name: one.name, path: one.path }).collect()
         };

@@ -41,7 +41,7 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context, effect: Effect) 
         Effect::OpenDataset(paths) => dataset::open(parts, paths),
         Effect::OpenMany(open) => dataset::open_many(parts, *open),
         Effect::ReadCaseAgain(case) => dataset::read_again(parts, case),
-        Effect::RestoreDataset(session) => dataset::restore(parts, *session),
+        Effect::RestoreDataset(session, results) => dataset::restore(parts, *session, results),
         Effect::ReadSession(paths) => read_session(parts, &paths),
         Effect::OpenPhotograph(path) => open_photograph(parts, path),
         Effect::SaveAssumptions(index) => save_assumptions(parts, index),
@@ -130,7 +130,7 @@ fn read_session(parts: &mut Parts, paths: &[PathBuf]) {
             let request = parts.model.open_session(&session);
             parts.jobs.read(&parts.model, request);
             if let Some(of_session) = session.dataset.clone() {
-                dataset::restore(parts, of_session);
+                dataset::restore(parts, of_session, None);
             }
         }
         (Err(error), Some(dialog)) if !matches!(error, FilesError::Outside { .. }) => {

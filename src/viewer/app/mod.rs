@@ -218,8 +218,9 @@ impl eframe::App for App {
 impl Drop for App {
     fn drop(&mut self) {
         if let Some(reason) = self.loss() {
-            let is_read = self.parts.jobs.openings.is_empty();
-            self.crash.lose(Loss { reason, session: is_read.then(|| self.parts.model.session()) });
+            let (model, is_read) = (&self.parts.model, self.parts.jobs.openings.is_empty());
+            let results = model.dataset.open.as_ref().and_then(|open| open.results.clone());
+            self.crash.lose(Loss { reason, session: is_read.then(|| model.session()), results });
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Restart after a lost graphics device: the program starts itself anew with its session. Its window library cannot replace a device,
 //! nor make a second event loop.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -9,6 +10,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::disk::{atomic, own};
 use svbrdf_files::session::Session;
 
+use super::crash::Loss;
 use super::storage;
 use crate::error::Error;
 
@@ -67,14 +69,17 @@ fn now() -> Duration {
     SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default()
 }
 
-/// Starts the program anew: with `session`, or as it was started itself where there is none. Returns where that failed, or where
+/// Starts the program anew: with its session, or as it was started itself where there is none. Returns where that failed, or where
 /// devices are lost again and again.
-pub fn after_loss(reason: &str, session: Option<&Session>) {
+pub fn after_loss(Loss { reason, session, results }: &Loss) {
     let Some(restarts) = Restarts::after(Restarts::of_environment().as_ref(), now(), reason) else { return };
     let Ok(program) = std::env::current_exe() else { return };
     let mut command = Command::new(program);
-    match session.map(stored) {
-        Some(Some(path)) => command.arg("view").arg(path).arg("--allow-outside"),
+    match session.as_ref().map(stored) {
+        Some(Some(path)) => {
+            command.arg("view").arg(path).arg("--allow-outside");
+            command.args(results.iter().flat_map(|folder| [OsStr::new("--results"), folder.as_ref()]))
+        }
         Some(None) => return,
         None => command.args(std::env::args_os().skip(1)),
     };

@@ -59,8 +59,9 @@ impl Model {
         options.convention.into_iter().for_each(|convention| self.use_convention(convention));
         options.scenes.into_iter().for_each(|file| self.use_scenes(file));
         let of_session = options.session.and_then(|session| session.dataset).map(Box::new);
+        let of_session = of_session.map(|session| Effect::RestoreDataset(session, options.results));
         let photograph = options.photograph.map(Effect::OpenPhotograph);
-        let effects = request.map(Effect::Read).into_iter().chain(of_session.map(Effect::RestoreDataset));
+        let effects = request.map(Effect::Read).into_iter().chain(of_session);
         effects.chain(photograph).collect()
     }
 
@@ -126,7 +127,6 @@ impl Model {
             ground_truths: std::path::absolute(source.path()).unwrap_or_else(|_| source.path().to_owned()),
             methods,
             predictions,
-            results: open.results.as_ref().map(absolute),
             target_error: open.settings.target_error.unwrap_or(ALL_SCENES_TARGET),
             seed: open.settings.seed,
             diagnose: open.settings.diagnose,

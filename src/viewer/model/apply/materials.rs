@@ -130,7 +130,7 @@ fn reopen(model: &mut Model, index: usize) -> Vec<Effect> {
     let Some(session) = model.recent.get(index).cloned() else { return Vec::new() };
     let mut effects = vec![Effect::Window(WindowCommand::ShowOpen(false))];
     effects.push(Effect::Read(model.open_session(&session)));
-    effects.extend(session.dataset.map(|dataset| Effect::RestoreDataset(Box::new(dataset))));
+    effects.extend(session.dataset.map(|dataset| Effect::RestoreDataset(Box::new(dataset), None)));
     effects
 }
 

@@ -29,8 +29,8 @@ pub enum Effect {
     OpenMany(Box<OpenDataset>),
     /// Reads a material of the data set and its losses again.
     ReadCaseAgain(usize),
-    /// Opens the data set of a session.
-    RestoreDataset(Box<SessionDataset>),
+    /// Opens the data set of a session, with the losses of a results folder.
+    RestoreDataset(Box<SessionDataset>, Option<PathBuf>),
     /// Reads a session file, which stands alone, and opens it.
     ReadSession(Vec<PathBuf>),
     /// Compares renderings with a photograph, or with those that a folder or a file lists.

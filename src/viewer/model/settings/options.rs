@@ -18,6 +18,8 @@ pub struct ViewerOptions {
     pub predictions: Vec<MaterialSource>,
     /// A data set, in place of materials.
     pub dataset: Option<Box<OpenDataset>>,
+    /// The results folder of the data set of the session.
+    pub results: Option<PathBuf>,
     /// Whether guesses about materials are errors.
     pub strict: bool,
     /// Whether predictions of another size are resized to the ground truth.
