@@ -185,15 +185,19 @@ fn a_session_and_the_command_line_open_it() {
     let convention = Some(chosen(&path));
     let with = window(ViewerOptions { convention, ..ViewerOptions::default() });
     let session = with.model().session();
-    assert_eq!(session.convention, path.to_str().unwrap());
-    let mut window = window(ViewerOptions { session: Some(session.clone()), ..ViewerOptions::default() });
-    assert_eq!(window.view().convention, chosen(&path));
-    choose(&mut window, "Convention", "printed");
-    choose(&mut window, "Convention", "mine.toml");
-    assert_eq!(window.view().convention, chosen(&path));
-    // Gone since: told, and not taken for another.
+    let convention = chosen(&path).convention;
+    // On a machine without the file.
     std::fs::remove_file(&path).unwrap();
+    let mut window = window(ViewerOptions { session: Some(session.clone()), ..ViewerOptions::default() });
+    assert_eq!(window.view().convention(), convention);
+    choose(&mut window, "Convention", "printed");
+    choose(&mut window, "Convention", "mine");
+    assert_eq!(window.view().convention(), convention);
+    assert_eq!(window.model().session(), session);
+    // One that is none is told, and not taken for another.
+    let mut session = session;
+    session.convention = "name = \n".to_owned();
     let mut window = self::window(ViewerOptions { session: Some(session), ..ViewerOptions::default() });
     assert_eq!(window.view().convention().name, "printed");
-    see(&mut window, "mine.toml");
+    see(&mut window, "not a convention");
 }

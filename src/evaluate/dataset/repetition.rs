@@ -1,6 +1,6 @@
 //! The command that repeats a ranking of a data set.
 
-use svbrdf_core::text::quoted;
+use svbrdf_core::text::{line, quoted};
 
 use super::pick::Pick;
 use super::record::{DatasetReading, DatasetSettings, Method, Source};
@@ -21,7 +21,7 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
         Source::Table(path) => words.extend(["--pairs".to_owned(), path.display().to_string()]),
     }
     let options = [
-        ("--convention", convention.text(), "printed"),
+        ("--convention", convention.argument(), "printed"),
         ("--target-error", target_error.map_or("1%".into(), |target| format!("{}%", 100.0 * target)), "1%"),
         ("--seed", seed.to_string(), "0"),
         ("--pick", pick.to_string(), "fixed"),
@@ -39,7 +39,7 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
 fn method(method: &Method) -> String {
     let path = method.path.display().to_string();
     let own = method.path.file_name().unwrap_or_default().to_string_lossy();
-    if own == method.name.as_str() { path } else { format!("{}={path}", method.name) }
+    if line(&own) == method.name { path } else { format!("{}={path}", method.name) }
 }
 
 /// `--read gt:KEY=VALUE,...` for the ground truths, the predictions and the methods that are read by options.

@@ -12,6 +12,7 @@ use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::text::of_json;
 
+use crate::convention;
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
 use crate::disk::paths::{absolute, is_outside, relative};
@@ -35,7 +36,7 @@ pub struct Session {
     /// The ground truth first, then the predictions.
     pub materials: Vec<SessionMaterial>,
     pub scene: Scene,
-    /// The name of the convention.
+    /// The name of the convention, or the text of one of the user's own. A file may also have the path of such a text.
     pub convention: String,
     /// Exposure in stops.
     #[serde(default)]
@@ -84,7 +85,7 @@ impl Session {
         Self { version: VERSION, materials, scene, convention, exposure, photograph, dataset: None, window }
     }
 
-    /// Reads a session file; the paths of its materials become those from here.
+    /// Reads a session file; its paths become those from here.
     ///
     /// # Errors
     /// [`Error::Unreadable`], [`Error::BadSession`].
@@ -108,6 +109,9 @@ impl Session {
         if let Some(photograph) = &mut session.photograph {
             photograph.path = named(&photograph.path, path)?;
         }
+        if convention::is_file(Path::new(&session.convention)) {
+            session.convention = named(Path::new(&session.convention), path)?.display().to_string();
+        }
         for name in session.dataset.iter_mut().flat_map(SessionDataset::paths_mut) {
             *name = named(name, path)?;
         }
@@ -127,7 +131,13 @@ impl Session {
         let materials = self.materials.iter().filter_map(|material| material.path.as_deref());
         let photograph = self.photograph.iter().map(|photograph| photograph.path.as_path());
         let dataset = self.dataset.iter().flat_map(SessionDataset::paths).map(PathBuf::as_path);
-        materials.chain(photograph).chain(dataset).filter(|file| is_outside(file, folder)).collect()
+        let convention = Some(Path::new(&self.convention)).filter(|path| convention::is_file(path));
+        materials
+            .chain(photograph)
+            .chain(dataset)
+            .chain(convention)
+            .filter(|file| is_outside(file, folder))
+            .collect()
     }
 
     /// The text of the session file `path`: the paths of materials are relative to its folder.

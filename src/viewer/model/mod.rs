@@ -65,7 +65,7 @@ pub struct Model {
     pub asks_order: bool,
     /// Whether the side panel is open where the window is narrow.
     pub narrow_side_panel: bool,
-    /// The conventions of files that were opened.
+    /// The conventions of files and sessions that were opened.
     pub conventions: Vec<ChosenConvention>,
     /// What the last frame measured.
     pub geometry: WindowGeometry,
@@ -121,8 +121,8 @@ impl Model {
     /// Takes a convention as that of renderings and loss; one of a file stays in the list of choices.
     pub fn use_convention(&mut self, chosen: ChosenConvention) {
         self.view.convention = chosen.clone();
-        if chosen.file.is_some() {
-            self.conventions.retain(|one| one.file != chosen.file);
+        if chosen.is_own() {
+            self.conventions.retain(|one| one.argument() != chosen.argument());
             self.conventions.push(chosen);
         }
     }

@@ -95,7 +95,7 @@ impl Model {
             }
         });
         let view = &self.view;
-        let convention = view.convention.text();
+        let convention = view.convention.content();
         let mut session = Session::new(materials.collect(), view.scene, convention, view.exposure_ev);
         let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
         session.photograph = self

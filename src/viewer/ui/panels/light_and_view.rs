@@ -87,9 +87,9 @@ impl ScenePanel<'_> {
             let combo = combo.show_ui(ui, |ui| {
                 let named = named::all().iter().filter_map(|one| {
                     let convention = Convention::try_from(one).ok()?;
-                    Some((ChosenConvention { convention, file: None }, named::summary(one)))
+                    Some((ChosenConvention::from(convention), named::summary(one)))
                 });
-                let of_files = self.conventions.iter().map(|one| (one.clone(), one.text()));
+                let of_files = self.conventions.iter().map(|one| (one.clone(), one.argument()));
                 for (one, hover) in named.chain(of_files) {
                     if ui.selectable_label(one == *now, label(&one)).on_hover_text(hover).clicked() {
                         commands.push(SceneCommand::SetConvention(one).into());
