@@ -8,7 +8,6 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -19,14 +18,11 @@ use svbrdf_files::Error;
 
 use super::record::PredictionResult;
 use super::remark::Remark;
-use svbrdf_files::disk::atomic::{TEMPORARY, update};
+use svbrdf_files::disk::atomic::update;
 use svbrdf_files::disk::open::{NamedFile, hexadecimal};
 use svbrdf_files::disk::paths::plain;
 use svbrdf_files::disk::{inputs, own};
 use svbrdf_files::read::Neighbours;
-
-/// Temporary files of this age are those of processes that were killed. Others are written within a moment.
-const LEFT: Duration = Duration::from_hours(24);
 
 /// The result of a pair of a ground truth and a prediction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,6 +76,13 @@ impl Key {
         let method = self.of["method"].as_str().unwrap_or_default();
         format!("{}_{}_{:.16}.json", plain(material), plain(method), sha256(&self.of.to_string()))
     }
+
+    /// Whether a file may be called so.
+    fn is_name(name: &str) -> bool {
+        let number = name.strip_suffix(".json").and_then(|stem| stem.rsplit('_').next());
+        let is_digit = |c: u8| c.is_ascii_digit() || (b'a'..=b'f').contains(&c);
+        number.is_some_and(|number| number.len() == 16 && number.bytes().all(is_digit))
+    }
 }
 
 /// The content of a file.
@@ -107,10 +110,10 @@ pub(super) struct ResultsFolder {
 }
 
 impl ResultsFolder {
-    /// Opens the folder `path`, or makes it, and removes what killed processes have left there.
+    /// Opens the folder `path`, or makes it. Hidden files are not looked at.
     ///
     /// # Errors
-    /// [`Error::Unwritable`] where there is no folder and none can be made; [`Error::Unreadable`].
+    /// [`Error::Unwritable`] where there is no folder and none can be made, or one with other files; [`Error::Unreadable`].
     pub(super) fn open(path: &Path) -> Result<Self, Error> {
         if let Err(source) = fs::create_dir(path)
             && !path.is_dir()
@@ -119,13 +122,12 @@ impl ResultsFolder {
             let remedy = "name a folder; the one above it has to be there and writable";
             return Err(Error::Unwritable { path: path.to_owned(), source, remedy });
         }
-        for entry in fs::read_dir(path).map_err(|source| Error::unreadable(path, source))?.flatten() {
-            let is_temporary = entry.file_name().to_string_lossy().starts_with(TEMPORARY);
-            let age = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
-            if is_temporary && age().is_some_and(|age| age > LEFT) {
-                // Another process may have removed it.
-                let _ = fs::remove_file(entry.path());
-            }
+        let entries = fs::read_dir(path).map_err(|source| Error::unreadable(path, source))?.flatten();
+        let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        if let Some(other) = names.filter(|name| !name.starts_with('.') && !Key::is_name(name)).min() {
+            let source = io::Error::other(format!("it holds other files than results, such as {other}"));
+            let remedy = "name a folder of results, or one that is new or empty";
+            return Err(Error::Unwritable { path: path.to_owned(), source, remedy });
         }
         Ok(Self { path: path.to_owned(), notes: Mutex::default() })
     }
