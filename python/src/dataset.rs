@@ -73,10 +73,10 @@ pub fn rank_dataset(
         ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };
     let folder = asked.results.as_deref();
-    let DatasetResults { results, notes } =
+    let DatasetResults { results, notes, unkept } =
         work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, folder, progress))?;
     let report = DatasetReport::new(settings, reading, results, pick);
-    for warning in notes.into_iter().chain(report.doubts()) {
+    for warning in notes.into_iter().chain(unkept).chain(report.doubts()) {
         py.import("warnings")?.call_method1("warn", (warning,))?;
     }
     Views::new(&report)

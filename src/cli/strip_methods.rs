@@ -91,22 +91,23 @@ impl Job for MethodsJob {
 impl MethodsJob {
     fn write(&self, progress: &Progress) -> Result<(), CommandError> {
         let Self { settings, reading, cases, results, strip, destination, .. } = self;
-        let losses = match results {
-            None => Vec::new(),
+        let (losses, unkept) = match results {
+            None => (Vec::new(), None),
             Some(folder) => {
-                let DatasetResults { results, notes } =
+                let DatasetResults { results, notes, unkept } =
                     watched_on(progress, "comparing materials", |progress| {
                         dataset::run(cases, settings, reading, Some(folder), progress)
                     })?;
                 notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
-                results
+                (results, unkept)
             }
         };
         let (methods, materials) = (&settings.methods, &settings.materials);
         let row = |index: usize| self.row(&cases[index], losses.get(index));
         let figure =
             watched_on(progress, "rendering", |progress| strip.figure(methods, materials, row, progress))?;
-        Ok(destination.write(&figure, &strip.entries(methods, materials), progress)?)
+        destination.write(&figure, &strip.entries(methods, materials), progress)?;
+        unkept.map_or(Ok(()), |problem| Err(CommandError::NotKept(problem)))
     }
 
     /// A row; what cannot be read is told, and missing in the figure.

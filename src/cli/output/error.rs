@@ -25,6 +25,10 @@ pub enum CommandError {
     )]
     NothingRanked { failed: usize, name: String, problem: String },
 
+    /// Losses were computed, and printed, but could not be added to the results folder.
+    #[error("{0}")]
+    NotKept(String),
+
     /// A report cannot be as small as is asked.
     #[error(
         "the report has {bytes} bytes with the smallest maps, more than the limit of {limit}; allow as many, or compare fewer \

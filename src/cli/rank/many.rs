@@ -101,9 +101,10 @@ impl ManyJob {
         let Self { settings, reading, cases, shard, results, pick, verbose, fail_above, output } = self;
         let strict = reading.strict;
         let cases = part(shard, cases);
-        let DatasetResults { results, notes } = watched_on(progress, "comparing materials", |progress| {
-            dataset::run(&cases, &settings, &reading, results.as_deref(), progress)
-        })?;
+        let DatasetResults { results, notes, unkept } =
+            watched_on(progress, "comparing materials", |progress| {
+                dataset::run(&cases, &settings, &reading, results.as_deref(), progress)
+            })?;
         notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
         for (material, prediction, problem) in failures(&results) {
             exit::tell(&format!("note: {material}, {prediction}: {problem}"));
@@ -118,6 +119,7 @@ impl ManyJob {
         }
         check_any(&report)?;
         warn_of(report.missed(), strict)?;
+        unkept.map_or(Ok(()), |problem| Err(CommandError::NotKept(problem)))?;
         let means = report.methods.into_iter().filter(|summary| summary.materials > 0);
         check_limit(fail_above, means.map(|summary| (summary.method, summary.mean)))
     }

@@ -31,6 +31,8 @@ pub struct DatasetResults {
     pub results: Vec<MaterialResult>,
     /// The files of the results folder that cannot be used: lines.
     pub notes: Vec<String>,
+    /// How many results could not be added to the folder, and why.
+    pub unkept: Option<String>,
 }
 
 /// The results of `cases` in order, computed in parallel.
@@ -41,7 +43,7 @@ pub struct DatasetResults {
 /// are.
 ///
 /// A loss in the folder `results` is not computed again, and each new one is added to it as it comes. The folder is made where
-/// there is none. What fails is not kept, and tried again.
+/// there is none. What fails is not kept, and tried again. A result that cannot be written ends nothing.
 ///
 /// # Errors
 /// [`Cancelled`](Error::is_cancelled), [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an unknown convention;
@@ -61,7 +63,8 @@ pub fn run(
         Ok(result)
     };
     let found = cases.par_iter().map(of_case).collect::<Result<_, Error>>()?;
-    Ok(DatasetResults { results: found, notes: evaluation.notes() })
+    let (notes, unkept) = evaluation.end()?;
+    Ok(DatasetResults { results: found, notes, unkept })
 }
 
 /// The evaluation of a data set, material by material: what all results depend on.
@@ -113,9 +116,13 @@ impl<'a> Evaluation<'a> {
         }
     }
 
-    /// What a user should know about the results folder: lines.
-    pub fn notes(self) -> Vec<String> {
-        self.results.map(ResultsFolder::notes).unwrap_or_default()
+    /// What a user should know about the results folder: lines, and the results that are not kept.
+    ///
+    /// # Errors
+    /// [`Cancelled`](Error::is_cancelled).
+    pub fn end(self) -> Result<(Vec<String>, Option<String>), Error> {
+        let progress = self.progress;
+        Ok(self.results.map(|results| results.end(progress)).transpose()?.unwrap_or_default())
     }
 
     fn seed(&self, case: &Case) -> u64 {

@@ -225,7 +225,7 @@ impl MaterialResult {
 }
 
 /// The result of one prediction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PredictionResult {
     pub method: String,

@@ -7,7 +7,7 @@
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -107,6 +107,15 @@ impl ResultFile {
 pub(super) struct ResultsFolder {
     path: PathBuf,
     notes: Mutex<Vec<String>>,
+    unkept: Mutex<Unkept>,
+}
+
+/// The files that could not be written yet, the newest last, with their texts.
+#[derive(Debug, Default)]
+struct Unkept {
+    files: Vec<(PathBuf, String)>,
+    /// Why the last one could not.
+    problem: String,
 }
 
 impl ResultsFolder {
@@ -129,7 +138,7 @@ impl ResultsFolder {
             let remedy = "name a folder of results, or one that is new or empty";
             return Err(Error::Unwritable { path: path.to_owned(), source, remedy });
         }
-        Ok(Self { path: path.to_owned(), notes: Mutex::default() })
+        Ok(Self { path: path.to_owned(), notes: Mutex::default(), unkept: Mutex::default() })
     }
 
     /// The result of a pair of this material, if it is there. A file that cannot be used is noted.
@@ -159,10 +168,11 @@ impl ResultsFolder {
         Ok(Some(result).filter(|result| result.neighbours.iter().all(|one| one.are_current(key))))
     }
 
-    /// Adds the result of a pair of this material.
+    /// Adds the result of a pair of this material. Where it cannot be written, that is tried again after the next one that can, and at
+    /// the end.
     ///
     /// # Errors
-    /// [`Error::Unwritable`]; [`Cancelled`](Error::is_cancelled).
+    /// [`Cancelled`](Error::is_cancelled); [`Error::Internal`].
     pub(super) fn add(
         &self,
         material: &str,
@@ -170,23 +180,98 @@ impl ResultsFolder {
         result: &PairResult,
         progress: &Progress,
     ) -> Result<(), Error> {
+        let text = ResultFile::new(key, result).and_then(|content| serde_json::to_string(&content));
+        let text = text.map_err(|problem| Error::Internal(format!("a result has no text: {problem}")))?;
         let path = self.path.join(key.name(material));
-        own::check(&path)?;
-        update(&path, progress, |file| {
-            let content = ResultFile::new(key, result).map_err(io::Error::other)?;
-            serde_json::to_writer(&mut *file, &content)?;
-            file.write_all(b"\n")
-        })
+        self.unkept().files.push((path, text + "\n"));
+        self.write(false, progress)
     }
 
-    /// What a user should know.
-    pub(super) fn notes(self) -> Vec<String> {
-        let mut notes = self.notes.into_inner().unwrap_or_else(PoisonError::into_inner);
+    fn unkept(&self) -> MutexGuard<'_, Unkept> {
+        self.unkept.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Writes the newest file and, unless that fails, the others; all of them in any case where `has_written` is true.
+    fn write(&self, mut has_written: bool, progress: &Progress) -> Result<(), Error> {
+        let mut files = std::mem::take(&mut self.unkept().files);
+        let mut failed = Vec::new();
+        while let Some((path, text)) = files.pop() {
+            let written = own::check(&path)
+                .and_then(|()| update(&path, progress, |file| file.write_all(text.as_bytes())));
+            match written {
+                Ok(()) => has_written = true,
+                Err(problem) if problem.is_cancelled() => return Err(problem),
+                Err(problem) => {
+                    self.unkept().problem = problem.to_string();
+                    failed.push((path, text));
+                    if !has_written {
+                        break;
+                    }
+                }
+            }
+        }
+        // Before those of other threads, which are newer.
+        files.extend(failed.into_iter().rev());
+        self.unkept().files.splice(0..0, files);
+        Ok(())
+    }
+
+    /// Tries once more to write what could not be. What a user should know: notes, and the results that are not kept.
+    ///
+    /// # Errors
+    /// [`Cancelled`](Error::is_cancelled).
+    pub(super) fn end(self, progress: &Progress) -> Result<(Vec<String>, Option<String>), Error> {
+        self.write(true, progress)?;
+        let unkept = self.unkept();
+        let are = if unkept.files.len() == 1 { "result is" } else { "results are" };
+        let text = || format!("{} {are} not kept: {}", unkept.files.len(), unkept.problem);
+        let text = (!unkept.files.is_empty()).then(text);
+        let mut notes = self.notes.lock().unwrap_or_else(PoisonError::into_inner).clone();
         notes.sort();
-        notes
+        Ok((notes, text))
     }
 }
 
 fn sha256(text: &str) -> String {
     hexadecimal(Sha256::new_with_prefix(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_could_not_be_kept_is_kept_as_soon_as_it_can_be() {
+        let above = tempfile::tempdir().unwrap();
+        let path = above.path().join("kept");
+        let progress = Progress::default();
+        let prediction = PredictionResult::default();
+        let result = PairResult { reading: Vec::new(), floor: None, prediction, neighbours: Vec::new() };
+        let key =
+            |number: u32| Key { of: serde_json::json!({ "method": "m", "n": number }), files: Vec::new() };
+        let count = || fs::read_dir(&path).map_or(0, |entries| entries.count());
+        let folder = ResultsFolder::open(&path).unwrap();
+        let add = |number| folder.add("a", &key(number), &result, &progress).unwrap();
+        fs::remove_dir(&path).unwrap();
+        (0..3).for_each(add);
+        assert_eq!((count(), folder.unkept().files.len()), (0, 3));
+        fs::create_dir(&path).unwrap();
+        // One of them cannot be written still, which does not hold up the others.
+        fs::create_dir(path.join(key(1).name("a"))).unwrap();
+        add(3);
+        assert_eq!(count(), 4);
+        assert!((0..4).all(|number| (folder.load("a", &key(number)).is_some()) == (number != 1)));
+        let (_, unkept) = folder.end(&progress).unwrap();
+        let unkept = unkept.unwrap();
+        assert!(
+            unkept.starts_with("1 result is not kept: cannot write ") && unkept.contains("_m_"),
+            "{unkept}"
+        );
+        // Files of results are told from all others.
+        for name in
+            ["m_0123456789abcdef.json", "a_m_0123456789abcdeF.json", "a_m_0123456789abcde.json", "a.json"]
+        {
+            assert_eq!(Key::is_name(name), name == "m_0123456789abcdef.json", "{name}");
+        }
+    }
 }

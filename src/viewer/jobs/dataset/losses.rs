@@ -145,7 +145,11 @@ struct LossesWork {
 impl LossesWork {
     fn run(&self, missing: Vec<usize>, worker: &Worker<Update>) -> Result<(), Error> {
         let (open, progress) = (&self.open, &worker.progress);
-        let evaluation = Evaluation::new(&self.settings, &open.reading, open.results.as_deref(), progress)?;
+        let evaluation = |results| Evaluation::new(&self.settings, &open.reading, results, progress);
+        let opened = evaluation(open.results.as_deref());
+        let refused = opened.as_ref().err().map(ToString::to_string);
+        worker.report(Update::Notes(refused.clone().into_iter().collect()))?;
+        let evaluation = opened.or_else(|_| evaluation(None))?;
         let mut left = Vec::new();
         for case in missing {
             match evaluation.known(&open.cases[case]) {
@@ -160,7 +164,8 @@ impl LossesWork {
             let compute = |case: &&Case| worker.report(Update::Result(evaluation.material(case)?));
             pool.install(|| next.par_iter().try_for_each(|case| compute(&&open.cases[*case])))?;
         }
-        worker.report(Update::Notes(evaluation.notes()))
+        let (notes, unkept) = evaluation.end()?;
+        worker.report(Update::Notes(refused.into_iter().chain(notes).chain(unkept).collect()))
     }
 
     /// Takes the next materials out of those that are left: as many as are computed at a time.
