@@ -59,13 +59,22 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
     escaped
 }
 
-/// An argument of a command as shells read it: in quotes where it has other characters than those of plain names.
+/// An argument of a command as shells read it: in quotes where it has other characters than those of plain names. What steers a
+/// terminal stands there as the numbers of its bytes, which bash, zsh and ksh read in `$'...'`.
 pub fn quoted(argument: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,%+@".contains(c);
     if !argument.is_empty() && argument.chars().all(is_plain) {
         return argument.to_owned();
     }
-    format!("'{}'", argument.replace('\'', r"'\''"))
+    if !argument.contains(steers) {
+        return format!("'{}'", argument.replace('\'', r"'\''"));
+    }
+    let quoted = |c: char| match c {
+        '\'' | '\\' => format!("\\{c}"),
+        c if steers(c) => c.to_string().bytes().map(|byte| format!("\\{byte:03o}")).collect(),
+        c => c.to_string(),
+    };
+    format!("$'{}'", argument.chars().map(quoted).collect::<String>())
 }
 
 /// The text in one line of a readable length, in which nothing steers what follows: for every name from a file. Names of
@@ -115,19 +124,26 @@ mod tests {
     }
 
     #[test]
-    fn arguments_are_quoted_where_a_shell_would_take_them_apart() {
-        assert_eq!(
-            ["out/a-1.png", "", "two words", "it's"].map(quoted),
-            ["out/a-1.png", "''", "'two words'", r"'it'\''s'"]
-        );
-    }
-
-    #[test]
     fn times_and_shares_have_a_few_digits() {
         assert_eq!([2.345, 0.012_34, 0.000_999_9, 1.2e-5].map(time), ["2.3 s", "12 ms", "1 ms", "12 us"]);
         assert_eq!(
             [0.1, 0.003, 0.012_34, 0.000_056, 1.5, 0.0].map(percent),
             ["10%", "0.3%", "1.2%", "0.0056%", "150%", "0%"]
         );
+    }
+
+    #[test]
+    fn an_argument_is_quoted_for_a_shell_and_steers_no_terminal() {
+        for (argument, text) in [
+            ("gt/wood_1.png", "gt/wood_1.png"),
+            ("", "''"),
+            ("two words", "'two words'"),
+            ("it's", r"'it'\''s'"),
+            (r"a\b", r"'a\b'"),
+            ("a\u{202e}b", r"$'a\342\200\256b'"),
+            ("it's\n\\\u{1b}7", r"$'it\'s\012\\\0337'"),
+        ] {
+            assert_eq!(quoted(argument), text);
+        }
     }
 }
