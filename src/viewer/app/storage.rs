@@ -22,6 +22,9 @@ pub const NAME: &str = "svbrdf";
 const FILE: &str = "settings.json";
 const DAMAGED: &str = "settings.json.damaged";
 
+/// The largest file, in bytes.
+const MOST: u64 = 64 << 20;
+
 /// What is stored.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -86,15 +89,18 @@ impl Storage {
         let Some(folder) = self.folder.as_deref().filter(|_| self.stored.as_ref() != Some(&now)) else {
             return;
         };
-        if let (Ok(()), Ok(text)) = (own::folder(folder), serde_json::to_string_pretty(&now)) {
+        if let (Ok(()), Ok(text)) = (own::folder(folder), serde_json::to_string_pretty(&now))
+            && text.len() as u64 <= MOST
+        {
             let _ = atomic::write_text(&folder.join(FILE), &text, &Progress::default());
         }
         self.stored = Some(now);
     }
 }
 
-/// What a regular file holds.
+/// What a regular file holds; `None` where it is too large, which is found out without reading it.
 fn stored(path: &Path) -> Option<Stored> {
+    path.metadata().ok().filter(|found| found.len() <= MOST)?;
     let text = NamedFile::by_file(path, path.parent()?).text().ok()?;
     serde_json::from_str(&text).ok()
 }
@@ -167,6 +173,18 @@ mod tests {
             assert!(UI_SCALE.contains(&model.settings.ui_scale) && !model.settings.dark, "{scale}");
             assert!(model.messages.iter().any(|message| message.to_string().contains("UI scale")), "{scale}");
         }
+    }
+
+    #[test]
+    fn a_file_that_is_too_large_is_not_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join(FILE);
+        let text = r#"{"settings": {"dark": false}}"#;
+        for size in [MOST as usize, MOST as usize + 1] {
+            std::fs::write(&file, text.to_owned() + &" ".repeat(size - text.len())).unwrap();
+            assert_eq!(Storage::read(Some(folder.path().to_owned())).is_damaged, size as u64 > MOST);
+        }
+        assert!(!file.exists() && folder.path().join(DAMAGED).exists());
     }
 
     #[cfg(unix)]
