@@ -11,3 +11,4 @@ pub(crate) mod panics;
 pub mod paths;
 pub mod signals;
 pub mod stamp;
+mod temporary;
