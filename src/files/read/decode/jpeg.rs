@@ -1,9 +1,9 @@
-//! JPEG: the values that libjpeg-turbo gives, on which this field trains and evaluates. Of YCCK with halved chroma, the last column of
-//! libjpeg-turbo-rs 0.8.0 differs by up to 4 codes.
+//! JPEG: the values that libjpeg-turbo gives, on which this field trains and evaluates. What libjpeg-turbo-rs 0.8.0 decodes to other values
+//! is refused; `python/tests/test_jpeg.py` compares both.
 
 use std::io::{Read as _, Seek as _, SeekFrom};
 
-use libjpeg_turbo_rs::{DecodeLimits, Decoder, JpegError, PixelFormat};
+use libjpeg_turbo_rs::{ColorSpace, DecodeLimits, Decoder, JpegError, PixelFormat};
 
 use super::place::{Decoded, DecodedFile, alone};
 use super::reader::Reader;
@@ -66,13 +66,9 @@ pub(super) fn pixels(bytes: &[u8], most: [usize; 2], place: DecodedFile<'_>) -> 
             return Err(place.bad(problem, "convert it to RGB"));
         }
     };
-    // libjpeg-turbo-rs 0.8.0 does not enlarge black.
-    let sampling = header.components.iter().map(|one| (one.horizontal_sampling, one.vertical_sampling));
-    let sampling: Vec<_> = sampling.collect();
-    if count == 4 && sampling[3] != sampling[0] {
-        return Err(
-            place.bad("expected CMYK with black at full size, found it subsampled", "convert it to RGB")
-        );
+    if let Some(found) = differing(&decoder) {
+        let expected = "expected gray, YCbCr, or RGB or CMYK with every component at full size";
+        return Err(place.bad(format!("{expected}, found {found}"), "convert it to PNG in RGB"));
     }
     let size = u64::from(width) * u64::from(height);
     let _reserved = place.check_size(width.into(), height.into(), size * count as u64)?;
@@ -87,6 +83,27 @@ pub(super) fn pixels(bytes: &[u8], most: [usize; 2], place: DecodedFile<'_>) -> 
     let values = image.into_vec();
     let values = if count == 4 { rgb_of(&values) } else { values };
     Ok(Pixels { size: [width.into(), height.into()], count: count.min(3), values, orientation, profile })
+}
+
+/// What libjpeg-turbo-rs 0.8.0 does not decode to the values of libjpeg-turbo.
+fn differing(decoder: &Decoder<'_>) -> Option<&'static str> {
+    let components = &decoder.header().components;
+    let sampling: Vec<_> =
+        components.iter().map(|one| [one.horizontal_sampling, one.vertical_sampling]).collect();
+    let first = *sampling.first()?;
+    let are_all_full = sampling.iter().all(|one| *one == first);
+    let are_reduced = sampling.iter().all(|one| (0..2).all(|axis| first[axis].is_multiple_of(one[axis])));
+    // In libjpeg, JFIF is always YCbCr, and the names of the components tell it without a marker of Adobe.
+    let is_named_rgb = components.iter().map(|one| one.id).eq(*b"RGB");
+    let is_rgb = decoder.jpeg_color_space() == ColorSpace::Rgb;
+    match components.len() {
+        3 if is_rgb && decoder.saw_jfif_marker() => Some("JFIF whose marker of Adobe says RGB"),
+        3 if is_named_rgb && !is_rgb => Some("RGB without the marker of Adobe"),
+        3 if is_rgb && !are_all_full => Some("RGB with subsampled components"),
+        3 if !are_reduced => Some("YCbCr with chroma that is larger than luma"),
+        4 if !are_all_full => Some("CMYK with subsampled components"),
+        _ => None,
+    }
 }
 
 /// Cyan, magenta, yellow and black, stored inverted as Adobe does, as red, green and blue: in the integers of Pillow.
@@ -181,6 +198,39 @@ mod tests {
                 assert!(refused.contains("m.jpg"), "{name} without its last {cut} bytes: {refused}");
             }
             assert!(decoded(&[file, b"and more".to_vec()].concat()).is_ok(), "{name} with more behind it");
+        }
+    }
+
+    /// The marker of Adobe, as `tiff_jpeg` writes it, which says RGB or CMYK.
+    const ADOBE: &[u8] = b"\xff\xee\0\x0eAdobe\0\x64\0\0\0\0\0";
+    const YCBCR: &[u8] = b"\x01\x22\0\x02\x11\x01\x03\x11\x01";
+    const CMYK: &[u8] = b"C\x11\0M\x11\0Y\x11\0K\x11\0";
+
+    #[test]
+    fn what_has_other_values_in_libjpeg_turbo_is_refused() {
+        let jfif = STANDARD.decode(OF_PILLOW[0].1).unwrap();
+        let cmyk = STANDARD.decode(OF_PILLOW[3].1).unwrap();
+        let after = |header: &[u8], rest: &[u8]| [&jfif[..2], header, rest].concat();
+        let with = |file: &[u8], changes: &[(&[u8], &[u8])]| {
+            changes.iter().fold(file.to_vec(), |mut file, (from, to)| {
+                let at = file.windows(from.len()).position(|part| part == *from).unwrap();
+                file[at..at + from.len()].copy_from_slice(to);
+                file
+            })
+        };
+        let rgb = (YCBCR, b"R\x22\0G\x11\x01B\x11\x01".as_slice());
+        let scan = (b"\x03\x01\0\x02\x11\x03\x11".as_slice(), b"\x03R\0G\x11B\x11".as_slice());
+        let large = (YCBCR, b"\x01\x11\0\x02\x22\x01\x03\x22\x01".as_slice());
+        let tall = (CMYK, b"C\x12\0M\x11\0Y\x11\0K\x12\0".as_slice());
+        for (file, found) in [
+            (after(ADOBE, &jfif[20..]), "RGB with subsampled components"),
+            (after(ADOBE, &jfif[2..]), "JFIF whose marker of Adobe says RGB"),
+            (with(&after(&[], &jfif[20..]), &[rgb, scan]), "RGB without the marker of Adobe"),
+            (with(&jfif, &[large]), "YCbCr with chroma that is larger than luma"),
+            (with(&cmyk, &[tall]), "CMYK with subsampled components"),
+        ] {
+            let refused = decoded(&file).unwrap_err().to_string();
+            assert!(refused.contains(found) && refused.contains("convert it to PNG in RGB"), "{refused}");
         }
     }
 }
