@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::error::{ContextKind, ErrorKind};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::text::{line, printable};
 use svbrdf_files::Error as FilesError;
@@ -46,10 +46,33 @@ pub fn explain(unusual: clap::Error) -> ExitCode {
     if unusual.use_stderr() {
         let unusual = with_tip(unusual);
         // There is nowhere else to say that a closed stderr is closed.
-        let _ = unusual.print();
+        let _ = match escaped(&unusual) {
+            Some(text) => io::stderr().write_all(text.as_bytes()),
+            None => unusual.print(),
+        };
         return ExitCode::from(USAGE);
     }
     exit_code(accepted(unusual.print().and_then(|()| io::stdout().flush())).map_err(CommandError::from))
+}
+
+/// The text without colours, each part of it from outside in one line; `None` where no part would steer the terminal.
+fn escaped(unusual: &clap::Error) -> Option<String> {
+    let of_context = |(_, value): (_, &ContextValue)| match value {
+        ContextValue::String(part) => vec![part.clone()],
+        ContextValue::Strings(parts) => parts.clone(),
+        _ => Vec::new(),
+    };
+    let mut parts: Vec<String> = unusual.context().flat_map(of_context).collect();
+    parts.extend(unusual.source().map(ToString::to_string));
+    parts.retain(|part| line(part) != *part);
+    (!parts.is_empty()).then(|| {
+        let styled = unusual.render().ansi().to_string();
+        let text = parts.iter().fold(styled, |text, part| text.replace(part, &line(part)));
+        // Only the colours of the parser are left: ESC [ ... m.
+        let mut spans = text.split('\u{1b}');
+        let first = spans.next().unwrap_or_default().to_owned();
+        printable(&spans.fold(first, |text, span| text + span.split_once('m').map_or(span, |(_, text)| text)))
+    })
 }
 
 /// An unknown option that resembles no other is not meant as a value: the help lists those that there are.

@@ -1,6 +1,7 @@
 //! A convention as text: TOML with a section for each part of its terms.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::str::FromStr;
 use std::sync::LazyLock;
 
@@ -197,37 +198,117 @@ impl FromStr for Description {
     }
 }
 
+/// Largest number of a convention: products of some of them are floats of 32 bits.
+const LARGEST: f64 = 1e9;
+
+/// The range of the numbers of a key.
+fn range(key: &str) -> RangeInclusive<f64> {
+    match key {
+        "f0" | "r_min" | "nl_min" | "nv_min" | "nh_min" | "vh_min" | "cos_min" | "front_min" | "lz" => {
+            0.0..=1.0
+        }
+        "r_max" | "D_cap" | "dot_max" | "cos_max" => 0.0..=f64::INFINITY,
+        "half_extent" => 1e-9..=LARGEST,
+        "epsilon" => 1e-30..=LARGEST,
+        "u1" => 0.0..=1.0,
+        "sigma_view" | "sigma_light" => 0.0..=10.0,
+        "mu" => -10.0..=10.0,
+        "shift" | "view" => -LARGEST..=LARGEST,
+        "z" => 1e-9..=LARGEST,
+        _ => 0.0..=LARGEST,
+    }
+}
+
+/// Refuses a number that is not in the range of its key, and ends of a range in the wrong order.
+fn check(section: &str, key: &str, value: &Value) -> Result<(), Error> {
+    let bad = |problem: String| Err(Error::BadConvention { problem: format!("{section} {key}: {problem}") });
+    let numbers: Vec<f64> = match value {
+        Value::Float(number) => vec![*number],
+        Value::Array(list) => list.iter().filter_map(Value::as_float).collect(),
+        _ => Vec::new(),
+    };
+    let range = range(key);
+    if let Some(number) = numbers.iter().find(|number| !range.contains(number)) {
+        let [least, most, found] = [*range.start(), *range.end(), *number].map(short);
+        return bad(format!("expected a number from {least} to {most}, found {found}"));
+    }
+    match numbers[..] {
+        [low, high] if low > high => {
+            bad(format!("expected the lower end first, found [{}, {}]", short(low), short(high)))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl Description {
     /// Refuses what cannot be computed.
     fn checked(self) -> Result<Self, Error> {
-        let bad = |problem: String| Err(Error::BadConvention { problem });
-        for (section, key, value) in self.terms.values() {
-            let numbers: Vec<f64> = match &value {
-                Value::Float(number) => vec![*number],
-                Value::Array(list) => list.iter().filter_map(Value::as_float).collect(),
-                _ => Vec::new(),
-            };
-            let may_be_infinite = matches!(key.as_str(), "r_max" | "D_cap" | "dot_max" | "cos_max");
-            let is_right = |x: &f64| *x >= 0.0 && (x.is_finite() || may_be_infinite);
-            if let Some(number) = numbers.iter().find(|x| !is_right(x)) {
-                return bad(format!("[{section}] {key}: expected a number of at least 0, found {number}"));
-            }
-            if let [low, high] = numbers[..]
-                && low > high
-            {
-                return bad(format!(
-                    "[{section}] {key}: expected the lower end first, found [{low}, {high}]"
-                ));
-            }
-            if key == "half_extent" && numbers == [0.0] {
-                return bad(format!("[{section}] {key}: expected a number above 0, found 0"));
-            }
+        let table = Table::try_from(&self).unwrap_or_default();
+        let keys =
+            table.iter().filter_map(|(section, keys)| Some((format!("[{section}]"), keys.as_table()?)));
+        let scenes = table.get("scenes").and_then(Value::as_array).into_iter().flatten();
+        let scenes = scenes.filter_map(|keys| Some(("[[scenes]]".to_owned(), keys.as_table()?)));
+        for (section, keys) in keys.chain(scenes) {
+            keys.iter().try_for_each(|(key, value)| check(&section, key, value))?;
         }
-        match self.loss.epsilon {
-            Some(epsilon) if !(epsilon > 0.0 && epsilon.is_finite()) => {
-                bad(format!("[loss] epsilon: expected a number above 0, found {epsilon}"))
-            }
-            _ => Ok(self),
+        Ok(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_out_of_the_range_of_its_key_is_refused() {
+        let mirror = |keys: &str| {
+            format!(
+                "[[scenes]]\nkind = \"mirror\"\ncount = 6\nmu = 0.5\nshift = [-1.0, 1.0]\nshift_z = 0.0001\n{keys}"
+            )
+        };
+        for (text, problem) in [
+            (
+                "[light]\nfactor = 1e39".to_owned(),
+                "[light] factor: expected a number from 0 to 1e9, found 1e39",
+            ),
+            (
+                "[light]\nintensity = [1, 1, 1e100]".to_owned(),
+                "[light] intensity: expected a number from 0 to 1e9",
+            ),
+            ("[light]\nlz = 1.5".to_owned(), "[light] lz: expected a number from 0 to 1, found 1.5"),
+            ("[material]\nr_min = 2".to_owned(), "[material] r_min: expected a number from 0 to 1, found 2"),
+            (
+                "[material]\nr_max = -1".to_owned(),
+                "[material] r_max: expected a number from 0 to inf, found -1",
+            ),
+            (
+                "[specular]\nvh_min = nan".to_owned(),
+                "[specular] vh_min: expected a number from 0 to 1, found NaN",
+            ),
+            (
+                "[output]\nclip = [1, 0]".to_owned(),
+                "[output] clip: expected the lower end first, found [1, 0]",
+            ),
+            (
+                "[grid]\nhalf_extent = 0".to_owned(),
+                "[grid] half_extent: expected a number from 1e-9 to 1e9, found 0",
+            ),
+            (
+                "[loss]\nepsilon = 0".to_owned(),
+                "[loss] epsilon: expected a number from 1e-30 to 1e9, found 0",
+            ),
+            (
+                mirror("u1 = [0.5, 1.5]\nsigma_view = 0.75\nsigma_light = 0.75"),
+                "[[scenes]] u1: expected a number from 0 to 1, found 1.5",
+            ),
+            (
+                mirror("u1 = [0.0, 0.9]\nsigma_view = 0.75\nsigma_light = 1e9"),
+                "[[scenes]] sigma_light: expected a number from 0 to 10, found 1e9",
+            ),
+        ] {
+            let refused = text.parse::<Description>().unwrap_err().to_string();
+            assert!(refused.contains(problem), "{text}: {refused}");
         }
+        assert!("[material]\nr_max = inf\n[light]\nfactor = 1e9".parse::<Description>().is_ok());
     }
 }
