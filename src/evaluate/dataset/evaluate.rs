@@ -14,6 +14,7 @@ use svbrdf_core::loss::{Comparison, check_same_size};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::render::simd::Level;
 use svbrdf_files::Error as FilesError;
 
 use super::record::{
@@ -191,6 +192,8 @@ impl<'a> Evaluation<'a> {
         let mut of = json!({
             "format": 2,
             "software": SOFTWARE,
+            // Sums of other instruction sets differ in their last digits.
+            "simd": Level::best().name(),
             "convention": convention,
             "target_error": target_error,
             "seed": seed,
