@@ -83,7 +83,7 @@ const MODES: &[&str] = &[
 /// Values of the options, by option, or by subcommand and option where it means another thing there.
 #[rustfmt::skip]
 const VALUES: &[(&str, &str)] = &[
-    ("about", "@about.toml"), ("text-pt", "9"), ("width-mm", "120"), ("columns", "roughness"),
+    ("text-pt", "9"), ("width-mm", "120"), ("columns", "roughness"),
     ("convention", "guided-2020"), ("crop", "1,1,3,3"), ("depth", "16"),
     ("distance-tail", "0.001%"), ("distant", "5"), ("exposure", "1"), ("fail-above", "0.0001"),
     ("figures", "worst:1"), ("fixed", "0.1,0.2,1"), ("format", "json"), ("fov", "30"),
@@ -128,7 +128,6 @@ fn fixture() -> TempDir {
     let photographs =
         ["photo", "second"].map(|name| format!(r#"{{"file": "{name}.png", "scene": {scene}}}"#));
     write("cap/capture.json", &format!(r#"{{"photographs": [{}]}}"#, photographs.join(", ")));
-    write("about.toml", "title = \"tiles\"\n");
     write("pairs.csv", "ground_truth,prediction\ngt.png,a.png\ngt.png,b.png\n");
     folder
 }
