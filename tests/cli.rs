@@ -1,5 +1,7 @@
 //! The program as its users run it: exit codes, stdout, stderr and files.
 
+#[cfg(target_os = "linux")]
+mod claims;
 mod conform;
 mod diagnose;
 mod links;
