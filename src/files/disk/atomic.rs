@@ -7,11 +7,13 @@ use std::path::{Path, PathBuf};
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
 
-use crate::disk::{inputs, own, temporary};
+use crate::disk::{inputs, own};
 use crate::error::Error;
 
 /// The program and its version, as the files that it writes name it.
 pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
+/// How the names of temporary files begin.
+pub const TEMPORARY: &str = ".svbrdf-";
 /// A chain of links that is longer has no end.
 const MOST_LINKS: usize = 40;
 
@@ -186,7 +188,11 @@ fn written(
             return Ok(());
         }
         let target = target_of(path)?;
-        temporary::filled(folder_of(&target), fill)?.persist(&target)?;
+        let mut temporary = temporary_in(folder_of(&target))?;
+        fill(temporary.as_file_mut())?;
+        // The name must not lead to content that a loss of power takes away.
+        temporary.as_file().sync_all()?;
+        temporary.persist(&target)?;
         Ok(())
     };
     let remedy = "check that its folder is writable and the disk not full";
@@ -210,6 +216,16 @@ pub fn folder_of(path: &Path) -> &Path {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     }
+}
+
+/// A temporary file with the permissions of any other new file, not of a secret.
+fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+    #[cfg(unix)]
+    builder.permissions(permissions);
+    builder.prefix(TEMPORARY).tempfile_in(folder)
 }
 
 fn unwritable(path: &Path, source: io::Error, remedy: &'static str) -> Error {

@@ -11,4 +11,3 @@ pub(crate) mod panics;
 pub mod paths;
 pub mod signals;
 pub mod stamp;
-mod temporary;
