@@ -24,9 +24,14 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     wait(&mut window, "the loss", |app| app.losses().is_some());
     let expected = expected(&Sampling { seed: 7, ..Sampling::default() });
     assert_eq!(window.losses().unwrap(), expected);
-    for loss in &expected {
+    for (index, loss) in expected.iter().enumerate() {
         let [low, high] = loss.estimate.interval95.unwrap();
         window.get_by_label(&format!("{:.2}", loss.estimate.mean));
+        let title = window
+            .get_by_label(&format!("Title {}  {}", index + 1, loss.prediction))
+            .accesskit_node()
+            .value();
+        assert_eq!(title, Some(format!("loss {:.2}", loss.estimate.mean)));
         let half = 0.5 * (high - low);
         let half = if half < 0.1 { format!("±{half:.4}") } else { format!("±{half:.2}") };
         assert!(has(&window, &half), "no {half}");

@@ -32,8 +32,12 @@ pub fn title_bar(
     let chosen = is_material && content.index == scenery.chosen() && content.index != 0;
     let text = text(scenery, content, usize::MAX, true);
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}")));
     let replaced = chosen && scenery.state.display.is_replaced();
+    let loss = prediction.filter(|_| !replaced).and_then(|index| loss_of(scenery, index, rect));
+    response.widget_info(|| egui::WidgetInfo {
+        current_text_value: loss.clone(),
+        ..egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}"))
+    });
     let has_button = replaced && !scenery.is_picture;
     let back =
         inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
@@ -43,7 +47,6 @@ pub fn title_bar(
     } else {
         ui.visuals().text_color()
     };
-    let loss = prediction.filter(|_| !replaced).and_then(|index| loss_of(scenery, index, rect));
     let swatch = prediction.map(|index| theme::series(index, ui.visuals().dark_mode));
     let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
     if let Some(colour) = swatch {
