@@ -55,7 +55,7 @@ fn open(options: ViewerOptions) -> Result<(), Error> {
         return Err(CoreError::Cancelled.into());
     }
     if let Some(loss) = guard.loss() {
-        restart::after_loss(&loss);
+        restart::after_loss(&loss)?;
     }
     guard.outcome(result)
 }

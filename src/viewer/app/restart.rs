@@ -17,7 +17,7 @@ use crate::error::Error;
 /// The restarts of this program, in its environment: their number, the seconds since the epoch of the last loss, and its reason.
 const VARIABLE: &str = "SVBRDF_RESTARTED";
 /// Its files among the settings. The program does not write the one that it was started with.
-const SESSIONS: [&str; 2] = ["restart-1.svbrdf.json", "restart-2.svbrdf.json"];
+const SESSIONS: [&str; 2] = ["restart-1.svbrdf-session.json", "restart-2.svbrdf-session.json"];
 
 /// Most losses that follow each other within [`BETWEEN`].
 const MOST: u32 = 3;
@@ -71,19 +71,25 @@ fn now() -> Duration {
 
 /// Starts the program anew: with its session, or as it was started itself where there is none. Returns where that failed, or where
 /// devices are lost again and again.
-pub fn after_loss(Loss { reason, session, results }: &Loss) {
-    let Some(restarts) = Restarts::after(Restarts::of_environment().as_ref(), now(), reason) else { return };
-    let Ok(program) = std::env::current_exe() else { return };
+///
+/// # Errors
+/// The session cannot be written.
+pub fn after_loss(Loss { reason, session, results }: &Loss) -> Result<(), Error> {
+    let Some(restarts) = Restarts::after(Restarts::of_environment().as_ref(), now(), reason) else {
+        return Ok(());
+    };
+    let Ok(program) = std::env::current_exe() else { return Ok(()) };
     let mut command = Command::new(program);
-    match session.as_ref().map(stored) {
+    match session.as_ref().map(stored).transpose()? {
         Some(Some(path)) => {
             command.arg("view").arg(path).arg("--allow-outside");
             command.args(results.iter().flat_map(|folder| [OsStr::new("--results"), folder.as_ref()]))
         }
-        Some(None) => return,
+        Some(None) => return Ok(()),
         None => command.args(std::env::args_os().skip(1)),
     };
     start(command.env(VARIABLE, restarts.text()));
+    Ok(())
 }
 
 /// Tries again where there is no adapter soon after a loss.
@@ -95,17 +101,16 @@ pub fn while_driver_is_gone() {
     }
 }
 
-/// The file that a session was written to.
-fn stored(session: &Session) -> Option<PathBuf> {
-    let folder = storage::folder()?;
+/// The file that a session was written to; `None` without a folder of settings.
+fn stored(session: &Session) -> Result<Option<PathBuf>, Error> {
     let is_open = |path: &PathBuf| std::env::args_os().any(|argument| Path::new(&argument) == path);
-    let path = SESSIONS.iter().map(|name| folder.join(name)).find(|path| !is_open(path))?;
-    let write = || -> Result<(), Error> {
+    let Some(folder) = storage::folder() else { return Ok(None) };
+    let path = SESSIONS.iter().map(|name| folder.join(name)).find(|path| !is_open(path));
+    if let Some(path) = &path {
         own::folder(&folder)?;
-        atomic::write_text(&path, &session.text(&path)?, &Progress::default())?;
-        Ok(())
-    };
-    write().ok().map(|()| path)
+        atomic::write_text(path, &session.text(path)?, &Progress::default())?;
+    }
+    Ok(path)
 }
 
 /// Puts the command in the place of this process; returns where that failed.
@@ -126,6 +131,11 @@ fn start(command: &mut Command) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_restart_opens_its_files_as_sessions() {
+        assert!(SESSIONS.iter().all(|name| Session::is_named(Path::new(name))));
+    }
 
     #[test]
     fn devices_that_are_lost_again_and_again_end_the_program() {
