@@ -83,16 +83,21 @@ impl Gpu {
         self.faults.loss()
     }
 
+    /// The same, once the driver has been asked: it may not have told of the loss yet.
+    pub fn loss_by_now(&self) -> Option<&str> {
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        self.loss()
+    }
+
     /// Calls `then` once the device is lost, on any thread. Only the first call has an effect.
     pub fn at_loss(&self, then: impl Fn() + Send + Sync + 'static) {
         self.faults.at_loss(then);
     }
 
-    /// Loses the device, as a fault of its driver does. For tests.
+    /// Loses the device, as a fault of its driver does, which has not told of it yet. For tests.
     #[doc(hidden)]
     pub fn lose(&self) {
         self.device.destroy();
-        let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
     }
 
     fn new(adapter: &Adapter, device: Device, queue: Queue, reason: String) -> Result<Self, Error> {

@@ -70,12 +70,19 @@ fn sessions_of_random_values_open_or_are_refused() {
     assert!((5..SESSIONS - 5).contains(&opened), "{opened} of {SESSIONS} sessions can be read");
 }
 
+/// Loses the device of the window, of which the driver tells when it is asked.
+fn lose_device(window: &mut Window<'_>) {
+    let gpu = &window.state().parts.gpu.as_ref().unwrap().gpu;
+    gpu.lose();
+    assert_eq!([gpu.loss(), gpu.loss_by_now()].map(|loss| loss.is_some()), [false, true]);
+}
+
 #[needs(adapter)]
 fn a_panic_or_a_lost_device_closes_the_window_with_its_reason_and_no_frame_is_drawn_after_it() {
     type End = fn(&mut Window<'_>);
     let ends: [(End, &str); 2] = [
         (|window| window.input_mut().dropped_files.push(Arc::new(Dropped(None))), "a planted fault"),
-        (|window| window.state().parts.gpu.as_ref().unwrap().gpu.lose(), "the graphics device was lost ("),
+        (lose_device, "the graphics device was lost (no reason was given)"),
     ];
     for (end, reason) in ends {
         let guard = CrashGuard::default();

@@ -17,13 +17,13 @@ use crate::jobs::work::panics;
 #[derive(Clone, Debug, Default)]
 pub struct CrashGuard {
     error: Arc<Mutex<Option<Error>>>,
-    loss: Arc<Mutex<Option<Loss>>>,
+    loss: Arc<Mutex<Option<DeviceLoss>>>,
     stopped: Arc<AtomicBool>,
 }
 
 /// A lost device.
 #[derive(Clone, Debug)]
-pub struct Loss {
+pub struct DeviceLoss {
     pub reason: String,
     /// `None` where materials were still being read.
     pub session: Option<Session>,
@@ -55,12 +55,12 @@ impl CrashGuard {
     }
 
     /// Keeps what a restart goes on with.
-    pub fn lose(&self, loss: Loss) {
+    pub fn lose(&self, loss: DeviceLoss) {
         *self.loss.lock().unwrap_or_else(PoisonError::into_inner) = Some(loss);
     }
 
     /// The device that was lost.
-    pub fn loss(&self) -> Option<Loss> {
+    pub fn loss(&self) -> Option<DeviceLoss> {
         self.loss.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 

@@ -16,7 +16,7 @@ use eframe::egui;
 use svbrdf_core::error::Error as CoreError;
 
 pub use crash::CrashGuard;
-use crash::Loss;
+use crash::DeviceLoss;
 use parts::Parts;
 use restart::Restarts;
 use storage::{NAME, Storage};
@@ -172,8 +172,14 @@ impl App {
 impl App {
     /// Why the device of the window was lost, where it was.
     fn loss(&self) -> Option<String> {
-        self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss()).map(|reason| reason.trim().to_owned())
+        self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss()).map(told)
     }
+}
+
+/// The reason of a loss, where its driver tells one.
+fn told(reason: &str) -> String {
+    let reason = reason.trim();
+    if reason.is_empty() { "no reason was given" } else { reason }.to_owned()
 }
 
 impl eframe::App for App {
@@ -217,10 +223,10 @@ impl eframe::App for App {
 /// The window library drops the application where it panics over the lost device, too.
 impl Drop for App {
     fn drop(&mut self) {
-        if let Some(reason) = self.loss() {
+        if let Some(reason) = self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss_by_now()).map(told) {
             let (model, is_read) = (&self.parts.model, self.parts.jobs.openings.is_empty());
             let results = model.dataset.open.as_ref().and_then(|open| open.results.clone());
-            self.crash.lose(Loss { reason, session: is_read.then(|| model.session()), results });
+            self.crash.lose(DeviceLoss { reason, session: is_read.then(|| model.session()), results });
         }
     }
 }

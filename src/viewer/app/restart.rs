@@ -10,7 +10,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::disk::{atomic, own};
 use svbrdf_files::session::Session;
 
-use super::crash::Loss;
+use super::crash::DeviceLoss;
 use super::storage;
 use crate::error::Error;
 
@@ -74,7 +74,7 @@ fn now() -> Duration {
 ///
 /// # Errors
 /// The session cannot be written.
-pub fn after_loss(Loss { reason, session, results }: &Loss) -> Result<(), Error> {
+pub fn after_loss(DeviceLoss { reason, session, results }: &DeviceLoss) -> Result<(), Error> {
     let Some(restarts) = Restarts::after(Restarts::of_environment().as_ref(), now(), reason) else {
         return Ok(());
     };
