@@ -50,7 +50,7 @@ const FIELDS: [(&str, &[Field]); 12] = [
         "bmp",
         &[(b"BM", 10, 4), (b"BM", 14, 4), (b"BM", 18, 4), (b"BM", 22, 4), (b"BM", 34, 4), (b"BM", 46, 4)],
     ),
-    // The length of the comment; that of the palette; width and height.
+    // Length of the comment, length of the palette, width and height.
     ("tga", &[(b"", 0, 1), (b"", 5, 2), (b"", 12, 2), (b"", 14, 2)]),
     // The lengths of file and chunk; the sizes.
     ("webp", &[(b"RIFF", 4, 4), (b"RIFF", 16, 4), (b"RIFF", 21, 4)]),

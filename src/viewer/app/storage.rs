@@ -98,7 +98,7 @@ impl Storage {
     }
 }
 
-/// What a regular file holds; `None` where it is too large, which is found out without reading it.
+/// What a regular file holds; `None` where it is too large, as its size tells before it is read.
 fn stored(path: &Path) -> Option<Stored> {
     path.metadata().ok().filter(|found| found.len() <= MOST)?;
     let text = NamedFile::by_file(path, path.parent()?).text().ok()?;
