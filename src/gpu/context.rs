@@ -83,9 +83,11 @@ impl Gpu {
         self.faults.loss()
     }
 
-    /// The same, once the driver has been asked: it may not have told of the loss yet.
+    /// The same, once the driver has been asked: it tells of the loss after the work that was sent before it, for which
+    /// this waits a second at most.
     pub fn loss_by_now(&self) -> Option<&str> {
-        let _ = self.device.poll(wgpu::PollType::Poll);
+        let timeout = Some(std::time::Duration::from_secs(1));
+        let _ = self.device.poll(wgpu::PollType::Wait { submission_index: None, timeout });
         self.loss()
     }
 
