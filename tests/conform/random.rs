@@ -11,7 +11,7 @@ use svbrdf_evaluate::conform::{Difference, VerdictKind};
 
 use super::{judged, points, single};
 
-/// RendererTerms that are right, or cannot be told: floors and factors are not among them.
+/// Terms that are right, or cannot be told: floors and factors are not among them.
 const STRUCTURE: [&str; 12] = [
     "material",
     "alpha",

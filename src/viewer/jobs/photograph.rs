@@ -184,11 +184,6 @@ impl PhotographJobs {
         })
     }
 
-    /// Lets everything that is on the adapter be sent again.
-    pub fn forget_device(&mut self) {
-        self.compared = Latest::default();
-    }
-
     /// The photograph as it is displayed beside `materials`, perhaps at the exposures of an earlier scene.
     pub fn displayed<'a>(
         &'a self,
