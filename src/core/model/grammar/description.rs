@@ -137,7 +137,8 @@ impl RendererTerms {
                 None => drop(keys.remove(key)),
             }
         }
-        table.try_into().unwrap_or(*self)
+        // As text, which convention files are read from, too: by one deserializer.
+        toml::from_str(&table.to_string()).unwrap_or(*self)
     }
 }
 
