@@ -12,7 +12,7 @@ use graph::{Arrow, CRATES, Source, arrows, circles};
 /// From the bottom to the top. A module belongs to the longest name that it begins with; files of one layer may use one
 /// another.
 const LAYERS: [&[&str]; 21] = [
-    &["core/choices", "core/error", "core/progress", "core/text"],
+    &["core/choices", "core/error", "core/parallel", "core/progress", "core/text"],
     &["core/math"],
     &["core/statistics"],
     &["core/image"],

@@ -25,6 +25,7 @@ pub mod loss;
 pub mod material;
 pub mod math;
 pub mod model;
+pub mod parallel;
 pub mod picture;
 pub mod progress;
 pub mod render;

@@ -1,4 +1,4 @@
-//! Order statistics: the one definition of a quantile and of a median.
+//! Order statistics: the one definition of a quantile and of a median, and the one sort by a number.
 
 use crate::math::real::Real;
 
@@ -21,6 +21,20 @@ pub fn median<T: Real>(values: &mut [T]) -> Option<f64> {
     quantile(values, 0.5)
 }
 
+/// The indices of `numbers`, the least number first; NaN is larger than all others. Equal numbers keep their order.
+pub fn order(numbers: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..numbers.len()).collect();
+    order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]));
+    order
+}
+
+/// Sorts by a number of each, as [`order`]: one sort of indices is compiled for all types.
+pub fn sort_by_number<T>(all: &mut Vec<T>, number: impl FnMut(&T) -> f64) {
+    let order = order(&all.iter().map(number).collect::<Vec<_>>());
+    let mut unsorted: Vec<_> = std::mem::take(all).into_iter().map(Some).collect();
+    all.extend(order.into_iter().filter_map(|index| unsorted[index].take()));
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -37,5 +51,12 @@ mod tests {
         assert_eq!(quantile::<f32>(&mut [], 0.5), None);
         assert_eq!(median(&mut [f64::INFINITY, f64::INFINITY]), Some(f64::INFINITY));
         assert_eq!(median(&mut [f64::NAN, 1.0, 2.0]), Some(2.0));
+    }
+
+    #[test]
+    fn equal_numbers_keep_their_order() {
+        let mut all = vec![("a", 1.0), ("b", f64::NAN), ("c", -0.5), ("d", 1.0), ("e", -0.5)];
+        sort_by_number(&mut all, |(_, number)| *number);
+        assert_eq!(all.iter().map(|(name, _)| *name).collect::<String>(), "ceadb");
     }
 }

@@ -1,6 +1,7 @@
 //! Many predictions of one ground truth, best first, with what the data can separate.
 
 use svbrdf_core::loss::{Estimate, MOST_SCENES, Outcome};
+use svbrdf_core::statistics::order;
 
 /// Most scenes for a ranking of `predictions`, which are compared in the same ones: half as many renderings as a loss may take, and
 /// at least 24,576 scenes.
@@ -22,9 +23,7 @@ pub struct Ranked {
 
 /// The predictions of an outcome, smallest loss first. Equal losses keep their order.
 pub fn places(outcome: &Outcome) -> Vec<Ranked> {
-    let mean = |index: usize| outcome.losses[index].estimate.mean;
-    let mut order: Vec<usize> = (0..outcome.losses.len()).collect();
-    order.sort_by(|&a, &b| mean(a).total_cmp(&mean(b)));
+    let order = order(&outcome.losses.iter().map(|loss| loss.estimate.mean).collect::<Vec<_>>());
     let Some(&best) = order.first() else { return Vec::new() };
     let (mut first, mut group) = (best, 1);
     let place = |&index: &usize| {

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
-use rayon::prelude::*;
 
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
@@ -86,16 +86,17 @@ pub fn material_views(
     progress.begin(report.results.len() as u64);
     let count = report.results.len() * (1 + report.methods.len());
     let width = PICTURE[usize::from(count > LARGE)];
-    let one = |result: &MaterialResult| {
+    let one = |index: usize| {
+        let result = &report.results[index];
         let materials = cases.get(&result.index).and_then(|case| opened(report, result, case));
         let view = materials.map_or(Ok(MaterialView::default()), |materials| {
             let figure = chosen.contains(&result.index).then(|| folder.join(file_name(result)));
             view(&materials, &convention, width, figure.as_deref(), progress)
         })?;
         progress.step()?;
-        Ok(view)
+        Ok::<_, Error>(view)
     };
-    report.results.par_iter().map(one).collect()
+    parallel::try_map(report.results.len(), one)
 }
 
 /// The folder of the figures of a page.

@@ -2,13 +2,12 @@
 
 use std::fmt::Debug;
 
-use rayon::prelude::*;
-
 use crate::error::Error;
 use crate::material::{Grid, Material};
 use crate::math::real::Real;
 use crate::model::convention::Convention;
 use crate::model::scene::Scene;
+use crate::parallel;
 use crate::progress::Progress;
 
 /// A ground truth, predictions of the same size, and the convention that they are compared by.
@@ -82,15 +81,15 @@ pub trait Backend<T>: Debug + Sync {
     {
         let predictions = comparison.predictions().len();
         progress.begin(scenes.len() as u64);
-        let of_scene = |(index, scene)| {
-            let (scene, unseen) = (std::slice::from_ref(scene), Progress::default());
+        let of_scene = |index: usize| {
+            let (scene, unseen) = (&scenes[index..=index], Progress::default());
             let losses = match texels(index).as_slice() {
                 [] => vec![vec![0.0]; predictions],
                 texels => self.scene_losses(comparison, scene, Some(texels), &unseen)?,
             };
             progress.step().map(|()| losses.concat())
         };
-        let losses = scenes.par_iter().enumerate().map(of_scene).collect::<Result<Vec<_>, _>>()?;
+        let losses = parallel::try_map(scenes.len(), of_scene)?;
         Ok(by_prediction(predictions, &losses))
     }
 }

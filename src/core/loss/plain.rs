@@ -1,7 +1,5 @@
 //! Algorithm 1 as it is written: the reference, in any precision, and the loss by the members of the grammar.
 
-use rayon::prelude::*;
-
 use super::comparison::{Backend, Comparison, Compute};
 use crate::error::Error;
 use crate::material::Material;
@@ -9,6 +7,7 @@ use crate::math::real::Real;
 use crate::model::brdf::Model;
 use crate::model::grammar::words::Norm;
 use crate::model::scene::Scene;
+use crate::parallel;
 use crate::progress::Progress;
 use crate::render::radiance;
 
@@ -45,24 +44,21 @@ impl<T: Real> Backend<T> for Plain {
         let blocks = texels.div_ceil(TEXELS_PER_BLOCK);
         progress.begin((scenes.len() * blocks) as u64);
 
-        let sums = (0..scenes.len() * blocks)
-            .into_par_iter()
-            .map(|index| {
-                let (scene, block) = (&scenes[index / blocks], index % blocks);
-                let range = block * TEXELS_PER_BLOCK..texels.min((block + 1) * TEXELS_PER_BLOCK);
-                let rays = scene.rays();
-                let range = range.map(|at| listed.map_or(at, |texels| texels[at]));
-                let value = |material: &Material<T>, texel: usize| {
-                    let place = places.map_or(texel, |places| places[texel]);
-                    let radiance = radiance(&material.texel(texel), &model, &rays, grid, place);
-                    if logs { radiance.map(|radiance| (radiance + epsilon).ln()) } else { radiance }
-                };
-                let difference = |a: f64, b: f64| if is_squared { (a - b) * (a - b) } else { (a - b).abs() };
-                let sums = block_sums(ground_truth, predictions, range, value, difference);
-                progress.step()?;
-                Ok(sums)
-            })
-            .collect::<Result<Vec<_>, Error>>()?;
+        let sums = parallel::try_map(scenes.len() * blocks, |index| {
+            let (scene, block) = (&scenes[index / blocks], index % blocks);
+            let range = block * TEXELS_PER_BLOCK..texels.min((block + 1) * TEXELS_PER_BLOCK);
+            let rays = scene.rays();
+            let range = range.map(|at| listed.map_or(at, |texels| texels[at]));
+            let value = |material: &Material<T>, texel: usize| {
+                let place = places.map_or(texel, |places| places[texel]);
+                let radiance = radiance(&material.texel(texel), &model, &rays, grid, place);
+                if logs { radiance.map(|radiance| (radiance + epsilon).ln()) } else { radiance }
+            };
+            let difference = |a: f64, b: f64| if is_squared { (a - b) * (a - b) } else { (a - b).abs() };
+            let sums = block_sums(ground_truth, predictions, range, value, difference);
+            progress.step()?;
+            Ok::<_, Error>(sums)
+        })?;
 
         let count = 3.0 * texels as f64;
         let per_scene = |p: usize| {
@@ -103,11 +99,13 @@ pub(super) fn texel_means(
     };
     progress.begin((ground_truth.height() * predictions.len()) as u64);
     let of = |prediction: &&Material<f32>| {
-        let rows = (0..ground_truth.height()).into_par_iter().map(|row| {
+        let row = |row: usize| {
             progress.step()?;
-            Ok((0..ground_truth.width()).map(|column| mean(prediction, column, row)).collect::<Vec<_>>())
-        });
-        rows.collect::<Result<Vec<_>, Error>>().map(|rows| rows.concat())
+            Ok::<_, Error>(
+                (0..ground_truth.width()).map(|column| mean(prediction, column, row)).collect::<Vec<_>>(),
+            )
+        };
+        Ok(parallel::try_map(ground_truth.height(), row)?.concat())
     };
     predictions.iter().map(of).collect()
 }

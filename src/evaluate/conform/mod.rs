@@ -11,6 +11,7 @@ mod verdict;
 
 use svbrdf_core::model::grammar::RendererTerms;
 use svbrdf_core::model::grammar::words::Transfer;
+use svbrdf_core::statistics::sort_by_number;
 
 pub use answer::{Answer, probes};
 pub use fit::Fit;
@@ -49,7 +50,7 @@ pub fn identify(answer: &Answer) -> Identified {
             search::structures(problem).into_iter().map(move |(off, terms)| (off, terms, problem))
         })
         .collect();
-    structures.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut structures, |(off, ..)| *off);
     let first = &problems[0];
     let mut best = Identified {
         fit: first.fit(&RendererTerms::BASE),

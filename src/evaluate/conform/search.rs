@@ -1,9 +1,9 @@
 //! The search of the grammar: first its structure, at points that no floor reaches, then everything at all points.
 
-use rayon::prelude::*;
-
 use svbrdf_core::model::grammar::words::{Alpha, Distribution, Falloff, Maps, NormalY, Shadowing};
 use svbrdf_core::model::grammar::{Point, RendererTerms};
+use svbrdf_core::parallel;
+use svbrdf_core::statistics::sort_by_number;
 
 use super::alternatives::{self, SPOTS, Set};
 use super::fit::{Fit, Problem, is_in_range, median, vectors};
@@ -120,9 +120,9 @@ pub fn structures(problem: &Problem) -> Vec<(f64, RendererTerms)> {
     /// Starts of each kind of maps that are searched.
     const STARTS: usize = 4;
     let plain = Plain::new(problem);
-    let mut scored: Vec<(f64, RendererTerms)> =
-        starts(problem.metallic).into_par_iter().map(|terms| (plain.off(&terms), terms)).collect();
-    scored.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let starts = starts(problem.metallic);
+    let mut scored = parallel::map(starts.len(), |index| (plain.off(&starts[index]), starts[index]));
+    sort_by_number(&mut scored, |(off, _)| *off);
     // Of each kind of maps, since the lobes may favour the wrong one.
     let mut likely: Vec<(f64, RendererTerms)> = Vec::new();
     for start in scored {
@@ -131,8 +131,8 @@ pub fn structures(problem: &Problem) -> Vec<(f64, RendererTerms)> {
             likely.push(start);
         }
     }
-    let mut found: Vec<_> = likely.into_par_iter().map(|start| plain.descended(start)).collect();
-    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut found = parallel::map(likely.len(), |index| plain.descended(likely[index]));
+    sort_by_number(&mut found, |(off, _)| *off);
     found.dedup_by_key(|(_, terms)| *terms);
     found
 }
@@ -144,8 +144,8 @@ pub fn refined(problem: &Problem, start: &RendererTerms) -> Fit {
         if best.is_perfect() {
             break;
         }
-        let words = alternatives::of_words(&best.terms).into_par_iter().map(|terms| problem.fit(&terms));
-        let word = words.min_by(|a, b| a.score.total_cmp(&b.score));
+        let words = alternatives::of_words(&best.terms);
+        let word = best_of(problem, words.len(), |index| words[index]).map(|(fit, _)| fit);
         // Maps that are out of range tell no number.
         let number = if problem.is_explained(&best) { None } else { best_number(problem, &best) };
         // Of a word and a number that do as well, the word.
@@ -173,12 +173,26 @@ pub fn refined(problem: &Problem, start: &RendererTerms) -> Fit {
 
 /// The renderer that differs from `best` in one number and has the least score.
 fn best_number(problem: &Problem, best: &Fit) -> Option<(Fit, Set, f64)> {
-    let tried = alternatives::of_numbers().collect::<Vec<_>>().into_par_iter().map(|(set, value)| {
+    let numbers: Vec<_> = alternatives::of_numbers().collect();
+    let with = |index: usize| {
+        let (set, value): (Set, f64) = numbers[index];
         let mut terms = best.terms;
         set(&mut terms, value);
-        (problem.fit(&terms), set, value)
-    });
-    tried.min_by(|a, b| a.0.score.total_cmp(&b.0.score))
+        terms
+    };
+    let (fit, index) = best_of(problem, numbers.len(), with)?;
+    Some((fit, numbers[index].0, numbers[index].1))
+}
+
+/// The fit with the least score of `count` renderers, and its index.
+fn best_of(
+    problem: &Problem,
+    count: usize,
+    terms: impl Fn(usize) -> RendererTerms + Sync,
+) -> Option<(Fit, usize)> {
+    let fits = parallel::map(count, |index| problem.fit(&terms(index)));
+    let all = fits.into_iter().zip(0..);
+    all.min_by(|(a, _), (b, _)| a.score.total_cmp(&b.score))
 }
 
 /// The best value of a number about `value`: golden sections of its logarithm, then the fewest digits that do as well.

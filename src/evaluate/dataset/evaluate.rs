@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use rayon::prelude::*;
 use serde_json::json;
 
 use crate::diagnose::{Storage, diagnose, floor};
@@ -13,6 +12,7 @@ use crate::rank::most_scenes;
 use svbrdf_core::loss::{Comparison, check_same_size};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::simd::Level;
 use svbrdf_files::Error as FilesError;
@@ -58,12 +58,12 @@ pub fn run(
 ) -> Result<DatasetResults, Error> {
     let evaluation = Evaluation::new(settings, reading, results, progress)?;
     progress.begin(cases.len() as u64);
-    let of_case = |case: &Case| {
-        let result = evaluation.material(case)?;
+    let of_case = |index: usize| {
+        let result = evaluation.material(&cases[index])?;
         progress.step()?;
-        Ok(result)
+        Ok::<_, Error>(result)
     };
-    let found = cases.par_iter().map(of_case).collect::<Result<_, Error>>()?;
+    let found = parallel::try_map(cases.len(), of_case)?;
     let (notes, unkept) = evaluation.end()?;
     Ok(DatasetResults { results: found, notes, unkept })
 }
@@ -71,14 +71,14 @@ pub fn run(
 /// The evaluation of a data set, material by material: what all results depend on.
 #[derive(Debug)]
 pub struct Evaluation<'a> {
-    settings: &'a DatasetSettings,
+    pub(super) settings: &'a DatasetSettings,
     convention: Convention,
     /// Of the scenes of each material.
     seeds: Vec<u64>,
-    reading: &'a DatasetReading,
+    pub(super) reading: &'a DatasetReading,
     /// Those that are known.
     results: Option<ResultsFolder>,
-    progress: &'a Progress,
+    pub(super) progress: &'a Progress,
 }
 
 /// What the results folder has of the predictions of a material, and the keys of all.
@@ -126,7 +126,7 @@ impl<'a> Evaluation<'a> {
         Ok(self.results.map(|results| results.end(progress)).transpose()?.unwrap_or_default())
     }
 
-    fn seed(&self, case: &Case) -> u64 {
+    pub(super) fn seed(&self, case: &Case) -> u64 {
         self.seeds.get(case.index).copied().unwrap_or(self.settings.seed)
     }
 
@@ -239,7 +239,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// A prediction of the size of the ground truth, or why there is none.
-    fn open(&self, candidate: &CandidateFile, truth: &Opened) -> Opened {
+    pub(super) fn open(&self, candidate: &CandidateFile, truth: &Opened) -> Opened {
         let truth = match (&truth.found, &candidate.missing) {
             (Err(problem), _) => return Opened::failed(format!("ground truth: {problem}")),
             (_, Some(problem)) => return Opened::failed(problem.clone()),

@@ -5,6 +5,7 @@ use super::proposals::Proposal;
 use super::shift::{Correlations, Fit};
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
+use svbrdf_core::statistics::sort_by_number;
 use svbrdf_files::changes::Change;
 use svbrdf_files::changes::Symmetry;
 
@@ -116,7 +117,7 @@ fn alignments(
         all.extend(best(&fits).map(|fit| (fit.absolute, changes(fit))));
     }
     all.retain(|(fit, changes)| *fit > unmoved + ALIGNED && !changes.is_empty());
-    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sort_by_number(&mut all, |(fit, _)| -fit);
     Ok(all.into_iter().take(2).map(|(_, changes)| changes).collect())
 }
 
@@ -159,7 +160,7 @@ fn extended(
         let limit = PROMISING * one.ratio;
         all.extend(tried.into_iter().filter(|new| new.ratio < limit || new.is_aligned_beyond(one)));
     }
-    all.sort_by(|a, b| a.score(resolvable).total_cmp(&b.score(resolvable)));
+    sort_by_number(&mut all, |one| one.score(resolvable));
     all.dedup_by(|a, b| a.is_same(b));
     all.truncate(BEAM);
     Ok(all)

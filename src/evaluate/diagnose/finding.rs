@@ -5,6 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use svbrdf_core::loss::Estimate;
+use svbrdf_core::statistics::sort_by_number;
 use svbrdf_files::changes::Change;
 use svbrdf_files::changes::Remedy;
 use svbrdf_files::changes::Storage;
@@ -201,7 +202,7 @@ impl Diagnosis {
     /// The marked findings, the largest share first.
     pub fn marked(&self) -> impl Iterator<Item = &Finding> {
         let mut marked: Vec<_> = self.findings.iter().filter(|finding| finding.marked).collect();
-        marked.sort_by(|a, b| b.share.total_cmp(&a.share));
+        sort_by_number(&mut marked, |finding| -finding.share);
         marked.into_iter()
     }
 }

@@ -1,7 +1,5 @@
 //! The floor: the loss that a ground truth cannot resolve, since its maps have steps or its captures differ.
 
-use rayon::prelude::*;
-
 use super::dither::dithered;
 use super::samples::Samples;
 use crate::error::Error;
@@ -11,11 +9,12 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::changes::Storage;
 
 /// Dithered copies that are compared with the ground truth.
-const COPIES: u64 = 2;
+const COPIES: usize = 2;
 /// Scenes: near-field, distant.
 const SCENES: [usize; 2] = [128, 64];
 /// Texels of a scene up to which all are compared; of larger maps an eighth as many.
@@ -36,8 +35,8 @@ pub fn floor(
     let scenes = sampling.scenes(convention)?;
     let samples = Samples::of(&sampling, &scenes, ground_truth.grid());
     let held = samples.as_ref().map_or_else(|| ground_truth.clone(), |samples| samples.of_map(ground_truth));
-    let copies = (0..COPIES).into_par_iter().map(|copy| dithered(&held, storage, seed.wrapping_add(copy)));
-    let copies = copies.collect::<Result<Vec<_>, CoreError>>()?;
+    let dithered = |copy: usize| dithered(&held, storage, seed.wrapping_add(copy as u64));
+    let copies = parallel::try_map(COPIES, dithered)?;
     let copies: Vec<_> = copies.iter().collect();
     let Some(samples) = samples else {
         return Ok(mean(&[losses(ground_truth, &copies, convention, seed, progress)?]));

@@ -1,12 +1,12 @@
 //! Holm's correction for several tests.
 
+use svbrdf_core::statistics::order;
+
 /// The p-values adjusted for their number (Holm 1979): those below a level are rejected at this level for the whole family.
 pub fn holm(p: &[f64]) -> Vec<f64> {
-    let mut order: Vec<usize> = (0..p.len()).collect();
-    order.sort_by(|&a, &b| p[a].total_cmp(&p[b]));
     let mut adjusted = vec![1.0; p.len()];
     let mut largest: f64 = 0.0;
-    for (rank, &index) in order.iter().enumerate() {
+    for (rank, index) in order(p).into_iter().enumerate() {
         largest = largest.max((p.len() - rank) as f64 * p[index]).min(1.0);
         adjusted[index] = largest;
     }

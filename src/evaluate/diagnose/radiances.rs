@@ -1,12 +1,11 @@
 //! Radiances of a ground truth and a prediction on random texels of each scene.
 
-use rayon::prelude::*;
-
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_sample;
 
@@ -33,5 +32,5 @@ pub(super) fn radiances(
         progress.step()?;
         Ok(pairs)
     };
-    (0..scenes.len()).into_par_iter().map(in_scene).collect()
+    parallel::try_map(scenes.len(), in_scene)
 }

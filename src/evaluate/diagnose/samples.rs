@@ -1,10 +1,9 @@
 //! The texels that scenes are compared on, taken out of a map.
 
-use rayon::prelude::*;
-
 use svbrdf_core::loss::{Comparison, Sampling};
 use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::parallel;
 
 /// The independent random subset of `count` texels of a map of `size` (width, height) on which scene `number` of `sampling` is compared,
 /// which is of this `kind`.
@@ -35,11 +34,8 @@ impl Samples {
         let size = [grid.width, grid.height];
         let count = sampling.texels.sampled(size)?;
         let is_part = scenes.len() * count < grid.width * grid.height;
-        let of_scene = |(number, scene): (usize, &Scene)| subset(sampling, scene.kind, number, count, size);
-        is_part.then(|| {
-            let texels: Vec<_> = scenes.par_iter().enumerate().map(of_scene).collect();
-            Self { grid, texels: texels.concat(), count }
-        })
+        let of_scene = |number: usize| subset(sampling, scenes[number].kind, number, count, size);
+        is_part.then(|| Self { grid, texels: parallel::map(scenes.len(), of_scene).concat(), count })
     }
 
     /// The material of these texels alone.

@@ -8,6 +8,8 @@ use rayon::prelude::*;
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
+use svbrdf_core::parallel;
+use svbrdf_core::statistics::sort_by_number;
 use svbrdf_files::changes::Symmetry;
 
 /// Most texels of a shift in either direction.
@@ -130,7 +132,7 @@ impl<'a> Correlations<'a> {
         let by = |&[right, down]: &[i32; 2]| i64::from(down) * self.width as i64 + i64::from(right);
         // Plane by plane: one fits into the cache.
         let of_plane = |(a, b): &(&Vec<f32>, Vec<f32>)| -> Vec<f64> {
-            all.par_iter().map(|shift| correlation(a, b, &self.runs, by(shift))).collect()
+            parallel::map(all.len(), |index| correlation(a, b, &self.runs, by(&all[index])))
         };
         let of_planes: Vec<_> = pairs.iter().map(of_plane).collect();
         let fit = |(index, &shift)| {
@@ -145,7 +147,7 @@ impl<'a> Correlations<'a> {
 pub(super) fn candidates(fits: &[Fit]) -> Vec<[i32; 2]> {
     let best = |of: fn(&Fit) -> f64| {
         let mut moved: Vec<&Fit> = fits.iter().filter(|fit| fit.shift != [0, 0]).collect();
-        moved.sort_by(|a, b| of(b).total_cmp(&of(a)));
+        sort_by_number(&mut moved, |fit| -of(fit));
         moved.into_iter().take(2).map(|fit| fit.shift).collect::<Vec<_>>()
     };
     let mut all = [best(|fit| fit.signed), best(|fit| fit.absolute)].concat();
@@ -177,7 +179,7 @@ fn runs([width, height]: [usize; 2], reach: [usize; 2], seed: u64) -> Vec<[usize
 
 fn all_normalized(material: &Material<f32>) -> Vec<Option<Vec<f32>>> {
     let planes: Vec<_> = material.planes().all().collect();
-    planes.into_par_iter().map(normalized).collect()
+    parallel::map(planes.len(), |index| normalized(planes[index]))
 }
 
 /// The plane with mean 0 and standard deviation 1; `None` where it is constant.

@@ -2,8 +2,6 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use rayon::prelude::*;
-
 use super::corrected::Corrected;
 use super::exposure;
 use super::pair::{Pair, SampledPair};
@@ -16,6 +14,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::changes::Change;
 
@@ -80,8 +79,8 @@ impl<'a> Trials<'a> {
         let bytes = 10 * size_of::<f32>() * width * height;
         let mut losses = Vec::new();
         for trials in trials.chunks((MOST_BYTES / bytes.max(1)).max(1)) {
-            let corrected = trials.par_iter().map(|changes| self.corrected(changes));
-            losses.extend(self.of_corrected(&corrected.collect::<Result<Vec<_>, Error>>()?)?);
+            let corrected = parallel::try_map(trials.len(), |index| self.corrected(&trials[index]))?;
+            losses.extend(self.of_corrected(&corrected)?);
         }
         Ok(losses)
     }
@@ -215,13 +214,12 @@ impl<'a> Trials<'a> {
     /// Adds what an exposure changes on random texels of each scene.
     fn exposed(&self, paired: Paired, corrected: &Corrected, stops: [f64; 3]) -> Result<Paired, Error> {
         let epsilon = self.convention.epsilon;
-        let change = |pairs: &Vec<Radiances>| {
-            exposure::loss(pairs, stops, epsilon) - exposure::loss(pairs, [0.0; 3], epsilon)
-        };
         let changes = self.radiances(corrected)?;
-        let after =
-            paired.after.par_iter().zip(&*changes).map(|(loss, pairs)| loss + change(pairs)).collect();
-        Ok(Paired { after, ..paired })
+        let after = |scene: usize| {
+            let loss = |stops| exposure::loss(&changes[scene], stops, epsilon);
+            paired.after[scene] + (loss(stops) - loss([0.0; 3]))
+        };
+        Ok(Paired { after: parallel::map(changes.len(), after), ..paired })
     }
 
     fn radiances(&self, corrected: &Corrected) -> Result<SceneRadiances, Error> {

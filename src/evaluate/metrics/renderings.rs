@@ -1,7 +1,5 @@
 //! Metrics of renderings over scenes.
 
-use rayon::prelude::*;
-
 use super::ssim::{ssim7, ssim11};
 use super::{Metric, psnr};
 use svbrdf_core::error::Error;
@@ -12,6 +10,7 @@ use svbrdf_core::math::srgb;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::parallel;
 use svbrdf_core::picture::flip::mean_flip;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
@@ -66,14 +65,13 @@ pub fn of_renderings(
     check_same_size(ground_truth, prediction)?;
     let RenderedScenes { scenes, convention, exposure_ev, .. } = *rendered;
     progress.begin(scenes.len() as u64);
-    let one = |scene: &Scene| -> Result<Means, Error> {
-        let render = |material| render::render_f32(material, scene, convention, &progress.part());
+    let one = |index: usize| -> Result<Means, Error> {
+        let render = |material| render::render_f32(material, &scenes[index], convention, &progress.part());
         let means = means(&render(ground_truth)?, &render(prediction)?, exposure_ev);
         progress.step().map(|()| means)
     };
     // Summed in the order of the scenes: the result does not depend on the number of threads.
-    let means: Vec<Means> = scenes.par_iter().map(one).collect::<Result<_, _>>()?;
-    Ok(rendered.metrics(&means))
+    Ok(rendered.metrics(&parallel::try_map(scenes.len(), one)?))
 }
 
 impl RenderedScenes<'_> {

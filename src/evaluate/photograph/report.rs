@@ -7,6 +7,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::statistics::sort_by_number;
 use svbrdf_files::disk::memory;
 use svbrdf_files::photograph::Capture;
 use svbrdf_files::read::{Photograph, Transfer, read_photograph};
@@ -134,8 +135,7 @@ impl PhotoReport {
             Ok(PhotoResult::new(name, material.size(), names.zip(compared).collect()))
         };
         let mut results = materials.into_iter().map(result).collect::<Result<Vec<_>, Error>>()?;
-        let log = |result: &PhotoResult| result.log.unwrap_or(f64::INFINITY);
-        results.sort_by(|a, b| log(a).total_cmp(&log(b)));
+        sort_by_number(&mut results, |result| result.log.unwrap_or(f64::INFINITY));
         Ok(Self {
             path: capture.path.display().to_string(),
             photographs: read,

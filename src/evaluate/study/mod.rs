@@ -34,6 +34,7 @@ use svbrdf_core::loss::{Sampling, Texels};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
+use svbrdf_core::statistics::sort_by_number;
 use svbrdf_core::text::{percent, time};
 
 use crate::report::{Field, Reader, Table};
@@ -177,14 +178,15 @@ impl Study {
     /// The points of the Pareto front, the fastest first.
     fn front(&self) -> Vec<&Point> {
         let mut front: Vec<_> = self.points.iter().filter(|p| p.pareto).collect();
-        front.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        sort_by_number(&mut front, |point| point.seconds);
         front
     }
 
     /// Marks the points of the Pareto front: from the fastest on, each that is more accurate than all before it.
     fn mark(&mut self) {
         let mut points: Vec<_> = self.points.iter_mut().collect();
-        points.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then(a.error.total_cmp(&b.error)));
+        sort_by_number(&mut points, |point| point.error);
+        sort_by_number(&mut points, |point| point.seconds);
         let mut least = f64::INFINITY;
         for point in points {
             point.pareto = point.error < least;

@@ -4,6 +4,7 @@ use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Compute, Outcome, Sampling, Texels, losses_on_texels};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::statistics::sort_by_number;
 use svbrdf_core::statistics::{median, quantile};
 
 /// Scenes that [`worst_on_all_texels`] recomputes at a time.
@@ -92,7 +93,7 @@ fn recomputed(
 }
 
 fn sorted(mut scenes: Vec<RankedScene>) -> Vec<RankedScene> {
-    scenes.sort_by(|a, b| b.total().total_cmp(&a.total()));
+    sort_by_number(&mut scenes, |scene| -scene.total());
     scenes
 }
 

@@ -14,6 +14,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
+use svbrdf_core::statistics::sort_by_number;
 use svbrdf_files::Error as FilesError;
 
 /// Sampled scenes: near-field, distant.
@@ -124,7 +125,7 @@ impl<T: Compute> Search<'_, T> {
         let grazing = self.candidates(&few, grazing(), COMPARED[1], CANDIDATES[1])?;
         let mut refined = self.refined(&few, sampled, ROUNDS, REACH[0])?;
         refined.extend(self.refined(&few, grazing, ROUNDS, REACH[1])?);
-        refined.sort_by(|a, b| b.1.total_cmp(&a.1));
+        sort_by_number(&mut refined, |(_, loss)| -loss);
         let best = refined.into_iter().take(LAST_CANDIDATES).map(|(point, _)| point).collect();
         let found = self.refined(&last, best, LAST_ROUNDS, LAST_REACH)?;
         let scenes: Vec<Scene> = found.iter().map(|(point, _)| self.scene(point)).collect();
@@ -168,7 +169,7 @@ impl<T: Compute> Search<'_, T> {
     fn ranked(&self, texels: &SharedTexels, points: Vec<CubePoint>) -> Result<Vec<(CubePoint, f64)>, Error> {
         let losses = self.losses(texels, &points)?;
         let mut ranked: Vec<_> = points.into_iter().zip(losses).collect();
-        ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+        sort_by_number(&mut ranked, |(_, loss)| -loss);
         Ok(ranked)
     }
 
@@ -194,13 +195,13 @@ impl<T: Compute> Search<'_, T> {
             for (number, (points, losses)) in points.chunks(AROUND).zip(losses.chunks(AROUND)).enumerate() {
                 let mut ranked: Vec<_> = points.iter().copied().zip(losses.iter().copied()).collect();
                 ranked.push(best[number]);
-                ranked.sort_by(|a, b| b.1.total_cmp(&a.1));
+                sort_by_number(&mut ranked, |(_, loss)| -loss);
                 best[number] = ranked[0];
                 let elite: Vec<[f64; 6]> = ranked.iter().take(ELITE).map(|(point, _)| point.at).collect();
                 clouds[number].follow(&elite, |i| best[number].0.is_azimuth(i));
             }
         }
-        best.sort_by(|a, b| b.1.total_cmp(&a.1));
+        sort_by_number(&mut best, |(_, loss)| -loss);
         Ok(best)
     }
 
