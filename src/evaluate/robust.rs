@@ -7,6 +7,7 @@ use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::statistics::order;
 
 use crate::error::Error;
 
@@ -27,6 +28,17 @@ pub struct Answered {
 }
 
 impl Answered {
+    /// An answer with the interval of each pair of predictions.
+    pub fn new(
+        question: String,
+        scores: Vec<f64>,
+        interval: impl Fn(usize, usize) -> Option<[f64; 2]>,
+    ) -> Self {
+        let all = 0..scores.len();
+        let differences = all.clone().map(|a| all.clone().map(|b| interval(a, b)).collect()).collect();
+        Self { question, scores, differences }
+    }
+
     /// 1 where `a` is significantly farther from the ground truth than `b`, -1 where it is closer, 0 where that is not known.
     pub fn sign(&self, a: usize, b: usize) -> i8 {
         match self.differences[a][b] {
@@ -38,35 +50,33 @@ impl Answered {
 
     /// The predictions, the best first.
     pub fn order(&self) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.scores.len()).collect();
-        order.sort_by(|&a, &b| self.scores[a].total_cmp(&self.scores[b]));
-        order
+        order(&self.scores)
     }
 
     /// Kendall's tau to another order, where differences that are not significant in both are no changes.
     pub fn tau(&self, other: &Self) -> f64 {
+        let count = self.pairs().count().max(1) as f64;
+        1.0 - 2.0 * self.changes(other).count() as f64 / count
+    }
+
+    /// The pairs of predictions that change sides in another order, where both differences are significant.
+    pub fn changes(&self, other: &Self) -> impl Iterator<Item = (usize, usize)> {
+        self.pairs().filter(|&(a, b)| self.sign(a, b) * other.sign(a, b) < 0)
+    }
+
+    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
         let count = self.scores.len();
-        let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| (a, b)));
-        let (mut changed, mut all) = (0.0, 0.0);
-        for (a, b) in pairs {
-            all += 1.0;
-            changed += f64::from(u8::from(self.sign(a, b) * other.sign(a, b) < 0));
-        }
-        if all > 0.0 { 1.0 - 2.0 * changed / all } else { 1.0 }
+        (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)))
     }
 
     fn of_outcome(question: String, outcome: &Outcome) -> Self {
-        let count = outcome.losses.len();
         // Listed scenes are the question itself, and no sample.
         let interval = |a, b| {
             let difference = outcome.difference(a, b);
             if outcome.sampling.is_some() { difference.interval95 } else { Some([difference.mean; 2]) }
         };
-        Self {
-            question,
-            scores: outcome.losses.iter().map(|loss| loss.estimate.mean).collect(),
-            differences: (0..count).map(|a| (0..count).map(|b| interval(a, b)).collect()).collect(),
-        }
+        let scores = outcome.losses.iter().map(|loss| loss.estimate.mean).collect();
+        Self::new(question, scores, interval)
     }
 }
 

@@ -80,12 +80,13 @@ pub fn page() -> String {
 /// A pair of methods that changes sides.
 fn robust() -> RobustReport {
     let answered = |question: &str, scores: [f64; 2]| {
-        let row = |a: f64| scores.iter().map(|b| Some([a - b - 0.01, a - b + 0.01])).collect();
-        Answered { question: question.to_owned(), scores: scores.into(), differences: scores.map(row).into() }
+        let interval =
+            |a: usize, b: usize| Some([scores[a] - scores[b] - 0.01, scores[a] - scores[b] + 0.01]);
+        Answered::new(question.to_owned(), scores.into(), interval)
     };
     let answers = [answered("printed", [0.1, 0.3]), answered("epsilon 0.1", [0.3, 0.1])];
     let compared = Compared::new(&noise(1), &PRINTED);
-    RobustReport::of_answers(compared, &["ours", HOSTILE], &answers)
+    RobustReport::of_answers(compared, Vec::new(), &["ours", HOSTILE].map(str::to_owned), &answers)
 }
 
 #[test]

@@ -8,13 +8,12 @@ use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
     Pick, Shard,
 };
-use svbrdf_evaluate::report::Report as _;
+use svbrdf_evaluate::report::{Report as _, RobustReport};
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
 use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use super::cases::{reading, source};
-use super::robust::asked;
 use crate::cli::args::{Given, refuse};
 use crate::cli::job::{Job, NewJob};
 use crate::cli::output::{CommandError, exit, stoppable, warn_of, watched_on};
@@ -30,6 +29,8 @@ struct ManyJob {
     pick: Pick,
     verbose: bool,
     fail_above: Option<f64>,
+    /// Whether the order under other questions is asked for: below the ranking of a page, or alone.
+    robust: bool,
     output: Output,
 }
 
@@ -37,7 +38,7 @@ struct ManyJob {
 #[derive(Debug)]
 enum Output {
     Text(OutputArgs),
-    Page { path: PathBuf, figures: Option<Figures>, robust: bool },
+    Page { path: PathBuf, figures: Option<Figures> },
 }
 
 pub fn job(args: RankArgs, given: &Given) -> NewJob {
@@ -60,8 +61,8 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     };
     let given = &args.comparison.materials.reading;
     let reading = reading(given, &settings.methods)?;
-    let (verbose, fail_above) = (given.both.verbose, args.fail_above);
-    let job = ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, output };
+    let (verbose, fail_above, robust) = (given.both.verbose, args.fail_above, args.robust);
+    let job = ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output };
     Ok(Box::new(job))
 }
 
@@ -79,12 +80,18 @@ fn output(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<Output, Comm
     output.check(materials.chain(args.comparison.materials.paths()))?;
     if output.format() != RankFormat::Html {
         given.refuse::<PageArgs>("only --format html has figures beside it")?;
+        if args.robust {
+            let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no limit and no remarks";
+            given.refuse::<DataSetArgs>(reason)?;
+            refuse(args.comparison.materials.reading.both.verbose, "verbose", reason)?;
+            refuse(args.fail_above.is_some(), "fail-above", reason)?;
+        }
         return Ok(Output::Text(output.clone()));
     }
     let missing = || CommandError::usage("--format html writes a file; give --output NAME.html");
     let path = output.output.clone().ok_or_else(missing)?;
     check_destination(&path)?;
-    Ok(Output::Page { path, figures: args.page.figures, robust: args.robust })
+    Ok(Output::Page { path, figures: args.page.figures })
 }
 
 /// Prints the ranking, or writes the page; fails where a loss is above a limit, after that.
@@ -98,7 +105,12 @@ impl Job for ManyJob {
 
 impl ManyJob {
     fn evaluate(self, progress: &Progress) -> Result<(), CommandError> {
-        let Self { settings, reading, cases, shard, results, pick, verbose, fail_above, output } = self;
+        let Self { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output } =
+            self;
+        if let (true, Output::Text(output)) = (robust, &output) {
+            let report = asked(&cases, &settings, &reading, progress)?;
+            return Ok(output.put(&report, RobustReport::latex)?);
+        }
         let strict = reading.strict;
         let cases = part(shard, cases);
         let DatasetResults { results, notes, unkept } =
@@ -112,7 +124,7 @@ impl ManyJob {
         let report = DatasetReport::new(settings, reading, results, pick);
         tell_reading(verbose, &output, &report);
         match output {
-            Output::Page { path, figures, robust } => {
+            Output::Page { path, figures } => {
                 write_page(&path, (figures, robust), &report, &cases, progress)?;
             }
             Output::Text(output) => output.put(&report, DatasetReport::latex)?,
@@ -139,6 +151,18 @@ fn write_page(
         material_views(report, cases, figures, path, progress)
     })?;
     Ok(write_text(path, &ranking(report, &views, robust.as_ref()), progress)?)
+}
+
+/// Whether the order survives other questions; materials that are left out are reported.
+fn asked(
+    cases: &[Case],
+    settings: &DatasetSettings,
+    reading: &DatasetReading,
+    progress: &Progress,
+) -> Result<RobustReport, CommandError> {
+    let tell = |note: &str| exit::tell(&format!("note: {note}"));
+    let ask = |progress: &Progress| dataset::robust(cases, settings, reading, tell, progress);
+    Ok(watched_on(progress, "asking about the order", ask)?)
 }
 
 /// The cases of a shard, which is reported.

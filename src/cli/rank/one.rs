@@ -17,6 +17,8 @@ use crate::cli::output::{CommandError, command_line, warn_of, watched};
 struct OneJob {
     comparison: ComparisonJob,
     request: Request,
+    /// The error of the losses and the seed of the questions about the order, where they are asked instead.
+    robust: Option<(f64, u64)>,
     fail_above: Option<f64>,
     output: OutputArgs,
 }
@@ -32,24 +34,29 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     }
     args.output.check(args.comparison.materials.paths())?;
     let comparison = ComparisonJob::with_predictions(&args.comparison, given)?;
-    let (target_error, seed) = args.scenes.target_and_seed();
     let RankArgs { scenes, fail_above, output, robust, .. } = args;
     if robust {
         refuse(fail_above.is_some(), "fail-above", "the order under other questions has no limit")?;
         refuse_scenes(given)?;
-        return Ok(Box::new(RobustJob { comparison, target_error, seed, output }));
     }
+    let robust = robust.then(|| scenes.target_and_seed());
     let Question { request, .. } =
         SessionSettings::question(comparison.session.as_ref(), &scenes.options()?)?;
-    Ok(Box::new(OneJob { comparison, request, fail_above, output }))
+    Ok(Box::new(OneJob { comparison, request, robust, fail_above, output }))
 }
 
 /// Prints the ranking; fails where a loss is above a limit, after all are printed.
 impl Job for OneJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison: job, request, fail_above, output } = *self;
+        let Self { comparison: job, request, robust, fail_above, output } = *self;
         let opened = job.materials.open::<f32>()?;
         let predictions: Vec<_> = opened.predictions.iter().collect();
+        if let Some((target_error, seed)) = robust {
+            let (ground_truth, convention) = (&opened.ground_truth, job.convention);
+            let input = RobustInput { ground_truth, predictions, convention, target_error, seed };
+            let report = watched("rendering", |progress| RobustReport::new(&input, progress))?;
+            return Ok(output.put(&report, RobustReport::latex)?);
+        }
         let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?
             .at_most(most_scenes(predictions.len()));
         let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
@@ -63,27 +70,6 @@ impl Job for OneJob {
         output.put(&report, RankReport::latex)?;
         warn_of(report.missed(), job.materials.strict)?;
         check_limit(fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
-    }
-}
-
-/// Whether the order of the predictions survives other questions.
-#[derive(Debug)]
-struct RobustJob {
-    comparison: ComparisonJob,
-    target_error: f64,
-    seed: u64,
-    output: OutputArgs,
-}
-
-impl Job for RobustJob {
-    fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison: job, target_error, seed, output } = *self;
-        let opened = job.materials.open::<f32>()?;
-        let predictions = opened.predictions.iter().collect();
-        let (ground_truth, convention) = (&opened.ground_truth, job.convention);
-        let input = RobustInput { ground_truth, predictions, convention, target_error, seed };
-        let report = watched("rendering", |progress| RobustReport::new(&input, progress))?;
-        Ok(output.put(&report, RobustReport::latex)?)
     }
 }
 

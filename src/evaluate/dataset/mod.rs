@@ -33,6 +33,6 @@ pub use record::{
     PredictionResult, Source,
 };
 pub use remark::Remark;
-pub use robust::{DatasetAnswers, robust};
+pub use robust::robust;
 pub use scenes::FixedScenes;
 pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};

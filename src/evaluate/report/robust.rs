@@ -58,46 +58,40 @@ impl RobustReport {
     /// As [`RobustInput::answers`].
     pub fn new(input: &RobustInput<'_>, progress: &Progress) -> Result<Self, Error> {
         let answers = input.answers(progress)?;
-        let names: Vec<&str> = input.predictions.iter().map(|prediction| prediction.name()).collect();
+        let names: Vec<_> = input.predictions.iter().map(|prediction| prediction.name().to_owned()).collect();
         let compared = Compared::new(input.ground_truth, &input.convention);
-        Ok(Self::of_answers(compared, &names, &answers))
+        Ok(Self::of_answers(compared, Vec::new(), &names, &answers))
     }
 
-    /// The report of answers, the default one first.
-    pub fn of_answers(compared: Compared, names: &[&str], answers: &[Answered]) -> Self {
+    /// The report of answers, the default one first, about the predictions `names`; `materials`: those that they are means over.
+    pub fn of_answers(
+        compared: Compared,
+        materials: Vec<String>,
+        names: &[String],
+        answers: &[Answered],
+    ) -> Self {
         let default = &answers[0];
-        let mut changes = Vec::new();
-        for answer in &answers[1..] {
-            for (a, first) in names.iter().enumerate() {
-                for (b, second) in names.iter().enumerate().skip(a + 1) {
-                    let (before, after) = (default.differences[a][b], answer.differences[a][b]);
-                    if let (Some(before), Some(after)) = (before, after)
-                        && default.sign(a, b) * answer.sign(a, b) < 0
-                    {
-                        changes.push(Change {
-                            question: answer.question.clone(),
-                            first: (*first).to_owned(),
-                            second: (*second).to_owned(),
-                            default_interval95: before,
-                            interval95: after,
-                        });
-                    }
-                }
-            }
-        }
+        let change = |answer: &Answered, (a, b): (usize, usize)| {
+            Some(Change {
+                question: answer.question.clone(),
+                first: names[a].clone(),
+                second: names[b].clone(),
+                default_interval95: default.differences[a][b]?,
+                interval95: answer.differences[a][b]?,
+            })
+        };
+        let changes = answers[1..]
+            .iter()
+            .flat_map(|answer| default.changes(answer).filter_map(move |pair| change(answer, pair)))
+            .collect::<Vec<_>>();
         let question = |answer: &Answered| AskedQuestion {
             question: answer.question.clone(),
             tau: default.tau(answer),
-            order: answer.order().into_iter().map(|index| names[index].to_owned()).collect(),
+            order: answer.order().into_iter().map(|index| names[index].clone()).collect(),
         };
         let sentence = sentence(names, answers, &changes);
         let questions = answers.iter().map(question).collect();
-        Self { compared, materials: Vec::new(), sentence, questions, changes }
-    }
-
-    /// As it is, of answers that are means over `materials`.
-    pub fn over(self, materials: Vec<String>) -> Self {
-        Self { materials, ..self }
+        Self { compared, materials, sentence, questions, changes }
     }
 
     /// The answer in a sentence.
@@ -121,7 +115,7 @@ impl RobustReport {
 }
 
 /// The answer in a sentence.
-fn sentence(names: &[&str], answers: &[Answered], changes: &[Change]) -> String {
+fn sentence(names: &[String], answers: &[Answered], changes: &[Change]) -> String {
     let default = &answers[0];
     if let Some(change) = changes.first() {
         let (first, second) = (&change.first, &change.second);
@@ -130,18 +124,14 @@ fn sentence(names: &[&str], answers: &[Answered], changes: &[Change]) -> String 
         return format!("The order of {first} and {second} depends on the question: it changes under {on}.");
     }
     let questions = answers.len();
-    let [best, second, ..] = default.order()[..] else {
-        return format!("No pair changes sides under any of {questions} questions.");
+    let order = default.order();
+    let beats = |answer: &&Answered| order.len() > 1 && answer.sign(order[0], order[1]) < 0;
+    let under = match answers.iter().filter(beats).count() {
+        0 => return format!("No pair changes sides under any of {questions} questions."),
+        all if all == questions => format!("all {questions} questions."),
+        some => format!("{some} of {questions} questions, and no pair changes sides."),
     };
-    let under = answers.iter().filter(|answer| answer.sign(best, second) < 0).count();
-    let (best, second) = (names[best], names[second]);
-    match under {
-        0 => format!("No pair changes sides under any of {questions} questions."),
-        all if all == questions => format!("{best} beats {second} under all {questions} questions."),
-        some => {
-            format!("{best} beats {second} under {some} of {questions} questions, and no pair changes sides.")
-        }
-    }
+    format!("{} beats {} under {under}", names[order[0]], names[order[1]])
 }
 
 const FIELDS: [Field<AskedQuestion>; 3] = [
@@ -171,43 +161,38 @@ impl Report for RobustReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use svbrdf_core::material::Material;
-    use svbrdf_core::model::brdf::Texel;
-    use svbrdf_core::model::convention::PRINTED;
 
-    fn answered(question: &str, scores: [f64; 3], half: f64) -> Answered {
-        let row = |a: f64| scores.iter().map(|b| Some([a - b - half, a - b + half])).collect();
-        Answered { question: question.to_owned(), scores: scores.into(), differences: scores.map(row).into() }
-    }
-
-    fn report(answers: &[Answered]) -> RobustReport {
-        let texel = Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness: 0.5 };
-        let truth: Material<f32> = Material::uniform("truth", 4, 4, &texel).unwrap();
-        RobustReport::of_answers(Compared::new(&truth, &PRINTED), &["a", "b", "c"], answers)
+    fn report(scores: &[[f64; 3]], half: f64) -> RobustReport {
+        let answers: Vec<_> = scores
+            .iter()
+            .map(|of| {
+                let interval = |a: usize, b: usize| Some([of[a] - of[b] - half, of[a] - of[b] + half]);
+                Answered::new("of".to_owned(), of.to_vec(), interval)
+            })
+            .collect();
+        let compared = Compared { ground_truth: "gt".into(), size: [4; 2], convention: "", epsilon: 0.0 };
+        RobustReport::of_answers(compared, Vec::new(), &["a", "b", "c"].map(str::to_owned), &answers)
     }
 
     #[test]
-    fn a_pair_that_changes_sides_is_listed_with_both_intervals() {
-        let usual = answered("printed", [0.1, 0.2, 0.4], 0.05);
-        let found = report(&[usual.clone(), answered("epsilon 0.1", [0.3, 0.1, 0.4], 0.05)]);
-        assert_eq!(
-            found.sentence,
-            "The order of a and b depends on the question: it changes under epsilon 0.1."
-        );
-        assert_eq!(found.changes.len(), 1);
+    fn a_pair_changes_sides_where_both_differences_are_significant() {
+        let usual = [0.1, 0.2, 0.4];
+        let found = report(&[usual, [0.3, 0.1, 0.4]], 0.05);
+        assert_eq!(found.sentence, "The order of a and b depends on the question: it changes under of.");
         assert!((found.questions[1].tau - 1.0 / 3.0).abs() < 1e-12);
-        assert_eq!(found.questions[1].order, ["b", "a", "c"]);
-    }
-
-    #[test]
-    fn a_difference_that_is_not_significant_is_no_change() {
-        let usual = answered("printed", [0.1, 0.2, 0.4], 0.05);
-        let found = report(&[usual, answered("epsilon 0.1", [0.12, 0.1, 0.4], 0.05)]);
-        assert_eq!((found.changes.len(), found.questions[1].tau), (0, 1.0));
-        assert_eq!(found.sentence, "a beats b under 1 of 2 questions, and no pair changes sides.");
-        let usual = answered("printed", [0.1, 0.2, 0.4], 0.05);
-        assert_eq!(report(&[usual.clone(), usual]).sentence, "a beats b under all 2 questions.");
-        let none = answered("printed", [0.1, 0.2, 0.4], 0.5);
-        assert_eq!(report(&[none]).sentence, "No pair changes sides under any of 1 questions.");
+        assert_eq!((found.questions[1].order.join(""), found.changes.len()), ("bac".to_owned(), 1));
+        for (scores, half, sentence) in [
+            (
+                &[usual, [0.12, 0.1, 0.4]][..],
+                0.05,
+                "a beats b under 1 of 2 questions, and no pair changes sides.",
+            ),
+            (&[usual, usual], 0.05, "a beats b under all 2 questions."),
+            (&[usual], 0.5, "No pair changes sides under any of 1 questions."),
+        ] {
+            let found = report(scores, half);
+            assert_eq!((found.sentence.as_str(), found.changes.len()), (sentence, 0));
+            assert!(found.questions.iter().all(|asked| asked.tau == 1.0));
+        }
     }
 }

@@ -64,10 +64,7 @@ pub(super) fn follow_order(
         move |progress: &Progress| {
             // Threads of its own, as for the losses.
             let pool = priority::background_pool().map_err(|error| Error::internal(error.to_string()))?;
-            pool.install(|| {
-                let answers = dataset::robust(&open.cases, &settings, &open.reading, progress)?;
-                Ok(answers.report(&settings)?)
-            })
+            pool.install(|| Ok(dataset::robust(&open.cases, &settings, &open.reading, |_| (), progress)?))
         }
     })
 }

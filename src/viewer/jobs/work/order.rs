@@ -90,11 +90,9 @@ impl OrderJob<OrderKey> {
                 let target_error = target_percent / 100.0;
                 let input =
                     RobustInput { ground_truth, predictions: all.collect(), convention, target_error, seed };
-                let names: Vec<&str> = key.names[1..].iter().map(String::as_str).collect();
-                let ground_truth_name = key.names[0].clone();
-                let compared =
-                    Compared { ground_truth: ground_truth_name, ..Compared::new(ground_truth, &convention) };
-                Ok(RobustReport::of_answers(compared, &names, &input.answers(progress)?))
+                let (name, names) = (key.names[0].clone(), &key.names[1..]);
+                let compared = Compared { ground_truth: name, ..Compared::new(ground_truth, &convention) };
+                Ok(RobustReport::of_answers(compared, Vec::new(), names, &input.answers(progress)?))
             }
         })
     }
