@@ -1,7 +1,5 @@
 //! Generated materials, and errors that are planted in them.
 
-use std::path::Path;
-
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 
@@ -137,23 +135,4 @@ pub(crate) fn unexplained(truth: &Material<f32>, seed: u64) -> Material<f32> {
             })
         }
     }
-}
-
-/// Reference maps beside the checkout, four tiles (normal, diffuse, roughness, specular), thinned to `side` rows; `None` without the file.
-pub(crate) fn golden(name: &str, side: usize) -> Option<Material<f32>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/golden/maps");
-    let picture = image::open(folder.join(name).with_extension("png")).ok()?.to_rgb32f();
-    let (tile_side, step) = (picture.height() as usize, picture.height() as usize / side);
-    let plane = |tile: usize, channel: usize| -> Vec<f32> {
-        let at = |i: usize| [(i % side * step + tile * tile_side) as u32, (i / side * step) as u32];
-        (0..side * side).map(|i| picture.get_pixel(at(i)[0], at(i)[1])[channel]).collect()
-    };
-    let signed = |plane: Vec<f32>| plane.into_iter().map(|value| 2.0 * value - 1.0).collect();
-    let planes = Planes {
-        normal: [0, 1, 2].map(|channel| signed(plane(0, channel))),
-        diffuse: [0, 1, 2].map(|channel| plane(1, channel).into_iter().map(|d| d.powf(2.2)).collect()),
-        roughness: plane(2, 0),
-        specular: [0, 1, 2].map(|channel| plane(3, channel).into_iter().map(|s| s.powf(2.2)).collect()),
-    };
-    Some(Material::new(name, side, side, planes).unwrap())
 }

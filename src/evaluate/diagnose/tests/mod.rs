@@ -3,7 +3,6 @@
 #![allow(clippy::disallowed_methods, reason = "a test reads its own files")]
 
 mod floors;
-mod follow;
 pub(crate) mod materials;
 mod planted;
 mod statistics;

@@ -2,7 +2,8 @@
 
 use super::super::shift::{Correlations, Interior, candidates};
 use super::super::{
-    Diagnosis, Hypothesis, Reading, Storage, StoredEncoding, Symmetry, Value, diagnose, sentence, shifted,
+    Change, Diagnosis, Hypothesis, Reading, Storage, StoredEncoding, Symmetry, Value, diagnose, sentence,
+    sentence_of, shifted,
 };
 use super::materials::{generated, unexplained, with};
 use svbrdf_core::loss::{Comparison, Compute as _};
@@ -13,6 +14,11 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
 
 const SIDE: usize = 48;
+
+/// Colours that are stored in an encoding.
+fn stored(encoding: StoredEncoding) -> Storage {
+    Storage { colours: encoding, specular: encoding, ..Storage::default() }
+}
 
 fn found(truth: &Material<f32>, prediction: &Material<f32>, storage: &Storage) -> Diagnosis {
     diagnose([truth, prediction], [storage; 2], &PRINTED, 0.0, 1, &Progress::default()).unwrap()
@@ -92,8 +98,7 @@ fn symmetries() {
 
 #[test]
 fn readings() {
-    let linear =
-        Storage { colours: StoredEncoding::Linear, specular: StoredEncoding::Linear, ..Storage::default() };
+    let linear = stored(StoredEncoding::Linear);
     let planted = [
         (Reading::NormalY, Reading::NormalY, Hypothesis::NormalY, Some("normal-y=down")),
         (Reading::NormalX, Reading::NormalX, Hypothesis::NormalX, None),
@@ -120,11 +125,7 @@ fn readings() {
 
 #[test]
 fn encodings_of_colours() {
-    let [linear, encoded] = [StoredEncoding::Linear, StoredEncoding::Srgb].map(|transfer| Storage {
-        colours: transfer,
-        specular: transfer,
-        ..Storage::default()
-    });
+    let [linear, encoded] = [StoredEncoding::Linear, StoredEncoding::Srgb].map(stored);
     for seed in 0..3 {
         let truth = generated(seed, SIDE);
         for (read_as, error, name) in
@@ -181,10 +182,8 @@ fn nothing_is_marked_without_an_error_or_with_others() {
 #[test]
 fn two_errors_are_found_at_once() {
     let truth = generated(0, SIDE);
-    let encoded =
-        Storage { colours: StoredEncoding::Srgb, specular: StoredEncoding::Srgb, ..Storage::default() };
-    let read_as_linear =
-        Storage { colours: StoredEncoding::Linear, specular: StoredEncoding::Linear, ..Storage::default() };
+    let encoded = stored(StoredEncoding::Srgb);
+    let read_as_linear = stored(StoredEncoding::Linear);
     let flipped = Reading::NormalY.applied(&truth, &encoded).unwrap();
     let both = Reading::Colours(StoredEncoding::Linear).applied(&flipped, &encoded).unwrap();
     let found = found(&truth, &both, &read_as_linear);
@@ -216,8 +215,7 @@ fn a_shift_is_that_of_most_rows() {
 /// Diffuse and specular are stored in sRGB; one of them, or one of those of the ground truth, is read as linear.
 #[test]
 fn a_map_in_another_encoding_is_found_alone_and_on_either_side() {
-    let encoded =
-        Storage { colours: StoredEncoding::Srgb, specular: StoredEncoding::Srgb, ..Storage::default() };
+    let encoded = stored(StoredEncoding::Srgb);
     let [diffuse, specular] =
         [Reading::Diffuse(StoredEncoding::Linear), Reading::Specular(StoredEncoding::Linear)];
     let wrong_diffuse = Storage { colours: StoredEncoding::Linear, ..encoded.clone() };
@@ -265,8 +263,7 @@ fn nothing_is_marked_below_the_floor() {
 #[test]
 fn a_cause_is_certain_only_where_nothing_else_explains_as_much() {
     let truth = generated(0, SIDE);
-    let linear =
-        Storage { colours: StoredEncoding::Linear, specular: StoredEncoding::Linear, ..Storage::default() };
+    let linear = stored(StoredEncoding::Linear);
     let text =
         |error: Reading| sentence(&found(&truth, &error.applied(&truth, &linear).unwrap(), &linear), None);
     let gloss = text(Reading::Gloss);
@@ -278,4 +275,22 @@ fn a_cause_is_certain_only_where_nothing_else_explains_as_much() {
     assert!(x.contains("No option corrects this reading"), "{x}");
     let swapped = text(Reading::RedBlue);
     assert!(swapped.contains("No option corrects this reading"), "{swapped}");
+}
+
+/// Factors on three channels hide swapped channels of an exposure.
+#[test]
+fn swapped_and_darker_channels_are_no_certain_white_balance() {
+    let (truth, encoded) = (generated(2, 64), stored(StoredEncoding::Srgb));
+    let darker = with(&Reading::RedBlue.applied(&truth, &encoded).unwrap(), |planes| {
+        let colours = planes.diffuse.iter_mut().chain(&mut planes.specular).flatten();
+        colours.for_each(|value| *value = (*value * (-0.5_f32).exp2()).min(1.0));
+    });
+    let found = diagnose([&truth, &darker], [&encoded; 2], &PRINTED, 0.0048, 0, &Progress::default());
+    let found = found.unwrap();
+    assert_eq!(only(&found).0, Hypothesis::ExposureRgb);
+    let marked = found.marked().next().unwrap();
+    let swapped = [Change::Reading(Reading::RedBlue), Change::GroundTruth(Reading::RedBlue)];
+    let words = sentence_of(marked);
+    assert!(marked.alternative.is_some_and(|other| swapped.contains(&other)), "{words}");
+    assert!(!words.contains("%: ") || words.contains("probably"), "{words}");
 }
