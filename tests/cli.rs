@@ -2,7 +2,6 @@
 
 #[cfg(target_os = "linux")]
 mod claims;
-mod conform;
 mod diagnose;
 mod links;
 mod loss;
@@ -159,12 +158,15 @@ fn write_data_set(at: &Path, methods: &[(&str, u8)], materials: u8) {
     }
 }
 
-/// The folder of the transcripts: that of the other tests, a data set, and planted errors.
+/// The folder of the transcripts: that of the other tests, a data set, planted errors, and radiances of two renderers.
 pub fn folder_of_transcripts() -> TempDir {
     let folder = folder();
     write_data_set(folder.path(), &[("ours", 8), ("theirs", 40)], 3);
     std::fs::create_dir(folder.path().join("planted")).unwrap();
     diagnose::write_planted(&folder.path().join("planted"));
+    for (name, convention) in [("answer", "svbrdf-estimation-2022"), ("viewer", "gltf-viewer")] {
+        crate::conform::write_answer(&folder.path().join(name).with_extension("npz"), convention);
+    }
     folder
 }
 
