@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::question::{Question, counts};
+use super::question::Question;
 use super::request::{Request, Sampling, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Scene;
@@ -51,7 +51,7 @@ impl FileScenes {
 
 /// How a loss is asked for. What the other ways of asking need is kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(from = "SavedSettings")]
+#[serde(default)]
 pub struct LossSettings {
     pub ask: Ask,
     pub near: usize,
@@ -65,39 +65,6 @@ pub struct LossSettings {
     /// `None` where no scene file has been opened; an accuracy is asked for then in place of [`Ask::File`].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<FileScenes>,
-}
-
-/// Settings as a file has them, some left out.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct SavedSettings {
-    ask: Option<Ask>,
-    near: Option<usize>,
-    distant: Option<usize>,
-    sampler: Option<Sampler>,
-    texels: Option<Texels>,
-    seed: Option<u64>,
-    target_percent: Option<f64>,
-    time_ms: Option<u64>,
-    file: Option<FileScenes>,
-}
-
-impl From<SavedSettings> for LossSettings {
-    fn from(saved: SavedSettings) -> Self {
-        let usual = Self::default();
-        let [near, distant] = counts([saved.near, saved.distant], [usual.near, usual.distant]);
-        Self {
-            ask: saved.ask.unwrap_or(usual.ask),
-            near,
-            distant,
-            sampler: saved.sampler.unwrap_or(usual.sampler),
-            texels: saved.texels.unwrap_or(usual.texels),
-            seed: saved.seed.unwrap_or(usual.seed),
-            target_percent: saved.target_percent.unwrap_or(usual.target_percent),
-            time_ms: saved.time_ms.unwrap_or(usual.time_ms),
-            file: saved.file,
-        }
-    }
 }
 
 impl Default for LossSettings {
@@ -213,17 +180,6 @@ mod tests {
             assert_eq!(settings.request(), other.request());
             assert_ne!(settings.request(), request);
         }
-    }
-
-    #[test]
-    fn one_saved_number_of_scenes_keeps_the_proportion() {
-        let read = |text: &str| serde_json::from_str::<LossSettings>(text).unwrap();
-        let scenes = |settings: &LossSettings| [settings.near, settings.distant];
-        assert_eq!(scenes(&read(r#"{"ask": "Scenes", "near": 60}"#)), [60, 30]);
-        assert_eq!(scenes(&read(r#"{"ask": "Scenes", "distant": 8}"#)), [16, 8]);
-        assert_eq!(read("{}"), LossSettings::default());
-        let saved = LossSettings { near: 5, distant: 0, seed: 9, ..LossSettings::default() };
-        assert_eq!(read(&serde_json::to_string(&saved).unwrap()), saved);
     }
 
     #[test]
