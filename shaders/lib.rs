@@ -19,10 +19,16 @@ impl Shader {
     }
 }
 
-/// A file of this folder with its name.
-macro_rules! piece {
-    ($file:literal) => {
-        ($file, include_str!($file))
+/// A shader of the pieces with these names.
+macro_rules! shader {
+    ($name:ident: $($piece:ident)+) => {
+        Shader {
+            name: stringify!($name),
+            pieces: &[$((
+                concat!(stringify!($piece), ".wgsl"),
+                include_str!(concat!(stringify!($piece), ".wgsl")),
+            )),+],
+        }
     };
 }
 
@@ -35,107 +41,38 @@ pub struct MapShaders {
     pub reduce: Shader,
 }
 
-/// The shaders that read maps by this piece.
-macro_rules! map_shaders {
-    ($maps:literal) => {
-        MapShaders {
-            shade: Shader {
-                name: "shade",
-                pieces: &[
-                    piece!("texel.wgsl"),
-                    piece!("brdf.wgsl"),
-                    piece!("scene.wgsl"),
-                    piece!("grid.wgsl"),
-                    piece!("fullscreen.wgsl"),
-                    piece!("stride.wgsl"),
-                    piece!($maps),
-                    piece!("shade.wgsl"),
-                    piece!("shade_entry.wgsl"),
-                ],
-            },
-            reduce: Shader {
-                name: "reduce",
-                pieces: &[
-                    piece!("texel.wgsl"),
-                    piece!("fullscreen.wgsl"),
-                    piece!("stride.wgsl"),
-                    piece!($maps),
-                    piece!("reduce.wgsl"),
-                ],
-            },
-        }
-    };
-}
-
 /// Of maps as floats.
-pub const FLOATS: MapShaders = map_shaders!("maps.wgsl");
+pub const FLOATS: MapShaders = MapShaders {
+    shade: shader!(shade: texel brdf scene grid fullscreen stride maps shade shade_entry),
+    reduce: shader!(reduce: texel fullscreen stride maps reduce),
+};
 
 /// Of maps as codes.
-pub const CODED: MapShaders = map_shaders!("coded_maps.wgsl");
+pub const CODED: MapShaders = MapShaders {
+    shade: shader!(shade: texel brdf scene grid fullscreen stride coded_maps shade shade_entry),
+    reduce: shader!(reduce: texel fullscreen stride coded_maps reduce),
+};
 
 /// Pass 2: a screen pixel a fragment.
-pub const DISPLAY: Shader = Shader {
-    name: "display",
-    pieces: &[
-        piece!("grid.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("camera.wgsl"),
-        piece!("footprint.wgsl"),
-        piece!("srgb.wgsl"),
-        piece!("colour_map.wgsl"),
-        piece!("difference.wgsl"),
-        piece!("encode.wgsl"),
-        piece!("display.wgsl"),
-        piece!("display_entry.wgsl"),
-    ],
-};
+pub const DISPLAY: Shader = shader!(
+    display: grid fullscreen camera footprint srgb colour_map difference encode display display_entry
+);
 
 /// Kept pixels, copied.
-pub const BLIT: Shader = Shader { name: "blit", pieces: &[piece!("fullscreen.wgsl"), piece!("blit.wgsl")] };
+pub const BLIT: Shader = shader!(blit: fullscreen blit);
 
 /// Pass 1 of the report, for WebGL.
-pub const PAGE_SHADE: Shader = Shader {
-    name: "page_shade",
-    pieces: &[
-        piece!("texel.wgsl"),
-        piece!("brdf.wgsl"),
-        piece!("scene.wgsl"),
-        piece!("grid.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("stride.wgsl"),
-        piece!("maps.wgsl"),
-        piece!("shade.wgsl"),
-        piece!("page_shade.wgsl"),
-    ],
-};
+pub const PAGE_SHADE: Shader =
+    shader!(page_shade: texel brdf scene grid fullscreen stride maps shade page_shade);
 
 /// Pass 2 of the report, for WebGL.
-pub const PAGE_DISPLAY: Shader = Shader {
-    name: "page_display",
-    pieces: &[
-        piece!("grid.wgsl"),
-        piece!("fullscreen.wgsl"),
-        piece!("camera.wgsl"),
-        piece!("footprint.wgsl"),
-        piece!("srgb.wgsl"),
-        piece!("colour_map.wgsl"),
-        piece!("difference.wgsl"),
-        piece!("encode.wgsl"),
-        piece!("display.wgsl"),
-        piece!("page_display.wgsl"),
-    ],
-};
+pub const PAGE_DISPLAY: Shader = shader!(
+    page_display: grid fullscreen camera footprint srgb colour_map difference encode display page_display
+);
 
 /// Differences as numbers, of the report, for WebGL.
-pub const PAGE_DIFFERENCE: Shader = Shader {
-    name: "page_difference",
-    pieces: &[
-        piece!("fullscreen.wgsl"),
-        piece!("colour_map.wgsl"),
-        piece!("difference.wgsl"),
-        piece!("page_difference.wgsl"),
-    ],
-};
+pub const PAGE_DIFFERENCE: Shader =
+    shader!(page_difference: fullscreen colour_map difference page_difference);
 
 /// The shaders of the report in GLSL for WebGL 2: JSON of each program with its bindings and the places of its uniforms.
 ///

@@ -25,29 +25,20 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = true)]
 mod _core {
     #[pymodule_export]
-    use super::analysis::analysis;
-    #[pymodule_export]
-    use super::conform::{conform, probes};
-    #[pymodule_export]
-    use super::dataset::rank_dataset;
-    #[pymodule_export]
-    use super::errors::Error;
-    #[pymodule_export]
-    use super::files::{built_in, read, write};
-    #[pymodule_export]
-    use super::loss::{loss, rank};
-    #[pymodule_export]
-    use super::material::{CoreMaterial, distinct_names, render};
-    #[pymodule_export]
-    use super::model::{conventions, named_scenes, read_scenes, sample_scenes};
-    #[pymodule_export]
-    use super::page::page;
-    #[pymodule_export]
-    use super::photo::photo;
-    #[pymodule_export]
-    use super::report::{escaped, schema};
-    #[pymodule_export]
-    use super::why::{diagnose, map};
+    use super::{
+        analysis::analysis,
+        conform::{conform, probes},
+        dataset::rank_dataset,
+        errors::Error,
+        files::{built_in, read, write},
+        loss::{loss, rank},
+        material::{CoreMaterial, distinct_names, render},
+        model::{conventions, named_scenes, read_scenes, sample_scenes},
+        page::page,
+        photo::photo,
+        report::{escaped, schema},
+        why::{diagnose, map},
+    };
 
     #[allow(non_upper_case_globals, reason = "the name in Python")]
     #[pymodule_export]
