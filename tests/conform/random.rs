@@ -7,7 +7,7 @@ use svbrdf_core::model::grammar::RendererTerms;
 use svbrdf_core::model::grammar::words::{
     Alpha, Denominator, Distribution, Falloff, Fresnel, K, Maps, NormalY, Normals, Shadowing, Weight,
 };
-use svbrdf_evaluate::conform::{Difference, VerdictKind};
+use svbrdf_evaluate::conform::{TermGap, VerdictKind};
 
 use super::{judged, points, single};
 
@@ -85,7 +85,7 @@ fn random_members_are_found_in_float64_and_float32() {
         for stored in [|rgb| rgb, single] {
             let radiance = points.iter().map(|point| stored(terms.radiance(point, true))).collect();
             let verdict = judged(&points, radiance, Some(metallic), &terms);
-            let is_wrong = |one: &&Difference| STRUCTURE.contains(&one.term.key.as_str());
+            let is_wrong = |one: &&TermGap| STRUCTURE.contains(&one.term.key.as_str());
             let wrong: Vec<_> = verdict.differences.iter().filter(is_wrong).collect();
             assert_ne!(verdict.kind, VerdictKind::Unknown, "seed {seed}");
             assert!(wrong.is_empty(), "seed {seed}: {wrong:?}");

@@ -16,7 +16,7 @@ use svbrdf_core::statistics::sort_by_number;
 pub use answer::{Answer, probes};
 pub use fit::Fit;
 use fit::Problem;
-pub use verdict::{Difference, Verdict, VerdictKind, verdict};
+pub use verdict::{TermGap, Verdict, VerdictKind, verdict};
 
 /// Unit roundoffs of the levels of the search, the coarsest first: the last two are those of float32 and float64.
 const LEVELS: [f64; 4] = [1e-4, 2e-6, f32::EPSILON as f64 / 2.0, f64::EPSILON];

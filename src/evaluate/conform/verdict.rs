@@ -22,7 +22,7 @@ pub enum VerdictKind {
 
 /// A term in which a renderer differs from the convention.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
+pub struct TermGap {
     pub term: TermDifference,
     /// Largest relative change of a radiance where this term alone is that of the convention.
     pub gap: f64,
@@ -34,7 +34,7 @@ pub struct Verdict {
     pub kind: VerdictKind,
     /// The renderer; the nearest one where the kind is unknown. What the points do not tell is as in the convention.
     pub terms: RendererTerms,
-    pub differences: Vec<Difference>,
+    pub differences: Vec<TermGap>,
     /// The root mean square of the relative residuals, each at most 1.
     pub residual: f64,
 }
@@ -44,10 +44,10 @@ pub fn verdict(found: &Identified, asked: &Description) -> Verdict {
     let Identified { problem, fit, explained, .. } = found;
     let fit = if *explained { &adopted(problem, fit, &asked.terms) } else { fit };
     let terms = finished(problem, fit, &asked.terms);
-    let differences: Vec<Difference> = terms
+    let differences: Vec<TermGap> = terms
         .differences(&asked.terms)
         .into_iter()
-        .map(|term| Difference { gap: gap(problem, fit, &term, &asked.terms), term })
+        .map(|term| TermGap { gap: gap(problem, fit, &term, &asked.terms), term })
         .collect();
     let kind = match (explained, differences.is_empty()) {
         (false, _) => VerdictKind::Unknown,

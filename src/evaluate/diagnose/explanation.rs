@@ -2,7 +2,7 @@
 
 use super::finding::Hypothesis;
 use super::proposals::Proposal;
-use super::shift::{Correlations, Fit};
+use super::shift::{Correlations, ShiftFit};
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
 use svbrdf_core::statistics::sort_by_number;
@@ -103,17 +103,17 @@ fn is_exposure(hypothesis: Hypothesis) -> bool {
 /// Alignments under which the maps correlate much better than as they are, the best first: a shift, a symmetry, or both.
 fn alignments(
     correlations: &Correlations<'_>,
-    of_shifts: &[Fit],
+    of_shifts: &[ShiftFit],
     size: [usize; 2],
 ) -> Result<Vec<Vec<Proposal>>, Error> {
     let unmoved = of_shifts.iter().find(|fit| fit.shift == [0, 0]).map_or(0.0, |fit| fit.absolute);
-    let best = |fits: &[Fit]| fits.iter().copied().max_by(|a, b| a.absolute.total_cmp(&b.absolute));
-    let shift = |fit: Fit| (fit.shift != [0, 0]).then(|| Proposal::shift(fit.shift));
+    let best = |fits: &[ShiftFit]| fits.iter().copied().max_by(|a, b| a.absolute.total_cmp(&b.absolute));
+    let shift = |fit: ShiftFit| (fit.shift != [0, 0]).then(|| Proposal::shift(fit.shift));
     let mut all: Vec<(f64, Vec<Proposal>)> = Vec::new();
     all.extend(best(of_shifts).map(|fit| (fit.absolute, shift(fit).into_iter().collect())));
     for symmetry in Symmetry::of(size) {
         let fits = correlations.fits(Some(symmetry))?;
-        let changes = |fit: Fit| [Proposal::symmetry(symmetry)].into_iter().chain(shift(fit)).collect();
+        let changes = |fit: ShiftFit| [Proposal::symmetry(symmetry)].into_iter().chain(shift(fit)).collect();
         all.extend(best(&fits).map(|fit| (fit.absolute, changes(fit))));
     }
     all.retain(|(fit, changes)| *fit > unmoved + ALIGNED && !changes.is_empty());
@@ -125,7 +125,7 @@ fn alignments(
 /// nothing is explained. An exposure is fitted in the pilot.
 pub(super) fn explain(
     [search, pilot]: [&Trials<'_>; 2],
-    (correlations, fits): (&Correlations<'_>, &[Fit]),
+    (correlations, fits): (&Correlations<'_>, &[ShiftFit]),
     resolvable: f64,
 ) -> Result<Vec<Proposal>, Error> {
     let alignments = alignments(correlations, fits, search.pair.ground_truth.size())?;

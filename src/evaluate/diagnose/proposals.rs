@@ -1,7 +1,7 @@
 //! Proposals: each hypothesis with the value that fits best in the scenes of a pilot.
 
 use super::finding::{Hypothesis, Value};
-use super::shift::{Fit, candidates};
+use super::shift::{ShiftFit, candidates};
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
 use svbrdf_files::changes::Change;
@@ -27,7 +27,7 @@ impl Proposal {
 
     /// All hypotheses in the order of their lines, with the values that have the least loss in `pilot`. `fits` are those of the pair of
     /// `pilot`.
-    pub(super) fn all(pilot: &Trials<'_>, fits: &[Fit]) -> Result<Vec<Self>, Error> {
+    pub(super) fn all(pilot: &Trials<'_>, fits: &[ShiftFit]) -> Result<Vec<Self>, Error> {
         let shift = shift(pilot, fits)?;
         let fitted = |hypothesis| -> Result<Self, Error> {
             Ok(Self::exposure(pilot.best_exposure(&[], hypothesis == Hypothesis::ExposureRgb)?, hypothesis))
@@ -116,7 +116,7 @@ fn best(pilot: &Trials<'_>, changes: impl Iterator<Item = Change>) -> Result<usi
 }
 
 /// The displacement of the prediction by whole texels with the least loss.
-fn shift(pilot: &Trials<'_>, fits: &[Fit]) -> Result<Proposal, Error> {
+fn shift(pilot: &Trials<'_>, fits: &[ShiftFit]) -> Result<Proposal, Error> {
     let candidates = candidates(fits);
     let ratios = ratios(pilot, &candidates)?;
     let least = candidates.into_iter().zip(ratios).min_by(|a, b| a.1.total_cmp(&b.1));

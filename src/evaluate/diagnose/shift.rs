@@ -55,7 +55,7 @@ impl Interior {
 
 /// How well the maps of a prediction correlate with those of a ground truth after a displacement (right, down).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Fit {
+pub(super) struct ShiftFit {
     pub(super) shift: [i32; 2],
     /// The sum over all planes of the mean product of their values, normalized to mean 0 and standard deviation 1.
     signed: f64,
@@ -109,7 +109,7 @@ impl<'a> Correlations<'a> {
     ///
     /// # Errors
     /// Those of [`Material::new`], which values of a material do not give.
-    pub(super) fn fits(&self, symmetry: Option<Symmetry>) -> Result<Vec<Fit>, Error> {
+    pub(super) fn fits(&self, symmetry: Option<Symmetry>) -> Result<Vec<ShiftFit>, Error> {
         let prediction = self.prediction;
         let size = prediction.size();
         let before = |texel: usize| symmetry.map_or(texel, |symmetry| symmetry.before(texel, size));
@@ -137,16 +137,16 @@ impl<'a> Correlations<'a> {
         let of_planes: Vec<_> = pairs.iter().map(of_plane).collect();
         let fit = |(index, &shift)| {
             let fits = || of_planes.iter().map(|plane| plane[index]);
-            Fit { shift, signed: fits().sum(), absolute: fits().map(f64::abs).sum() }
+            ShiftFit { shift, signed: fits().sum(), absolute: fits().map(f64::abs).sum() }
         };
         Ok(all.iter().enumerate().map(fit).collect())
     }
 }
 
 /// The two displacements other than none with the best fits, and the two with the best fits by absolute values.
-pub(super) fn candidates(fits: &[Fit]) -> Vec<[i32; 2]> {
-    let best = |of: fn(&Fit) -> f64| {
-        let mut moved: Vec<&Fit> = fits.iter().filter(|fit| fit.shift != [0, 0]).collect();
+pub(super) fn candidates(fits: &[ShiftFit]) -> Vec<[i32; 2]> {
+    let best = |of: fn(&ShiftFit) -> f64| {
+        let mut moved: Vec<&ShiftFit> = fits.iter().filter(|fit| fit.shift != [0, 0]).collect();
         sort_by_number(&mut moved, |fit| -of(fit));
         moved.into_iter().take(2).map(|fit| fit.shift).collect::<Vec<_>>()
     };

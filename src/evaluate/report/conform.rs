@@ -125,8 +125,8 @@ impl ConformReport {
     }
 }
 
-impl From<conform::Difference> for TermDifference {
-    fn from(conform::Difference { term, gap }: conform::Difference) -> Self {
+impl From<conform::TermGap> for TermDifference {
+    fn from(conform::TermGap { term, gap }: conform::TermGap) -> Self {
         Self { term: term.key, found: term.own, expected: term.other, gap: gap.is_finite().then_some(gap) }
     }
 }
