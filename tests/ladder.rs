@@ -92,12 +92,8 @@ fn markdown(survey: &Survey, random: u64) -> String {
     let mut worst = String::new();
     for region in Region::ALL {
         let values = survey.errors(region, Rung::F32).0;
-        let _ = write!(
-            worst,
-            "| {} | {values} | {} |",
-            region.description(),
-            number(survey.one_ulp[region as usize])
-        );
+        let _ =
+            write!(worst, "| {} | {values} | {} |", region.name(), number(survey.one_ulp[region as usize]));
         for rung in Rung::ALL {
             let (count, error) = survey.errors(region, rung);
             let _ = write!(worst, " {} |", if count == 0 { "-".to_owned() } else { number(error) });

@@ -15,55 +15,21 @@ const OPPOSITE: f64 = 0.1;
 /// Where one ulp of an input changes the result by more, relative to it, no f32 can be right to 1e-3.
 const ILL_CONDITIONED: f64 = 1e-4;
 
-/// The rows of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Region {
-    Rough,
-    Satin,
-    GlossyBeside,
-    GlossyHighlight,
-    MirrorBeside,
-    MirrorHighlight,
-    Grazing,
-    Opposite,
-    IllHighlight,
-    IllHorizon,
-    IllOpposite,
-    Dark,
-}
-
-impl Region {
-    pub const ALL: [Self; 12] = [
-        Self::Rough,
-        Self::Satin,
-        Self::GlossyBeside,
-        Self::GlossyHighlight,
-        Self::MirrorBeside,
-        Self::MirrorHighlight,
-        Self::Grazing,
-        Self::Opposite,
-        Self::IllHighlight,
-        Self::IllHorizon,
-        Self::IllOpposite,
-        Self::Dark,
-    ];
-
-    pub fn description(self) -> &'static str {
-        match self {
-            Self::Rough => "r >= 0.5",
-            Self::Satin => "0.1 <= r < 0.5",
-            Self::GlossyBeside => "0.01 <= r < 0.1, beside the highlight",
-            Self::GlossyHighlight => "0.01 <= r < 0.1, in the highlight",
-            Self::MirrorBeside => "r < 0.01, beside the highlight",
-            Self::MirrorHighlight => "r < 0.01, in the highlight",
-            Self::Grazing => "light or view grazing",
-            Self::Opposite => "light nearly opposite the view",
-            Self::IllHighlight => "ill-conditioned: in the highlight",
-            Self::IllHorizon => "ill-conditioned: light on the horizon of the texel",
-            Self::IllOpposite => "ill-conditioned: light nearly opposite the view",
-            Self::Dark => "no light: R = 0",
-        }
-    }
+svbrdf_core::choices! {
+    /// The rows of the table.
+    Region, "region":
+    Rough = "r >= 0.5",
+    Satin = "0.1 <= r < 0.5",
+    GlossyBeside = "0.01 <= r < 0.1, beside the highlight",
+    GlossyHighlight = "0.01 <= r < 0.1, in the highlight",
+    MirrorBeside = "r < 0.01, beside the highlight",
+    MirrorHighlight = "r < 0.01, in the highlight",
+    Grazing = "light or view grazing",
+    Opposite = "light nearly opposite the view",
+    IllHighlight = "ill-conditioned: in the highlight",
+    IllHorizon = "ill-conditioned: light on the horizon of the texel",
+    IllOpposite = "ill-conditioned: light nearly opposite the view",
+    Dark = "no light: R = 0",
 }
 
 /// The result in f64 at one texel, and how sensitive it is, per channel.

@@ -10,49 +10,31 @@ use svbrdf_files::changes::Change;
 use svbrdf_files::changes::Remedy;
 use svbrdf_files::changes::Storage;
 
-/// An explanation of a loss that is tried.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case")]
-pub enum Hypothesis {
+svbrdf_core::choices! {
+    /// An explanation of a loss that is tried, in the order of the lines.
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    Hypothesis, "hypothesis":
     /// One factor on the radiance.
-    Exposure,
+    Exposure = "exposure",
     /// A factor on each channel.
-    ExposureRgb,
+    ExposureRgb = "exposure_rgb",
     /// A displacement by whole texels.
-    Shift,
+    Shift = "shift",
     /// Maps mirrored or turned.
-    Symmetry,
-    NormalY,
-    NormalX,
-    AlbedoEncoding,
-    DiffuseEncoding,
-    SpecularEncoding,
-    Roughness,
-    Channels,
-    Energy,
+    Symmetry = "symmetry",
+    NormalY = "normal_y",
+    NormalX = "normal_x",
+    AlbedoEncoding = "albedo_encoding",
+    DiffuseEncoding = "diffuse_encoding",
+    SpecularEncoding = "specular_encoding",
+    Roughness = "roughness",
+    Channels = "channels",
+    Energy = "energy",
     /// Another reading of the ground truth.
-    GroundTruth,
+    GroundTruth = "ground_truth",
 }
 
 impl Hypothesis {
-    /// In the order of the lines.
-    const ALL: [Self; 13] = [
-        Self::Exposure,
-        Self::ExposureRgb,
-        Self::Shift,
-        Self::Symmetry,
-        Self::NormalY,
-        Self::NormalX,
-        Self::AlbedoEncoding,
-        Self::DiffuseEncoding,
-        Self::SpecularEncoding,
-        Self::Roughness,
-        Self::Channels,
-        Self::Energy,
-        Self::GroundTruth,
-    ];
-
     /// The lines of a prediction that is stored so: maps without an encoding that is known to be another one have no line for it.
     pub fn of(storage: &Storage) -> impl Iterator<Item = Self> {
         let [colours, specular] =
@@ -64,25 +46,6 @@ impl Hypothesis {
             Self::SpecularEncoding => specular && has_specular,
             _ => true,
         })
-    }
-
-    /// The name in reports.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Exposure => "exposure",
-            Self::ExposureRgb => "exposure_rgb",
-            Self::Shift => "shift",
-            Self::Symmetry => "symmetry",
-            Self::NormalY => "normal_y",
-            Self::NormalX => "normal_x",
-            Self::AlbedoEncoding => "albedo_encoding",
-            Self::DiffuseEncoding => "diffuse_encoding",
-            Self::SpecularEncoding => "specular_encoding",
-            Self::Roughness => "roughness",
-            Self::Channels => "channels",
-            Self::Energy => "energy",
-            Self::GroundTruth => "ground_truth",
-        }
     }
 
     /// The unit of its value.

@@ -52,28 +52,16 @@ pub struct Pair<'a> {
     pub convention: Convention,
 }
 
-/// Settings that differ in their numbers of scenes only: one colour in a plot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Family {
-    FewTexels,
-    MoreTexels,
-    Sobol,
-    Random,
+svbrdf_core::choices! {
+    /// Settings that differ in their numbers of scenes only: one colour in a plot. In the order of measurement.
+    Family, "family":
+    FewTexels = "Sobol, 128 texels each",
+    MoreTexels = "Sobol, 1024 texels each",
+    Sobol = "Sobol scenes",
+    Random = "random scenes",
 }
 
 impl Family {
-    /// In the order of measurement.
-    pub const ALL: [Self; 4] = [Self::FewTexels, Self::MoreTexels, Self::Sobol, Self::Random];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::FewTexels => "Sobol, 128 texels each",
-            Self::MoreTexels => "Sobol, 1024 texels each",
-            Self::Sobol => "Sobol scenes",
-            Self::Random => "random scenes",
-        }
-    }
-
     fn texels(self) -> Texels {
         match self {
             Self::FewTexels => Texels::Sampled(128),
