@@ -60,7 +60,7 @@ fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     // The same pixels as a saved view has.
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");
-    apply(&mut window, WindowCommand::DismissMessages);
+    edit(&mut window, |model| model.messages.dismiss_all());
     save(&mut window, SaveKind::View, &path);
     let saved = image::open(&path).unwrap().to_rgb8();
     let differ = saved.pixels().zip(&copied.pixels).filter(|(a, b)| a.0 != [b.r(), b.g(), b.b()]).count();
@@ -91,7 +91,7 @@ fn the_exposure_is_automatic_once_follows_and_stays_where_a_hand_puts_it() {
     assert_eq!(exposure(&window), start, "a drag leaves it");
     let mut grazing = window.scene();
     grazing.light = [-1.3, 0.0, 0.2];
-    apply(&mut window, SceneCommand::Choose(grazing));
+    edit(&mut window, |model| exposure::choose_scene(model, grazing));
     let chosen = exposure(&window);
     assert_ne!(chosen, start);
     click(&mut window, "Exposure follows");
@@ -100,7 +100,7 @@ fn the_exposure_is_automatic_once_follows_and_stays_where_a_hand_puts_it() {
     assert_ne!(exposure(&window), chosen, "it follows");
     click(&mut window, "Brighter");
     let by_hand = exposure(&window);
-    apply(&mut window, SceneCommand::Choose(grazing));
+    edit(&mut window, |model| exposure::choose_scene(model, grazing));
     move_light(&mut window);
     assert_eq!(exposure(&window), by_hand, "a hand has set it");
 }

@@ -90,10 +90,10 @@ fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_a
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), None));
     assert_eq!(window.names(), ["a", "ours", "theirs"]);
-    apply(&mut window, SceneCommand::MoveOverPlane(Endpoint::Light, [0.4, -0.2]));
-    apply(&mut window, DisplayCommand::ChoosePrediction(1));
-    apply(&mut window, DisplayCommand::StepExposure(0.5));
-    apply(&mut window, DisplayCommand::SetMagnification(37.0));
+    edit(&mut window, |model| endpoint::move_over_plane(&mut model.view.scene, Endpoint::Light, [0.4, -0.2]));
+    edit(&mut window, |model| display::choose(model, 1));
+    edit(&mut window, |model| display::step_exposure(model, 0.5));
+    edit(&mut window, |model| display::magnify(model, 37.0));
     let before = window.view().clone();
     let mut seen = Vec::new();
     for name in ["b", "c", "d", "e", "f"] {
@@ -130,37 +130,41 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), Some(folder.path().join("results"))));
     let list = ListView { order: Order::Loss(0), ..ListView::default() };
-    apply(&mut window, DatasetCommand::SetList(list));
+    edit(&mut window, |model| model.dataset.list = list);
     let title = |window: &Window<'_>| window.state().parts.ui.dataset.title(window.state().parts.displayed());
     let largest = (0..6)
         .max_by(|a, b| loss(&window, *a, 0).unwrap().loss.total_cmp(&loss(&window, *b, 0).unwrap().loss));
     let case = largest.unwrap();
-    apply(&mut window, DatasetCommand::Show { case, ahead: Vec::new() });
+    edit(&mut window, |model| model.dataset.show(case, Vec::new()));
     wait(&mut window, "the worst", |app| app.parts.model.dataset.shown == Some(case));
     let name = ["a", "b", "c", "d", "e", "f"][case];
     assert_eq!(title(&window).unwrap(), format!("{name} (1 of 6)"));
     window.key_press(egui::Key::K);
     window.run_steps(2);
-    apply(&mut window, DatasetCommand::SetNote("blotches".to_owned()));
+    edit(&mut window, |model| model.dataset.change_mark(|mark| mark.note = "blotches".to_owned()));
     let marked = ListView { filter: Filter::Marked, ..ListView::default() };
-    apply(&mut window, DatasetCommand::SetList(marked));
+    edit(&mut window, |model| model.dataset.list = marked);
     assert_eq!(title(&window).unwrap(), format!("{name} (1 of 1)"));
     let failed = ListView { filter: Filter::Failed, ..ListView::default() };
-    apply(&mut window, DatasetCommand::SetList(failed));
+    edit(&mut window, |model| model.dataset.list = failed);
     assert!(has(&window, "3 of 6 materials"));
 
-    apply(&mut window, DatasetCommand::SetList(ListView::default()));
+    edit(&mut window, |model| model.dataset.list = ListView::default());
     let path = folder.path().join("list.csv");
-    apply(&mut window, WindowCommand::Save(SaveRequest { kind: SaveKind::Materials, path: path.clone() }));
+    edit(&mut window, |model| {
+        model.effects.push(Effect::Save(SaveRequest { kind: SaveKind::Materials, path: path.clone() }))
+    });
     wait(&mut window, "the list", |app| app.messages().iter().any(|text| text.ends_with("list.csv")));
-    apply(&mut window, WindowCommand::DismissMessages);
+    edit(&mut window, |model| model.messages.dismiss_all());
     let list = std::fs::read_to_string(path).unwrap();
     let known = loss(&window, case, 0).unwrap().loss;
     assert!(list.contains(&format!("\n{name},true,blotches,{known},")), "{list}");
     assert_eq!(list.lines().count(), 7, "{list}");
 
     let path = folder.path().join("all.svbrdf-session.json");
-    apply(&mut window, WindowCommand::Save(SaveRequest { kind: SaveKind::Session, path: path.clone() }));
+    edit(&mut window, |model| {
+        model.effects.push(Effect::Save(SaveRequest { kind: SaveKind::Session, path: path.clone() }))
+    });
     wait(&mut window, "the session", |app| app.messages().iter().any(|text| text.starts_with("Saved")));
     let text = std::fs::read_to_string(&path).unwrap();
     assert!(text.contains("\"gt\"") && !text.contains(folder.path().to_str().unwrap()), "{text}");
@@ -245,7 +249,7 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
     assert!(!window.model().dataset.sheet.is_open);
     press(&mut window, egui::Key::Escape);
     assert!(window.model().dataset.sheet.is_open);
-    apply(&mut window, MaterialsCommand::OpenBuiltIn);
+    edit(&mut window, opening::open_built_in);
     wait(&mut window, "the built-in materials", |app| app.names()[0] == "worn tiles");
     assert!(!has(&window, "Tab Methods"), "another comparison closes it");
 }
@@ -265,7 +269,7 @@ fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_i
     assert_eq!(loss(&window, 0, 1), None);
     assert!(has(&window, "theirs: "));
     // Watched files are read again with their losses, without a key.
-    apply(&mut window, MaterialsCommand::SetWatch(true));
+    edit(&mut window, |model| model.settings.watch = true);
     rest(&mut window, 20);
     let before = loss(&window, 0, 0).unwrap();
     std::fs::copy(all[0].join("a.png"), all[1].join("a.png")).unwrap();
@@ -306,7 +310,7 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     // A pinned one stays, beside those that are flipped through; the ground truth is read once.
     let id = |window: &Window<'_>| window.model().materials.all[0].id();
     let first = id(&window);
-    apply(&mut window, SceneCommand::MoveOverPlane(Endpoint::Light, [0.4, -0.2]));
+    edit(&mut window, |model| endpoint::move_over_plane(&mut model.view.scene, Endpoint::Light, [0.4, -0.2]));
     let scene = window.scene();
     window.key_press(egui::Key::K);
     for name in ["p01", "p02"] {
@@ -321,7 +325,7 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     assert_eq!((id(&window), window.scene()), (first, scene));
     // Worst first.
     let list = ListView { order: Order::Loss(0), ..ListView::default() };
-    apply(&mut window, DatasetCommand::SetList(list));
+    edit(&mut window, |model| model.dataset.list = list);
     let listed = window.state().parts.ui.dataset.listed();
     assert_eq!(listed[..3], [24, 23, 22]);
     let session = folder.path().join("many.svbrdf-session.json");

@@ -51,7 +51,7 @@ fn the_range_is_dragged_at_either_end_and_automatic_again() {
         (Difference::SignedLog, -1.5, [(-1.0, -0.75), (0.75, 1.2), (-1.2, -0.5)]),
         (Difference::Log, 0.0, [(1.0, 0.75), (0.75, 1.2), (1.2, 0.5)]),
     ] {
-        apply(&mut window, DisplayCommand::SetDifference(kind));
+        edit(&mut window, |model| choose_difference(model, kind));
         statistics(&mut window);
         let auto = window.difference_range();
         let prediction = pane(&window, PREDICTIONS[0]);
@@ -107,7 +107,7 @@ fn every_pane_in_false_colours_has_a_scale_and_no_other() {
     let scales = |window: &Window<'_>| {
         let parts = &window.state().parts;
         let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
-        let scenery = svbrdf_viewer::ui::content::scenery(&window.ctx, displayed);
+        let scenery = svbrdf_viewer::ui::pane::scenery::Scenery::new(&window.ctx, displayed);
         let contents = scenery.contents();
         contents.into_iter().map(|content| PaneScale::of(&scenery, content)).collect::<Vec<_>>()
     };
@@ -156,7 +156,7 @@ fn settle(window: &mut Window<'_>) -> [Vec<f32>; 2] {
 fn with_flip<'a>() -> Window<'a> {
     let mut window = built_in();
     press(&mut window, egui::Key::D);
-    apply(&mut window, DisplayCommand::SetDifference(Difference::Flip));
+    edit(&mut window, |model| choose_difference(model, Difference::Flip));
     window
 }
 
@@ -168,7 +168,7 @@ fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
     let rect = pane(&window, GROUND_TRUTH);
     drag_primary(&mut window, rect, vec2(0.7, 0.3), vec2(0.2, 0.8));
     let moved = settle(&mut window);
-    apply(&mut window, DisplayCommand::StepExposure(2.0));
+    edit(&mut window, |model| display::step_exposure(model, 2.0));
     let brighter = settle(&mut window);
     let mean = |map: &[f32]| map.iter().sum::<f32>() / map.len() as f32;
     let means = [&first, &moved, &brighter].map(|maps| mean(&maps[0]));
@@ -180,8 +180,8 @@ fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
 fn panes_readout_and_saved_file_have_the_numbers_of_flip() {
     let mut window = with_flip();
     press(&mut window, egui::Key::Num0);
-    apply(&mut window, DisplayCommand::Zoom { factor: 4.3, at: [0.0, 0.0] });
-    apply(&mut window, DisplayCommand::SetExposure(1.0));
+    edit(&mut window, |model| display::zoom(model, 4.3, [0.0, 0.0]));
+    edit(&mut window, |model| model.view.set_exposure(1.0));
     let maps = settle(&mut window).map(|map| map.into_iter().map(|value| [value; 3]).collect());
     assert_differences(&mut window, &maps, 1e-6);
 }

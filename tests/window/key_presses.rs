@@ -1,7 +1,5 @@
 //! Keys and their commands.
 
-use svbrdf_viewer::ui::input::keys;
-
 use super::*;
 
 #[needs(adapter)]
@@ -69,7 +67,7 @@ fn the_page_of_the_window_lists_every_key() {
     let missing: Vec<_> = keys::HELP
         .iter()
         .flat_map(|(_, lines)| *lines)
-        .filter(|(key, what)| !page.contains(&format!("| {key} | {what} |")))
+        .filter(|line| !page.contains(&format!("| {} | {} |", line.keys, line.effect)))
         .collect();
     assert!(missing.is_empty(), "docs/window.md does not list {missing:?}");
 }
@@ -93,7 +91,7 @@ fn undo_and_redo_go_through_the_changes() {
 #[needs(adapter)]
 fn escape_closes_an_open_drop_down_and_nothing_else() {
     let mut window = built_in();
-    apply(&mut window, WindowCommand::ShowHelp(true));
+    edit(&mut window, |model| model.help = true);
     window.get_by_role_and_label(Role::ComboBox, "Convention").click();
     window.run_steps(4);
     window.get_by_label("guided-2020");

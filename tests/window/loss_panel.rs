@@ -3,7 +3,7 @@
 use svbrdf_core::loss::{Loss, Sampling};
 
 use svbrdf_viewer::jobs::displayed::Displayed;
-use svbrdf_viewer::ui::content;
+use svbrdf_viewer::ui::pane::scenery::Scenery;
 
 use super::*;
 
@@ -211,7 +211,7 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_by_a_filter() {
     }
     assert!(has(&window, "4  \u{2026}003"), "names end with what differs");
     let parts = &window.state().parts;
-    let scenery = content::scenery(&window.ctx, Displayed::of(&parts.model, &parts.jobs));
+    let scenery = Scenery::new(&window.ctx, Displayed::of(&parts.model, &parts.jobs));
     let titles: Vec<_> = scenery.contents().into_iter().map(|one| scenery.name_of(one, 9)).collect();
     assert_eq!(titles[0], "GROUND TRUTH  gt");
     assert!((1..15).all(|i| titles[i] == format!("{i}  \u{2026}{:03}", i - 1)), "so do titles: {titles:?}");

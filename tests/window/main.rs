@@ -71,14 +71,14 @@ use svbrdf_needs::needs;
 use svbrdf_viewer::ViewerOptions;
 use svbrdf_viewer::app::storage::Storage;
 use svbrdf_viewer::app::{App, CrashGuard};
-use svbrdf_viewer::model::Model;
-use svbrdf_viewer::model::command::{
-    Command, DatasetCommand, DisplayCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
-};
+use svbrdf_viewer::model::effect::Effect;
 use svbrdf_viewer::model::inspection::{Inspection, Region};
 use svbrdf_viewer::model::settings::Tab;
 use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
+use svbrdf_viewer::model::view::endpoint;
 use svbrdf_viewer::model::view::state::{AutoExposure, Layout, Projection, ViewState};
+use svbrdf_viewer::model::{Model, display, exposure, opening, undo as history};
+use svbrdf_viewer::ui::input::keys;
 
 type Window<'a> = Harness<'a, App>;
 
@@ -139,9 +139,9 @@ fn rest(window: &mut Window<'_>, frames: usize) {
     }
 }
 
-fn apply(window: &mut Window<'_>, command: impl Into<Command>) {
-    let (ctx, command) = (window.ctx.clone(), command.into());
-    window.state_mut().apply(&ctx, command);
+fn edit(window: &mut Window<'_>, edit: impl FnOnce(&mut Model)) {
+    let ctx = window.ctx.clone();
+    window.state_mut().edit(&ctx, edit);
     window.run_steps(2);
 }
 
@@ -236,10 +236,10 @@ fn retype(window: &mut Window<'_>, text: &str) {
 /// Saves, and dismisses the message that says so.
 fn save(window: &mut Window<'_>, kind: SaveKind, path: &Path) {
     let message = format!("Saved {}", path.display());
-    apply(window, WindowCommand::Save(SaveRequest { kind, path: path.to_owned() }));
+    edit(window, |model| model.effects.push(Effect::Save(SaveRequest { kind, path: path.to_owned() })));
     wait(window, "the file", |app| !app.messages().is_empty());
     assert_eq!(window.messages(), [message]);
-    apply(window, WindowCommand::DismissMessages);
+    edit(window, |model| model.messages.dismiss_all());
 }
 
 /// Whether the bytes of a file contain a text.
@@ -261,8 +261,8 @@ fn read_exr(path: &Path) -> (usize, Vec<[f32; 3]>) {
 
 /// Opens files in the place of those of before.
 fn open(window: &mut Window<'_>, paths: impl Into<Vec<PathBuf>>) {
-    let (paths, read) = (paths.into(), ReadOptions::AUTO);
-    apply(window, MaterialsCommand::Open { paths, replace: true, read });
+    let paths = paths.into();
+    edit(window, |model| opening::open(model, paths, true, ReadOptions::AUTO));
 }
 
 /// The window on a saved session.
@@ -278,6 +278,18 @@ fn commands(window: &mut Window<'_>) -> Vec<egui::OutputCommand> {
         window.output().platform_output.commands.clone()
     };
     (0..20).flat_map(|_| frame()).collect()
+}
+
+/// Chooses a difference of the quantity.
+fn choose_difference(model: &mut Model, kind: Difference) {
+    let display = &mut model.view.display;
+    display.differences.choose(display.quantity, kind);
+}
+
+/// Sets the difference that has the last colour.
+fn set_range(model: &mut Model, range: Option<f64>) {
+    let display = &mut model.view.display;
+    display.differences.set_range(display.quantity, range);
 }
 
 /// Drops files on the window.

@@ -23,11 +23,11 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
     }));
     let mut loss = window.model().settings.loss.clone();
     loss.target_percent = 10.0;
-    apply(&mut window, LossCommand::SetSettings(loss));
+    edit(&mut window, |model| model.settings.loss = loss);
     assert!(report(window.state()).is_none(), "not asked yet");
     for convention in ["printed", "svbrdf-estimation-2022"] {
         let chosen = ChosenConvention::read(convention).unwrap();
-        apply(&mut window, SceneCommand::SetConvention(chosen));
+        edit(&mut window, |model| model.use_convention(chosen));
         if convention == "printed" {
             click(&mut window, TITLE);
         }
@@ -50,7 +50,7 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
     }
     // Folded, nothing is asked.
     click(&mut window, TITLE);
-    apply(&mut window, SceneCommand::SetConvention(ChosenConvention::read("guided-2020").unwrap()));
+    edit(&mut window, |model| model.use_convention(ChosenConvention::read("guided-2020").unwrap()));
     rest(&mut window, 5);
     assert!(window.jobs().order.state().is_ok(), "no job");
 }

@@ -5,7 +5,6 @@ use svbrdf_evaluate::photograph::{PhotographComparison, compare, on_texels};
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::{Transfer, read_photograph};
-use svbrdf_viewer::model::command::PhotographCommand;
 
 use super::*;
 
@@ -52,8 +51,8 @@ pub(super) fn opened<'a>() -> (Window<'a>, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let path = photograph(folder.path(), 4.0);
     let mut window = built_in();
-    apply(&mut window, SceneCommand::Choose(SCENE));
-    apply(&mut window, PhotographCommand::Open(path));
+    edit(&mut window, |model| exposure::choose_scene(model, SCENE));
+    edit(&mut window, |model| opening::open_photograph(model, path));
     wait_for_it(&mut window);
     (window, folder)
 }
@@ -74,7 +73,7 @@ fn renderings_are_compared_with_the_photograph_as_the_core_does() {
 
     press(&mut window, egui::Key::D);
     for kind in [Difference::Log, Difference::SignedLog, Difference::Absolute, Difference::Relative] {
-        apply(&mut window, DisplayCommand::SetDifference(kind));
+        edit(&mut window, |model| choose_difference(model, kind));
         wait_for_it(&mut window);
         let all: Vec<_> = core.iter().map(|one| one.statistics(kind).unwrap()).collect();
         assert_eq!(statistics(&mut window), all, "{kind:?}");
@@ -82,24 +81,24 @@ fn renderings_are_compared_with_the_photograph_as_the_core_does() {
         assert!(truth.mean.abs() < 1e-4 && truth.not_finite == 100 && other.p95 > 1e-3, "{kind:?}: {all:?}");
         window.get_by_label(&format!("Title GROUND TRUTH  worn tiles: {}", kind.name()));
     }
-    apply(&mut window, PhotographCommand::SetFalloff(true));
+    edit(&mut window, |model| model.photograph.change(|source| source.falloff = true));
     wait(&mut window, "the falloff", |app| {
         app.against_photograph().is_some_and(|all| all[0].factor != core[0].factor)
     });
     assert!(agrees(&window, &expected(&path, true)) && !agrees(&window, &core));
-    apply(&mut window, PhotographCommand::SetTransfer(Some(Transfer::Srgb)));
+    edit(&mut window, |model| model.photograph.change(|source| source.transfer = Some(Transfer::Srgb)));
     wait(&mut window, "the other curve", |app| app.against_photograph().is_some());
     // Opened again, a file that was replaced is another photograph.
     photograph(folder.path(), 2.0);
     let time = std::time::SystemTime::now() + std::time::Duration::from_secs(5);
     std::fs::File::options().write(true).open(&path).unwrap().set_modified(time).unwrap();
-    apply(&mut window, PhotographCommand::Open(path));
+    edit(&mut window, |model| opening::open_photograph(model, path));
     wait(&mut window, "the new photograph", |app| {
         app.against_photograph().is_some_and(|all| (all[0].factor - 0.5).abs() < 1e-6)
     });
 
     // Without it, the ground truth is compared with again.
-    apply(&mut window, PhotographCommand::Close);
+    edit(&mut window, |model| model.photograph.set(None));
     assert!(statistics(&mut window).len() == 2 && window.against_photograph().is_none());
     assert!(!has(&window, "PHOTOGRAPH"));
     window.get_by_label("Pane GROUND TRUTH  worn tiles");
@@ -112,7 +111,7 @@ fn panes_readout_pictures_and_sessions_have_the_photograph() {
     let core = expected(&path, false);
     press(&mut window, egui::Key::D);
     press(&mut window, egui::Key::Num0);
-    apply(&mut window, DisplayCommand::Zoom { factor: 4.0, at: [0.0, 0.0] });
+    edit(&mut window, |model| display::zoom(model, 4.0, [0.0, 0.0]));
     wait_for_it(&mut window);
     for (slot, title) in [GROUND_TRUTH, PREDICTIONS[0], PREDICTIONS[1]].into_iter().enumerate() {
         let start = if slot == 0 { "gt ".to_owned() } else { format!("{slot} ") };
@@ -158,27 +157,30 @@ fn the_open_dialog_takes_photographs_and_a_list_of_them_has_its_own_lights() {
     let mut window = built_in();
     click(&mut window, "Open");
     click(&mut window, "A photograph in the place of the ground truth");
-    let dialog = window.state_mut().parts.ui.dialogs.open.as_mut().unwrap();
-    dialog.add(&folder.path().display().to_string());
+    let dialog = window.state_mut().parts.model.dialogs.open.as_mut().unwrap();
+    dialog.add(folder.path());
     window.run_steps(3);
     click(&mut window, "Open these");
     wait_for_it(&mut window);
     assert_eq!(window.scene(), SCENE);
     let factor = |app: &App| app.against_photograph().map(|all| all[0].factor);
     let before = factor(window.state());
-    apply(&mut window, PhotographCommand::Choose(1));
+    edit(&mut window, |model| model.photograph.change(|source| source.transfer = Some(Transfer::Srgb)));
+    wait_for_it(&mut window);
+    choose(&mut window, "Photographs", "second.npy");
     wait(&mut window, "the second", |app| factor(app).is_some() && factor(app) != before);
     assert_eq!(window.scene(), other);
+    assert_eq!(window.model().photograph.source().unwrap().transfer, None, "it is read as the list says");
     // A photograph that cannot be read or has another shape is reported, and the ground truth comes back.
     let narrow = folder.path().join("narrow.npy");
     std::fs::write(&narrow, npy::npy([256, 128, 3], &[0.5; 256 * 128 * 3])).unwrap();
     for (path, words) in
         [(folder.path().join("absent.png"), "absent.png"), (narrow, "rectify the photograph")]
     {
-        apply(&mut window, PhotographCommand::Open(path));
+        edit(&mut window, |model| opening::open_photograph(model, path));
         wait(&mut window, "the message", |app| !app.messages().is_empty());
         assert!(window.messages()[0].contains(words), "{:?}", window.messages());
         assert!(window.against_photograph().is_none());
-        apply(&mut window, WindowCommand::DismissMessages);
+        edit(&mut window, |model| model.messages.dismiss_all());
     }
 }

@@ -52,7 +52,7 @@ fn window_of_files() -> (tempfile::TempDir, [PathBuf; 2], Window<'static>) {
 #[needs(adapter)]
 fn a_material_whose_file_is_broken_is_marked_until_it_is_whole_again() {
     let (_folder, paths, mut window) = window_of_files();
-    apply(&mut window, MaterialsCommand::SetWatch(true));
+    edit(&mut window, |model| model.settings.watch = true);
     window.run_steps(3);
     let whole = std::fs::read(&paths[1]).unwrap();
     std::fs::write(&paths[1], &whole[..whole.len() / 2]).unwrap();
@@ -68,13 +68,13 @@ fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
     let (_folder, _, mut window) = window_of_files();
     // Longer than it takes for a state to become one to return to.
     window.run_steps(30);
-    apply(&mut window, MaterialsCommand::OpenBuiltIn);
+    edit(&mut window, opening::open_built_in);
     wait(&mut window, "the built-in pair", |app| app.names().len() == 3);
     window.run_steps(30);
-    apply(&mut window, DisplayCommand::Undo);
+    edit(&mut window, history::undo);
     wait(&mut window, "the earlier materials", |app| app.names() == ["gt", "p"]);
     window.run_steps(30);
-    apply(&mut window, DisplayCommand::Redo);
+    edit(&mut window, history::redo);
     wait(&mut window, "the built-in pair", |app| app.names().len() == 3);
 }
 
@@ -100,7 +100,7 @@ fn a_prediction_replaced_by_one_of_another_size_makes_its_loss_stale() {
     wait(&mut window, "the loss", |app| app.losses().is_some());
     let stale = |window: &Window<'_>| ["1 (stale)  p", "p  (stale)"].map(|text| has(window, text));
     assert_eq!(stale(&window), [false, false]);
-    apply(&mut window, MaterialsCommand::SetWatch(true));
+    edit(&mut window, |model| model.settings.watch = true);
     window.run_steps(3);
     write(&paths[1], 2);
     wait(&mut window, "the refusal", |app| app.messages().iter().any(|text| text.starts_with("Not opened")));

@@ -15,13 +15,13 @@ fn a_report_begins_as_the_window_and_has_its_losses_and_session() {
     let mut window = by_scenes();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a report.html");
-    apply(&mut window, DisplayCommand::SetLayout(Layout::Wipe));
-    apply(&mut window, DisplayCommand::SetExposure(1.5));
+    edit(&mut window, |model| model.view.display.layout = Layout::Wipe);
+    edit(&mut window, |model| model.view.set_exposure(1.5));
     let mut scene = window.scene();
     scene.light = [0.1, -0.7, 1.3];
-    apply(&mut window, SceneCommand::Set(scene));
-    apply(&mut window, DisplayCommand::ShowDifference(true));
-    apply(&mut window, DisplayCommand::SetRange(Some(0.75)));
+    edit(&mut window, |model| model.view.scene = scene);
+    edit(&mut window, |model| model.view.display.difference = true);
+    edit(&mut window, |model| set_range(model, Some(0.75)));
     wait(&mut window, "the losses", |app| app.losses().is_some());
     let losses: Vec<f64> = window.losses().unwrap().iter().map(|loss| loss.estimate.mean).collect();
     save(&mut window, SaveKind::Report, &path);
@@ -50,10 +50,10 @@ fn a_report_that_is_cancelled_leaves_no_file_and_the_dialog_open() {
     let path = folder.path().join("report.html");
     let mut settings = window.model().settings.loss.clone();
     (settings.ask, settings.target_percent) = (Ask::Accuracy, 0.05);
-    apply(&mut window, LossCommand::SetSettings(settings));
+    edit(&mut window, |model| model.settings.loss = settings);
     click(&mut window, "Save");
     click(&mut window, "Report");
-    apply(&mut window, WindowCommand::Save(SaveRequest { kind: SaveKind::Report, path }));
+    edit(&mut window, |model| model.effects.push(Effect::Save(SaveRequest { kind: SaveKind::Report, path })));
     wait(&mut window, "some progress", |app| {
         app.parts.jobs.saving.as_ref().is_some_and(|job| job.fraction() > 0.0)
     });

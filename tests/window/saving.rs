@@ -2,7 +2,6 @@
 
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_files::read::NormalY;
-use svbrdf_viewer::model::command::InspectionCommand;
 
 use super::*;
 
@@ -11,10 +10,10 @@ fn saved_renderings_are_what_is_selected() {
     let mut window = built_in();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("normals.png");
-    apply(&mut window, DisplayCommand::SetQuantity(Quantity::Normal));
-    apply(&mut window, DisplayCommand::ShowDifference(true));
-    apply(&mut window, DisplayCommand::SetRange(Some(20.0)));
-    apply(&mut window, DisplayCommand::SetExposure(3.0));
+    edit(&mut window, |model| model.view.display.quantity = Quantity::Normal);
+    edit(&mut window, |model| model.view.display.difference = true);
+    edit(&mut window, |model| set_range(model, Some(20.0)));
+    edit(&mut window, |model| model.view.set_exposure(3.0));
     save(&mut window, SaveKind::Renderings, &path);
     let got = image::open(&path).unwrap().to_rgb8();
     let materials: Vec<_> = window.materials().collect();
@@ -50,7 +49,7 @@ fn a_saved_strip_is_that_of_the_session_and_has_the_rectangle_as_a_crop() {
     assert!(strip(&[&session]) == image::open(&plain).unwrap());
     assert!(strip(&[]) != image::open(&plain).unwrap(), "a planted fault: another light");
     let region = Region { first: [40, 60], last: [71, 79] };
-    apply(&mut window, InspectionCommand::SetRegion(Some(region)));
+    edit(&mut window, |model| model.inspection.region = Some(region));
     save(&mut window, SaveKind::Strip, &cropped);
     let width = |path: &Path| image::open(path).unwrap().width();
     // 8 times as large, beside each of 6 cells of 256 pixels: with gaps.
@@ -68,7 +67,7 @@ fn the_saved_view_has_the_pixels_of_the_window_with_a_caption() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("view.png");
     wait(&mut window, "the losses", |app| app.losses().is_some());
-    apply(&mut window, DisplayCommand::Zoom { factor: 2.0, at: [0.2, 0.1] });
+    edit(&mut window, |model| display::zoom(model, 2.0, [0.2, 0.1]));
     save(&mut window, SaveKind::View, &path);
     window.run_steps(8);
     let whole = image::open(&path).unwrap().to_rgb8();
@@ -93,10 +92,10 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     let folder = tempfile::tempdir().unwrap();
     let mut first = on_files(strips(folder.path(), ["gt.png", "p.png"]));
     let read = ReadOptions { normal_y: Some(NormalY::Down), ..ReadOptions::AUTO };
-    apply(&mut first, MaterialsCommand::ReadAs { index: 1, read });
+    edit(&mut first, |model| opening::read_as(model, 1, read));
     wait(&mut first, "the other assumption", |app| !app.is_reading());
-    apply(&mut first, SceneCommand::SetConvention(ChosenConvention::read("guided-2020").unwrap()));
-    apply(&mut first, DisplayCommand::SetExposure(1.5));
+    edit(&mut first, |model| model.use_convention(ChosenConvention::read("guided-2020").unwrap()));
+    edit(&mut first, |model| model.view.set_exposure(1.5));
     let model = &mut first.state_mut().parts.model;
     let display = &mut model.view.display;
     (display.layout, display.projection) = (Layout::Wipe, Projection::Perspective);
@@ -123,9 +122,9 @@ fn a_session_opens_as_it_was_saved_and_so_does_the_last_one() {
     wait(&mut later, "the session", |app| app.names() == ["gt", "p"] && !app.is_reading());
     same(&later);
     later.run_steps(3);
-    apply(&mut later, MaterialsCommand::OpenBuiltIn);
+    edit(&mut later, opening::open_built_in);
     wait(&mut later, "the built-in pair", |app| app.names().len() == 3 && !app.is_reading());
-    apply(&mut later, MaterialsCommand::Reopen(0));
+    edit(&mut later, |model| opening::reopen(model, 0));
     wait(&mut later, "the last materials", |app| app.names() == ["gt", "p"] && !app.is_reading());
     same(&later);
 }
@@ -158,7 +157,7 @@ fn nothing_that_is_saved_replaces_a_map_a_photograph_or_a_scene_file() {
     let before = bytes();
     for (number, kind) in [SaveKind::View, SaveKind::Strip, SaveKind::Scenes].into_iter().enumerate() {
         let path = all[number].clone();
-        apply(&mut window, WindowCommand::Save(SaveRequest { kind, path }));
+        edit(&mut window, |model| model.effects.push(Effect::Save(SaveRequest { kind, path })));
         wait(&mut window, "the refusal", |app| app.messages().len() > number);
         let message = window.messages().last().unwrap().clone();
         assert!(message.contains("which the result is made from"), "{message}");

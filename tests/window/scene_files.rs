@@ -39,9 +39,9 @@ fn the_scenes_of_a_file_are_those_of_the_loss_until_they_are_removed() {
     window.run_steps(26);
     assert!(window.query_by_label("3 scenes of render.json").is_none());
     assert!(window.model().settings.loss.file.is_none());
-    apply(&mut window, DisplayCommand::Undo);
+    edit(&mut window, history::undo);
     wait(&mut window, "the loss over the file", is_over(3));
-    apply(&mut window, LossCommand::RemoveFileScenes);
+    edit(&mut window, |model| model.settings.loss = model.settings.loss.with_file(None));
     wait(&mut window, "the loss to +-1%", |app| app.losses().is_some());
 
     // What is no scene file is an error, and changes nothing.
@@ -77,7 +77,7 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
     open(&mut window, [path.clone()]);
     wait(&mut window, "the scenes of the file", |app| app.parts.model.settings.loss.file_scenes().is_some());
     let session = folder.path().join("a.svbrdf-session.json");
-    apply(&mut window, WindowCommand::DismissMessages);
+    edit(&mut window, |model| model.messages.dismiss_all());
     save(&mut window, SaveKind::Session, &session);
     let mut other = on_session(&session);
     wait(&mut other, "the loss", is_over(9));
@@ -104,7 +104,7 @@ fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
     // Two of them are refused, and those of before stay.
     let other = folder.path().join("other.json");
     std::fs::write(&other, CAPTURE).unwrap();
-    apply(&mut window, WindowCommand::DismissMessages);
+    edit(&mut window, |model| model.messages.dismiss_all());
     drop_files(&mut window, [path, other]);
     wait(&mut window, "the refusal", |app| !app.messages().is_empty());
     let messages = window.messages();
@@ -168,7 +168,7 @@ fn the_losses_are_those_of_the_file_and_change_with_its_content() {
     choose(&mut window, "Convention", "mine.toml");
     assert_losses(&mut window, &second);
     rest(&mut window, 30);
-    apply(&mut window, DisplayCommand::Undo);
+    edit(&mut window, history::undo);
     assert_losses(&mut window, &ChosenConvention::default());
     // What is none is told, and changes nothing.
     std::fs::write(&path, "F = 5").unwrap();

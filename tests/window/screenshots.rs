@@ -75,7 +75,7 @@ fn the_picture_of_a_diagnosis() {
     let mut window = sized();
     let read = ReadOptions { order: Some("ndrs".parse().unwrap()), ..ReadOptions::AUTO };
     let read = ReadOptions { preset: Some("deschaintre".parse().unwrap()), ..read };
-    apply(&mut window, MaterialsCommand::Open { paths: vec![truth, flipped], replace: true, read });
+    edit(&mut window, |model| opening::open(model, vec![truth, flipped], true, read));
     wait(&mut window, "the materials", |app| app.names() == ["worn tiles", "Y down"]);
     tab(&mut window, "Why");
     wait(&mut window, "the diagnosis", |app| app.diagnosis().is_some());
@@ -114,7 +114,7 @@ fn the_picture_of_a_data_set() {
     click(&mut window, "Light and view");
     window.key_press(egui::Key::S);
     window.run_steps(4);
-    apply(&mut window, DatasetCommand::SetCell(142.0));
+    edit(&mut window, |model| model.dataset.set_cell(142.0));
     wait(&mut window, "the summary", |app| app.parts.jobs.dataset.summary.get().is_some());
     let cell = svbrdf_viewer::jobs::dataset::cells::Cell { case: 4, column: 2 };
     wait(&mut window, "the cells", |app| {

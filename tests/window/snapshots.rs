@@ -99,7 +99,7 @@ fn the_window_has_the_words_and_the_order_of_the_snapshots() {
     window.run_steps(12);
     assert_snapshot(&window, "why");
     window.state_mut().parts.model.settings.tab = Tab::Loss;
-    apply(&mut window, DisplayCommand::ShowDifference(true));
+    edit(&mut window, |model| model.view.display.difference = true);
     statistics(&mut window);
     let at = pane(&window, GROUND_TRUTH).center();
     hover(&mut window, at);
@@ -118,12 +118,10 @@ fn dialogs_menu_and_small_windows_have_the_words_of_the_snapshots() {
     assert_snapshot(&window, "small");
     press(&mut window, egui::Key::B);
     window.run_steps(20);
-    for (name, command) in [
-        ("open", WindowCommand::ShowOpen(true)),
-        ("save", WindowCommand::ShowSave(true)),
-        ("help", WindowCommand::ShowHelp(true)),
-    ] {
-        apply(&mut window, command);
+    for (name, open) in
+        [("open", keys::OPEN), ("save", keys::SAVE), ("help", |model: &mut Model| model.help = true)]
+    {
+        edit(&mut window, open);
         window.run_steps(8);
         assert_snapshot(&window, name);
         press(&mut window, egui::Key::Escape);

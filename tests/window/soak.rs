@@ -131,7 +131,7 @@ fn five_hundred_events_of_a_monkey_crash_nothing() {
         let last = &played[number.saturating_sub(7)..];
         assert!(!window.state().has_crashed(), "event {number}: {last:#?}");
         // Nothing is written where the tests run.
-        window.state_mut().parts.ui.dialogs.save = None;
+        window.state_mut().parts.model.dialogs.save = None;
         if number % 100 == 99 {
             let textures = window.ctx.tex_manager();
             let textures = textures.read();

@@ -87,8 +87,8 @@ fn the_automatic_range_is_that_of_the_predictions_also_of_a_mixture() {
     let before = window.difference_range();
     let mut mixed = Vec::new();
     for only_right in [false, true] {
-        apply(&mut window, DisplayCommand::Isolate(Some(MaterialMap::Normal)));
-        apply(&mut window, DisplayCommand::SetOnlyRight(only_right));
+        edit(&mut window, |model| model.view.isolate(Some(MaterialMap::Normal)));
+        edit(&mut window, |model| model.view.display.only_right = only_right);
         wait(&mut window, "the mixture", |app| {
             app.displayed_materials()[1].0.contains(if only_right { "right" } else { "wrong" })
         });

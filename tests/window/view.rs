@@ -55,7 +55,7 @@ fn the_magnification_is_a_number_that_can_be_typed() {
     let before = window.view().display.framing;
     enter(&mut window, "Magnification", "4");
     assert!((magnification(&window) - 4.0).abs() < 0.01, "{}", magnification(&window));
-    apply(&mut window, DisplayCommand::Undo);
+    edit(&mut window, history::undo);
     assert_eq!(window.view().display.framing, before);
 }
 

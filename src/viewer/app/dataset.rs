@@ -8,9 +8,8 @@ use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 
 use super::parts::Parts;
 use crate::jobs::work::job::Job;
-use crate::model::apply::dataset::show_case;
+use crate::model::case;
 use crate::model::dataset::{DatasetState, OpenDataset, TARGET_ERROR};
-use crate::model::message::Message;
 
 /// Matches the materials of these folders, or of one table.
 pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
@@ -22,12 +21,6 @@ pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
         let open = OpenDataset::new(source, DatasetReading::default(), (TARGET_ERROR, 0), None)?;
         Ok(DatasetState::of(Arc::new(open), 0, Default::default()))
     }));
-}
-
-/// Opens a list of predictions of one ground truth.
-pub(super) fn open_many(parts: &mut Parts, open: OpenDataset) {
-    parts.ui.dialogs.open = None;
-    parts.model.open_dataset(DatasetState::of(Arc::new(open), 0, Default::default()));
 }
 
 /// Matches the materials of a session; `results` is a folder that a person named.
@@ -75,13 +68,12 @@ pub(super) fn read_again(parts: &mut Parts, case: usize) {
 pub(super) fn take(parts: &mut Parts) {
     let Some(result) = parts.jobs.dataset.opening.as_ref().and_then(Job::poll) else { return };
     parts.jobs.dataset.opening = None;
-    match (result, &mut parts.ui.dialogs.open) {
-        (Ok(state), _) => {
-            parts.ui.dialogs.open = None;
+    match result {
+        Ok(state) => {
+            parts.model.dialogs.open = None;
             parts.model.open_dataset(state);
         }
-        (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
-        (Err(error), None) => parts.model.report([Message::Failed(error)]),
+        Err(error) => parts.model.not_opened(error),
     }
 }
 
@@ -90,8 +82,7 @@ pub(super) fn take(parts: &mut Parts) {
 pub(super) fn show(parts: &mut Parts) {
     let dataset = &parts.model.dataset;
     let Some(open) = dataset.open.clone().filter(|_| dataset.is_waiting()) else { return };
-    let (case, pinned) = (dataset.wanted, dataset.pinned());
-    let Some(read) = parts.jobs.dataset.cases.get(case, &pinned).cloned() else { return };
+    let Some(read) = parts.jobs.dataset.cases.get(dataset.wanted, &dataset.pinned()).cloned() else { return };
     read.uploads.iter().for_each(|(id, uploaded)| parts.jobs.uploads.add(*id, Some(uploaded.clone())));
-    show_case(&mut parts.model, &open, read.case, &read.materials, read.problems.clone());
+    case::show(&mut parts.model, &open, read.case, &read.materials, read.problems.clone());
 }

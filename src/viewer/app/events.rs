@@ -6,6 +6,7 @@ use super::dataset;
 use super::parts::Parts;
 use crate::model::material::problem::MaterialProblem;
 use crate::model::message::Message;
+use crate::ui::dialogs;
 
 /// Takes over the results that have arrived since the last frame.
 pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
@@ -42,10 +43,10 @@ fn take_materials(parts: &mut Parts) {
 
 /// Reports problems with materials: those of the open dialog in the dialog, which stays open with its text.
 fn report_problems(parts: &mut Parts, problems: Vec<MaterialProblem>) {
-    let asked = parts.ui.dialogs.open.as_ref().and_then(|dialog| dialog.opening);
+    let asked = parts.model.dialogs.open.as_ref().and_then(|dialog| dialog.opening);
     let mut is_told = false;
     for problem in problems {
-        match (&problem, &mut parts.ui.dialogs.open) {
+        match (&problem, &mut parts.model.dialogs.open) {
             (MaterialProblem::NotRead { error, opening, .. }, Some(dialog))
                 if asked == Some(*opening) && error.names_outside().is_none() =>
             {
@@ -57,7 +58,7 @@ fn report_problems(parts: &mut Parts, problems: Vec<MaterialProblem>) {
         }
     }
     if asked.is_some_and(|opening| !parts.jobs.openings.is_waiting(opening)) && !is_told {
-        parts.ui.dialogs.open = None;
+        parts.model.dialogs.open = None;
     }
 }
 
@@ -79,14 +80,14 @@ fn follow_files(parts: &mut Parts) {
 fn take_saved(parts: &mut Parts) {
     let Some(result) = parts.jobs.saving.as_ref().and_then(|job| job.poll()) else { return };
     parts.jobs.saving = None;
-    match (result, &mut parts.ui.dialogs.save) {
+    match (result, &mut parts.model.dialogs.save) {
         (Ok(path), _) => {
-            parts.ui.dialogs.save = None;
+            parts.model.dialogs.save = None;
             let path = std::path::absolute(&path).unwrap_or(path);
             parts.model.report([Message::Done(format!("Saved {}", path.display()))]);
         }
         (Err(error), _) if error.is_cancelled() => {}
-        (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
+        (Err(error), Some(dialog)) => dialog.field.fail(error.to_string()),
         (Err(error), None) => parts.model.report([Message::Failed(error)]),
     }
 }
@@ -94,18 +95,17 @@ fn take_saved(parts: &mut Parts) {
 fn take_scene_file(parts: &mut Parts) {
     let Some(result) = parts.jobs.scene_file.as_ref().and_then(|job| job.poll()) else { return };
     parts.jobs.scene_file = None;
-    match (result, &mut parts.ui.dialogs.open) {
-        (Ok(file), _) => {
-            parts.ui.dialogs.open = None;
+    match result {
+        Ok(file) => {
+            parts.model.dialogs.open = None;
             parts.model.use_scenes(file);
         }
-        (Err(error), Some(dialog)) => dialog.fail(error.to_string()),
-        (Err(error), None) => parts.model.report([Message::Failed(error)]),
+        Err(error) => parts.model.not_opened(error),
     }
 }
 
 fn take_browsed(parts: &mut Parts) {
     let Some(result) = parts.jobs.browsing.as_ref().and_then(|job| job.poll()) else { return };
     parts.jobs.browsing = None;
-    parts.ui.dialogs.browsed(result);
+    dialogs::browsed(&mut parts.model.dialogs, result);
 }

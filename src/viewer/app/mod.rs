@@ -25,11 +25,11 @@ use super::jobs::Jobs;
 use super::jobs::displayed::Displayed;
 use super::jobs::work::waker::Waker;
 use super::model::Model;
-use super::model::apply::{exposure, undo};
-use super::model::command::{Command, SceneCommand};
 use super::model::message::Message;
 use super::model::ranges::UI_SCALE;
 use super::model::settings::options::ViewerOptions;
+use super::model::view::state::ViewState;
+use super::model::{exposure, undo};
 use super::ui::WindowUi;
 use super::ui::shading::gpu_view::GpuView;
 use super::ui::widgets::theme;
@@ -59,9 +59,9 @@ impl App {
         let waker = Waker::new(move |after: Duration| woken.request_repaint_after(after));
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
         let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu };
-        let start = parts.model.start(options);
+        parts.model.start(options);
         parts.model.report(Restarts::of_environment().map(|restarts| Message::Warning(restarts.message())));
-        start.into_iter().for_each(|effect| effects::carry_out(&mut parts, &cc.egui_ctx, effect));
+        effects::carry_out(&mut parts, &cc.egui_ctx);
         let unscaled = storage.is_new();
         Self { parts, storage, crash: CrashGuard::default(), title: String::new(), unscaled }
     }
@@ -78,26 +78,24 @@ impl App {
         self.crash.has_crashed()
     }
 
-    /// Carries out one command, and its effects.
-    pub fn apply(&mut self, ctx: &egui::Context, command: Command) {
-        for effect in self.parts.model.apply(command) {
-            effects::carry_out(&mut self.parts, ctx, effect);
-        }
+    /// Edits the model as a panel does.
+    pub fn edit(&mut self, ctx: &egui::Context, edit: impl FnOnce(&mut Model)) {
+        edit(&mut self.parts.model);
+        effects::carry_out(&mut self.parts, ctx);
         ctx.request_repaint();
     }
 
-    fn apply_all(&mut self, ctx: &egui::Context, commands: Vec<Command>) {
-        if commands.is_empty() {
-            return;
+    /// Takes over what edits have made of the view `before`, in the same frame: it is no step of its own to undo.
+    fn settle(&mut self, ctx: &egui::Context, before: &ViewState) {
+        effects::carry_out(&mut self.parts, ctx);
+        if self.parts.model.view != *before {
+            self.parts.model.keep_visible();
         }
-        commands.into_iter().for_each(|command| self.apply(ctx, command));
-        self.parts.model.keep_visible();
-        // In the same frame: it is no step of its own to undo.
         exposure::follow(&mut self.parts.model);
     }
 
-    /// One frame: input, commands, model, picture. What a gesture changes is in the frame that read it; what is clicked in a panel is
-    /// in the next one.
+    /// One frame: input, model, picture. What a gesture changes is in the frame that read it; what is edited in a panel is in the next
+    /// one.
     fn frame(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.parts.model.settings.dark);
@@ -106,15 +104,18 @@ impl App {
         self.parts.model.time = ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
         events::take_results(&mut self.parts, &ctx);
-        let commands = self.parts.ui.input(&ctx, Displayed::of(&self.parts.model, &self.parts.jobs));
-        self.apply_all(&ctx, commands);
+        let before = self.parts.model.view.clone();
+        self.parts.ui.input(&ctx, &mut self.parts.model, &self.parts.jobs);
+        self.settle(&ctx, &before);
         dataset::show(&mut self.parts);
         exposure::follow(&mut self.parts.model);
         self.follow(&ctx);
-        let displayed = Displayed::of(&self.parts.model, &self.parts.jobs);
-        let commands = self.parts.ui.draw(ui, displayed, self.parts.gpu.as_mut());
+        let mut next = self.parts.model.clone();
+        let shown = Displayed::of(&self.parts.model, &self.parts.jobs);
+        self.parts.ui.draw(ui, shown, &mut next, self.parts.gpu.as_mut());
         self.name_window(&ctx);
-        self.apply_all(&ctx, commands);
+        let before = std::mem::replace(&mut self.parts.model, next).view;
+        self.settle(&ctx, &before);
         let is_photograph_settled = self.parts.jobs.photograph.is_settled(&self.parts.model.photograph);
         undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
     }
@@ -160,7 +161,7 @@ impl App {
         }
         match findings.worst {
             Some(Ok(worst)) => {
-                self.apply(ctx, SceneCommand::Choose(worst.scene).into());
+                exposure::choose_scene(&mut self.parts.model, worst.scene);
                 ctx.request_repaint();
             }
             Some(Err(error)) => self.parts.model.report([Message::Failed(error)]),

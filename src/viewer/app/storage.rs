@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -77,7 +78,7 @@ impl Storage {
             model.report([Message::Warning(text)]);
         }
         let Some(Stored { settings, recent }) = self.stored.clone() else { return };
-        (model.settings, model.recent) = (settings, recent);
+        (model.settings, model.recent) = (settings, Arc::new(recent));
         let out_of_range = bring_into_range(model).map(Message::Warning);
         model.report(out_of_range);
     }
@@ -85,7 +86,7 @@ impl Storage {
     /// Stores what has changed, at once: a program that is killed stores nothing at its end. A file that cannot be written is missed
     /// at the next start only.
     pub fn store(&mut self, model: &Model) {
-        let now = Stored { settings: model.settings.for_next_start(), recent: model.recent.clone() };
+        let now = Stored { settings: model.settings.for_next_start(), recent: model.recent.to_vec() };
         let Some(folder) = self.folder.as_deref().filter(|_| self.stored.as_ref() != Some(&now)) else {
             return;
         };
@@ -141,7 +142,7 @@ mod tests {
         let scenes = vec![Model::default().view.scene];
         let file = FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes };
         let mut model = Model::default();
-        model.recent = vec![model.session()];
+        model.recent = Arc::new(vec![model.session()]);
         let mut storage = Storage::read(Some(folder.path().to_owned()));
         assert!(storage.is_new());
         for (stored, loss) in [(timed.clone(), timed), (plain.with_file(Some(file)), plain)] {

@@ -7,7 +7,7 @@ use svbrdf_files::read::EXTENSIONS;
 
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
-use crate::model::command::BrowseFor;
+use crate::model::effect::BrowseFor;
 
 /// Nobody cancels a dialog sooner than this.
 const AT_ONCE: Duration = Duration::from_millis(300);

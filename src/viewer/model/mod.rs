@@ -1,29 +1,35 @@
-//! The model of the window: materials, view, settings and history, changed by commands and by the results of jobs.
+//! The model of the window: materials, view, settings and history, changed by input, by panels and by the results of jobs.
 //!
-//! It knows no window library and no graphics adapter. [`Model::apply`] carries out a command and returns the effects that
-//! lie outside of it as values: a job to start, a dialog to open, a text for the clipboard.
+//! What an edit needs outside of it, as a file to be read, it adds to [`Model::effects`].
 
-pub mod apply;
-pub mod command;
+pub mod case;
+pub mod clipboard;
 pub mod dataset;
-pub mod exposed;
+pub mod dialogs;
+pub mod display;
+pub mod effect;
+pub mod exposure;
 pub mod history;
 pub mod inspection;
 pub mod material;
 pub mod message;
+pub mod opening;
 pub mod ranges;
 pub mod session;
 pub mod settings;
+pub mod undo;
 pub mod view;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::Session;
 
 use dataset::DatasetState;
-use exposed::Exposed;
+use dialogs::Dialogs;
+use effect::Effect;
 use history::History;
 use inspection::Inspection;
 use material::list::MaterialList;
@@ -32,31 +38,36 @@ use message::Message;
 use message::list::MessageList;
 use settings::Settings;
 use settings::loss_query::LossQuery;
-use settings::why::WhyState;
 use view::framing;
 use view::geometry::WindowGeometry;
-use view::state::ViewState;
+use view::state::{Exposed, ViewState};
 
-/// Everything that commands change.
-#[derive(Debug, Default)]
+use crate::error::Error;
+
+/// Everything that is edited in the window. A copy is cheap: what is large is shared.
+#[derive(Clone, Debug, Default)]
 pub struct Model {
     /// Light, view and display: what undo covers.
     pub view: ViewState,
     /// What persists from one start to the next.
     pub settings: Settings,
     /// The sessions of the last comparisons of materials from files, the latest first, for the next start.
-    pub recent: Vec<Session>,
+    pub recent: Arc<Vec<Session>>,
     pub materials: MaterialList,
     pub dataset: DatasetState,
     pub photograph: PhotographState,
     pub inspection: Inspection,
     /// The inspected texels of a session whose materials are being read.
     pub inspected_later: Option<Inspection>,
-    pub why: WhyState,
+    /// Scenes that the tab *Why* lists beyond the first few.
+    pub more_scenes: usize,
     /// What the automatic exposure was last computed for.
     pub exposed: Exposed,
     pub history: History,
     pub messages: MessageList,
+    pub dialogs: Dialogs,
+    /// What is to be done outside of the model.
+    pub effects: Vec<Effect>,
     /// Whether ground truth and chosen prediction have changed places.
     pub swapped: bool,
     /// Whether the help is open.
@@ -77,6 +88,19 @@ impl Model {
     /// Whether the side panel is open. Narrow windows have a choice of their own, which starts closed.
     pub fn side_panel(&self) -> bool {
         if self.geometry.is_narrow { self.narrow_side_panel } else { self.settings.side_panel }
+    }
+
+    pub fn toggle_side_panel(&mut self) {
+        let is_open = match self.geometry.is_narrow {
+            true => &mut self.narrow_side_panel,
+            false => &mut self.settings.side_panel,
+        };
+        *is_open ^= true;
+    }
+
+    /// Whether a dialog or the help is open: the panes behind it do not move.
+    pub fn is_modal(&self) -> bool {
+        self.dialogs.is_open() || self.help
     }
 
     /// The tab of the side panel that is open.
@@ -111,6 +135,14 @@ impl Model {
         messages.into_iter().for_each(|message| self.messages.add(message, now));
     }
 
+    /// Reports why something was not opened: in the dialog that has asked for it, where it is open.
+    pub fn not_opened(&mut self, error: Error) {
+        match &mut self.dialogs.open {
+            Some(dialog) => dialog.fail(error.to_string()),
+            None => self.report([Message::Failed(error)]),
+        }
+    }
+
     /// Takes the scenes of a file as those of the loss.
     pub fn use_scenes(&mut self, file: FileScenes) {
         let text = format!("The loss is over the {} scenes of {}", file.scenes.len(), file.name);
@@ -133,5 +165,23 @@ impl Model {
             let grid = ground_truth.grid();
             self.view.display.framing = framing::limited(&self.view, grid, self.geometry.pane);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn narrow_windows_have_a_side_panel_of_their_own() {
+        let mut model = Model::default();
+        assert!(model.side_panel());
+        model.geometry = WindowGeometry { is_narrow: true, ..WindowGeometry::default() };
+        assert!(!model.side_panel());
+        model.toggle_side_panel();
+        assert!(model.side_panel() && model.settings.side_panel);
+        model.geometry.is_narrow = false;
+        model.toggle_side_panel();
+        assert!(!model.side_panel() && model.narrow_side_panel);
     }
 }

@@ -8,14 +8,12 @@ use svbrdf_files::session::window::SessionDisplay as PaneDisplay;
 
 use super::Model;
 use super::settings::Settings;
-use super::view::state::ViewState;
+use super::view::state::{STOPS, ViewState};
 
 /// Physical pixels per texel.
 const PIXELS_PER_TEXEL: RangeInclusive<f32> = 1e-4..=1e6;
 /// The texel in the centre of a pane.
 const CENTRE: RangeInclusive<f32> = 0.0..=1e6;
-/// Greatest exposure either way, in stops.
-pub const STOPS: f32 = 20.0;
 /// Scale of text and controls. The smallest text has 11 points, and 8 at the smallest scale.
 pub const UI_SCALE: RangeInclusive<f32> = 0.75..=4.0;
 /// Target error of a loss in percent.

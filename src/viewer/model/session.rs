@@ -5,27 +5,25 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use svbrdf_core::loss::ALL_SCENES_TARGET;
-use svbrdf_core::picture::difference::Difference;
-use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::dataset::{Method, Source};
 use svbrdf_files::convention::ChosenConvention;
-use svbrdf_files::photograph::{Capture, SessionPhotograph};
+use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 use svbrdf_files::session::window::{SessionInspection, SessionWindow};
 use svbrdf_files::session::{Session, SessionMaterial};
 
 use super::Model;
-use super::command::effect::Effect;
 use super::dataset::{DatasetState, OpenDataset};
-use super::exposed::Exposed;
+use super::effect::Effect;
 use super::history::History;
 use super::inspection::Inspection;
 use super::material::read::Rules;
 use super::material::request::{ReadRequest, Target};
 use super::message::Message;
+use super::opening;
 use super::ranges::bring_into_range;
-use super::view::state::ViewState;
+use super::view::state::{Exposed, ViewState};
 use crate::model::settings::options::ViewerOptions;
 use svbrdf_files::source::{MaterialSource, Place};
 
@@ -33,8 +31,8 @@ use svbrdf_files::source::{MaterialSource, Place};
 const RECENT: usize = 12;
 
 impl Model {
-    /// Takes in what the window starts with; what reads its materials.
-    pub fn start(&mut self, options: ViewerOptions) -> Vec<Effect> {
+    /// Takes in what the window starts with.
+    pub fn start(&mut self, options: ViewerOptions) {
         self.materials.rules = Rules { strict: options.strict, fit: options.fit };
         let request = match (&options.session, options.ground_truth) {
             (Some(session), _) => Some(self.open_session(session)),
@@ -60,9 +58,10 @@ impl Model {
         options.scenes.into_iter().for_each(|file| self.use_scenes(file));
         let of_session = options.session.and_then(|session| session.dataset).map(Box::new);
         let of_session = of_session.map(|session| Effect::RestoreDataset(session, options.results));
-        let photograph = options.photograph.map(Effect::OpenPhotograph);
-        let effects = request.map(Effect::Read).into_iter().chain(of_session);
-        effects.chain(photograph).collect()
+        self.effects.extend(request.map(Effect::Read).into_iter().chain(of_session));
+        if let Some(path) = options.photograph {
+            opening::open_photograph(self, path);
+        }
     }
 
     /// Takes a data set as what is open. What could be undone belongs to the last materials.
@@ -166,25 +165,16 @@ impl Model {
         self.materials.restore(&sources)
     }
 
-    /// Compares renderings with the photograph at `path`, in one scene; with the first of a capture under its light and view.
-    pub fn open_photograph(&mut self, path: PathBuf, capture: Option<Capture>) {
-        self.view.scene = self.photograph.open(path, capture).unwrap_or(self.view.scene);
-        self.view.display.quantity = Quantity::Rendering;
-        if self.view.is_computed() {
-            // Of the ground truth: there are no photographs of all scenes, and FLIP is not computed beside one.
-            self.view.display.differences.choose(Quantity::Rendering, Difference::Log);
-        }
-    }
-
     /// Remembers the comparison for the next start, unless there are only built-in materials, or some are still being read.
     pub fn remember_session(&mut self, are_materials_settled: bool) {
         let is_settled = are_materials_settled && !self.dataset.is_waiting();
         if is_settled && !self.materials.only_built_in() {
             let session = self.session();
             let files = compared_files(&session);
-            self.recent.retain(|one| compared_files(one) != files);
-            self.recent.insert(0, session);
-            self.recent.truncate(RECENT);
+            let recent = Arc::make_mut(&mut self.recent);
+            recent.retain(|one| compared_files(one) != files);
+            recent.insert(0, session);
+            recent.truncate(RECENT);
         }
     }
 }

@@ -12,43 +12,34 @@ use super::widgets::bare;
 use super::widgets::numbers::digits;
 use crate::jobs::displayed::Displayed;
 use crate::model::Model;
-use crate::model::command::Command;
+use crate::model::material::loaded::LoadedMaterial;
 
 /// Height of the caption of a picture that is saved, in points.
 pub const CAPTION: f32 = 20.0;
 
-/// The panes and what is below them.
-#[derive(Debug)]
-pub struct CentralArea<'a> {
-    pub displayed: Displayed<'a>,
-    pub viewport: &'a mut Viewport,
-}
-
-impl CentralArea<'_> {
-    pub fn ui(&mut self, ui: &mut egui::Ui, gpu: Option<&mut GpuView>) -> Vec<Command> {
-        let displayed = self.displayed;
-        let mut commands = Vec::new();
-        if displayed.is_picture {
-            let panel = bare(egui::Panel::bottom("caption"), ui).exact_size(CAPTION).resizable(false);
-            panel.show(ui, |ui| caption(ui, displayed.model, self.magnification()));
-        }
-        let has_legend = displayed.model.view.display.difference && compares(displayed);
-        if has_legend {
-            let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
-            panel.show(ui, |ui| commands.extend(LegendStrip::new(displayed).ui(ui)));
-        }
-        egui::CentralPanel::no_frame().show(ui, |ui| {
-            let scenery = scenery(ui.ctx(), displayed);
-            commands.extend(self.viewport.ui(ui, &scenery, gpu, &displayed.jobs.uploads, has_legend));
-        });
-        commands
+/// Draws the panes and what is below them.
+pub fn ui(
+    ui: &mut egui::Ui,
+    shown: Displayed<'_>,
+    next: &mut Model,
+    viewport: &mut Viewport,
+    gpu: Option<&mut GpuView>,
+) {
+    if shown.is_picture {
+        let grid = shown.model.materials.ground_truth().map(LoadedMaterial::grid);
+        let magnification = grid.map(|grid| viewport.magnification(grid, &shown.model.view));
+        let panel = bare(egui::Panel::bottom("caption"), ui).exact_size(CAPTION).resizable(false);
+        panel.show(ui, |ui| caption(ui, shown.model, magnification));
     }
-
-    /// Screen pixels per texel, where there is a material.
-    fn magnification(&self) -> Option<f32> {
-        let grid = self.displayed.model.materials.ground_truth()?.grid();
-        Some(self.viewport.magnification(grid, &self.displayed.model.view))
+    let has_legend = shown.model.view.display.difference && compares(shown);
+    if has_legend {
+        let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
+        panel.show(ui, |ui| LegendStrip::new(shown).ui(ui, next));
     }
+    egui::CentralPanel::no_frame().show(ui, |ui| {
+        let scenery = Scenery::new(ui.ctx(), shown);
+        viewport.ui(ui, &scenery, next, gpu, &shown.jobs.uploads, has_legend);
+    });
 }
 
 /// How a saved picture was rendered, in a line that is cut where the picture is too narrow.
@@ -76,25 +67,4 @@ fn caption(ui: &mut egui::Ui, model: &Model, magnification: Option<f32>) {
 /// Whether there is something to compare: predictions, or a photograph.
 fn compares(displayed: Displayed<'_>) -> bool {
     !displayed.model.materials.predictions().is_empty() || displayed.photograph().is_some()
-}
-
-/// What the panes display.
-pub fn scenery<'a>(ctx: &egui::Context, displayed: Displayed<'a>) -> Scenery<'a> {
-    let model = displayed.model;
-    Scenery {
-        materials: displayed.materials(),
-        state: &model.view,
-        dark: model.settings.dark,
-        highlight_follows: model.settings.highlight_follows,
-        is_picture: displayed.is_picture,
-        peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
-        swapped: model.swapped,
-        reading: !displayed.jobs.openings.is_empty(),
-        problem: model.dataset.problems.first().map(|(_, problem)| problem.as_str()),
-        range: displayed.range(),
-        computed_maps: displayed.computed_maps().map(AsRef::as_ref),
-        photograph: displayed.photograph(),
-        inspection: &model.inspection,
-        losses: displayed.jobs.loss.finished(&model.materials, &model.loss_query()),
-    }
 }

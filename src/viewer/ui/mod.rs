@@ -1,6 +1,7 @@
-//! User interface: input, panes, panels and dialogs. They see the model and the jobs, and return commands.
+//! User interface: input, panes, panels and dialogs.
 //!
-//! [`WindowUi::input`] reads keys and gestures before anything is drawn; [`WindowUi::draw`] draws, and returns what was clicked.
+//! [`WindowUi::input`] reads keys and gestures before anything is drawn, and edits the model. [`WindowUi::draw`] draws the model as it is
+//! shown; what is clicked and dragged in panels and dialogs edits the model of the next frame.
 
 pub mod content;
 pub mod dataset;
@@ -20,19 +21,16 @@ pub mod widgets;
 
 use eframe::egui;
 
-use content::CentralArea;
 use dataset::DatasetUi;
-use dialogs::Dialogs;
 use pane::viewport::Viewport;
-use panels::inspection::Drawer;
 use panels::status::StatusBar;
-use panels::top::TopBar;
 use shading::gpu_view::GpuView;
 use widgets::texture::PanelTextures;
 use widgets::{bare, fixed};
 
+use crate::jobs::Jobs;
 use crate::jobs::displayed::Displayed;
-use crate::model::command::{Command, WindowCommand};
+use crate::model::Model;
 use crate::model::view::geometry::WindowGeometry;
 
 /// Width of the side panel, in points.
@@ -43,7 +41,6 @@ const NARROW: f32 = 900.0;
 /// The state of the user interface between frames.
 #[derive(Debug, Default)]
 pub struct WindowUi {
-    pub dialogs: Dialogs,
     viewport: Viewport,
     textures: PanelTextures,
     pub dataset: DatasetUi,
@@ -65,88 +62,80 @@ impl WindowUi {
         }
     }
 
-    /// The commands of keys, dropped files and gestures: all that is read before the window is drawn.
-    pub fn input(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Vec<Command> {
-        let mut commands = input::commands(ctx, displayed, &self.dialogs);
-        if !self.dialogs.is_open() && !displayed.model.help {
-            commands.extend(self.dataset.keys(ctx, displayed));
+    /// Carries out keys, dropped files and gestures: all that is read before the window is drawn.
+    pub fn input(&mut self, ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
+        input::act(ctx, model, jobs);
+        if model.is_modal() {
+            return;
         }
-        let has_panes = !displayed.model.dataset.sheet.is_open;
-        if has_panes && !self.dialogs.is_open() && !displayed.model.help {
-            let scenery = content::scenery(ctx, displayed);
-            commands.extend(self.viewport.gestures(ctx, &scenery));
+        self.dataset.turn_pages(ctx, model, jobs);
+        if !model.dataset.sheet.is_open {
+            self.viewport.gestures(ctx, model);
         }
-        commands
     }
 
-    /// Draws everything and returns the commands of what was clicked and dragged in panels and dialogs.
+    /// Draws everything that is `shown`; what is clicked and dragged in panels and dialogs edits the `next` model.
     pub fn draw(
         &mut self,
         ui: &mut egui::Ui,
-        displayed: Displayed<'_>,
+        shown: Displayed<'_>,
+        next: &mut Model,
         gpu: Option<&mut GpuView>,
-    ) -> Vec<Command> {
-        let (model, mut commands) = (displayed.model, Vec::new());
-        bare(egui::Panel::top("top"), ui).show(ui, |ui| commands.extend(TopBar::new(displayed).ui(ui)));
-        bare(egui::Panel::bottom("status"), ui).show(ui, |ui| commands.extend(self.status(ui, displayed)));
+    ) {
+        let model = shown.model;
+        bare(egui::Panel::top("top"), ui).show(ui, |ui| panels::top::ui(ui, model, next));
+        bare(egui::Panel::bottom("status"), ui).show(ui, |ui| self.status(ui, shown, next));
         let was_open = model.side_panel();
         let mut is_open = was_open;
         bare(egui::Panel::right("side"), ui).exact_size(SIDE).resizable(false).show_collapsible(
             ui,
             &mut is_open,
             // Contents that are too wide are cut off: the panel does not grow.
-            |ui| commands.extend(fixed(ui, |ui| side::ui(ui, displayed, &mut self.textures))),
+            |ui| fixed(ui, |ui| side::ui(ui, shown, next, &mut self.textures)),
         );
         if is_open != was_open {
-            commands.push(WindowCommand::ToggleSidePanel.into());
+            next.toggle_side_panel();
         }
-        commands.extend(self.dataset.drawer(ui, displayed));
+        self.dataset.drawer(ui, shown, next);
         // Panes stay where they are in a drag.
         if !ui.input(|i| i.pointer.any_down()) {
             self.has_drawer = !model.inspection.pins.is_empty();
         }
         if self.has_drawer && !model.dataset.sheet.is_open && model.materials.ground_truth().is_some() {
-            commands.extend(Drawer::new(displayed).ui(ui));
+            panels::inspection::drawer(ui, shown, next);
         }
         let area = ui.available_rect_before_wrap();
         self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
-        let panes = match self.dataset.sheet(ui, displayed, &mut self.textures) {
-            Some(of_sheet) => {
-                commands.extend(of_sheet);
-                area
-            }
-            None => {
-                let mut content = CentralArea { displayed, viewport: &mut self.viewport };
-                commands.extend(content.ui(ui, gpu));
-                self.viewport.area
-            }
+        let panes = if self.dataset.sheet(ui, shown, next, &mut self.textures) {
+            area
+        } else {
+            content::ui(ui, shown, next, &mut self.viewport, gpu);
+            self.viewport.area
         };
-        commands.extend(panels::messages::ui(ui.ctx(), panes, &model.messages));
+        panels::messages::ui(ui.ctx(), panes, &model.messages, next);
         if model.help {
-            commands.extend(input::help::ui(ui.ctx()));
+            input::help::ui(ui.ctx(), &mut next.help);
         }
-        commands.extend(self.dialogs.ui(ui.ctx(), displayed));
-        commands
+        dialogs::ui(ui.ctx(), shown, next);
     }
 
-    fn status(&self, ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
-        let view = &displayed.model.view;
-        let has_panes = !displayed.model.dataset.sheet.is_open;
+    fn status(&self, ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+        let view = &shown.model.view;
+        let has_panes = !shown.model.dataset.sheet.is_open;
         let hovered = self.viewport.hovered.filter(|_| has_panes);
-        let grid = displayed.model.materials.ground_truth().map(|ground_truth| ground_truth.grid());
+        let grid = shown.model.materials.ground_truth().map(|ground_truth| ground_truth.grid());
         // The pointer was over a texel in the frame before: the materials of this one may be smaller.
-        let size = displayed.materials().first().map_or([0, 0], |one| one.material().size());
+        let size = shown.materials().first().map_or([0, 0], |one| one.material().size());
         let texel = hovered.and_then(|hovered| hovered.texel);
         let bar = StatusBar {
             state: view,
-            materials: displayed.materials(),
-            computed_maps: displayed.computed_maps().map(AsRef::as_ref),
-            photographs: displayed.photographs().map(AsRef::as_ref),
+            materials: shown.materials(),
+            computed_maps: shown.computed_maps().map(AsRef::as_ref),
+            photographs: shown.photographs().map(AsRef::as_ref),
             texel: texel.filter(|texel| (0..2).all(|axis| texel[axis] < size[axis])),
             hovered: hovered.map(|hovered| hovered.index),
             magnification: grid.map_or(1.0, |grid| self.viewport.magnification(grid, view)),
-            is_armed: displayed.model.inspection.is_armed,
         };
-        bar.ui(ui)
+        bar.ui(ui, next);
     }
 }

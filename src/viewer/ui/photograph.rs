@@ -5,7 +5,7 @@ use eframe::egui::{self, RichText};
 use svbrdf_files::read::Transfer;
 
 use crate::jobs::photograph::DisplayedPhotograph;
-use crate::model::command::{Command, PhotographCommand};
+use crate::model::{Model, opening};
 
 /// Height of the list of factors, in points.
 const FACTORS: f32 = 76.0;
@@ -23,24 +23,23 @@ pub struct PhotographCard<'a> {
 }
 
 impl PhotographCard<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
+    pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
         let source = self.photograph.source;
         ui.horizontal(|ui| {
             ui.strong("Photograph");
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let close = ui.small_button("Close photograph");
                 if close.on_hover_text("Compare with the ground truth again").clicked() {
-                    commands.push(PhotographCommand::Close.into());
+                    next.photograph.set(None);
                 }
                 ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                    self.name(ui, &mut commands);
+                    self.name(ui, next);
                 });
             });
         });
         let Some(photograph) = self.photograph.photograph else {
             ui.add(egui::Spinner::new());
-            return commands;
+            return;
         };
         ui.horizontal(|ui| {
             let [width, height] = [photograph.image.width, photograph.image.height];
@@ -57,7 +56,7 @@ impl PhotographCard<'_> {
             named(&response.response, "Transfer curve");
             response.response.on_hover_text("How the stored samples encode radiance");
             if transfer != source.transfer {
-                commands.push(PhotographCommand::SetTransfer(transfer).into());
+                next.photograph.change(|source| source.transfer = transfer);
             }
         });
         for note in &photograph.notes {
@@ -73,13 +72,12 @@ impl PhotographCard<'_> {
              a flash or lamp near the material",
         );
         if falloff != source.falloff {
-            commands.push(PhotographCommand::SetFalloff(falloff).into());
+            next.photograph.change(|source| source.falloff = falloff);
         }
-        commands
     }
 
     /// Its name, or a choice of all that are listed with it.
-    fn name(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn name(&self, ui: &mut egui::Ui, next: &mut Model) {
         let path = self.photograph.source.path.display().to_string();
         let Some((names, number)) = &self.listed else {
             ui.add(egui::Label::new(self.photograph.name()).truncate()).on_hover_text(path);
@@ -95,7 +93,7 @@ impl PhotographCard<'_> {
         named(&response.response, "Photographs");
         response.response.on_hover_text(path);
         if chosen != *number {
-            commands.push(PhotographCommand::Choose(chosen).into());
+            opening::choose_photograph(next, chosen);
         }
     }
 

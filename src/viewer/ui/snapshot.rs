@@ -3,7 +3,7 @@
 use eframe::egui;
 
 use super::WindowUi;
-use super::content::{CAPTION, CentralArea};
+use super::content::{self, CAPTION};
 use super::shading::gpu_view::GpuView;
 use super::shading::snapshot::snapshot;
 use crate::error::Error;
@@ -35,8 +35,7 @@ impl WindowUi {
         let [width, height] = self.picture_size;
         let size = [width, height + (CAPTION * scale) as u32];
         Ok(snapshot(&state, &gpu, (size, scale), dark, |ui| {
-            let mut content = CentralArea { displayed, viewport: &mut viewport };
-            drop(content.ui(ui, Some(view)));
+            content::ui(ui, displayed, &mut displayed.model.clone(), &mut viewport, Some(view));
         })?)
     }
 }

@@ -2,7 +2,6 @@
 
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
 use svbrdf_files::read::NormalY;
-use svbrdf_viewer::model::command::WhyCommand;
 use svbrdf_viewer::model::settings::why::WhySection;
 
 use super::*;
@@ -31,19 +30,19 @@ fn diagnosed<'a>() -> (tempfile::TempDir, Window<'a>) {
     window.set_size(vec2(1200.0, 1800.0));
     let (order, preset) = (Some("ndrs".parse().unwrap()), Some("deschaintre".parse().unwrap()));
     let read = ReadOptions { order, preset, ..ReadOptions::AUTO };
-    apply(&mut window, MaterialsCommand::Open { paths: paths.into(), replace: true, read });
+    edit(&mut window, |model| opening::open(model, paths.into(), true, read));
     wait(&mut window, "the materials", |app| app.names() == names);
     tab(&mut window, "Why");
     for section in ["Which map", "Which scenes"] {
         click(&mut window, section);
     }
-    unfold(&mut window, true);
+    unfold(&mut window);
     (folder, window)
 }
 
 /// Unfolds the lines without a mark, or folds them.
-fn unfold(window: &mut Window<'_>, on: bool) {
-    apply(window, WhyCommand::ShowSection(WhySection::Hypotheses, on));
+fn unfold(window: &mut Window<'_>) {
+    edit(window, |model| model.settings.sections.toggle(WhySection::Hypotheses));
 }
 
 fn wait_for_diagnosis(window: &mut Window<'_>) -> Diagnosis {
@@ -80,14 +79,14 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
     assert!(all[1..].iter().all(|line| !line.ends_with("marked")), "{all:?}");
     window.get_by_label_contains("Reading the normals with Y down would lower the loss by");
     // Folded, those without a mark are behind one line.
-    unfold(&mut window, false);
+    unfold(&mut window);
     let marked = lines(&window);
     assert_eq!(marked.len(), 1, "{marked:?}");
     assert!(marked[0].starts_with("Normal Y flipped: ") && marked[0].ends_with("marked"), "{marked:?}");
     let others = found.findings.len() - 1;
     click(&mut window, &format!("{others} other explanations: none marked"));
     assert_eq!(lines(&window).len(), 1 + others);
-    unfold(&mut window, false);
+    unfold(&mut window);
     // The other prediction, whose error is none of these: the line that explains most.
     let other = "Diagnosis of darker: nothing trivial";
     see(&mut window, other);
@@ -121,7 +120,7 @@ fn the_first_line_has_the_processors_to_itself() {
     });
     wait(&mut window, "the attribution", |app| app.attribution().is_some());
     let mut folded = built_in();
-    apply(&mut folded, WhyCommand::ShowSection(WhySection::Diagnosis, false));
+    edit(&mut folded, |model| model.settings.sections.toggle(WhySection::Diagnosis));
     tab(&mut folded, "Why");
     assert!(mixes(&folded));
 }

@@ -122,7 +122,7 @@ fn the_error_map_has_the_statistics_of_the_core_and_its_mean_is_the_loss() {
     assert_ne!(window.scene(), before);
     assert_eq!(statistics(&mut window), found);
     // Another difference is of the scene again.
-    apply(&mut window, DisplayCommand::SetDifference(Difference::Log));
+    edit(&mut window, |model| choose_difference(model, Difference::Log));
     assert_ne!(statistics(&mut window), found);
     window.get_by_label("Title 1  blurred normals: log difference");
 }
@@ -132,7 +132,7 @@ fn panes_readout_and_saved_file_have_the_numbers_of_the_error_map() {
     let mut window = with_error_map();
     press(&mut window, egui::Key::Num0);
     // Few edges of texels are in the middle of a pixel.
-    apply(&mut window, DisplayCommand::Zoom { factor: 4.3, at: [0.0, 0.0] });
+    edit(&mut window, |model| display::zoom(model, 4.3, [0.0, 0.0]));
     let maps = expected_maps().into_iter().map(|map| map.pixels).collect::<Vec<_>>();
     let (_folder, path) = assert_differences(&mut window, &maps, 0.0);
     let text = "mean log difference of each texel over 128 near-field and 64 distant scenes, seed 0";

@@ -116,7 +116,7 @@ impl OpenDataset {
 }
 
 /// The data set of the window, and what is shown of it.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct DatasetState {
     /// `None` where a single comparison is open.
     pub open: Option<Arc<OpenDataset>>,
@@ -149,7 +149,7 @@ pub struct SheetState {
 }
 
 /// Least and greatest side of a cell, in points.
-pub const CELL: std::ops::RangeInclusive<f32> = 32.0..=384.0;
+const CELL: std::ops::RangeInclusive<f32> = 32.0..=384.0;
 
 impl Default for SheetState {
     fn default() -> Self {
@@ -162,6 +162,43 @@ impl DatasetState {
     pub fn of(open: Arc<OpenDataset>, wanted: usize, marks: BTreeMap<String, SessionMark>) -> Self {
         let wanted = wanted.min(open.cases.len().saturating_sub(1));
         Self { open: Some(open), wanted, marks, ..Self::default() }
+    }
+
+    /// Shows a material, and reads others ahead.
+    pub fn show(&mut self, case: usize, ahead: Vec<usize>) {
+        if self.open.as_ref().is_some_and(|open| case < open.cases.len()) {
+            (self.wanted, self.ahead) = (case, ahead);
+        }
+    }
+
+    /// Shows a material of the contact sheet, to which Escape returns.
+    pub fn show_from_sheet(&mut self, case: usize, ahead: Vec<usize>) {
+        self.show(case, ahead);
+        (self.sheet.is_open, self.sheet.is_behind) = (false, true);
+    }
+
+    /// Opens or closes the contact sheet.
+    pub fn show_sheet(&mut self, is_open: bool) {
+        (self.sheet.is_open, self.sheet.is_behind) = (is_open && self.open.is_some(), false);
+    }
+
+    /// Sets the side of a cell of the sheet, in points.
+    pub fn set_cell(&mut self, cell: f32) {
+        self.sheet.cell = cell.clamp(*CELL.start(), *CELL.end());
+    }
+
+    /// Marks the material in the window, or removes its mark.
+    pub fn toggle_mark(&mut self) {
+        let before = self.pinned();
+        self.change_mark(|mark| mark.is_marked ^= true);
+        self.is_stale |= self.pinned() != before;
+    }
+
+    /// Changes the mark of the material in the window; one without anything is removed.
+    pub fn change_mark(&mut self, change: impl FnOnce(&mut SessionMark)) {
+        let Some(name) = self.name().map(str::to_owned) else { return };
+        change(self.marks.entry(name).or_default());
+        self.marks.retain(|_, mark| mark.is_marked || !mark.note.is_empty());
     }
 
     /// The name of the material that was asked for.

@@ -14,7 +14,7 @@ use crate::error::Error;
 use svbrdf_files::source::{MaterialSource, Place};
 
 /// The materials in the window.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct MaterialList {
     /// The ground truth first, then the predictions.
     pub all: Vec<LoadedMaterial>,

@@ -7,7 +7,7 @@ use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::{Capture, SessionPhotograph};
 
 /// The photograph that renderings are compared with.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct PhotographState {
     source: Option<SessionPhotograph>,
     /// Of its file when it was opened: a file that has changed since is another photograph.

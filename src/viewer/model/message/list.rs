@@ -1,6 +1,7 @@
 //! List of the messages in the window: successes for a moment, everything else until it is settled or dismissed.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use super::{Message, Severity};
 
@@ -8,14 +9,14 @@ use super::{Message, Severity};
 const MOMENT: f64 = 6.0;
 
 /// A message, and the time at which it disappears.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Posted {
-    message: Message,
+    message: Arc<Message>,
     until: Option<f64>,
 }
 
 /// The messages, the latest last.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct MessageList {
     posted: Vec<Posted>,
 }
@@ -27,24 +28,24 @@ impl MessageList {
         let is_same = |earlier: &Message| earlier.path() == message.path() && earlier.to_string() == text;
         self.posted.retain(|earlier| !is_same(&earlier.message));
         let until = (message.severity() == Severity::Success).then_some(now + MOMENT);
-        self.posted.push(Posted { message, until });
+        self.posted.push(Posted { message: Arc::new(message), until });
     }
 
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = &Message> {
-        self.posted.iter().map(|posted| &posted.message)
+        self.posted.iter().map(|posted| &*posted.message)
     }
 
     /// The messages that can be dismissed, each with its number.
     pub fn lasting(&self) -> impl DoubleEndedIterator<Item = (usize, &Message)> {
         let all = self.posted.iter().enumerate();
         all.filter(|(_, posted)| posted.message.severity() != Severity::Success)
-            .map(|(i, posted)| (i, &posted.message))
+            .map(|(i, posted)| (i, &*posted.message))
     }
 
     /// The latest success.
     pub fn passing(&self) -> Option<&Message> {
         let is_success = |posted: &&Posted| posted.message.severity() == Severity::Success;
-        self.posted.iter().rev().find(is_success).map(|posted| &posted.message)
+        self.posted.iter().rev().find(is_success).map(|posted| &*posted.message)
     }
 
     /// Removes what has been shown for long enough; the seconds until the next one disappears.

@@ -9,7 +9,6 @@ use svbrdf_files::Error as FilesError;
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::source::MaterialSource;
 
-use super::command::{Command, MaterialsCommand};
 use super::material::problem::MaterialProblem;
 use crate::error::Error;
 
@@ -32,6 +31,25 @@ pub enum Message {
     Failed(Error),
 }
 
+/// How what was refused is opened again.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Retry {
+    /// A prediction, resized to the ground truth.
+    Fitted(Box<MaterialSource>),
+    /// A file that may name others by absolute paths from now on.
+    Outside(PathBuf, ReadOptions),
+}
+
+impl Retry {
+    /// The label of its button.
+    pub fn label(&self) -> &'static str {
+        match self {
+            Self::Fitted(_) => "Fit and open",
+            Self::Outside(..) => "Allow absolute paths",
+        }
+    }
+}
+
 impl From<MaterialProblem> for Message {
     fn from(problem: MaterialProblem) -> Self {
         Self::Material(problem)
@@ -47,18 +65,17 @@ impl Message {
         }
     }
 
-    /// What can be done about it, and the label of its button.
-    pub fn remedy(&self) -> Option<(&'static str, Command)> {
+    /// What can be done about it.
+    pub fn retry(&self) -> Option<Retry> {
         match self {
             Self::Material(MaterialProblem::Refused(sizes) | MaterialProblem::Closed(sizes)) => {
-                let source = MaterialSource { fit: true, ..sizes.source.clone() };
-                Some(("Fit and open", MaterialsCommand::OpenAgain(Box::new(source)).into()))
+                Some(Retry::Fitted(Box::new(sizes.source.clone())))
             }
             Self::Material(MaterialProblem::NotRead { source, error, .. }) => {
                 error.names_outside()?;
-                Some(allow_outside(self.path()?.to_owned(), source.options))
+                Some(Retry::Outside(self.path()?.to_owned(), source.options))
             }
-            Self::Failed(error) => Some(allow_outside(error.names_outside()?.to_owned(), ReadOptions::AUTO)),
+            Self::Failed(error) => Some(Retry::Outside(error.names_outside()?.to_owned(), ReadOptions::AUTO)),
             _ => None,
         }
     }
@@ -70,11 +87,6 @@ impl Message {
             _ => None,
         }
     }
-}
-
-/// The question whether the file `path` may name others by absolute paths.
-fn allow_outside(path: PathBuf, read: ReadOptions) -> (&'static str, Command) {
-    ("Allow absolute paths", MaterialsCommand::AllowOutside { paths: vec![path], read }.into())
 }
 
 impl fmt::Display for Message {

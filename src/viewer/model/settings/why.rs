@@ -1,24 +1,8 @@
-//! State of the tab *Why*: its unfolded sections, and the number of listed scenes.
+//! Sections of the tab *Why* that are unfolded.
 
 use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
-
-/// Scenes in the panel until more are asked for.
-const FEW: usize = 10;
-
-/// What the tab shows, besides its sections, which persist.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WhyState {
-    /// Number of listed scenes.
-    pub listed: usize,
-}
-
-impl Default for WhyState {
-    fn default() -> Self {
-        Self { listed: FEW }
-    }
-}
 
 /// A section of the tab that can be folded; what is folded is not computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,10 +48,10 @@ impl WhySections {
         self.0.contains(section.name())
     }
 
-    pub fn open(&mut self, section: WhySection, on: bool) {
-        match on {
-            true => self.0.insert(section.name().to_owned()),
-            false => self.0.remove(section.name()),
-        };
+    /// Unfolds a section, or folds it.
+    pub fn toggle(&mut self, section: WhySection) {
+        if !self.0.remove(section.name()) {
+            self.0.insert(section.name().to_owned());
+        }
     }
 }

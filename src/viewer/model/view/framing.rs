@@ -6,7 +6,8 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_files::session::window::Framing;
 
-use super::state::ViewState;
+use super::endpoint::{self, Endpoint};
+use super::state::{Projection, ViewState};
 
 /// Least share of the material, or of the pane where the material is larger, that stays visible: of the area on the screen.
 /// It is the least height of a view above the material as well, as a share of its distance, after a fit in perspective.
@@ -68,6 +69,14 @@ impl Framed<'_> {
 }
 
 impl ViewState {
+    /// Fits the material into its pane. In perspective a view that sees it as a line is raised, too.
+    pub fn fit(&mut self) {
+        self.display.framing = None;
+        if self.display.projection == Projection::Perspective {
+            endpoint::raise(&mut self.scene, Endpoint::View, LEAST);
+        }
+    }
+
     /// The camera of a pane of `pane` = [width, height] physical pixels.
     pub fn camera(&self, grid: Grid, pane: [f32; 2]) -> Camera {
         let fitted = self.fitted_camera(grid, aspect(pane));
@@ -167,7 +176,6 @@ fn size(grid: Grid) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::view::state::Projection;
     use svbrdf_files::session::window::SessionDisplay;
 
     const GRID: Grid = Grid { width: 64, height: 48 };

@@ -1,14 +1,35 @@
 //! State of the view: light, view and display as one value, which undo covers.
 
-use svbrdf_core::material::Grid;
+use svbrdf_core::material::{Grid, Map};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::camera::Camera;
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_evaluate::diagnose::Change;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::window::SessionDisplay;
+use svbrdf_files::source::Place;
 
 pub use svbrdf_files::session::window::{AutoExposure, Layout, Projection};
+
+/// Greatest exposure either way, in stops.
+pub const STOPS: f32 = 20.0;
+
+/// What the exposure was last computed for.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Exposed {
+    /// It is to be computed as soon as there is a ground truth.
+    #[default]
+    Pending,
+    /// It was saved with a session or a moment of the history, and holds for the materials of that.
+    Restored,
+    For {
+        ground_truth: Place,
+        scene: Scene,
+        convention: Convention,
+    },
+}
 
 /// Light, view and display, as one value: undo returns to an earlier one.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +76,35 @@ impl ViewState {
     /// The name of the chosen difference.
     pub fn difference_name(&self) -> &'static str {
         if self.is_error_map() { "error map" } else { self.difference_kind().name() }
+    }
+
+    /// Sets the exposure by hand.
+    pub fn set_exposure(&mut self, ev: f32) {
+        self.exposure_ev = ev.clamp(-STOPS, STOPS);
+        self.display.auto_exposure = AutoExposure::Off;
+    }
+
+    /// Chooses a prediction. A correction is of one prediction.
+    pub fn choose(&mut self, prediction: usize) {
+        if prediction != self.display.prediction {
+            (self.display.prediction, self.display.corrected) = (prediction, None);
+        }
+    }
+
+    /// Shows the chosen prediction with this map alone wrong, or right; `None` shows the prediction itself.
+    pub fn isolate(&mut self, map: Option<Map>) {
+        (self.display.isolated, self.display.corrected) = (map, None);
+    }
+
+    /// Shows the chosen prediction with a change that a diagnosis found; `None` shows the prediction itself.
+    pub fn correct(&mut self, change: Option<Change>) {
+        (self.display.isolated, self.display.corrected) = (None, change);
+    }
+
+    /// Shows the error map.
+    pub fn show_error_map(&mut self) {
+        (self.display.quantity, self.display.difference) = (Quantity::Rendering, true);
+        self.display.differences.choose_error_map();
     }
 
     /// The camera that fits the material into a pane of `aspect` = width / height.

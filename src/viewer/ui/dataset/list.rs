@@ -10,9 +10,8 @@ use svbrdf_core::text::line;
 
 use super::rows::{Rows, chosen_method};
 use crate::jobs::displayed::Displayed;
-use crate::model::command::{Command, DatasetCommand};
-use crate::model::dataset::OpenDataset;
 use crate::model::dataset::list::{CaseLosses, Filter, ListView, Order};
+use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::material::loaded::drawable;
 use crate::ui::widgets::names::shortened;
 use crate::ui::widgets::numbers::significant;
@@ -38,31 +37,29 @@ pub struct MaterialsDrawer<'a> {
 }
 
 impl MaterialsDrawer<'_> {
-    pub fn ui(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        self.controls(ui, &mut commands);
+    pub fn ui(&mut self, ui: &mut egui::Ui, next: &mut DatasetState) {
+        self.controls(ui, next);
         egui::Panel::bottom("material card").resizable(false).frame(egui::Frame::NONE).show(ui, |ui| {
-            self.card(ui, &mut commands);
+            self.card(ui, next);
         });
-        self.list(ui, &mut commands);
-        commands
+        self.list(ui, next);
     }
 
-    fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let before = &self.displayed.model.dataset.list;
-        let mut list = before.clone();
+    fn controls(&self, ui: &mut egui::Ui, next: &mut DatasetState) {
         ui.horizontal(|ui| {
-            let sheet = ui.selectable_label(self.displayed.model.dataset.sheet.is_open, "Sheet");
+            let sheet = ui.selectable_label(next.sheet.is_open, "Sheet");
             if sheet.on_hover_text("Contact sheet: all materials under the present light (S)").clicked() {
-                commands.push(DatasetCommand::ShowSheet(!self.displayed.model.dataset.sheet.is_open).into());
+                next.show_sheet(!next.sheet.is_open);
             }
-            let search =
-                egui::TextEdit::singleline(&mut list.search).hint_text("Search").desired_width(f32::INFINITY);
+            let search = egui::TextEdit::singleline(&mut next.list.search)
+                .hint_text("Search")
+                .desired_width(f32::INFINITY);
             let search = ui.add(search);
             search.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Search materials"));
         });
+        let list = &mut next.list;
         ui.horizontal(|ui| {
-            self.order(ui, &mut list);
+            self.order(ui, list);
             let arrow = if list.is_reversed { icons::ICON_ARROW_UPWARD } else { icons::ICON_ARROW_DOWNWARD };
             let reverse = ui.selectable_label(list.is_reversed, arrow.codepoint);
             reverse.widget_info(|| {
@@ -86,9 +83,6 @@ impl MaterialsDrawer<'_> {
                 .widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, "Materials that are listed"));
         });
         ui.label(RichText::new(self.counts()).small().weak());
-        if list != *before {
-            commands.push(DatasetCommand::SetList(list).into());
-        }
     }
 
     /// How many are listed, and how many losses are there.
@@ -139,7 +133,7 @@ impl MaterialsDrawer<'_> {
     }
 
     /// What is known of the material in the window that is not in its panes, and what a person has noted.
-    fn card(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn card(&self, ui: &mut egui::Ui, next: &mut DatasetState) {
         let dataset = &self.displayed.model.dataset;
         let name = self.open.name(dataset.wanted);
         let mark = dataset.mark(name).cloned().unwrap_or_default();
@@ -163,7 +157,7 @@ impl MaterialsDrawer<'_> {
                 false => "Mark this material (K)",
             };
             if star.on_hover_text(hover).clicked() {
-                commands.push(DatasetCommand::ToggleMark.into());
+                next.toggle_mark();
             }
             let mut note = mark.note.clone();
             let hint = format!("Note on {}", drawable(name));
@@ -171,12 +165,12 @@ impl MaterialsDrawer<'_> {
             let field = ui.add(field);
             field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Note on this material"));
             if note != mark.note {
-                commands.push(DatasetCommand::SetNote(note).into());
+                next.change_mark(|mark| mark.note = note);
             }
         });
     }
 
-    fn list(&mut self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn list(&mut self, ui: &mut egui::Ui, next: &mut DatasetState) {
         let height = self.row_height();
         let wanted = self.displayed.model.dataset.wanted;
         let spacing = ui.spacing().item_spacing.y;
@@ -194,7 +188,7 @@ impl MaterialsDrawer<'_> {
         }
         let shown = area.show_rows(ui, height, self.rows.cases.len(), |ui, rows| {
             for row in rows.clone() {
-                self.row(ui, row, commands);
+                self.row(ui, row, next);
             }
             rows
         });
@@ -212,7 +206,7 @@ impl MaterialsDrawer<'_> {
         NAME + BAR * self.bars() as f32 + 7.0
     }
 
-    fn row(&mut self, ui: &mut egui::Ui, row: usize, commands: &mut Vec<Command>) {
+    fn row(&mut self, ui: &mut egui::Ui, row: usize, next: &mut DatasetState) {
         let Some((case, ahead)) = self.rows.at(row) else { return };
         let (dataset, jobs) = (&self.displayed.model.dataset, &self.displayed.jobs.dataset);
         let name = self.open.name(case);
@@ -235,7 +229,7 @@ impl MaterialsDrawer<'_> {
         let bars = Rect::from_min_max(pos2(right.left(), right.top() + NAME), right.max);
         self.paint_bars(ui, bars, losses);
         if response.clicked() {
-            commands.push(DatasetCommand::Show { case, ahead }.into());
+            next.show(case, ahead);
         }
         response.on_hover_ui(|ui| self.hover(ui, name, losses));
     }

@@ -7,10 +7,10 @@ pub mod summary;
 
 use eframe::egui;
 
+use crate::jobs::Jobs;
 use crate::jobs::dataset::DisplayedCases;
 use crate::jobs::displayed::Displayed;
-use crate::model::command::{Command, DatasetCommand};
-use crate::model::dataset::list::ListView;
+use crate::model::Model;
 use crate::ui::widgets::bare;
 use crate::ui::widgets::texture::PanelTextures;
 use list::MaterialsDrawer;
@@ -30,15 +30,14 @@ pub struct DatasetUi {
 }
 
 impl DatasetUi {
-    /// The commands of keys: the next and the previous material, the list, the sheet, a mark.
-    pub fn keys(&mut self, ctx: &egui::Context, displayed: Displayed<'_>) -> Vec<Command> {
-        let dataset = &displayed.model.dataset;
-        self.rows.follow(displayed);
+    /// Goes to the next or the previous material of the list, by the keys of pages.
+    pub fn turn_pages(&mut self, ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
+        self.rows.follow(Displayed::of(model, jobs));
+        let dataset = &mut model.dataset;
         if dataset.open.is_none() || ctx.text_edit_focused() {
-            return Vec::new();
+            return;
         }
         let pressed = |key| ctx.input_mut(|i| i.count_and_consume_key(egui::Modifiers::NONE, key));
-        let mut commands = Vec::new();
         let steps = pressed(egui::Key::PageDown) as isize - pressed(egui::Key::PageUp) as isize;
         if steps != 0 && !dataset.sheet.is_open {
             let now = self.rows.row(dataset.wanted);
@@ -46,19 +45,10 @@ impl DatasetUi {
                 Some(row) => row.saturating_add_signed(steps).min(self.rows.cases.len().saturating_sub(1)),
                 None => 0,
             };
-            commands.extend(self.rows.at(next).map(|(case, ahead)| DatasetCommand::Show { case, ahead }));
+            if let Some((case, ahead)) = self.rows.at(next) {
+                dataset.show(case, ahead);
+            }
         }
-        if pressed(egui::Key::A) % 2 == 1 {
-            let list = ListView { is_open: !dataset.list.is_open, ..dataset.list.clone() };
-            commands.push(DatasetCommand::SetList(list));
-        }
-        if pressed(egui::Key::S) % 2 == 1 {
-            commands.push(DatasetCommand::ShowSheet(!dataset.sheet.is_open));
-        }
-        if pressed(egui::Key::K) % 2 == 1 {
-            commands.push(DatasetCommand::ToggleMark);
-        }
-        commands.into_iter().map(Command::from).collect()
     }
 
     /// The materials that are listed, in their order.
@@ -75,41 +65,40 @@ impl DatasetUi {
     }
 
     /// The list, at the left.
-    pub fn drawer(&mut self, ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
-        self.rows.follow(displayed);
+    pub fn drawer(&mut self, ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+        self.rows.follow(shown);
         self.displayed = DisplayedCases::default();
-        let dataset = &displayed.model.dataset;
-        let Some(open) = dataset.open.as_deref().filter(|_| dataset.list.is_open) else { return Vec::new() };
-        let mut commands = Vec::new();
+        let dataset = &shown.model.dataset;
+        let Some(open) = dataset.open.as_deref().filter(|_| dataset.list.is_open) else { return };
         // In a narrow window the panes keep most of the room.
         let width = (0.24 * ui.ctx().content_rect().width()).clamp(160.0, 250.0);
         let panel = bare(egui::Panel::left("materials"), ui).default_size(width).size_range(150.0..=560.0);
         panel.show(ui, |ui| {
             let mut drawer = MaterialsDrawer {
-                displayed,
+                displayed: shown,
                 open,
                 rows: &self.rows,
                 in_sight: &mut self.in_sight,
                 scrolled_to: &mut self.scrolled_to,
             };
-            commands = drawer.ui(ui);
+            drawer.ui(ui, &mut next.dataset);
         });
         self.displayed.cases =
             self.rows.cases.get(self.in_sight.clone()).map(<[usize]>::to_vec).unwrap_or_default();
-        commands
     }
 
-    /// The contact sheet, in place of the panes; `None` where it is closed.
+    /// The contact sheet, in place of the panes; false where it is closed.
     pub fn sheet(
         &mut self,
         ui: &mut egui::Ui,
         displayed: Displayed<'_>,
+        next: &mut Model,
         textures: &mut PanelTextures,
-    ) -> Option<Vec<Command>> {
+    ) -> bool {
         let dataset = &displayed.model.dataset;
-        let open = dataset.open.as_deref().filter(|_| dataset.sheet.is_open)?;
-        let mut sheet =
-            ContactSheet { displayed, open, rows: &self.rows, textures, in_sight: &mut self.displayed };
-        Some(sheet.ui(ui))
+        let Some(open) = dataset.open.as_deref().filter(|_| dataset.sheet.is_open) else { return false };
+        let in_sight = &mut self.displayed;
+        ContactSheet { displayed, open, rows: &self.rows, textures, in_sight }.ui(ui, next);
+        true
     }
 }

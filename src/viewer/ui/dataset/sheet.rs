@@ -14,9 +14,10 @@ use super::rows::{Rows, chosen_method};
 use crate::jobs::dataset::DisplayedCases;
 use crate::jobs::dataset::cells::Cell;
 use crate::jobs::displayed::Displayed;
-use crate::model::command::{Command, DatasetCommand, SceneCommand};
+use crate::model::Model;
 use crate::model::dataset::OpenDataset;
 use crate::model::material::loaded::drawable;
+use crate::model::view::endpoint;
 use crate::ui::widgets::colour_bar::colour_bar;
 use crate::ui::widgets::names::Names;
 use crate::ui::widgets::numbers::{digits, significant};
@@ -43,13 +44,14 @@ pub struct ContactSheet<'a> {
 }
 
 impl ContactSheet<'_> {
-    pub fn ui(&mut self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
+    pub fn ui(&mut self, ui: &mut egui::Ui, next: &mut Model) {
         let cell = self.displayed.model.dataset.sheet.cell;
         let area = ui.available_rect_before_wrap();
         let over = area.with_min_x(area.left() + NAMES);
         let is_over = ui.input(|i| i.pointer.hover_pos().is_some_and(|at| over.contains(at)));
-        commands.extend(self.wheel(ui, cell).filter(|_| is_over));
+        if is_over {
+            wheel(ui, next);
+        }
         let columns = self.open.methods().len() + 1;
         let width = NAMES + columns as f32 * (cell + GAP);
         ui.add_space(2.0);
@@ -63,26 +65,11 @@ impl ContactSheet<'_> {
             let rows = rows.scroll_source(ScrollSource { mouse_wheel: !is_over, ..ScrollSource::SCROLL_BAR });
             rows.show_rows(ui, cell, self.rows.cases.len(), |ui, range| {
                 for row in range {
-                    self.row(ui, row, cell, &mut commands);
+                    self.row(ui, row, cell, next);
                 }
             });
         });
         self.in_sight.pixels = (cell * ui.pixels_per_point()).round() as usize;
-        commands
-    }
-
-    /// The wheel over the pictures changes their size, with Shift the height of the light.
-    fn wheel(&self, ui: &egui::Ui, cell: f32) -> Option<Command> {
-        let (delta, modifiers) = ui.input(|i| (i.smooth_scroll_delta, i.modifiers));
-        let turned = delta.x + delta.y;
-        if turned == 0.0 {
-            return None;
-        }
-        let factor = (turned * WHEEL).exp();
-        if modifiers.shift_only() {
-            return Some(SceneCommand::ScaleHeight(Endpoint::Light, f64::from(factor)).into());
-        }
-        modifiers.is_none().then(|| DatasetCommand::SetCell(cell * factor).into())
     }
 
     /// The names of the columns.
@@ -136,7 +123,7 @@ impl ContactSheet<'_> {
         ui.painter().add(colour_bar(bar, [least as f32, 1.0], kind.is_signed()));
     }
 
-    fn row(&mut self, ui: &mut egui::Ui, row: usize, cell: f32, commands: &mut Vec<Command>) {
+    fn row(&mut self, ui: &mut egui::Ui, row: usize, cell: f32, next: &mut Model) {
         let Some((case, ahead)) = self.rows.at(row) else { return };
         let columns = self.open.methods().len() + 1;
         let (rect, _) =
@@ -163,7 +150,7 @@ impl ContactSheet<'_> {
             response.widget_info(|| {
                 WidgetInfo::labeled(egui::Role::Button, true, format!("Cell {name}, {}", self.column(column)))
             });
-            commands.extend(self.gesture(&response, shown, case, &ahead));
+            self.gesture(&response, shown, (case, &ahead), next);
             response.on_hover_ui(|ui| self.hover(ui, &name, at));
         }
     }
@@ -208,25 +195,26 @@ impl ContactSheet<'_> {
         &self,
         response: &Response,
         shown: Option<(Rect, [usize; 2])>,
-        case: usize,
-        ahead: &[usize],
-    ) -> Option<Command> {
+        (case, ahead): (usize, &[usize]),
+        next: &mut Model,
+    ) {
         if response.clicked() {
-            return Some(DatasetCommand::ShowFromSheet { case, ahead: ahead.to_vec() }.into());
+            return next.dataset.show_from_sheet(case, ahead.to_vec());
         }
-        let (at, [width, height]) = shown?;
-        let pointer = response.interact_pointer_pos()?;
+        let (Some((at, [width, height])), Some(pointer)) = (shown, response.interact_pointer_pos()) else {
+            return;
+        };
         let share = [(pointer.x - at.left()) / at.width(), (pointer.y - at.top()) / at.height()];
         let place = [share[0] * width as f32, share[1] * height as f32];
         let point = Grid { width, height }.point(place).map(f64::from);
-        if response.dragged_by(PointerButton::Primary) {
-            return Some(match self.displayed.model.settings.highlight_follows {
-                true => SceneCommand::PutHighlight(point).into(),
-                false => SceneCommand::MoveOverPlane(Endpoint::Light, point).into(),
-            });
+        let scene = &mut next.view.scene;
+        if response.dragged_by(PointerButton::Primary) && next.settings.highlight_follows {
+            endpoint::put_highlight(scene, point);
+        } else if response.dragged_by(PointerButton::Primary) {
+            endpoint::move_over_plane(scene, Endpoint::Light, point);
+        } else if response.dragged_by(PointerButton::Secondary) {
+            endpoint::move_over_plane(scene, Endpoint::View, point);
         }
-        let moves_view = response.dragged_by(PointerButton::Secondary);
-        moves_view.then(|| SceneCommand::MoveOverPlane(Endpoint::View, point).into())
     }
 
     fn hover(&self, ui: &mut egui::Ui, name: &str, cell: Cell) {
@@ -249,5 +237,17 @@ impl ContactSheet<'_> {
         } else if let Some(Err(problem)) = jobs.cells.get(cell) {
             ui.colored_label(ui.visuals().error_fg_color, drawable(&line(problem)));
         }
+    }
+}
+
+/// The wheel over the pictures changes their size, with Shift the height of the light.
+fn wheel(ui: &egui::Ui, next: &mut Model) {
+    let (delta, modifiers) = ui.input(|i| (i.smooth_scroll_delta, i.modifiers));
+    let turned = delta.x + delta.y;
+    let factor = (turned * WHEEL).exp();
+    if turned != 0.0 && modifiers.shift_only() {
+        endpoint::scale_height(&mut next.view.scene, Endpoint::Light, f64::from(factor));
+    } else if turned != 0.0 && modifiers.is_none() {
+        next.dataset.set_cell(next.dataset.sheet.cell * factor);
     }
 }

@@ -5,16 +5,16 @@ use eframe::egui::{self, RichText};
 use svbrdf_evaluate::report::{Reader, Report as _};
 
 use crate::jobs::displayed::Displayed;
-use crate::model::command::Command;
+use crate::model::Model;
 use crate::model::material::loaded::drawable;
 use crate::ui::widgets::{order, report_table};
 
-pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
-    let Some(open) = displayed.model.dataset.open.as_deref() else { return Vec::new() };
+pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>, next: &mut Model) {
+    let Some(open) = displayed.model.dataset.open.as_deref() else { return };
     let jobs = &displayed.jobs.dataset;
     let Some(report) = jobs.summary.get() else {
         ui.weak("No loss is known yet.");
-        return Vec::new();
+        return;
     };
     let (known, all) = (jobs.losses.count(), open.cases.len());
     if known < all {
@@ -33,10 +33,7 @@ pub fn ui(ui: &mut egui::Ui, displayed: Displayed<'_>) -> Vec<Command> {
     for condition in report.conditions() {
         ui.label(RichText::new(drawable(&condition)).small().weak());
     }
-    let has_order = open.methods().len() > 1;
-    has_order
-        .then(|| order::fold(ui, displayed.model.asks_order, &jobs.order))
-        .into_iter()
-        .flatten()
-        .collect()
+    if open.methods().len() > 1 {
+        order::fold(ui, &mut next.asks_order, &jobs.order);
+    }
 }

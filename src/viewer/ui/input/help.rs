@@ -2,19 +2,17 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::model::command::{Command, WindowCommand};
-use crate::ui::input::keys;
+use super::keys;
 
 /// Width of the keys and of the list, in points.
 const KEYS: f32 = 190.0;
 const WIDTH: f32 = 560.0;
 
-/// The help window; closing it is a command.
-pub fn ui(ctx: &egui::Context) -> Option<Command> {
-    let mut open = true;
+/// The help window, while it is `open`.
+pub fn ui(ctx: &egui::Context, open: &mut bool) {
     let room = ctx.content_rect().size();
     egui::Window::new("Keys and mouse")
-        .open(&mut open)
+        .open(open)
         .collapsible(false)
         .resizable(false)
         .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
@@ -23,12 +21,11 @@ pub fn ui(ctx: &egui::Context) -> Option<Command> {
             egui::ScrollArea::vertical().max_height((room.y - 100.0).max(0.0)).show(ui, |ui| {
                 for (name, lines) in keys::HELP {
                     ui.strong(*name);
-                    lines.iter().for_each(|(key, effect)| line(ui, key, effect));
+                    lines.iter().for_each(|one| line(ui, one.keys, one.effect));
                     ui.add_space(8.0);
                 }
             });
         });
-    (!open).then_some(WindowCommand::ShowHelp(false).into())
 }
 
 /// A line laid out by itself: a grid measures its rows for a frame, in which keys stand beside effects of others.

@@ -1,203 +1,266 @@
-//! The keys: a table of commands, and the help that `?` shows.
+//! Keys: a table of what each does, which is the help that `?` shows, too.
 
 use eframe::egui::{self, Key, Modifiers};
 
-use crate::model::command::{
-    Command, DisplayCommand, InspectionCommand, LossCommand, MaterialsCommand, SceneCommand, WindowCommand,
-};
-
+use crate::model::dataset::DatasetState;
+use crate::model::dialogs::{OpenDialog, SaveDialog};
+use crate::model::effect::Effect;
+use crate::model::settings::save_kind::SaveKind;
 use crate::model::view::state::AutoExposure;
+use crate::model::{Model, clipboard, display, exposure, opening, undo};
+use crate::ui::widgets::copy;
 
-/// A gesture or keys, and what they do.
-pub type HelpLine = (&'static str, &'static str);
+/// A key, and what it does.
+pub type Action = (Modifiers, Key, fn(&mut Model));
+
+/// Gestures or keys, as the help names them and what they do.
+#[derive(Clone, Copy, Debug)]
+pub struct Line {
+    pub keys: &'static str,
+    pub effect: &'static str,
+    /// Nothing for gestures.
+    pub actions: &'static [Action],
+}
+
+const NONE: Modifiers = Modifiers::NONE;
+const SHIFT: Modifiers = Modifiers::SHIFT;
+const COMMAND: Modifiers = Modifiers::COMMAND;
+const BOTH: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+
+const fn line(keys: &'static str, effect: &'static str, actions: &'static [Action]) -> Line {
+    Line { keys, effect, actions }
+}
+
+/// What the bar does, too.
+pub const OPEN: fn(&mut Model) = |model| model.dialogs.open = Some(OpenDialog::default());
+pub const SAVE: fn(&mut Model) = |model| model.dialogs.save = Some(SaveDialog::new(SaveKind::View));
+pub const COPY_PICTURE: fn(&mut Model) = |model| model.effects.push(Effect::CopyPicture);
+
+/// The keys that choose a prediction.
+const DIGITS: [Key; 9] =
+    [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
 
 /// Every gesture and key with its effect, in groups, for the help window and docs/window.md.
-pub const HELP: &[(&str, &[HelpLine])] = &[
+pub const HELP: &[(&str, &[Line])] = &[
     (
         "Light",
         &[
-            ("left-drag", "move the light: its x and y follow the pointer; on maps, pan"),
-            ("Shift + wheel", "height of the light"),
-            ("Ctrl + Shift + left-drag", "orbit the light"),
-            ("Ctrl + Shift + right-drag", "distance of the light"),
-            ("H", "highlight follows the pointer, on / off"),
+            line("left-drag", "move the light: its x and y follow the pointer; on maps, pan", &[]),
+            line("Shift + wheel", "height of the light", &[]),
+            line("Ctrl + Shift + left-drag", "orbit the light", &[]),
+            line("Ctrl + Shift + right-drag", "distance of the light", &[]),
+            line(
+                "H",
+                "highlight follows the pointer, on / off",
+                &[(NONE, Key::H, |m| m.settings.highlight_follows ^= true)],
+            ),
         ],
     ),
     (
         "View",
         &[
-            (
+            line(
                 "right-drag",
                 "move the view; in perspective, turn the material, up to 85 degrees off its normal",
+                &[],
             ),
-            ("Alt + wheel", "height of the view"),
-            ("P", "flat / perspective"),
+            line("Alt + wheel", "height of the view", &[]),
+            line(
+                "P",
+                "flat / perspective",
+                &[(NONE, Key::P, |m| m.view.display.projection = m.view.display.projection.other())],
+            ),
         ],
     ),
     (
         "Zoom",
         &[
-            ("wheel", "zoom at the pointer"),
-            ("middle-drag, Space + left-drag", "pan"),
-            ("F", "fit the material"),
-            ("0", "one texel per pixel"),
-            ("R", "reset light, view, zoom, exposure and clipping marks"),
+            line("wheel", "zoom at the pointer", &[]),
+            line("middle-drag, Space + left-drag", "pan", &[]),
+            line("F", "fit the material", &[(NONE, Key::F, |m| m.view.fit())]),
+            line("0", "one texel per pixel", &[(NONE, Key::Num0, |m| display::magnify(m, 1.0))]),
+            line(
+                "R",
+                "reset light, view, zoom, exposure and clipping marks",
+                &[(NONE, Key::R, display::reset)],
+            ),
         ],
     ),
     (
         "Compare",
         &[
-            ("1 .. 9", "choose the prediction"),
-            ("Ctrl + Up / Down", "previous / next prediction"),
-            ("G (hold)", "show the ground truth in every pane"),
-            ("X", "swap prediction and ground truth"),
-            ("C", "layout: side by side, wipe, single"),
-            ("D", "value / difference from the ground truth"),
-            ("Enter", "compute the loss"),
+            line("1 .. 9", "choose the prediction", &[]),
+            line(
+                "Ctrl + Up / Down",
+                "previous / next prediction",
+                &[
+                    (COMMAND, Key::ArrowUp, |m| display::step_prediction(m, -1)),
+                    (COMMAND, Key::ArrowDown, |m| display::step_prediction(m, 1)),
+                ],
+            ),
+            line("G (hold)", "show the ground truth in every pane", &[]),
+            line("X", "swap prediction and ground truth", &[(NONE, Key::X, |m| m.swapped ^= true)]),
+            line("C", "layout: side by side, wipe, single", &[(NONE, Key::C, display::cycle_layout)]),
+            line(
+                "D",
+                "value / difference from the ground truth",
+                &[(NONE, Key::D, |m| m.view.display.difference ^= true)],
+            ),
+            line("Enter", "compute the loss", &[(NONE, Key::Enter, |m| m.effects.push(Effect::ComputeLoss))]),
         ],
     ),
     (
         "Show",
         &[
-            ("M / Shift + M", "next / previous of rendering and maps"),
-            ("E / Shift + E", "exposure up / down by 0.5 EV"),
-            (
+            line(
+                "M / Shift + M",
+                "next / previous of rendering and maps",
+                &[
+                    (NONE, Key::M, |m| display::cycle_quantity(m, 1)),
+                    (SHIFT, Key::M, |m| display::cycle_quantity(m, -1)),
+                ],
+            ),
+            line(
+                "E / Shift + E",
+                "exposure up / down by 0.5 EV",
+                &[
+                    (NONE, Key::E, |m| display::step_exposure(m, 0.5)),
+                    (SHIFT, Key::E, |m| display::step_exposure(m, -0.5)),
+                ],
+            ),
+            line(
                 "N / Shift + N",
                 "automatic exposure, once / following light and view: the brightest 1% of the ground truth clips",
+                &[
+                    (NONE, Key::N, |m| exposure::choose(m, AutoExposure::Once)),
+                    (SHIFT, Key::N, |m| exposure::choose(m, AutoExposure::Follow)),
+                ],
             ),
-            ("V", "false colours for roughness, on / off"),
-            ("L", "mark clipped pixels, on / off"),
-            ("I, Alt + click", "pin the texel: all its numbers in a table below; again: remove the pin"),
-            (
+            line(
+                "V",
+                "false colours for roughness, on / off",
+                &[(NONE, Key::V, |m| m.view.display.false_colour ^= true)],
+            ),
+            line(
+                "L",
+                "mark clipped pixels, on / off",
+                &[(NONE, Key::L, |m| m.view.display.show_clipping ^= true)],
+            ),
+            line(
+                "I, Alt + click",
+                "pin the texel: all its numbers in a table below; again: remove the pin",
+                &[(NONE, Key::I, pin_here)],
+            ),
+            line(
                 "Q, then left-drag; on maps Shift + left-drag",
                 "rectangle that a strip magnifies; Esc removes it",
+                &[(NONE, Key::Q, |m| m.inspection.is_armed = true)],
             ),
         ],
     ),
     (
         "Data set",
         &[
-            ("Page down / Page up", "next / previous material of the list"),
-            ("A / S", "list of materials / contact sheet, on / off"),
-            ("K", "mark the material, or remove its mark"),
-            ("wheel over the sheet", "size of its cells; over the names it scrolls"),
+            line("Page down / Page up", "next / previous material of the list", &[]),
+            line(
+                "A / S",
+                "list of materials / contact sheet, on / off",
+                &[
+                    (NONE, Key::A, |m| of_dataset(m, |dataset| dataset.list.is_open ^= true)),
+                    (NONE, Key::S, |m| of_dataset(m, |dataset| dataset.show_sheet(!dataset.sheet.is_open))),
+                ],
+            ),
+            line(
+                "K",
+                "mark the material, or remove its mark",
+                &[(NONE, Key::K, |m| of_dataset(m, DatasetState::toggle_mark))],
+            ),
+            line("wheel over the sheet", "size of its cells; over the names it scrolls", &[]),
         ],
     ),
     (
         "Files",
         &[
-            ("Ctrl + O / Ctrl + Shift + O", "open materials or a session / reopen the last materials"),
-            (
+            line(
+                "Ctrl + O / Ctrl + Shift + O",
+                "open materials or a session / reopen the last materials",
+                &[(COMMAND, Key::O, OPEN), (BOTH, Key::O, |m| opening::reopen(m, 0))],
+            ),
+            line(
                 "Ctrl + S / Ctrl + Shift + C",
                 "save view, renderings, strip, report or session / copy the view as a picture",
+                &[(COMMAND, Key::S, SAVE), (BOTH, Key::C, COPY_PICTURE)],
             ),
-            ("Ctrl + R", "read all files again"),
-            ("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene"),
+            line("Ctrl + R", "read all files again", &[(COMMAND, Key::R, opening::reload)]),
+            line("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene", &[]),
         ],
     ),
     (
         "Window",
         &[
-            (
+            line(
                 "Ctrl + Z / Ctrl + Shift + Z",
                 "undo / redo light, view, display, materials and photograph (redo also: Ctrl + Y)",
+                &[(COMMAND, Key::Z, undo::undo), (BOTH, Key::Z, undo::redo), (COMMAND, Key::Y, undo::redo)],
             ),
-            ("Esc", "close a dialog, cancel a search or the loss, or show the whole prediction again"),
-            ("B", "side panel, on / off"),
-            ("Ctrl + plus / minus / 0", "size of text and controls"),
-            ("double-click a number", "reset it to its default"),
-            ("?, F1", "this help"),
+            line(
+                "Esc",
+                "close a dialog, cancel a search or the loss, or show the whole prediction again",
+                &[],
+            ),
+            line("B", "side panel, on / off", &[(NONE, Key::B, Model::toggle_side_panel)]),
+            line("Ctrl + plus / minus / 0", "size of text and controls", &[]),
+            line("double-click a number", "reset it to its default", &[]),
+            line("?, F1", "this help", &[(NONE, Key::F1, |m| m.help = true)]),
         ],
     ),
 ];
 
-/// What the commands of the keys depend on.
-#[derive(Clone, Copy, Debug)]
-pub struct Context<'a> {
-    /// Whether Enter computes the loss: no widget has the focus.
-    pub enter_is_free: bool,
-    /// The command of Escape.
-    pub escape: &'a Command,
-    /// Whether panes show the difference, which `D` toggles.
-    pub difference: bool,
+/// Pins the texel under the pointer, or removes its pin; without one, the texel last under it.
+pub fn pin_here(model: &mut Model) {
+    if let Some(texel) = model.geometry.texel {
+        model.inspection.toggle_pin(texel);
+    }
 }
 
-/// The commands of the keys pressed in this frame; none while a text field has the focus.
-pub fn commands(ctx: &egui::Context, now: Context<'_>) -> Vec<Command> {
+/// Edits the data set, where there is one and nothing is before it.
+fn of_dataset(model: &mut Model, edit: impl FnOnce(&mut DatasetState)) {
+    if model.dataset.open.is_some() && !model.is_modal() {
+        edit(&mut model.dataset);
+    }
+}
+
+/// Carries out the keys pressed in this frame; none while a text field has the focus.
+pub fn act(ctx: &egui::Context, model: &mut Model, escape: impl Fn(&mut Model)) {
     if ctx.text_edit_focused() {
-        return Vec::new();
+        return;
     }
-    // An open menu or drop-down takes Esc for itself.
-    let is_taken = |key| key == Key::Escape && egui::Popup::is_any_open(ctx);
-    let table: Vec<_> = table(now).into_iter().filter(|(_, key, _)| !is_taken(*key)).collect();
-    let mut commands = ctx.input_mut(|input| {
-        let mut found = Vec::new();
-        for (modifiers, key, command) in table {
-            let presses = input.count_and_consume_key(modifiers, key);
-            found.extend(std::iter::repeat_n(command, presses));
+    // Enter presses the widget that has the focus; an open menu or drop-down takes Esc for itself.
+    let enter_is_free = ctx.memory(|m| m.focused()).is_none();
+    let mut actions: Vec<Action> =
+        HELP.iter().flat_map(|(_, lines)| *lines).flat_map(|line| line.actions).copied().collect();
+    actions.retain(|(_, key, _)| *key != Key::Enter || enter_is_free);
+    // Longer chords first: the first that is contained in the one pressed takes it.
+    actions.sort_by_key(|(modifiers, ..)| !modifiers.command as usize + !modifiers.shift as usize);
+    for (modifiers, key, run) in actions {
+        let presses = ctx.input_mut(|input| input.count_and_consume_key(modifiers, key));
+        (0..presses).for_each(|_| run(model));
+    }
+    for (prediction, key) in DIGITS.into_iter().enumerate() {
+        if ctx.input_mut(|input| input.consume_key(NONE, key)) {
+            display::choose(model, prediction);
         }
-        found
-    });
-    commands.extend(ctx.input(|input| input.events.iter().filter_map(event_command).collect::<Vec<_>>()));
-    commands
-}
-
-/// Copy and paste arrive as events, and `?` is on another key of every keyboard.
-fn event_command(event: &egui::Event) -> Option<Command> {
-    match event {
-        egui::Event::Copy => Some(SceneCommand::Copy.into()),
-        egui::Event::Paste(text) => Some(SceneCommand::Paste(text.clone()).into()),
-        egui::Event::Text(text) if text == "?" => Some(WindowCommand::ShowHelp(true).into()),
-        _ => None,
     }
-}
-
-/// Longer chords first: `count_and_consume_key` takes the first that is contained in the one pressed.
-fn table(now: Context<'_>) -> Vec<(Modifiers, Key, Command)> {
-    let none = Modifiers::NONE;
-    let mut table: Vec<(Modifiers, Key, Command)> = vec![
-        (Modifiers::COMMAND | Modifiers::SHIFT, Key::Z, DisplayCommand::Redo.into()),
-        (Modifiers::COMMAND | Modifiers::SHIFT, Key::O, MaterialsCommand::Reopen(0).into()),
-        (Modifiers::COMMAND | Modifiers::SHIFT, Key::C, WindowCommand::CopyPicture.into()),
-        (Modifiers::COMMAND, Key::Z, DisplayCommand::Undo.into()),
-        (Modifiers::COMMAND, Key::Y, DisplayCommand::Redo.into()),
-        (Modifiers::COMMAND, Key::O, WindowCommand::ShowOpen(true).into()),
-        (Modifiers::COMMAND, Key::S, WindowCommand::ShowSave(true).into()),
-        (Modifiers::COMMAND, Key::R, MaterialsCommand::Reload.into()),
-        (Modifiers::COMMAND, Key::ArrowUp, DisplayCommand::StepPrediction(-1).into()),
-        (Modifiers::COMMAND, Key::ArrowDown, DisplayCommand::StepPrediction(1).into()),
-        (Modifiers::SHIFT, Key::M, DisplayCommand::CycleQuantity(-1).into()),
-        (Modifiers::SHIFT, Key::E, DisplayCommand::StepExposure(-0.5).into()),
-        (none, Key::M, DisplayCommand::CycleQuantity(1).into()),
-        (none, Key::E, DisplayCommand::StepExposure(0.5).into()),
-        (Modifiers::SHIFT, Key::N, DisplayCommand::AutoExposure(AutoExposure::Follow).into()),
-        (none, Key::N, DisplayCommand::AutoExposure(AutoExposure::Once).into()),
-        (none, Key::C, DisplayCommand::CycleLayout.into()),
-        (none, Key::D, DisplayCommand::ShowDifference(!now.difference).into()),
-        (none, Key::P, DisplayCommand::ToggleProjection.into()),
-        (none, Key::V, DisplayCommand::ToggleFalseColour.into()),
-        (none, Key::L, DisplayCommand::ToggleClipping.into()),
-        (none, Key::H, SceneCommand::ToggleHighlightFollows.into()),
-        (none, Key::B, WindowCommand::ToggleSidePanel.into()),
-        (none, Key::X, DisplayCommand::Swap.into()),
-        (none, Key::F, DisplayCommand::Fit.into()),
-        (none, Key::Num0, DisplayCommand::OneToOne.into()),
-        (none, Key::R, DisplayCommand::Reset.into()),
-        (none, Key::I, InspectionCommand::TogglePinHere.into()),
-        (none, Key::Q, InspectionCommand::Arm(true).into()),
-        (none, Key::F1, WindowCommand::ShowHelp(true).into()),
-        (none, Key::Escape, now.escape.clone()),
-    ];
-    let digits =
-        [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
-    if now.enter_is_free {
-        table.push((none, Key::Enter, LossCommand::Compute.into()));
+    if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(NONE, Key::Escape)) {
+        escape(model);
     }
-    table.extend(
-        digits
-            .into_iter()
-            .enumerate()
-            .map(|(i, key)| (none, key, DisplayCommand::ChoosePrediction(i).into())),
-    );
-    table
+    // Copy and paste arrive as events, and `?` is on another key of every keyboard.
+    for event in ctx.input(|input| input.events.clone()) {
+        match event {
+            egui::Event::Copy => copy(ctx, model, clipboard::text(model.view.scene), "the scene as JSON"),
+            egui::Event::Paste(text) => clipboard::paste(model, &text),
+            egui::Event::Text(text) if text == "?" => model.help = true,
+            _ => {}
+        }
+    }
 }

@@ -5,12 +5,13 @@ use eframe::egui::{
 };
 
 use svbrdf_core::picture::difference::Difference;
+use svbrdf_core::picture::differences::Differences;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Distributions, Histogram};
 
 use crate::jobs::displayed::Displayed;
 use crate::jobs::panes::error_map::ErrorMapSummary;
-use crate::model::command::{Command, DisplayCommand};
+use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::ui::widgets::bounds::inset;
 use crate::ui::widgets::colour_bar::colour_bar;
@@ -81,23 +82,22 @@ impl<'a> LegendStrip<'a> {
         }
     }
 
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
+    pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
+        let next = &mut next.view.display.differences;
         ui.horizontal_top(|ui| {
             ui.allocate_ui(vec2(CONTROLS, HISTOGRAM + BAR), |ui| {
                 ui.vertical(|ui| match self.is_picture {
                     true => self.labels(ui),
-                    false => self.controls(ui, &mut commands),
+                    false => self.controls(ui, next),
                 });
             });
             let statistics = if ui.available_width() > STATISTICS + 200.0 { STATISTICS } else { 0.0 };
             let width = (ui.available_width() - statistics - 16.0).max(80.0);
-            commands.extend(self.scale(ui, width));
+            self.scale(ui, width, next);
             if statistics > 0.0 {
                 ui.vertical(|ui| self.statistics(ui));
             }
         });
-        commands
     }
 
     /// What the controls have chosen.
@@ -108,20 +108,20 @@ impl<'a> LegendStrip<'a> {
         ui.label(RichText::new(self.unit()).small().weak());
     }
 
-    fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn controls(&self, ui: &mut egui::Ui, next: &mut Differences) {
         let combo = egui::ComboBox::from_id_salt("difference").width(CONTROLS - 16.0);
         let combo = combo.selected_text(self.error_map.map_or(self.kind.name(), |_| ERROR_MAP)).show_ui(ui, |ui| {
             for &kind in Difference::all(self.quantity) {
                 let chosen = self.error_map.is_none() && kind == self.kind;
                 if ui.selectable_label(chosen, kind.name()).clicked() {
-                    commands.push(DisplayCommand::SetDifference(kind).into());
+                    next.choose(self.quantity, kind);
                 }
             }
             if self.quantity == Quantity::Rendering {
                 let label = ui.selectable_label(self.error_map.is_some(), ERROR_MAP);
                 let hover = "The log difference of each texel, averaged over scenes of the loss: its mean is the loss over these scenes";
                 if label.on_hover_text(hover).clicked() {
-                    commands.push(DisplayCommand::ChooseErrorMap.into());
+                    next.choose_error_map();
                 }
             }
         });
@@ -141,8 +141,7 @@ impl<'a> LegendStrip<'a> {
             })
             .on_hover_text("The difference that has the last colour; double-click for Auto");
             if range != self.range {
-                let set = (range != auto).then_some(range);
-                commands.push(DisplayCommand::SetRange(set).into());
+                next.set_range(self.quantity, (range != auto).then_some(range));
             }
             let is_held = self.set_range.is_some();
             let choices = [
@@ -159,7 +158,7 @@ impl<'a> LegendStrip<'a> {
                 let full = format!("{name} range");
                 label.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, on, &full));
                 if label.clicked() && !on {
-                    commands.push(DisplayCommand::SetRange(range).into());
+                    next.set_range(self.quantity, range);
                 }
             }
         });
@@ -183,7 +182,7 @@ impl<'a> LegendStrip<'a> {
     }
 
     /// Histograms over the colour bar, with the handles of the range.
-    fn scale(&self, ui: &mut egui::Ui, width: f32) -> Option<Command> {
+    fn scale(&self, ui: &mut egui::Ui, width: f32, next: &mut Differences) {
         let size = vec2(width, HISTOGRAM + BAR + 14.0);
         let (response, painter) = ui.allocate_painter(size, Sense::click_and_drag());
         response.widget_info(|| egui::WidgetInfo::slider(true, self.range, "Difference range"));
@@ -217,16 +216,9 @@ impl<'a> LegendStrip<'a> {
         let at = area.right_top() + vec2(-3.0, 1.0);
         painter.text(at, Align2::RIGHT_TOP, axes(&self.unit()), FontId::proportional(11.0), weak);
         let value = |pos: Pos2| low + f64::from((pos.x - area.left()) / area.width()) * (high - low);
-        self.dragged(&response, value)
-    }
-
-    /// The range under the pointer that drags a handle.
-    fn dragged(&self, response: &Response, value: impl Fn(Pos2) -> f64) -> Option<Command> {
-        let hint = "Drag to set the range. Counts are logarithmic; the thick line is the chosen prediction.";
-        let response = response.clone().on_hover_text(hint);
-        let pos = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())?;
-        let range = value(pos).abs();
-        (range > 0.0).then(|| DisplayCommand::SetRange(Some(range)).into())
+        if let Some(range) = dragged(response, value) {
+            next.set_range(self.quantity, Some(range));
+        }
     }
 
     fn paint_numbers(&self, painter: &Painter, area: Rect, [low, high]: [f64; 2], ink: Color32) {
@@ -240,6 +232,14 @@ impl<'a> LegendStrip<'a> {
             painter.text(at, align, format!("{}{unit}", digits(value)), FontId::monospace(11.0), ink);
         }
     }
+}
+
+/// The range under the pointer that drags a handle.
+fn dragged(response: Response, value: impl Fn(Pos2) -> f64) -> Option<f64> {
+    let hint = "Drag to set the range. Counts are logarithmic; the thick line is the chosen prediction.";
+    let response = response.on_hover_text(hint);
+    let pos = response.interact_pointer_pos().filter(|_| response.dragged() || response.clicked())?;
+    Some(value(pos).abs()).filter(|range| *range > 0.0)
 }
 
 /// What the axes of a histogram are: counts, upwards, of the texels by the quantity.

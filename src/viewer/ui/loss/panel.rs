@@ -8,15 +8,17 @@ use eframe::egui::{self, RichText};
 use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_evaluate::report::SampledScenes;
+use svbrdf_evaluate::report::{Report as _, SampledScenes};
 
+use crate::jobs::displayed::Displayed;
 use crate::jobs::loss::{KeyedLosses, LossJob};
-use crate::model::command::{Command, LossCommand, WindowCommand};
-use crate::model::material::list::MaterialList;
+use crate::model::Model;
+use crate::model::dialogs::OpenDialog;
+use crate::model::effect::Effect;
 use crate::ui::loss::results::Results;
-use crate::ui::widgets::number;
 use crate::ui::widgets::numbers::{self, seconds};
 use crate::ui::widgets::theme;
+use crate::ui::widgets::{copy, number};
 
 /// Most scenes of one kind.
 const MOST: usize = 100_000;
@@ -25,121 +27,97 @@ const PERCENT: std::ops::RangeInclusive<f64> = 0.1..=20.0;
 /// Range of the time, in milliseconds.
 const MILLISECONDS: std::ops::RangeInclusive<u64> = 16..=10_000;
 
-/// What the section shows.
-#[derive(Debug)]
-pub struct LossPanel<'a> {
-    pub settings: &'a LossSettings,
-    pub auto: bool,
-    pub job: &'a LossJob,
-    pub materials: &'a MaterialList,
-    pub chosen: usize,
-}
-
-impl LossPanel<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        let mut settings = self.settings.clone();
-        request(ui, &mut settings, &mut commands);
-        if settings != *self.settings {
-            commands.push(LossCommand::SetSettings(settings).into());
-        }
-        self.controls(ui, &mut commands);
-        if self.materials.predictions().is_empty() {
-            let missing = match self.materials.ground_truth() {
-                Some(_) => "Open a prediction to compare with the ground truth.",
-                None => "Open a ground truth and predictions of it.",
-            };
-            ui.label(missing);
-            return commands;
-        }
-        self.state(ui);
-        if let Some(losses) = self.job.losses() {
-            ui.scope(|ui| {
-                if self.is_stale() {
-                    ui.set_opacity(0.5);
-                }
-                let results = Results {
-                    latest: losses,
-                    chosen: self.chosen,
-                    stale: self.materials.stale_predictions(),
-                };
-                commands.extend(results.ui(ui));
-            });
-        }
-        commands
+/// Draws the section.
+pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+    let (materials, job) = (&shown.model.materials, &shown.jobs.loss);
+    let mut asks_for_file = false;
+    request(ui, &mut next.settings.loss, &mut asks_for_file);
+    if asks_for_file {
+        next.dialogs.open = Some(OpenDialog::default());
     }
-
-    /// Whether the latest losses are of other materials or settings, or of other files than there are now.
-    fn is_stale(&self) -> bool {
-        self.job.stale() || self.materials.is_stale()
+    controls(ui, shown, next);
+    if materials.predictions().is_empty() {
+        let missing = match materials.ground_truth() {
+            Some(_) => "Open a prediction to compare with the ground truth.",
+            None => "Open a ground truth and predictions of it.",
+        };
+        ui.label(missing);
+        return;
     }
-
-    fn controls(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        ui.horizontal_wrapped(|ui| {
-            if self.job.busy().is_some() {
-                if ui
-                    .add(button("Cancel loss"))
-                    .on_hover_text("Stop, and keep the result so far (Esc)")
-                    .clicked()
-                {
-                    commands.push(LossCommand::Cancel.into());
-                }
-            } else {
-                let enabled = !self.materials.predictions().is_empty();
-                let compute = ui.add_enabled(enabled, button("Compute loss"));
-                if compute.on_hover_text("Enter").clicked() {
-                    commands.push(LossCommand::Compute.into());
-                }
+    // Of other materials or settings, or of other files than there are now.
+    let is_stale = job.stale() || materials.is_stale();
+    state(ui, job, is_stale);
+    if let Some(latest) = job.losses() {
+        ui.scope(|ui| {
+            if is_stale {
+                ui.set_opacity(0.5);
             }
-            let mut auto = self.auto;
-            ui.checkbox(&mut auto, "Auto")
-                .on_hover_text("Compute again after every change of materials, settings or convention");
-            if auto != self.auto {
-                commands.push(LossCommand::SetAuto(auto).into());
-            }
-            let copy = ui.add_enabled(self.job.losses().is_some(), egui::Button::new("Copy losses"));
-            if copy.on_hover_text("As text, as `svbrdf loss` prints it").clicked() {
-                commands.push(LossCommand::Copy.into());
-            }
+            let chosen = shown.model.view.display.prediction;
+            let results = Results { latest, chosen, stale: materials.stale_predictions() };
+            results.ui(ui, next);
         });
     }
+}
 
-    /// One line of constant height, so that the results below stay in place: the progress, or what the loss took.
-    fn state(&self, ui: &mut egui::Ui) {
-        if let Some((fraction, elapsed, reached)) = self.job.busy() {
-            let doing = if reached { "refining" } else { "first scenes" };
-            let text = format!("{doing}, {} s", elapsed.as_secs());
-            let height = ui.spacing().interact_size.y;
-            ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
-            return;
+fn controls(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+    let job = &shown.jobs.loss;
+    ui.horizontal_wrapped(|ui| {
+        if job.busy().is_some() {
+            let hover = "Stop, and keep the result so far (Esc)";
+            if ui.add(button("Cancel loss")).on_hover_text(hover).clicked() {
+                next.effects.push(Effect::CancelLoss);
+            }
+        } else {
+            let enabled = !shown.model.materials.predictions().is_empty();
+            let compute = ui.add_enabled(enabled, button("Compute loss"));
+            if compute.on_hover_text("Enter").clicked() {
+                next.effects.push(Effect::ComputeLoss);
+            }
         }
-        if let Some(problem) = self.job.problem() {
-            ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
-            return;
+        ui.checkbox(&mut next.settings.auto_loss, "Auto")
+            .on_hover_text("Compute again after every change of materials, settings or convention");
+        let losses = job.losses();
+        let button = ui.add_enabled(losses.is_some(), egui::Button::new("Copy losses"));
+        if button.on_hover_text("As text, as `svbrdf loss` prints it").clicked()
+            && let Some(losses) = losses
+        {
+            copy(ui.ctx(), next, losses.report.text(), "the losses as text");
         }
-        let text = match self.job.losses() {
-            None => RichText::new("Not computed yet."),
-            Some(_) if self.is_stale() => RichText::new("Stale: materials or settings have changed."),
-            Some(losses) => self.outcome(losses, ui.visuals()),
-        };
-        ui.horizontal_wrapped(|ui| ui.label(text.small()));
+    });
+}
+
+/// One line of constant height, so that the results below stay in place: the progress, or what the loss took.
+fn state(ui: &mut egui::Ui, job: &LossJob, is_stale: bool) {
+    if let Some((fraction, elapsed, reached)) = job.busy() {
+        let doing = if reached { "refining" } else { "first scenes" };
+        let text = format!("{doing}, {} s", elapsed.as_secs());
+        let height = ui.spacing().interact_size.y;
+        ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
+        return;
     }
+    if let Some(problem) = job.problem() {
+        ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
+        return;
+    }
+    let text = match job.losses() {
+        None => RichText::new("Not computed yet."),
+        Some(_) if is_stale => RichText::new("Stale: materials or settings have changed."),
+        Some(losses) => outcome(job, losses, ui.visuals()),
+    };
+    ui.horizontal_wrapped(|ui| ui.label(text.small()));
+}
 
-    /// The accuracy reached, what it took, and whether that meets the request.
-    fn outcome(&self, losses: &KeyedLosses, visuals: &egui::Visuals) -> RichText {
-        let SampledScenes { near, distant, .. } = losses.report.sampled;
-        let (error, elapsed) = (losses.relative_error(), losses.elapsed);
-        let took =
-            format!("{} from {near} + {distant} scenes in {}", numbers::accuracy(error), seconds(elapsed));
-        match missed(losses.request(), error, elapsed) {
-            _ if self.job.is_partial() => {
-                RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color)
-            }
-            Some(missed) if self.job.is_complete() => {
-                RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
-            }
-            _ => RichText::new(took),
+/// The accuracy reached, what it took, and whether that meets the request.
+fn outcome(job: &LossJob, losses: &KeyedLosses, visuals: &egui::Visuals) -> RichText {
+    let SampledScenes { near, distant, .. } = losses.report.sampled;
+    let (error, elapsed) = (losses.relative_error(), losses.elapsed);
+    let took = format!("{} from {near} + {distant} scenes in {}", numbers::accuracy(error), seconds(elapsed));
+    match missed(losses.request(), error, elapsed) {
+        _ if job.is_partial() => RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color),
+        Some(missed) if job.is_complete() => {
+            RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
         }
+        _ => RichText::new(took),
     }
 }
 
@@ -160,7 +138,7 @@ fn button(text: &str) -> egui::Button<'_> {
 }
 
 /// The settings of the loss: first what decides the number of scenes, then the fields of that choice.
-fn request(ui: &mut egui::Ui, settings: &mut LossSettings, commands: &mut Vec<Command>) {
+fn request(ui: &mut egui::Ui, settings: &mut LossSettings, asks_for_file: &mut bool) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 2.0;
         for (ask, name, meaning) in [
@@ -180,7 +158,7 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings, commands: &mut Vec<Co
         Ask::Scenes => scenes(ui, settings),
         Ask::Accuracy => accuracy(ui, &mut settings.target_percent),
         Ask::Time => time(ui, &mut settings.time_ms),
-        Ask::File => file(ui, settings, commands),
+        Ask::File => file(ui, settings),
     }
     if settings.ask == Ask::File {
         return;
@@ -199,9 +177,7 @@ fn request(ui: &mut egui::Ui, settings: &mut LossSettings, commands: &mut Vec<Co
             let open = ui.small_button("Scene file...");
             let hover =
                 "Compute the loss over the scenes of a file (JSON, or render.json of a MaterialGAN capture)";
-            if open.on_hover_text(hover).clicked() {
-                commands.push(WindowCommand::ShowOpen(true).into());
-            }
+            *asks_for_file = open.on_hover_text(hover).clicked();
             named_scenes(ui, settings);
         }
     });
@@ -223,14 +199,15 @@ fn named_scenes(ui: &mut egui::Ui, settings: &mut LossSettings) {
 }
 
 /// Which file the scenes are of, and the button that removes them.
-fn file(ui: &mut egui::Ui, settings: &LossSettings, commands: &mut Vec<Command>) {
+fn file(ui: &mut egui::Ui, settings: &mut LossSettings) {
     let Some(file) = &settings.file else { return };
+    let scenes = if file.scenes.len() == 1 { "scene" } else { "scenes" };
+    let text = format!("{} {scenes} of {}", file.scenes.len(), file.name);
     ui.horizontal_wrapped(|ui| {
-        let scenes = if file.scenes.len() == 1 { "scene" } else { "scenes" };
-        ui.label(format!("{} {scenes} of {}", file.scenes.len(), file.name));
+        ui.label(text);
         let remove = ui.small_button("Remove scenes").on_hover_text("Sample the scenes of the loss again");
         if remove.clicked() {
-            commands.push(LossCommand::RemoveFileScenes.into());
+            *settings = settings.with_file(None);
         }
     });
 }

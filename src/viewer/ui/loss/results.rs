@@ -7,7 +7,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::report::SampledScenes;
 
 use crate::jobs::loss::KeyedLosses;
-use crate::model::command::{Command, DisplayCommand};
+use crate::model::{Model, display};
 use crate::ui::widgets::names::{FEWEST, Names, fitted};
 use crate::ui::widgets::numbers::{half_width, signed, significant};
 use crate::ui::widgets::theme;
@@ -40,8 +40,7 @@ pub struct Results<'a> {
 
 impl Results<'_> {
     /// A row for each prediction; a click chooses it.
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
+    pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
         let losses = &self.latest.report.outcome.losses;
         let filter = if losses.len() > MANY { filter(ui) } else { String::new() };
         let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
@@ -59,7 +58,7 @@ impl Results<'_> {
             let mark = if is_stale { STALE_MARK } else { "" };
             let name = |most| format!("{}{mark}  {}", index + 1, short.shortened(index, most));
             if self.row(ui, index, &losses[index], &name).clicked() {
-                commands.push(DisplayCommand::ChoosePrediction(index).into());
+                display::choose(next, index);
             }
             if index == self.chosen {
                 self.interval(ui, &losses[index]);
@@ -67,7 +66,6 @@ impl Results<'_> {
         }
         ui.add_space(4.0);
         ui.label(RichText::new(summary(self.latest)).weak().small());
-        commands
     }
 
     fn heads(&self, ui: &mut egui::Ui) {

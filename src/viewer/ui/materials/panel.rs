@@ -6,68 +6,56 @@ use eframe::egui::{self, FontId, RichText};
 use svbrdf_evaluate::diagnose::{Finding, sentence_of};
 use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions, Sidecar};
 
-use crate::jobs::reading::opening::Openings;
-use crate::model::command::{Command, MaterialsCommand};
-use crate::model::material::list::MaterialList;
-use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::loaded::drawable;
+use crate::jobs::displayed::Displayed;
+use crate::jobs::why::ComparedPair;
+use crate::model::effect::Effect;
+use crate::model::material::loaded::{LoadedMaterial, drawable};
+use crate::model::{Model, opening};
 use crate::ui::widgets::read_options::read_options;
 use crate::ui::widgets::remedy::{is_offered, remedy_button};
 use crate::ui::widgets::theme;
 use svbrdf_files::source::Place;
 
-/// What the section shows.
-#[derive(Debug)]
-pub struct MaterialsPanel<'a> {
-    pub materials: &'a MaterialList,
-    pub openings: &'a Openings,
-    pub watch: bool,
-    /// The marked findings of each prediction that was diagnosed.
-    pub findings: Vec<Vec<&'a Finding>>,
-}
-
-impl MaterialsPanel<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        ui.horizontal_wrapped(|ui| {
-            if ui.button("Reload").on_hover_text("Read all files again (Ctrl+R)").clicked() {
-                commands.push(MaterialsCommand::Reload.into());
-            }
-            let mut watch = self.watch;
-            ui.checkbox(&mut watch, "Watch").on_hover_text("Read files again when they change on disk");
-            if watch != self.watch {
-                commands.push(MaterialsCommand::SetWatch(watch).into());
-            }
-            let built_in = ui.button("Built-in pair");
-            if built_in.on_hover_text("Show the materials that come with the program").clicked() {
-                commands.push(MaterialsCommand::OpenBuiltIn.into());
-            }
-        });
-        for opening in self.openings.iter() {
-            ui.add(egui::ProgressBar::new(opening.fraction()).text(opening.text()));
-            let cancel = ui.small_button("Cancel reading");
-            if cancel.on_hover_text("What is in the window stays").clicked() {
-                commands.push(MaterialsCommand::CancelReading(opening.number()).into());
-            }
+/// Draws the section.
+pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+    let materials = &shown.model.materials.all;
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Reload").on_hover_text("Read all files again (Ctrl+R)").clicked() {
+            opening::reload(next);
         }
-        for (index, material) in self.materials.all.iter().enumerate() {
-            ui.separator();
-            // Its id changes whenever it is read again; what is unfolded stays unfolded.
-            let findings = index.checked_sub(1).and_then(|prediction| self.findings.get(prediction));
-            let findings = findings.map(Vec::as_slice).unwrap_or_default();
-            let role = match index {
-                0 if self.materials.all.len() == 1 => "MATERIAL".to_owned(),
-                0 => "GROUND TRUTH".to_owned(),
-                prediction => format!("Prediction {prediction}"),
-            };
-            ui.push_id(index, |ui| section(ui, (index, &role), material, findings, &mut commands));
+        ui.checkbox(&mut next.settings.watch, "Watch")
+            .on_hover_text("Read files again when they change on disk");
+        let built_in = ui.button("Built-in pair");
+        if built_in.on_hover_text("Show the materials that come with the program").clicked() {
+            opening::open_built_in(next);
         }
-        commands
+    });
+    for opening in shown.jobs.openings.iter() {
+        ui.add(egui::ProgressBar::new(opening.fraction()).text(opening.text()));
+        let cancel = ui.small_button("Cancel reading");
+        if cancel.on_hover_text("What is in the window stays").clicked() {
+            next.effects.push(Effect::CancelReading(opening.number()));
+        }
+    }
+    let pairs = ComparedPair::all(materials, &shown.model.view);
+    for (index, material) in materials.iter().enumerate() {
+        ui.separator();
+        let pair = index.checked_sub(1).and_then(|prediction| pairs.get(prediction));
+        let seed = shown.model.settings.loss.seed;
+        let diagnosed = pair.and_then(|pair| shown.jobs.why.diagnosis.get(pair, seed));
+        let findings: Vec<_> = diagnosed.into_iter().flat_map(|one| one.diagnosis.marked()).collect();
+        let role = match index {
+            0 if materials.len() == 1 => "MATERIAL".to_owned(),
+            0 => "GROUND TRUTH".to_owned(),
+            prediction => format!("Prediction {prediction}"),
+        };
+        // Its id changes whenever it is read again; what is unfolded stays unfolded.
+        ui.push_id(index, |ui| section(ui, (index, &role), material, &findings, next));
     }
 }
 
 /// The button that saves the chosen assumptions, where they are not the saved ones.
-fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, commands: &mut Vec<Command>) {
+fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, next: &mut Model) {
     let (Place::Path(path), record) = (&material.read.source.place, &material.read.record) else { return };
     if record.options == record.saved {
         return;
@@ -81,7 +69,7 @@ fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, comma
         place.display()
     );
     if button.on_hover_text(hover).clicked() {
-        commands.push(MaterialsCommand::SaveAssumptions { index }.into());
+        opening::save_assumptions(next, index);
     }
 }
 
@@ -134,12 +122,13 @@ fn finding_line(
     index: usize,
     material: &LoadedMaterial,
     finding: &Finding,
-) -> Vec<Command> {
+    next: &mut Model,
+) {
     let Some(remedy) = finding.remedy_of_prediction().filter(|remedy| is_offered(material, *remedy)) else {
-        return Vec::new();
+        return;
     };
     ui.label(RichText::new(sentence_of(finding)).small().color(ui.visuals().warn_fg_color));
-    remedy_button(ui, index, material, remedy)
+    remedy_button(ui, index, material, remedy, next);
 }
 
 fn section(
@@ -147,7 +136,7 @@ fn section(
     (index, role): (usize, &str),
     material: &LoadedMaterial,
     findings: &[&Finding],
-    commands: &mut Vec<Command>,
+    next: &mut Model,
 ) {
     let (record, place) = (&material.read.record, &material.read.source.place);
     let colour = if index == 0 { theme::ground_truth(ui.visuals()) } else { ui.visuals().text_color() };
@@ -156,10 +145,10 @@ fn section(
         if index > 0 {
             let swap = ui.small_button("Make ground truth");
             if swap.on_hover_text("Compare the others with this one").clicked() {
-                commands.push(MaterialsCommand::MakeGroundTruth(index).into());
+                next.materials.make_ground_truth(index);
             }
             if ui.small_button("Close").on_hover_text("Take it out of the comparison").clicked() {
-                commands.push(MaterialsCommand::Close(index).into());
+                opening::close(next, index);
             }
         }
     });
@@ -176,7 +165,7 @@ fn section(
         ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
     }
     record.assumptions.iter().for_each(|assumption| line(ui, assumption));
-    commands.extend(findings.iter().flat_map(|finding| finding_line(ui, index, material, finding)));
+    findings.iter().for_each(|finding| finding_line(ui, index, material, finding, next));
     // Which file is which map stands in "As stored".
     for note in record.notes.iter().filter(|note| !note.is_routine()) {
         let text = RichText::new(note.to_string()).small();
@@ -190,9 +179,9 @@ fn section(
         });
         change.header_response.on_hover_text("Say how its files are to be read");
         if read != record.options {
-            commands.push(MaterialsCommand::ReadAs { index, read }.into());
+            opening::read_as(next, index, read);
         }
-        save_button(ui, index, material, commands);
+        save_button(ui, index, material, next);
     }
     let stored = ui.collapsing("As stored", |ui| {
         for map in &record.maps {

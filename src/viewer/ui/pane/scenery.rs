@@ -1,8 +1,10 @@
 //! Scenery: which panes there are, and what each displays.
 
+use eframe::egui;
 use svbrdf_core::loss::Loss;
 use svbrdf_gpu::DisplayMode;
 
+use crate::jobs::displayed::Displayed;
 use crate::jobs::panes::computed_maps::ComputedMaps;
 use crate::jobs::photograph::DisplayedPhotograph;
 use crate::model::inspection::Inspection;
@@ -16,7 +18,6 @@ pub struct Scenery<'a> {
     pub materials: &'a [LoadedMaterial],
     pub state: &'a ViewState,
     pub dark: bool,
-    pub highlight_follows: bool,
     /// Whether this is in a picture that is saved, which has no buttons.
     pub is_picture: bool,
     /// Whether every pane shows the ground truth, as long as a key is held.
@@ -61,7 +62,26 @@ pub enum PhotographUse {
     Reference,
 }
 
-impl Scenery<'_> {
+impl<'a> Scenery<'a> {
+    pub fn new(ctx: &egui::Context, shown: Displayed<'a>) -> Self {
+        let model = shown.model;
+        Self {
+            materials: shown.materials(),
+            state: &model.view,
+            dark: model.settings.dark,
+            is_picture: shown.is_picture,
+            peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
+            swapped: model.swapped,
+            reading: !shown.jobs.openings.is_empty(),
+            problem: model.dataset.problems.first().map(|(_, problem)| problem.as_str()),
+            range: shown.range(),
+            computed_maps: shown.computed_maps().map(AsRef::as_ref),
+            photograph: shown.photograph(),
+            inspection: &model.inspection,
+            losses: shown.jobs.loss.finished(&model.materials, &model.loss_query()),
+        }
+    }
+
     /// The index of the chosen prediction; the ground truth's where there is no prediction.
     pub fn chosen(&self) -> usize {
         (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1))

@@ -4,8 +4,8 @@ use eframe::egui::{self, FontId, Rect, Sense, vec2};
 
 use svbrdf_gpu::DisplayMode;
 
-use crate::model::command::{Command, DisplayCommand};
 use crate::model::view::state::Layout;
+use crate::model::{Model, display};
 use crate::ui::pane::scenery::{PaneContent, PhotographUse, Scenery};
 use crate::ui::widgets::bounds::inset;
 use crate::ui::widgets::names::{FEWEST, fitted};
@@ -26,7 +26,8 @@ pub fn title_bar(
     number: usize,
     content: PaneContent,
     rect: Rect,
-) -> Option<Command> {
+    next: &mut Model,
+) {
     let is_material = content.photograph != PhotographUse::Displayed;
     let prediction = content.index.checked_sub(1).filter(|_| is_material);
     let chosen = is_material && content.index == scenery.chosen() && content.index != 0;
@@ -81,11 +82,13 @@ pub fn title_bar(
         let label = if scenery.state.display.corrected.is_some() { "Show original" } else { "Show all maps" };
         let button = ui.put(back, egui::Button::new(egui::RichText::new(label).small()));
         if button.on_hover_text("Show the prediction itself again (Esc)").clicked() {
-            return Some(DisplayCommand::Isolate(None).into());
+            return next.view.isolate(None);
         }
     }
     let response = if elided { response.on_hover_text(text) } else { response };
-    prediction.filter(|_| response.clicked()).map(|index| DisplayCommand::ChoosePrediction(index).into())
+    if let Some(index) = prediction.filter(|_| response.clicked()) {
+        display::choose(next, index);
+    }
 }
 
 /// The names and the quantity in this width: names lose what they have in common, and then their middles; where that is not enough,

@@ -9,7 +9,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 
 use super::cells::{TITLE, cells, columns, picture_rect};
-use super::gestures::{self, Gesture, PaneTarget};
+use super::gestures::{self, Gesture};
 use super::handles;
 use super::hovered::Hovered;
 use super::placed::Placed;
@@ -18,7 +18,7 @@ use super::scenery::{PaneContent, PhotographUse, Scenery};
 use super::texels::texels;
 use super::title::title_bar;
 use crate::jobs::reading::upload::{BAND, Uploads};
-use crate::model::command::Command;
+use crate::model::Model;
 use crate::model::material::loaded::drawable;
 use crate::model::view::framing;
 use crate::model::view::state::{Projection, ViewState};
@@ -89,44 +89,37 @@ impl Viewport {
         Self { is_exact: true, ..Self::default() }
     }
 
-    /// The commands of the mouse in the panes, as the last frame has drawn them.
-    pub fn gestures(&mut self, ctx: &egui::Context, scenery: &Scenery<'_>) -> Vec<Command> {
-        let Some(ground_truth) = scenery.materials.first() else { return Vec::new() };
+    /// Carries out the gestures of the mouse in the panes, as the last frame has drawn them.
+    pub fn gestures(&mut self, ctx: &egui::Context, model: &mut Model) {
+        let Some(ground_truth) = model.materials.ground_truth() else { return };
         let grid = ground_truth.grid();
-        let mut commands = Vec::new();
         for DrawnPane { id, rect } in &self.drawn {
             let Some(response) = ctx.read_response(*id) else { continue };
-            let target = PaneTarget {
-                placed: placed(scenery.state, grid, *rect, self.pane_pixels()),
-                state: scenery.state,
-                highlight_follows: scenery.highlight_follows,
-                is_armed: scenery.inspection.is_armed,
-            };
-            commands.extend(gestures::commands(ctx, &response, &target, &mut self.gesture));
+            let placed = placed(&model.view, grid, *rect, self.pane_pixels());
+            gestures::act(ctx, &response, &placed, &mut self.gesture, model);
         }
-        commands
     }
 
-    /// Draws the panes, which may have a strip below them, and returns the commands of their titles.
+    /// Draws the panes, which may have a strip below them.
     pub fn ui(
         &mut self,
         ui: &mut egui::Ui,
         scenery: &Scenery<'_>,
+        next: &mut Model,
         gpu: Option<&mut GpuView>,
         uploads: &Uploads,
         has_strip: bool,
-    ) -> Vec<Command> {
+    ) {
         let area = ui.available_rect_before_wrap();
         self.area = area;
         self.hovered = None;
         self.drawn.clear();
         let Some(gpu) = gpu else {
-            note(ui, area, "No graphics adapter: materials cannot be drawn. The loss can be computed.");
-            return Vec::new();
+            let text = "No graphics adapter: materials cannot be drawn. The loss can be computed.";
+            return note(ui, area, text);
         };
         if scenery.materials.is_empty() {
-            empty(ui, area, scenery);
-            return Vec::new();
+            return empty(ui, area, scenery);
         }
         let contents = scenery.contents();
         let grid = scenery.materials[0].grid();
@@ -143,8 +136,7 @@ impl Viewport {
             self.pane_pixels = pixels;
         }
         if let Err(problem) = self.shade(ui, gpu, uploads, scenery, &contents) {
-            note(ui, area, &problem);
-            return Vec::new();
+            return note(ui, area, &problem);
         }
         let panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
         self.hovered = panes.iter().find_map(|(content, cell)| {
@@ -152,14 +144,12 @@ impl Viewport {
             Hovered::in_pane(ui, scenery, *content, &placed)
         });
         self.last_texel = self.hovered.and_then(|hovered| hovered.texel).or(self.last_texel);
-        let mut commands = Vec::new();
         for (i, (content, cell)) in panes.into_iter().enumerate() {
             let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
-            commands.extend(title_bar(ui, scenery, i, content, title));
+            title_bar(ui, scenery, i, content, title, next);
             let rect = picture_rect(ui, cell);
             self.pane(ui, scenery, gpu, i, content, rect);
         }
-        commands
     }
 
     fn pane(

@@ -5,8 +5,8 @@ use std::ops::Range;
 use eframe::egui::{self, FontId, RichText, TextStyle};
 
 use crate::jobs::displayed::Displayed;
-use crate::model::command::{Command, InspectionCommand};
-use crate::model::inspection::{self, HEADS};
+use crate::model::Model;
+use crate::model::inspection::{self, HEADS, Inspection};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::ViewState;
 use crate::ui::widgets::bare;
@@ -30,48 +30,42 @@ const COLOURS: [usize; 5] = [0, 1, 2, 4, 7];
 /// The column from which on a second table has the columns where one is too wide: the terms of the rendering.
 const TERMS: usize = 5;
 
+/// The drawer at the lower end of `ui`; the panes have the room above it.
+pub fn drawer(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+    let (pins, state) = (&shown.model.inspection.pins, &shown.model.view);
+    let drawer = Drawer { pins, materials: shown.materials(), state };
+    let tables = tables(ui);
+    let (height, room) = (drawer.height(tables.len()), ui.available_height());
+    // Other contents have a height of their own, until it is dragged.
+    let panel = bare(egui::Panel::bottom(("drawer", height as u32)), ui).resizable(true);
+    let panel = panel.default_size(height.min(SHARE * room));
+    panel.size_range(LEAST..=(room - PANES).max(LEAST)).show(ui, |ui| {
+        egui::ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
+            drawer.pins(ui, &tables, &mut next.inspection);
+        });
+    });
+}
+
 /// What the drawer shows.
 #[derive(Debug)]
-pub struct Drawer<'a> {
+struct Drawer<'a> {
     pins: &'a [[usize; 2]],
     materials: &'a [LoadedMaterial],
     state: &'a ViewState,
 }
 
-impl<'a> Drawer<'a> {
-    /// The drawer for what is displayed.
-    pub fn new(displayed: Displayed<'a>) -> Self {
-        let (pins, state) = (&displayed.model.inspection.pins, &displayed.model.view);
-        Self { pins, materials: displayed.materials(), state }
-    }
-
-    /// The drawer at the lower end of `ui`; the panes have the room above it.
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        let tables = tables(ui);
-        let (height, room) = (self.height(tables.len()), ui.available_height());
-        // Other contents have a height of their own, until it is dragged.
-        let panel = bare(egui::Panel::bottom(("drawer", height as u32)), ui).resizable(true);
-        let panel = panel.default_size(height.min(SHARE * room));
-        panel.size_range(LEAST..=(room - PANES).max(LEAST)).show(ui, |ui| {
-            egui::ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
-                self.pins(ui, &tables, &mut commands);
-            });
-        });
-        commands
-    }
-
+impl Drawer<'_> {
     /// The height of all contents.
     fn height(&self, tables: usize) -> f32 {
         let rows = (self.materials.len() + 1) as f32;
         46.0 + self.pins.len() as f32 * tables as f32 * (19.0 * rows + 5.0)
     }
 
-    fn pins(&self, ui: &mut egui::Ui, tables: &[Range<usize>], commands: &mut Vec<Command>) {
+    fn pins(&self, ui: &mut egui::Ui, tables: &[Range<usize>], next: &mut Inspection) {
         ui.horizontal(|ui| {
             ui.strong("Pinned texels").on_hover_text("Computed in f64 under the light and view of now");
             if ui.small_button("Remove all pins").clicked() {
-                commands.push(InspectionCommand::ClearPins.into());
+                next.pins.clear();
             }
         });
         for (number, pin) in self.pins.iter().enumerate() {
@@ -80,7 +74,7 @@ impl<'a> Drawer<'a> {
             for columns in tables {
                 let grid = egui::Grid::new(("pin", number, columns.start)).num_columns(columns.len() + 1);
                 grid.min_col_width(0.0).spacing([SPACING, 2.0]).striped(true).show(ui, |ui| {
-                    self.pin_heading(ui, number, columns, commands);
+                    self.pin_heading(ui, number, columns, next);
                     for (index, row) in rows.iter().enumerate() {
                         self.name(ui, index);
                         row.cells()[columns.clone()].iter().zip(columns.clone()).for_each(
@@ -96,13 +90,7 @@ impl<'a> Drawer<'a> {
     }
 
     /// The names of the columns; before those of the first table, the place of the pin.
-    fn pin_heading(
-        &self,
-        ui: &mut egui::Ui,
-        index: usize,
-        columns: &Range<usize>,
-        commands: &mut Vec<Command>,
-    ) {
+    fn pin_heading(&self, ui: &mut egui::Ui, index: usize, columns: &Range<usize>, next: &mut Inspection) {
         let pin = self.pins[index];
         ui.horizontal(|ui| {
             ui.set_min_width(NAME);
@@ -110,7 +98,7 @@ impl<'a> Drawer<'a> {
                 let name = format!("{}: {},{}", index + 1, pin[0], pin[1]);
                 let button = ui.small_button(RichText::new(&name).monospace());
                 if button.on_hover_text("Remove this pin").clicked() {
-                    commands.push(InspectionCommand::TogglePin(pin).into());
+                    next.toggle_pin(pin);
                 }
             }
         });

@@ -7,106 +7,74 @@ use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_files::convention::ChosenConvention;
 
-use crate::model::command::{Command, SceneCommand, WindowCommand};
+use crate::model::dialogs::OpenDialog;
 use crate::model::material::loaded::drawable;
-use crate::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint};
+use crate::model::view::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint, set_kind};
 use crate::model::view::state::ViewState;
-use crate::ui::widgets::number;
-
-/// What the section shows.
-#[derive(Debug)]
-pub struct ScenePanel<'a> {
-    pub state: &'a ViewState,
-    /// Those of files.
-    pub conventions: &'a [ChosenConvention],
-    /// Whether a left-drag moves the highlight, in place of the light.
-    pub highlight_follows: bool,
-}
+use crate::model::{Model, clipboard};
+use crate::ui::widgets::{copy, number};
 
 /// Widths of a number and of the name of an endpoint, in points.
 const NUMBER: f32 = 70.0;
 const NAME: f32 = 14.0;
 
-impl ScenePanel<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        let mut scene = self.state.scene;
-        ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
-        ui.horizontal(|ui| self.kinds(ui, &mut commands));
-        coordinates(ui, "Light", &mut scene, Endpoint::Light);
-        coordinates(ui, "View", &mut scene, Endpoint::View);
-        self.convention(ui, &mut commands);
-        self.buttons(ui, &mut commands);
-        if scene != self.state.scene {
-            commands.push(SceneCommand::Set(scene).into());
+/// Draws the scene and the convention of the panes.
+pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+    ui.spacing_mut().item_spacing = vec2(4.0, 3.0);
+    ui.horizontal(|ui| kinds(ui, &mut next.view.scene));
+    coordinates(ui, "Light", &mut next.view.scene, Endpoint::Light);
+    coordinates(ui, "View", &mut next.view.scene, Endpoint::View);
+    convention(ui, model, next);
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut next.settings.highlight_follows, "Highlight follows").on_hover_text(
+            "A left-drag moves the mirror highlight under the pointer, instead of the light (H)",
+        );
+        let hover = "Copy the scene as JSON, the format of scene files (Ctrl+C)";
+        if ui.button("Copy scene").on_hover_text(hover).clicked() {
+            copy(ui.ctx(), next, clipboard::text(model.view.scene), "the scene as JSON");
         }
-        commands
-    }
+    });
+}
 
-    fn kinds(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        for (kind, name, hover) in [
-            (
-                Kind::Near,
-                "Near-field",
-                "Light and view at positions: each texel sees them in its own directions",
-            ),
-            (
-                Kind::Distant,
-                "Distant",
-                "Light and view infinitely far away: the same directions at every texel",
-            ),
-        ] {
-            let is_chosen = self.state.scene.kind == kind;
-            if ui.selectable_label(is_chosen, name).on_hover_text(hover).clicked() && !is_chosen {
-                commands.push(SceneCommand::SetKind(kind).into());
-            }
+fn kinds(ui: &mut egui::Ui, scene: &mut Scene) {
+    for (kind, name, hover) in [
+        (Kind::Near, "Near-field", "Light and view at positions: each texel sees them in its own directions"),
+        (Kind::Distant, "Distant", "Light and view infinitely far away: the same directions at every texel"),
+    ] {
+        if ui.selectable_label(scene.kind == kind, name).on_hover_text(hover).clicked() {
+            set_kind(scene, kind);
         }
     }
+}
 
-    fn buttons(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        ui.horizontal(|ui| {
-            let mut follows = self.highlight_follows;
-            ui.checkbox(&mut follows, "Highlight follows").on_hover_text(
-                "A left-drag moves the mirror highlight under the pointer, instead of the light (H)",
-            );
-            if follows != self.highlight_follows {
-                commands.push(SceneCommand::ToggleHighlightFollows.into());
-            }
-            let copy = ui.button("Copy scene");
-            if copy.on_hover_text("Copy the scene as JSON, the format of scene files (Ctrl+C)").clicked() {
-                commands.push(SceneCommand::Copy.into());
-            }
-        });
-    }
-
-    fn convention(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let now = &self.state.convention;
-        ui.horizontal(|ui| {
-            let combo =
-                egui::ComboBox::from_id_salt("convention").selected_text(label(now)).width(140.0).height(300.0);
-            let combo = combo.show_ui(ui, |ui| {
-                let named = named::all().iter().filter_map(|one| {
-                    let convention = Convention::try_from(one).ok()?;
-                    Some((ChosenConvention::from(convention), named::summary(one)))
-                });
-                let of_files = self.conventions.iter().map(|one| (one.clone(), one.argument()));
-                for (one, hover) in named.chain(of_files) {
-                    if ui.selectable_label(one == *now, label(&one)).on_hover_text(hover).clicked() {
-                        commands.push(SceneCommand::SetConvention(one).into());
-                    }
-                }
-                let open = ui.selectable_label(false, "Convention file...");
-                let hover = "Render and compare by the convention in a file (TOML, as `svbrdf conventions NAME` prints one)";
-                if open.on_hover_text(hover).clicked() {
-                    commands.push(WindowCommand::ShowOpen(true).into());
-                }
+/// The choice of the convention.
+fn convention(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+    let now = &model.view.convention;
+    ui.horizontal(|ui| {
+        let combo =
+            egui::ComboBox::from_id_salt("convention").selected_text(label(now)).width(140.0).height(300.0);
+        let combo = combo.show_ui(ui, |ui| {
+            let named = named::all().iter().filter_map(|one| {
+                let convention = Convention::try_from(one).ok()?;
+                Some((ChosenConvention::from(convention), named::summary(one)))
             });
-            combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Convention"));
-            combo.response.on_hover_text(
-                "Convention: the renderer, its light, clamps and epsilon: they differ from code to code",
-            );
+            let of_files = model.conventions.iter().map(|one| (one.clone(), one.argument()));
+            for (one, hover) in named.chain(of_files) {
+                if ui.selectable_label(one == *now, label(&one)).on_hover_text(hover).clicked() {
+                    next.use_convention(one);
+                }
+            }
+            let open = ui.selectable_label(false, "Convention file...");
+            let hover = "Render and compare by the convention in a file (TOML, as `svbrdf conventions NAME` prints one)";
+            if open.on_hover_text(hover).clicked() {
+                next.dialogs.open = Some(OpenDialog::default());
+            }
         });
-    }
+        combo.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, "Convention"));
+        combo.response.on_hover_text(
+            "Convention: the renderer, its light, clamps and epsilon: they differ from code to code",
+        );
+    });
 }
 
 /// The name of a convention, or of its file.

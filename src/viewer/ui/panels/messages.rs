@@ -4,18 +4,17 @@ use eframe::egui::{self, Align2, RichText};
 
 use svbrdf_core::text::line;
 
-use crate::model::command::{Command, WindowCommand};
 use crate::model::material::loaded::drawable;
 use crate::model::message::list::MessageList;
 use crate::model::message::{Message, Severity};
+use crate::model::{Model, opening};
 use crate::ui::widgets::theme;
 
 /// Share of the window's height that the list takes at most.
 const HIGHEST: f32 = 0.3;
 
-/// The messages over `area`; dismissing them is a command, and so is what can be done about one.
-pub fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) -> Vec<Command> {
-    let mut commands = Vec::new();
+/// The messages over `area`, each with what can be done about it.
+pub fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList, next: &mut Model) {
     let lasting: Vec<_> = messages.lasting().collect();
     let mut bottom = area.bottom() - 8.0;
     // An area without a width of its own is as wide as what it showed before.
@@ -28,7 +27,7 @@ pub fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) -> Vec<
             .show(ctx, |ui| {
                 egui::Frame::window(ui.style()).show(ui, |ui| {
                     ui.set_max_width(widest);
-                    list(ui, &lasting, &mut commands);
+                    list(ui, &lasting, next);
                 });
             });
         bottom = list.response.rect.top() - 8.0;
@@ -46,10 +45,9 @@ pub fn ui(ctx: &egui::Context, area: egui::Rect, messages: &MessageList) -> Vec<
                 });
             });
     }
-    commands
 }
 
-fn list(ui: &mut egui::Ui, messages: &[(usize, &Message)], commands: &mut Vec<Command>) {
+fn list(ui: &mut egui::Ui, messages: &[(usize, &Message)], next: &mut Model) {
     let highest = HIGHEST * ui.ctx().content_rect().height();
     egui::ScrollArea::vertical().max_height(highest).show(ui, |ui| {
         for &(number, message) in messages.iter().rev() {
@@ -58,22 +56,22 @@ fn list(ui: &mut egui::Ui, messages: &[(usize, &Message)], commands: &mut Vec<Co
                 let name = format!("Dismiss: {message}");
                 close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
                 if close.clicked() {
-                    commands.push(WindowCommand::DismissMessage(number).into());
+                    next.messages.dismiss(number);
                 }
                 ui.vertical(|ui| {
                     ui.add(egui::Label::new(text(ui, message)).wrap());
-                    if let Some((label, command)) = message.remedy()
-                        && ui.button(label).clicked()
+                    if let Some(retry) = message.retry()
+                        && ui.button(retry.label()).clicked()
                     {
-                        commands.push(WindowCommand::DismissMessage(number).into());
-                        commands.push(command);
+                        next.messages.dismiss(number);
+                        opening::retry(next, retry);
                     }
                 });
             });
         }
     });
     if messages.len() > 1 && ui.button("Dismiss all").clicked() {
-        commands.push(WindowCommand::DismissMessages.into());
+        next.messages.dismiss_all();
     }
 }
 

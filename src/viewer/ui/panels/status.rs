@@ -4,9 +4,10 @@ use eframe::egui::{self, RichText};
 
 use crate::jobs::panes::computed_maps::ComputedMaps;
 use crate::jobs::photograph::Photographs;
-use crate::model::command::{Command, DisplayCommand, InspectionCommand};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::state::ViewState;
+use crate::model::{Model, display};
+use crate::ui::input::keys::pin_here;
 use crate::ui::widgets::number;
 use crate::ui::widgets::readout::{self, Readout};
 use crate::ui::widgets::theme;
@@ -33,41 +34,19 @@ pub struct StatusBar<'a> {
     pub hovered: Option<usize>,
     /// Screen pixels per texel.
     pub magnification: f32,
-    pub is_armed: bool,
 }
 
 impl StatusBar<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
+    pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.set_height(ui.spacing().interact_size.y);
-            self.buttons(ui, &mut commands);
-            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                self.columns(ui, &mut commands)
-            });
+            buttons(ui, next);
+            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| self.columns(ui, next));
         });
-        commands
-    }
-
-    fn buttons(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let wide = ui.ctx().content_rect().width() > NARROW;
-        let (rectangle, pin) = if wide { ("Rectangle (Q)", "Pin (I)") } else { ("Rect.", "Pin") };
-        let rectangle = ui.selectable_label(self.is_armed, rectangle).on_hover_text(
-            "A rectangle that a saved strip magnifies: the next left-drag draws it (Q); on maps also Shift + left-drag",
-        );
-        if rectangle.clicked() {
-            commands.push(InspectionCommand::Arm(!self.is_armed).into());
-        }
-        let pin = ui.button(pin).on_hover_text(
-            "Pin the texel that was last under the pointer: all its numbers in a table (I); also Alt + click",
-        );
-        if pin.clicked() {
-            commands.push(InspectionCommand::TogglePinHere.into());
-        }
     }
 
     /// The texel, then one column for each material whose numbers fit, the ground truth first.
-    fn columns(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn columns(&self, ui: &mut egui::Ui, next: &mut Model) {
         let size = if ui.ctx().content_rect().width() > NARROW { 12.5 } else { 11.0 };
         let font = egui::FontId::monospace(size);
         let place = match self.texel {
@@ -76,7 +55,7 @@ impl StatusBar<'_> {
         };
         let mono = |text: String| RichText::new(text).font(font.clone());
         ui.label(mono(format!("texel {place:<PLACE$}")));
-        self.magnification(ui, commands);
+        self.magnification(ui, next);
         if let Some(photographs) = self.photographs {
             self.photograph(ui, photographs, mono);
         }
@@ -97,7 +76,7 @@ impl StatusBar<'_> {
     }
 
     /// The magnification, in a field of constant width.
-    fn magnification(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn magnification(&self, ui: &mut egui::Ui, next: &mut Model) {
         let mut pixels = self.magnification;
         let speed = 0.01 * self.magnification;
         number(ui, "Magnification", &mut pixels, 1.0, |drag| {
@@ -109,7 +88,7 @@ impl StatusBar<'_> {
         })
         .on_hover_text("Magnification: screen pixels per texel; double-click for 1 (0)");
         if pixels != self.magnification {
-            commands.push(DisplayCommand::SetMagnification(pixels).into());
+            display::magnify(next, pixels);
         }
     }
 
@@ -155,6 +134,21 @@ impl StatusBar<'_> {
             None => vec![format!("{:>1$}", "-", readout::WIDTH); readout::count(readout, index)],
         };
         format!("{}{unit}", numbers.join(" "))
+    }
+}
+
+fn buttons(ui: &mut egui::Ui, next: &mut Model) {
+    let wide = ui.ctx().content_rect().width() > NARROW;
+    let (rectangle, pin) = if wide { ("Rectangle (Q)", "Pin (I)") } else { ("Rect.", "Pin") };
+    let rectangle = ui.toggle_value(&mut next.inspection.is_armed, rectangle);
+    rectangle.on_hover_text(
+        "A rectangle that a saved strip magnifies: the next left-drag draws it (Q); on maps also Shift + left-drag",
+    );
+    let pin = ui.button(pin).on_hover_text(
+        "Pin the texel that was last under the pointer: all its numbers in a table (I); also Alt + click",
+    );
+    if pin.clicked() {
+        pin_here(next);
     }
 }
 

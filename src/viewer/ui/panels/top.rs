@@ -5,11 +5,12 @@ use eframe::egui::{self, PopupCloseBehavior, RichText, Role, WidgetInfo};
 use egui_material_icons::icons;
 
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_files::session::window::SessionDisplay;
 
-use crate::jobs::displayed::Displayed;
-use crate::model::command::{Command, DisplayCommand, WindowCommand};
-use crate::model::dataset::DatasetState;
-use crate::model::view::state::{AutoExposure, Layout, Projection, ViewState};
+use super::menu;
+use crate::model::view::state::{AutoExposure, Layout, Projection};
+use crate::model::{Model, display, exposure, undo};
+use crate::ui::input::keys;
 use crate::ui::widgets::number;
 
 /// Height of every control, gap between two of them, and width of the exposure, in points.
@@ -17,254 +18,214 @@ const HEIGHT: f32 = 24.0;
 const GAP: f32 = 3.0;
 const EXPOSURE: f32 = 62.0;
 
-/// What the bar shows.
-#[derive(Debug)]
-pub struct TopBar<'a> {
-    pub state: &'a ViewState,
-    pub dark: bool,
-    pub side_panel: bool,
-    pub swapped: bool,
-    /// Size of text and controls.
-    pub scale: f32,
-    pub dataset: &'a DatasetState,
+/// Draws the bar for the model.
+pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+    ui.spacing_mut().item_spacing.x = GAP;
+    // Text does not break within a button.
+    ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
+    // In a window that is small for its scale the bar leaves most of the room to the panes.
+    let highest = ui.ctx().content_rect().height() / 3.0;
+    egui::ScrollArea::vertical().max_height(highest).auto_shrink([false, true]).show(ui, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            files(ui, next);
+            ui.separator();
+            layouts(ui, &mut next.view.display);
+            ui.separator();
+            quantities(ui, &mut next.view.display);
+            differences(ui, &mut next.view.display);
+            ui.separator();
+            exposure_controls(ui, model, next);
+            ui.separator();
+            view(ui, model, next);
+            ui.separator();
+            window(ui, model, next);
+        });
+    });
 }
 
-impl<'a> TopBar<'a> {
-    /// The bar for what is displayed.
-    pub fn new(displayed: Displayed<'a>) -> Self {
-        let model = displayed.model;
-        Self {
-            state: &model.view,
-            dark: model.settings.dark,
-            side_panel: model.side_panel(),
-            swapped: model.swapped,
-            scale: model.settings.ui_scale,
-            dataset: &model.dataset,
+fn view(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+    let display = &model.view.display;
+    type Edit = fn(&mut Model);
+    let all: [(&str, &str, &str, Option<bool>, Edit); 9] = [
+        (
+            icons::ICON_VIEW_IN_AR.codepoint,
+            "3D",
+            "The plane seen from the view position, or the flat texture (P)",
+            Some(display.projection == Projection::Perspective),
+            |m| m.view.display.projection = m.view.display.projection.other(),
+        ),
+        (
+            icons::ICON_PALETTE.codepoint,
+            "False colour",
+            "Roughness from 0 (black) to 1 (light yellow) (V)",
+            Some(display.false_colour),
+            |m| m.view.display.false_colour ^= true,
+        ),
+        (
+            icons::ICON_SWAP_HORIZ.codepoint,
+            "Swap",
+            "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
+            Some(model.swapped),
+            |m| m.swapped ^= true,
+        ),
+        (
+            icons::ICON_BRIGHTNESS_ALERT.codepoint,
+            "Clipped pixels",
+            "Mark clipped pixels: too bright (magenta) or black (blue) (L)",
+            Some(display.show_clipping),
+            |m| m.view.display.show_clipping ^= true,
+        ),
+        (icons::ICON_FIT_SCREEN.codepoint, "Fit", "Fit the material into its pane (F)", None, |m| {
+            m.view.fit()
+        }),
+        ("1:1", "One texel per pixel", "One texel per pixel (0)", None, |m| display::magnify(m, 1.0)),
+        (
+            icons::ICON_RESTART_ALT.codepoint,
+            "Reset",
+            "Reset light, view, zoom, exposure and clipping marks (R)",
+            None,
+            display::reset,
+        ),
+        (icons::ICON_UNDO.codepoint, "Undo", "Undo (Ctrl+Z)", None, undo::undo),
+        (icons::ICON_REDO.codepoint, "Redo", "Redo (Ctrl+Shift+Z)", None, undo::redo),
+    ];
+    for (icon, name, hover, on, edit) in all {
+        // Nothing comes and goes in the bar: what has no effect now is disabled.
+        let applies = name != "False colour" || display.quantity == Quantity::Roughness;
+        let response = button(ui, icon, name, applies, on.map(|on| on && applies));
+        if response.on_hover_text(hover).on_disabled_hover_text(hover).clicked() {
+            edit(next);
         }
     }
+}
 
-    pub fn ui(&self, ui: &mut egui::Ui) -> Vec<Command> {
-        let mut commands = Vec::new();
-        ui.spacing_mut().item_spacing.x = GAP;
-        // Text does not break within a button.
-        ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
-        // In a window that is small for its scale the bar leaves most of the room to the panes.
-        let highest = ui.ctx().content_rect().height() / 3.0;
-        egui::ScrollArea::vertical().max_height(highest).auto_shrink([false, true]).show(ui, |ui| {
-            ui.horizontal_wrapped(|ui| {
-                files(ui, &mut commands);
-                ui.separator();
-                self.layouts(ui, &mut commands);
-                ui.separator();
-                self.quantities(ui, &mut commands);
-                self.differences(ui, &mut commands);
-                ui.separator();
-                self.exposure(ui, &mut commands);
-                ui.separator();
-                self.view(ui, &mut commands);
-                ui.separator();
-                self.window(ui, &mut commands);
-            });
-        });
-        commands
-    }
-
-    fn view(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let display = &self.state.display;
-        for (icon, name, hover, on, command) in [
+fn layouts(ui: &mut egui::Ui, display: &mut SessionDisplay) {
+    segments(ui, |ui| {
+        for (layout, icon, hover) in [
             (
-                icons::ICON_VIEW_IN_AR.codepoint,
-                "3D",
-                "The plane seen from the view position, or the flat texture (P)",
-                Some(display.projection == Projection::Perspective),
-                DisplayCommand::ToggleProjection,
+                Layout::SideBySide,
+                icons::ICON_VIEW_COLUMN_2,
+                "Ground truth and every prediction side by side (C)",
             ),
             (
-                icons::ICON_PALETTE.codepoint,
-                "False colour",
-                "Roughness from 0 (black) to 1 (light yellow) (V)",
-                Some(display.false_colour),
-                DisplayCommand::ToggleFalseColour,
+                Layout::Wipe,
+                icons::ICON_COMPARE,
+                "Ground truth left and chosen prediction right of a line (C)",
             ),
-            (
-                icons::ICON_SWAP_HORIZ.codepoint,
-                "Swap",
-                "Swap prediction and ground truth (X); hold G to show the ground truth in every pane",
-                Some(self.swapped),
-                DisplayCommand::Swap,
-            ),
-            (
-                icons::ICON_BRIGHTNESS_ALERT.codepoint,
-                "Clipped pixels",
-                "Mark clipped pixels: too bright (magenta) or black (blue) (L)",
-                Some(display.show_clipping),
-                DisplayCommand::ToggleClipping,
-            ),
-            (
-                icons::ICON_FIT_SCREEN.codepoint,
-                "Fit",
-                "Fit the material into its pane (F)",
-                None,
-                DisplayCommand::Fit,
-            ),
-            ("1:1", "One texel per pixel", "One texel per pixel (0)", None, DisplayCommand::OneToOne),
-            (
-                icons::ICON_RESTART_ALT.codepoint,
-                "Reset",
-                "Reset light, view, zoom, exposure and clipping marks (R)",
-                None,
-                DisplayCommand::Reset,
-            ),
-            (icons::ICON_UNDO.codepoint, "Undo", "Undo (Ctrl+Z)", None, DisplayCommand::Undo),
-            (icons::ICON_REDO.codepoint, "Redo", "Redo (Ctrl+Shift+Z)", None, DisplayCommand::Redo),
+            (Layout::Single, icons::ICON_CROP_SQUARE, "The chosen prediction alone (C)"),
         ] {
-            // Nothing comes and goes in the bar: what has no effect now is disabled.
-            let applies = name != "False colour" || display.quantity == Quantity::Roughness;
-            let response = button(ui, icon, name, applies, on.map(|on| on && applies));
-            if response.on_hover_text(hover).on_disabled_hover_text(hover).clicked() {
-                commands.push(command.into());
+            let on = display.layout == layout;
+            let name = format!("Layout {}", layout.name());
+            let button = button(ui, icon.codepoint, &name, true, Some(on));
+            if button.on_hover_text(hover).clicked() {
+                display.layout = layout;
             }
         }
-    }
+    });
+}
 
-    fn layouts(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        segments(ui, |ui| {
-            for (layout, icon, hover) in [
-                (
-                    Layout::SideBySide,
-                    icons::ICON_VIEW_COLUMN_2,
-                    "Ground truth and every prediction side by side (C)",
-                ),
-                (
-                    Layout::Wipe,
-                    icons::ICON_COMPARE,
-                    "Ground truth left and chosen prediction right of a line (C)",
-                ),
-                (Layout::Single, icons::ICON_CROP_SQUARE, "The chosen prediction alone (C)"),
-            ] {
-                let on = self.state.display.layout == layout;
-                let name = format!("Layout {}", layout.name());
-                let button = button(ui, icon.codepoint, &name, true, Some(on));
-                if button.on_hover_text(hover).clicked() && !on {
-                    commands.push(DisplayCommand::SetLayout(layout).into());
-                }
+fn quantities(ui: &mut egui::Ui, display: &mut SessionDisplay) {
+    segments(ui, |ui| {
+        for quantity in Quantity::ALL {
+            let (name, text) = (quantity.name(), letter(quantity));
+            let on = display.quantity == quantity;
+            let button = button(ui, &text, &format!("Show {name}"), true, Some(on));
+            let hover = match quantity {
+                Quantity::Rendering => "Rendering under the light and view (M, Shift+M)".to_owned(),
+                _ => format!("Map of {name} (M, Shift+M)"),
+            };
+            if button.on_hover_text(hover).clicked() {
+                display.quantity = quantity;
             }
-        });
-    }
-
-    fn quantities(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        segments(ui, |ui| {
-            for quantity in Quantity::ALL {
-                let (name, text) = (quantity.name(), letter(quantity));
-                let on = self.state.display.quantity == quantity;
-                let button = button(ui, &text, &format!("Show {name}"), true, Some(on));
-                let hover = match quantity {
-                    Quantity::Rendering => "Rendering under the light and view (M, Shift+M)".to_owned(),
-                    _ => format!("Map of {name} (M, Shift+M)"),
-                };
-                if button.on_hover_text(hover).clicked() && !on {
-                    commands.push(DisplayCommand::SetQuantity(quantity).into());
-                }
-            }
-        });
-    }
-
-    fn differences(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        segments(ui, |ui| {
-            for (difference, name) in [(false, "Value"), (true, "Difference")] {
-                let on = self.state.display.difference == difference;
-                let button = button(ui, name, name, true, Some(on));
-                let hover = "Show the value, or the difference of predictions from the ground truth (D)";
-                if button.on_hover_text(hover).clicked() && !on {
-                    commands.push(DisplayCommand::ShowDifference(difference).into());
-                }
-            }
-        });
-    }
-
-    fn exposure(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        segments(ui, |ui| {
-            let darker = button(ui, "\u{2212}", "Darker", true, None);
-            if darker.on_hover_text("Exposure lower by 0.5 stops (Shift+E)").clicked() {
-                commands.push(DisplayCommand::StepExposure(-0.5).into());
-            }
-            let mut ev = self.state.exposure_ev;
-            number(ui, "Exposure", &mut ev, 0.0, |drag| {
-                drag.speed(0.05)
-                    .range(-20.0..=20.0)
-                    .fixed_decimals(1)
-                    .prefix("EV ")
-                    .min_size(egui::vec2(EXPOSURE, HEIGHT))
-            })
-            .on_hover_text("Exposure in stops; double-click for 0");
-            if ev != self.state.exposure_ev {
-                commands.push(DisplayCommand::SetExposure(ev).into());
-            }
-            let brighter = button(ui, "+", "Brighter", true, None);
-            if brighter.on_hover_text("Exposure higher by 0.5 stops (E)").clicked() {
-                commands.push(DisplayCommand::StepExposure(0.5).into());
-            }
-            let now = self.state.display.auto_exposure;
-            for (auto, text, name, hover) in [
-                (
-                    AutoExposure::Once,
-                    "Auto",
-                    "Auto EV",
-                    "The brightest 1% of the ground truth just clip: now, and when materials are opened or a scene is \
-                     chosen (N)",
-                ),
-                (
-                    AutoExposure::Follow,
-                    "Follow",
-                    "Exposure follows",
-                    "The brightest 1% of the ground truth just clip, under every light and view (Shift+N)",
-                ),
-            ] {
-                let button = button(ui, text, name, true, Some(now == auto));
-                if button.on_hover_text(hover).clicked() {
-                    commands.push(DisplayCommand::AutoExposure(auto).into());
-                }
-            }
-        });
-    }
-
-    fn window(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        // Several of its controls may be used in a row.
-        let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-        let face = shaped(icons::ICON_MENU.codepoint, false);
-        let (menu, _) = MenuButton::from_button(face).config(config).ui(ui, |ui| self.menu(ui, commands));
-        menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
-        menu.on_hover_text("Photograph, theme, size of the window's text");
-        let panel = button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(self.side_panel));
-        if panel.on_hover_text("Side panel (B)").clicked() {
-            commands.push(WindowCommand::ToggleSidePanel.into());
         }
-        let help = button(ui, icons::ICON_HELP.codepoint, "Help", true, None);
-        if help.on_hover_text("Keys and mouse (?)").clicked() {
-            commands.push(WindowCommand::ShowHelp(true).into());
+    });
+}
+
+fn differences(ui: &mut egui::Ui, display: &mut SessionDisplay) {
+    segments(ui, |ui| {
+        for (difference, name) in [(false, "Value"), (true, "Difference")] {
+            let on = display.difference == difference;
+            let button = button(ui, name, name, true, Some(on));
+            let hover = "Show the value, or the difference of predictions from the ground truth (D)";
+            if button.on_hover_text(hover).clicked() {
+                display.difference = difference;
+            }
         }
+    });
+}
+
+fn exposure_controls(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+    segments(ui, |ui| {
+        let darker = button(ui, "\u{2212}", "Darker", true, None);
+        if darker.on_hover_text("Exposure lower by 0.5 stops (Shift+E)").clicked() {
+            display::step_exposure(next, -0.5);
+        }
+        let mut ev = model.view.exposure_ev;
+        number(ui, "Exposure", &mut ev, 0.0, |drag| {
+            drag.speed(0.05)
+                .range(-20.0..=20.0)
+                .fixed_decimals(1)
+                .prefix("EV ")
+                .min_size(egui::vec2(EXPOSURE, HEIGHT))
+        })
+        .on_hover_text("Exposure in stops; double-click for 0");
+        if ev != model.view.exposure_ev {
+            next.view.set_exposure(ev);
+        }
+        let brighter = button(ui, "+", "Brighter", true, None);
+        if brighter.on_hover_text("Exposure higher by 0.5 stops (E)").clicked() {
+            display::step_exposure(next, 0.5);
+        }
+        let now = model.view.display.auto_exposure;
+        for (auto, text, name, hover) in [
+            (
+                AutoExposure::Once,
+                "Auto",
+                "Auto EV",
+                "The brightest 1% of the ground truth just clip: now, and when materials are opened or a scene is \
+                 chosen (N)",
+            ),
+            (
+                AutoExposure::Follow,
+                "Follow",
+                "Exposure follows",
+                "The brightest 1% of the ground truth just clip, under every light and view (Shift+N)",
+            ),
+        ] {
+            let button = button(ui, text, name, true, Some(now == auto));
+            if button.on_hover_text(hover).clicked() {
+                exposure::choose(next, auto);
+            }
+        }
+    });
+}
+
+fn window(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+    // Several of its controls may be used in a row.
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let face = shaped(icons::ICON_MENU.codepoint, false);
+    let (menu, _) = MenuButton::from_button(face).config(config).ui(ui, |ui| menu::ui(ui, model, next));
+    menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
+    menu.on_hover_text("Photograph, theme, size of the window's text");
+    let panel = button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(model.side_panel()));
+    if panel.on_hover_text("Side panel (B)").clicked() {
+        next.toggle_side_panel();
+    }
+    let help = button(ui, icons::ICON_HELP.codepoint, "Help", true, None);
+    if help.on_hover_text("Keys and mouse (?)").clicked() {
+        next.help = true;
     }
 }
 
 /// What opens and saves.
-fn files(ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-    for (icon, name, hover, command) in [
-        (icons::ICON_FOLDER_OPEN, "Open", "Open materials (Ctrl+O)", WindowCommand::ShowOpen(true)),
-        (
-            icons::ICON_SAVE,
-            "Save",
-            "Save view, renderings, strip or session (Ctrl+S)",
-            WindowCommand::ShowSave(true),
-        ),
-        (
-            icons::ICON_CONTENT_COPY,
-            "Copy",
-            "Copy the view as a picture (Ctrl+Shift+C)",
-            WindowCommand::CopyPicture,
-        ),
+fn files(ui: &mut egui::Ui, next: &mut Model) {
+    for (icon, name, hover, edit) in [
+        (icons::ICON_FOLDER_OPEN, "Open", "Open materials (Ctrl+O)", keys::OPEN),
+        (icons::ICON_SAVE, "Save", "Save view, renderings, strip or session (Ctrl+S)", keys::SAVE),
+        (icons::ICON_CONTENT_COPY, "Copy", "Copy the view as a picture (Ctrl+Shift+C)", keys::COPY_PICTURE),
     ] {
         if button(ui, icon.codepoint, name, true, None).on_hover_text(hover).clicked() {
-            commands.push(command.into());
+            edit(next);
         }
     }
 }

@@ -3,12 +3,13 @@
 use eframe::egui::text::TextFormat;
 use eframe::egui::{self, Align2, FontId, RichText, pos2, vec2};
 
-use svbrdf_core::loss::LossSettings;
 use svbrdf_evaluate::diagnose::{Diagnosis, Finding, SCENES, sentence};
 
+use crate::jobs::displayed::Displayed;
 use crate::jobs::why::{ComparedPair, Diagnosed, WhyJobs};
-use crate::model::command::{Command, DisplayCommand};
+use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
+use crate::model::settings::why::WhySection;
 use crate::model::view::state::ViewState;
 use crate::ui::why::hypotheses::{HypothesisLines, SHARE, label, share, shown_change, toggle};
 use crate::ui::why::row::Row;
@@ -23,46 +24,46 @@ const SENTENCE: usize = 3;
 /// Characters of the name of a prediction.
 const CHARACTERS: usize = 20;
 
-/// The section, with what it depends on.
+/// The section; `pairs` are the ground truth and each prediction.
+pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next: &mut Model) {
+    let (model, chosen) = (shown.model, shown.model.view.display.prediction);
+    let predictions = model.materials.predictions();
+    let (Some(pair), Some(prediction)) = (pairs.get(chosen), predictions.get(chosen)) else { return };
+    let seed = model.settings.loss.seed;
+    let section = DiagnosisSection { state: &model.view, jobs: &shown.jobs.why, seed, pairs, predictions };
+    let diagnosed = section.diagnosed(pair);
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = 1.0;
+        if pairs.len() > 1 {
+            section.predictions(ui, next);
+        }
+        ui.add_space(4.0);
+        section.sentence(ui, pair, diagnosed);
+        section.remedy(ui, prediction, diagnosed, next);
+        let corrected = model.view.display.corrected;
+        let is_open = model.settings.sections.is_open(WhySection::Hypotheses);
+        HypothesisLines { pair, diagnosed, corrected, is_open }.ui(ui, next);
+    });
+    section.state_line(ui, pair, diagnosed);
+}
+
+/// What the section depends on.
 #[derive(Debug)]
-pub struct DiagnosisSection<'a> {
-    pub state: &'a ViewState,
-    pub jobs: &'a WhyJobs,
-    pub settings: &'a LossSettings,
-    /// The ground truth and each prediction, and the predictions.
-    pub pairs: &'a [ComparedPair],
-    pub predictions: &'a [LoadedMaterial],
-    /// Whether the lines without a mark are unfolded.
-    pub shows_all: bool,
+struct DiagnosisSection<'a> {
+    state: &'a ViewState,
+    jobs: &'a WhyJobs,
+    seed: u64,
+    pairs: &'a [ComparedPair],
+    predictions: &'a [LoadedMaterial],
 }
 
 impl DiagnosisSection<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let chosen = self.state.display.prediction;
-        let (Some(pair), Some(prediction)) = (self.pairs.get(chosen), self.predictions.get(chosen)) else {
-            return;
-        };
-        let diagnosed = self.diagnosed(pair);
-        ui.scope(|ui| {
-            ui.spacing_mut().item_spacing.y = 1.0;
-            if self.pairs.len() > 1 {
-                self.predictions(ui, commands);
-            }
-            ui.add_space(4.0);
-            self.sentence(ui, pair, diagnosed);
-            self.remedy(ui, prediction, diagnosed, commands);
-            let (corrected, is_open) = (self.state.display.corrected, self.shows_all);
-            HypothesisLines { pair, diagnosed, corrected, is_open }.ui(ui, commands);
-        });
-        self.state_line(ui, pair, diagnosed);
-    }
-
     fn diagnosed(&self, pair: &ComparedPair) -> Option<&Diagnosed> {
-        self.jobs.diagnosis.get(pair, self.settings.seed)
+        self.jobs.diagnosis.get(pair, self.seed)
     }
 
     /// A row per prediction with its first mark.
-    fn predictions(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    fn predictions(&self, ui: &mut egui::Ui, next: &mut Model) {
         let names: Vec<&str> = self.predictions.iter().map(LoadedMaterial::name).collect();
         for (index, (pair, name)) in self.pairs.iter().zip(shortened(&names, CHARACTERS)).enumerate() {
             let diagnosed = self.diagnosed(pair);
@@ -95,16 +96,15 @@ impl DiagnosisSection<'_> {
                 }
             });
             if response.clicked() {
-                commands.push(DisplayCommand::ChoosePrediction(index).into());
+                next.view.choose(index);
                 let corrected = self.state.display.corrected.filter(|_| is_chosen);
-                let command = toggle(change, corrected);
-                commands.push(command.into());
+                toggle(&mut next.view, change, corrected);
             }
         }
     }
 
     fn words(&self, pair: &ComparedPair, diagnosis: &Diagnosis) -> String {
-        sentence(diagnosis, self.jobs.diagnosis.floor(pair, self.settings.seed))
+        sentence(diagnosis, self.jobs.diagnosis.floor(pair, self.seed))
     }
 
     /// The finding in words, in rows of constant height.
@@ -121,7 +121,7 @@ impl DiagnosisSection<'_> {
         ui: &mut egui::Ui,
         prediction: &LoadedMaterial,
         diagnosed: Option<&Diagnosed>,
-        commands: &mut Vec<Command>,
+        next: &mut Model,
     ) {
         let height = ui.spacing().interact_size.y;
         ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
@@ -131,7 +131,7 @@ impl DiagnosisSection<'_> {
             let remedy = remedies.find(|one| is_offered(prediction, *one));
             if let Some(remedy) = remedy {
                 let index = self.state.display.prediction + 1;
-                commands.extend(remedy_button(ui, index, prediction, remedy));
+                remedy_button(ui, index, prediction, remedy, next);
             }
         });
     }
@@ -145,7 +145,7 @@ impl DiagnosisSection<'_> {
             ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
             return;
         };
-        let floor = self.jobs.diagnosis.floor(pair, self.settings.seed).map(|floor| digits(floor.mean));
+        let floor = self.jobs.diagnosis.floor(pair, self.seed).map(|floor| digits(floor.mean));
         let floor =
             floor.map(|floor| format!("Losses below {floor} are not resolvable; ")).unwrap_or_default();
         let [near, distant] = SCENES;

@@ -5,8 +5,9 @@ use eframe::egui::{self, Align2, FontId, RichText, pos2};
 use svbrdf_evaluate::diagnose::{Change, Finding, Hypothesis};
 
 use crate::jobs::why::{ComparedPair, Diagnosed};
-use crate::model::command::{Command, DisplayCommand, WhyCommand};
+use crate::model::Model;
 use crate::model::settings::why::WhySection;
+use crate::model::view::state::ViewState;
 use crate::ui::why::row::Row;
 use crate::ui::widgets::numbers::digits;
 use crate::ui::widgets::theme;
@@ -31,24 +32,24 @@ pub struct HypothesisLines<'a> {
 impl HypothesisLines<'_> {
     /// The marked lines, or the one that explains most, and the others behind one line. As many rows while it is diagnosed, where at
     /// most one has a mark.
-    pub fn ui(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
+    pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
         let Some(diagnosed) = self.diagnosed else {
             let mut all = Hypothesis::of(self.pair.prediction_storage());
             all.next().into_iter().for_each(|one| drop(line(ui, one, None, false)));
-            self.header(ui, "Other explanations", commands);
+            self.header(ui, "Other explanations", next);
             all.filter(|_| self.is_open).for_each(|one| drop(line(ui, one, None, false)));
             return;
         };
         let first = first(&diagnosed.diagnosis.findings);
-        first.iter().for_each(|finding| self.finding(ui, finding, commands));
+        first.iter().for_each(|finding| self.finding(ui, finding, next));
         let is_other = |finding: &&Finding| !first.contains(finding);
         let others: Vec<&Finding> = diagnosed.diagnosis.findings.iter().filter(is_other).collect();
-        self.header(ui, &format!("{} other explanations: none marked", others.len()), commands);
-        others.iter().filter(|_| self.is_open).for_each(|finding| self.finding(ui, finding, commands));
+        self.header(ui, &format!("{} other explanations: none marked", others.len()), next);
+        others.iter().filter(|_| self.is_open).for_each(|finding| self.finding(ui, finding, next));
     }
 
     /// The line that unfolds the others.
-    fn header(&self, ui: &mut egui::Ui, text: &str, commands: &mut Vec<Command>) {
+    fn header(&self, ui: &mut egui::Ui, text: &str, next: &mut Model) {
         let row = Row { label: text.to_owned(), selected: false };
         let (response, area) = row.ui(ui, true);
         let (ink, middle) = (ui.visuals().text_color(), area.center().y);
@@ -59,11 +60,11 @@ impl HypothesisLines<'_> {
         ui.painter().text(at, Align2::LEFT_CENTER, text, FontId::proportional(12.5), ink);
         let hover = "The changes that do not lower the loss significantly and by at least 10%";
         if response.on_hover_text(hover).clicked() {
-            commands.push(WhyCommand::ShowSection(WhySection::Hypotheses, !self.is_open).into());
+            next.settings.sections.toggle(WhySection::Hypotheses);
         }
     }
 
-    fn finding(&self, ui: &mut egui::Ui, finding: &Finding, commands: &mut Vec<Command>) {
+    fn finding(&self, ui: &mut egui::Ui, finding: &Finding, next: &mut Model) {
         let change = shown_change(finding, self.pair);
         let is_shown = change.is_some() && change == self.corrected;
         let names = [self.pair.ground_truth().name(), self.pair.prediction().name()];
@@ -75,7 +76,7 @@ impl HypothesisLines<'_> {
             }
         });
         if change.is_some() && response.clicked() {
-            commands.push(toggle(change, self.corrected).into());
+            toggle(&mut next.view, change, self.corrected);
         }
     }
 }
@@ -95,8 +96,8 @@ pub fn shown_change(finding: &Finding, pair: &ComparedPair) -> Option<Change> {
 }
 
 /// Shows the prediction after this change, or itself where it is `corrected` so.
-pub fn toggle(change: Option<Change>, corrected: Option<Change>) -> DisplayCommand {
-    DisplayCommand::Correct(change.filter(|change| corrected != Some(*change)))
+pub fn toggle(view: &mut ViewState, change: Option<Change>, corrected: Option<Change>) {
+    view.correct(change.filter(|change| corrected != Some(*change)));
 }
 
 /// The line of a hypothesis: its name, the value and the share; dots where they are not there yet.

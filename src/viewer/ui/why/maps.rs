@@ -2,14 +2,14 @@
 
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
-use svbrdf_core::loss::LossSettings;
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_evaluate::why::MapShare;
 
-use crate::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair, WhyJobs};
-use crate::model::command::{Command, DisplayCommand};
-use crate::model::view::state::ViewState;
+use crate::jobs::displayed::Displayed;
+use crate::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair};
+use crate::model::Model;
+use crate::model::material::loaded::LoadedMaterial;
 use crate::ui::widgets::numbers::{accuracy, seconds, significant};
 use crate::ui::widgets::theme;
 
@@ -23,107 +23,99 @@ const NAME: f32 = 72.0;
 const NUMBER: f32 = 16.0;
 const AMOUNTS: f32 = 114.0;
 
-/// The section, with what it depends on.
-#[derive(Debug)]
-pub struct MapsSection<'a> {
-    pub state: &'a ViewState,
-    pub jobs: &'a WhyJobs,
-    pub settings: &'a LossSettings,
-    /// The ground truth and each prediction, and the names of the predictions.
-    pub pairs: &'a [ComparedPair],
-    pub names: &'a [&'a str],
-}
-
-impl MapsSection<'_> {
-    pub fn ui(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        let of = |pair| self.jobs.attribution.get(pair, &self.settings.seed);
-        let all: Vec<Option<&Attributed>> = self.pairs.iter().map(of).collect();
-        let chosen = self.state.display.prediction;
-        let axis = axis(all.iter().copied().flatten());
-        for map in Map::ALL {
-            ui.scope(|ui| {
-                ui.spacing_mut().item_spacing.y = 1.0;
-                for (index, attributed) in all.iter().enumerate() {
-                    let row = MapRow {
-                        map,
-                        index,
-                        name: self.names.get(index).copied().unwrap_or_default(),
-                        count: all.len(),
-                        attributed: *attributed,
-                        axis,
-                        is_chosen: index == chosen,
-                    };
-                    let is_isolated = row.is_chosen && self.state.display.isolated == Some(map);
-                    if row.ui(ui, is_isolated, self.state.display.only_right).clicked() {
-                        commands.push(DisplayCommand::ChoosePrediction(index).into());
-                        commands.push(DisplayCommand::Isolate((!is_isolated).then_some(map)).into());
-                    }
-                }
-            });
-        }
-        let attributed = all.get(chosen).copied().flatten();
-        self.state_line(ui, attributed);
-        // Its row is kept where there is no note: what is below does not move when one comes.
-        let note = attributed.and_then(|attributed| attributed.attribution.note()).unwrap_or_default();
-        ui.add(egui::Label::new(RichText::new(note).small()).truncate());
-        self.pane_choice(ui, commands);
-    }
-
-    /// One line of constant height: the progress, or the sum and what it took.
-    fn state_line(&self, ui: &mut egui::Ui, attributed: Option<&Attributed>) {
-        let height = ui.spacing().interact_size.y;
-        let Some(Attributed { attribution, elapsed }) = attributed else {
-            let (pair, busy) = (self.pairs.get(self.state.display.prediction), self.jobs.attribution.busy());
-            let awaits = |pair| self.jobs.diagnosis.awaits(pair, self.settings.seed);
-            let text = match busy {
-                None if pair.is_some_and(awaits) => "After the diagnosis".to_owned(),
-                _ => format!("Mixing maps, {} s", busy.unwrap_or_default().1.as_secs()),
-            };
-            let (fraction, _) = busy.unwrap_or_default();
-            ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
-            return;
-        };
-        let count = |kind| attribution.scenes.iter().filter(|scene| scene.kind == kind).count();
-        let [mean, interval] = significant(&attribution.loss);
-        let text = format!(
-            "Sum {mean} {interval}, {} + {} scenes, {}",
-            count(Kind::Near),
-            count(Kind::Distant),
-            seconds(*elapsed)
-        );
-        let missed = attribution.loss.relative_error95() > ATTRIBUTION_TARGET;
-        let missed =
-            if missed { format!("Not within {}: ", accuracy(ATTRIBUTION_TARGET)) } else { String::new() };
-        let text = missed + &text;
-        ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
-            ui.set_min_height(height);
-            ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
-                "All 16 mixtures of true and predicted maps, in the same scenes on the same texels. The Shapley value \
-                 of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; \
-                 the four add up to the loss. A negative share: the error of this map partly cancels the errors of others. At most 49,152 scenes are \
-                 sampled.",
-            );
-        });
-    }
-
-    /// What a click on a map shows.
-    fn pane_choice(&self, ui: &mut egui::Ui, commands: &mut Vec<Command>) {
-        ui.horizontal_wrapped(|ui| {
-            ui.label("A click shows").on_hover_text(
-                "A click on a bar chooses the prediction and shows it with this map alone wrong, or alone right, in its \
-                 pane. Another click, or Esc, shows the prediction itself.",
-            );
-            for (right, name, hover) in [
-                (false, "only it wrong", "The ground truth with this map of the prediction"),
-                (true, "only it right", "The prediction with this map of the ground truth"),
-            ] {
-                let label = ui.selectable_label(self.state.display.only_right == right, name).on_hover_text(hover);
-                if label.clicked() {
-                    commands.push(DisplayCommand::SetOnlyRight(right).into());
+/// The section; `pairs` are the ground truth and each prediction.
+pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next: &mut Model) {
+    let (display, seed) = (&shown.model.view.display, shown.model.settings.loss.seed);
+    let predictions = shown.model.materials.predictions();
+    let of = |pair| shown.jobs.why.attribution.get(pair, &seed);
+    let all: Vec<Option<&Attributed>> = pairs.iter().map(of).collect();
+    let axis = axis(all.iter().copied().flatten());
+    for map in Map::ALL {
+        ui.scope(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            for (index, attributed) in all.iter().enumerate() {
+                let row = MapRow {
+                    map,
+                    index,
+                    name: predictions.get(index).map_or("", LoadedMaterial::name),
+                    count: all.len(),
+                    attributed: *attributed,
+                    axis,
+                    is_chosen: index == display.prediction,
+                };
+                let is_isolated = row.is_chosen && display.isolated == Some(map);
+                if row.ui(ui, is_isolated, display.only_right).clicked() {
+                    next.view.choose(index);
+                    next.view.isolate((!is_isolated).then_some(map));
                 }
             }
         });
     }
+    let attributed = all.get(display.prediction).copied().flatten();
+    state_line(ui, shown, pairs.get(display.prediction), attributed);
+    // Its row is kept where there is no note: what is below does not move when one comes.
+    let note = attributed.and_then(|attributed| attributed.attribution.note()).unwrap_or_default();
+    ui.add(egui::Label::new(RichText::new(note).small()).truncate());
+    pane_choice(ui, &mut next.view.display.only_right);
+}
+
+/// One line of constant height: the progress, or the sum and what it took.
+fn state_line(
+    ui: &mut egui::Ui,
+    shown: Displayed<'_>,
+    pair: Option<&ComparedPair>,
+    attributed: Option<&Attributed>,
+) {
+    let jobs = &shown.jobs.why;
+    let height = ui.spacing().interact_size.y;
+    let Some(Attributed { attribution, elapsed }) = attributed else {
+        let busy = jobs.attribution.busy();
+        let awaits = |pair| jobs.diagnosis.awaits(pair, shown.model.settings.loss.seed);
+        let text = match busy {
+            None if pair.is_some_and(awaits) => "After the diagnosis".to_owned(),
+            _ => format!("Mixing maps, {} s", busy.unwrap_or_default().1.as_secs()),
+        };
+        let (fraction, _) = busy.unwrap_or_default();
+        ui.add(egui::ProgressBar::new(fraction).text(text).desired_height(height).corner_radius(3.0));
+        return;
+    };
+    let count = |kind| attribution.scenes.iter().filter(|scene| scene.kind == kind).count();
+    let [mean, interval] = significant(&attribution.loss);
+    let text = format!(
+        "Sum {mean} {interval}, {} + {} scenes, {}",
+        count(Kind::Near),
+        count(Kind::Distant),
+        seconds(*elapsed)
+    );
+    let missed = attribution.loss.relative_error95() > ATTRIBUTION_TARGET;
+    let missed =
+        if missed { format!("Not within {}: ", accuracy(ATTRIBUTION_TARGET)) } else { String::new() };
+    let text = missed + &text;
+    ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
+        ui.set_min_height(height);
+        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
+            "All 16 mixtures of true and predicted maps, in the same scenes on the same texels. The Shapley value \
+             of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; \
+             the four add up to the loss. A negative share: the error of this map partly cancels the errors of others. At most 49,152 scenes are \
+             sampled.",
+        );
+    });
+}
+
+/// What a click on a map shows.
+fn pane_choice(ui: &mut egui::Ui, only_right: &mut bool) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label("A click shows").on_hover_text(
+            "A click on a bar chooses the prediction and shows it with this map alone wrong, or alone right, in its \
+             pane. Another click, or Esc, shows the prediction itself.",
+        );
+        for (right, name, hover) in [
+            (false, "only it wrong", "The ground truth with this map of the prediction"),
+            (true, "only it right", "The prediction with this map of the ground truth"),
+        ] {
+            ui.selectable_value(only_right, right, name).on_hover_text(hover);
+        }
+    });
 }
 
 /// One map of one prediction.

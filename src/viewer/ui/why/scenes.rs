@@ -5,9 +5,12 @@ use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke,
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_evaluate::why::{RankedScene, Worst};
 
+use crate::jobs::displayed::Displayed;
 use crate::jobs::why::{ComparedPair, MOST_THUMBNAILS, Thumbnails};
-use crate::model::command::{Command, SceneCommand, WhyCommand, WindowCommand};
-use crate::ui::why::WhyPanel;
+use crate::model::dialogs::SaveDialog;
+use crate::model::effect::Effect;
+use crate::model::settings::save_kind::SaveKind;
+use crate::model::{Model, exposure};
 use crate::ui::widgets::numbers::digits;
 use crate::ui::widgets::texture::PanelTextures;
 use crate::ui::widgets::theme;
@@ -15,111 +18,108 @@ use crate::ui::widgets::theme;
 /// Side of a thumbnail and height of the number below it, in points.
 const SIDE: f32 = 52.0;
 const NUMBER: f32 = 15.0;
-/// Scenes that one click adds to the list.
+/// Scenes in the list until more are asked for, and those that one click adds.
+const FEW: usize = 10;
 const MORE: usize = 20;
 
-impl WhyPanel<'_> {
-    /// The section, as high while it is computed as afterwards: what is below does not move by itself.
-    pub fn scenes(
-        &self,
-        ui: &mut egui::Ui,
-        pair: &ComparedPair,
-        textures: &mut PanelTextures,
-        commands: &mut Vec<Command>,
-    ) {
-        let scenes = self.settings.listed_scenes();
-        let (list, thumbnails) = self.jobs.scenes.get(pair, &scenes).unzip();
-        let count = scenes.count().unwrap_or(0);
-        let thumbnails = thumbnails.flatten();
-        let texture = thumbnails
-            .map(|thumbnails| textures.id(ui.ctx(), &thumbnails.picture, egui::TextureOptions::LINEAR));
-        self.thumbnails(ui, list, count, thumbnails.zip(texture), commands);
-        self.search(ui, pair, commands);
-    }
+/// The section, as high while it is computed as afterwards: what is below does not move by itself.
+pub fn ui(
+    ui: &mut egui::Ui,
+    shown: Displayed<'_>,
+    pair: &ComparedPair,
+    textures: &mut PanelTextures,
+    next: &mut Model,
+) {
+    let scenes = shown.model.settings.loss.listed_scenes();
+    let (list, pictures) = shown.jobs.why.scenes.get(pair, &scenes).unzip();
+    let pictures = pictures.flatten();
+    let texture =
+        pictures.map(|pictures| textures.id(ui.ctx(), &pictures.picture, egui::TextureOptions::LINEAR));
+    thumbnails(ui, shown, list, scenes.count().unwrap_or(0), pictures.zip(texture), next);
+    search(ui, shown, pair, next);
+}
 
-    fn thumbnails(
-        &self,
-        ui: &mut egui::Ui,
-        list: Option<&[RankedScene]>,
-        count: usize,
-        thumbnails: Option<(&Thumbnails, egui::TextureId)>,
-        commands: &mut Vec<Command>,
-    ) {
-        let listed = self.why.listed.min(count);
-        ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
-            for rank in 0..listed {
-                let Some(ranked) = list.and_then(|list| list.get(rank)) else {
-                    let (area, _) = ui.allocate_exact_size(vec2(SIDE, SIDE + NUMBER), Sense::hover());
-                    let fill = ui.visuals().widgets.inactive.weak_bg_fill;
-                    ui.painter().rect_filled(area.with_max_y(area.top() + SIDE), 0.0, fill);
-                    continue;
-                };
-                let part = thumbnails.and_then(|(thumbnails, texture)| {
-                    let [least, greatest] = thumbnails.part(rank)?;
-                    Some((texture, Rect::from_min_max(least.into(), greatest.into())))
-                });
-                if thumbnail(ui, ranked, rank, part, ranked.scene == self.state.scene).clicked() {
-                    commands.push(SceneCommand::Choose(ranked.scene).into());
-                }
+fn thumbnails(
+    ui: &mut egui::Ui,
+    shown: Displayed<'_>,
+    list: Option<&[RankedScene]>,
+    count: usize,
+    thumbnails: Option<(&Thumbnails, egui::TextureId)>,
+    next: &mut Model,
+) {
+    let listed = (FEW + shown.model.more_scenes).min(count);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
+        for rank in 0..listed {
+            let Some(ranked) = list.and_then(|list| list.get(rank)) else {
+                let (area, _) = ui.allocate_exact_size(vec2(SIDE, SIDE + NUMBER), Sense::hover());
+                let fill = ui.visuals().widgets.inactive.weak_bg_fill;
+                ui.painter().rect_filled(area.with_max_y(area.top() + SIDE), 0.0, fill);
+                continue;
+            };
+            let part = thumbnails.and_then(|(thumbnails, texture)| {
+                let [least, greatest] = thumbnails.part(rank)?;
+                Some((texture, Rect::from_min_max(least.into(), greatest.into())))
+            });
+            if thumbnail(ui, ranked, rank, part, ranked.scene == shown.model.view.scene).clicked() {
+                exposure::choose_scene(next, ranked.scene);
             }
-        });
-        ui.horizontal_wrapped(|ui| {
-            let most = count.min(MOST_THUMBNAILS);
-            if listed < most {
-                let more = ui.small_button("More scenes");
-                if more.on_hover_text(format!("{listed} of {count} are listed")).clicked() {
-                    commands.push(WhyCommand::ListScenes(listed + MORE).into());
-                }
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        let most = count.min(MOST_THUMBNAILS);
+        if listed < most {
+            let more = ui.small_button("More scenes");
+            if more.on_hover_text(format!("{listed} of {count} are listed")).clicked() {
+                next.more_scenes = listed + MORE - FEW;
             }
-            let save = ui.small_button("Save scenes...");
-            let hover =
-                "Write these scenes to a scene file, worst first; Open, and --scenes of svbrdf, take it";
-            if save.on_hover_text(hover).clicked() {
-                commands.push(WindowCommand::SaveScenes.into());
-            }
-        });
-        let text = match (thumbnails, self.jobs.scenes.busy()) {
-            (Some((thumbnails, _)), _) => format!("log difference, 0 to {}", digits(thumbnails.range)),
-            (None, Some(fraction)) => format!("{:.0}% of {count} scenes", 100.0 * fraction),
-            (None, None) => "...".to_owned(),
-        };
-        ui.label(RichText::new(text).small().weak())
-            .on_hover_text("From black to light yellow, the same in all thumbnails");
-    }
+        }
+        let save = ui.small_button("Save scenes...");
+        let hover = "Write these scenes to a scene file, worst first; Open, and --scenes of svbrdf, take it";
+        if save.on_hover_text(hover).clicked() {
+            next.dialogs.save = Some(SaveDialog::new(SaveKind::Scenes));
+        }
+    });
+    let text = match (thumbnails, shown.jobs.why.scenes.busy()) {
+        (Some((thumbnails, _)), _) => format!("log difference, 0 to {}", digits(thumbnails.range)),
+        (None, Some(fraction)) => format!("{:.0}% of {count} scenes", 100.0 * fraction),
+        (None, None) => "...".to_owned(),
+    };
+    ui.label(RichText::new(text).small().weak())
+        .on_hover_text("From black to light yellow, the same in all thumbnails");
+}
 
-    /// The button that searches, its progress, and what was found, in two rows.
-    fn search(&self, ui: &mut egui::Ui, pair: &ComparedPair, commands: &mut Vec<Command>) {
-        let search = &self.jobs.search;
-        let worst = search.found(pair).filter(|_| search.busy().is_none());
-        ui.horizontal(|ui| {
-            if let Some((fraction, elapsed)) = search.busy() {
-                if ui.button("Cancel search").on_hover_text("Esc").clicked() {
-                    commands.push(WhyCommand::CancelSearch.into());
-                }
-                let text = format!("{:.0}%, {} s", 100.0 * fraction, elapsed.as_secs());
-                ui.add(egui::ProgressBar::new(fraction).text(text).corner_radius(3.0));
-                return;
+/// The button that searches, its progress, and what was found, in two rows.
+fn search(ui: &mut egui::Ui, shown: Displayed<'_>, pair: &ComparedPair, next: &mut Model) {
+    let search = &shown.jobs.why.search;
+    let worst = search.found(pair).filter(|_| search.busy().is_none());
+    ui.horizontal(|ui| {
+        if let Some((fraction, elapsed)) = search.busy() {
+            if ui.button("Cancel search").on_hover_text("Esc").clicked() {
+                next.effects.push(Effect::CancelSearch);
             }
-            let hover =
-                "Searches all scenes that the loss samples from for the largest loss, and shows the scene";
-            if ui.button("Find worst scene").on_hover_text(hover).clicked() {
-                commands.push(WhyCommand::FindWorst.into());
+            let text = format!("{:.0}%, {} s", 100.0 * fraction, elapsed.as_secs());
+            ui.add(egui::ProgressBar::new(fraction).text(text).corner_radius(3.0));
+            return;
+        }
+        let hover =
+            "Searches all scenes that the loss samples from for the largest loss, and shows the scene";
+        if ui.button("Find worst scene").on_hover_text(hover).clicked() {
+            next.effects.push(Effect::FindWorst);
+        }
+        if let Some(worst) = worst {
+            let chosen = worst.scene == shown.model.view.scene;
+            let label = ui.selectable_label(chosen, times(worst));
+            if label.on_hover_text(found(worst)).clicked() {
+                exposure::choose_scene(next, worst.scene);
             }
-            if let Some(worst) = worst {
-                let chosen = worst.scene == self.state.scene;
-                let label = ui.selectable_label(chosen, times(worst));
-                if label.on_hover_text(found(worst)).clicked() {
-                    commands.push(SceneCommand::Choose(worst.scene).into());
-                }
-            }
-        });
-        let text = match worst {
-            Some(worst) => format!("{} scenes tried; mean {:.4}", worst.evaluations, worst.mean.mean),
-            None => "Of all scenes that the loss samples from".to_owned(),
-        };
-        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate());
-    }
+        }
+    });
+    let text = match worst {
+        Some(worst) => format!("{} scenes tried; mean {:.4}", worst.evaluations, worst.mean.mean),
+        None => "Of all scenes that the loss samples from".to_owned(),
+    };
+    ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate());
 }
 
 /// The worst loss, and how far above the mean it is.

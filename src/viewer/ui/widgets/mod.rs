@@ -16,6 +16,9 @@ pub mod theme;
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, DragValue, Response};
 
+use crate::model::Model;
+use crate::model::message::Message;
+
 /// A number to drag or type; a double-click resets it to `default`. A field that nobody edits writes nothing.
 ///
 /// `name` is its accessible name.
@@ -67,6 +70,12 @@ fn field<T: egui::emath::Numeric>(value: &mut T, is_edited: bool) -> DragValue<'
     });
     let field = field.clamp_existing_to_range(false);
     if T::INTEGRAL { field.max_decimals(0).range(T::MIN..=T::MAX).speed(0.25) } else { field }
+}
+
+/// Puts a text on the clipboard, and reports it; `what` names it.
+pub fn copy(ctx: &egui::Context, model: &mut Model, text: String, what: &str) {
+    ctx.copy_text(text);
+    model.report([Message::Done(format!("Copied {what}"))]);
 }
 
 /// A panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.

@@ -6,14 +6,13 @@ use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
 
 use super::{report_table, theme};
 use crate::jobs::work::order::OrderJob;
-use crate::model::command::{Command, LossCommand};
 use crate::model::material::loaded::drawable;
 
-/// The fold, which is unfolded where `asks`; the command of a click on its title.
-pub fn fold<K: Clone + PartialEq>(ui: &mut egui::Ui, asks: bool, job: &OrderJob<K>) -> Option<Command> {
+/// The fold, which is unfolded where it `asks`.
+pub fn fold<K: Clone + PartialEq>(ui: &mut egui::Ui, asks: &mut bool, job: &OrderJob<K>) {
     ui.add_space(4.0);
     let title = RichText::new("Does the order survive?").strong();
-    let header = egui::CollapsingHeader::new(title).open(Some(asks));
+    let header = egui::CollapsingHeader::new(title).open(Some(*asks));
     let header = header.show_unindented(ui, |ui| match job.state() {
         Err(running) => {
             let text = format!("{} s", running.elapsed().as_secs());
@@ -26,8 +25,7 @@ pub fn fold<K: Clone + PartialEq>(ui: &mut egui::Ui, asks: bool, job: &OrderJob<
         Ok(None) => {}
     });
     let hover = "The order under other conventions, epsilons and scenes, as `svbrdf rank --robust` prints it";
-    let clicked = header.header_response.on_hover_text(hover).clicked();
-    clicked.then(|| LossCommand::AskOrder(!asks).into())
+    *asks ^= header.header_response.on_hover_text(hover).clicked();
 }
 
 /// The sentence, the pairs that change sides, and the order under every question.

@@ -4,8 +4,8 @@ use eframe::egui;
 
 use svbrdf_evaluate::diagnose::Remedy;
 
-use crate::model::command::{Command, DisplayCommand, MaterialsCommand};
 use crate::model::material::loaded::LoadedMaterial;
+use crate::model::{Model, opening};
 use svbrdf_files::source::Place;
 
 /// Whether a material can be read again with the option: one of a file that does not have it yet.
@@ -21,7 +21,8 @@ pub fn remedy_button(
     index: usize,
     material: &LoadedMaterial,
     remedy: Remedy,
-) -> Vec<Command> {
+    next: &mut Model,
+) {
     let words = remedy.to_string().replace("specular-albedo", "specular").replace(['-', '='], " ");
     let button = ui.small_button(format!("Read with {}", words.replace(',', ", ")));
     let hover = format!(
@@ -29,11 +30,10 @@ pub fn remedy_button(
          read wrongly, change it instead",
         material.name()
     );
-    let clicked = button.on_hover_text(hover).clicked();
-    match material.read.record.options.with_remedy(remedy) {
-        Ok(read) if clicked => {
-            vec![DisplayCommand::Correct(None).into(), MaterialsCommand::ReadAs { index, read }.into()]
-        }
-        _ => Vec::new(),
+    if button.on_hover_text(hover).clicked()
+        && let Ok(read) = material.read.record.options.with_remedy(remedy)
+    {
+        next.view.correct(None);
+        opening::read_as(next, index, read);
     }
 }

@@ -2,11 +2,11 @@
 
 use svbrdf_core::picture::exposure;
 
-use crate::model::Model;
-use crate::model::exposed::Exposed;
-use crate::model::ranges::STOPS;
-use crate::model::view::state::AutoExposure;
+use svbrdf_core::model::scene::Scene;
 use svbrdf_files::source::Place;
+
+use super::Model;
+use super::view::state::{AutoExposure, Exposed, STOPS};
 
 /// Computes the exposure where its state asks for it. Called in every frame.
 pub fn follow(model: &mut Model) {
@@ -33,8 +33,14 @@ pub fn follow(model: &mut Model) {
     }
 }
 
-/// Exposes anew for a scene that was chosen, and not moved to by hand.
-pub(super) fn choose_scene(model: &mut Model) {
+/// Chooses how the exposure is automatic; it is computed at once.
+pub fn choose(model: &mut Model, auto: AutoExposure) {
+    (model.view.display.auto_exposure, model.exposed) = (auto, Exposed::Pending);
+}
+
+/// Shows a scene that was picked from a list, and exposes for it where the exposure is automatic.
+pub fn choose_scene(model: &mut Model, scene: Scene) {
+    model.view.scene = scene;
     if model.view.display.auto_exposure == AutoExposure::Once {
         model.exposed = Exposed::Pending;
     }

@@ -1,9 +1,11 @@
 //! Undo and redo.
 
-use crate::model::Model;
-use crate::model::command::effect::Effect;
-use crate::model::exposed::Exposed;
-use crate::model::history::Moment;
+use std::sync::Arc;
+
+use super::Model;
+use super::effect::Effect;
+use super::history::Moment;
+use super::view::state::Exposed;
 
 /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
 pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_settled: bool) {
@@ -18,33 +20,34 @@ pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_se
     }
     if (is_of_dataset || !model.history.materials.is_empty()) && is_photograph_settled {
         let (time, now) = (model.time, moment(model));
-        model.history.undo.feed(time, &now);
+        model.history.moments.feed_state(time, &now);
     }
 }
 
-pub(super) fn undo(model: &mut Model) -> Vec<Effect> {
+pub fn undo(model: &mut Model) {
     let now = moment(model);
-    let earlier = model.history.undo.undo(&now).cloned();
-    return_to(model, earlier)
+    let earlier = model.history.moments.undo(&now).cloned();
+    return_to(model, earlier);
 }
 
-pub(super) fn redo(model: &mut Model) -> Vec<Effect> {
+pub fn redo(model: &mut Model) {
     let now = moment(model);
-    let later = model.history.undo.redo(&now).cloned();
-    return_to(model, later)
+    let later = model.history.moments.redo(&now).cloned();
+    return_to(model, later);
 }
 
-fn moment(model: &Model) -> Moment {
-    Moment {
+fn moment(model: &Model) -> Arc<Moment> {
+    Arc::new(Moment {
         view: model.view.clone(),
         materials: model.history.materials.clone(),
         scenes: model.settings.loss.file_scenes().cloned(),
         photograph: model.photograph.source().cloned(),
-    }
+    })
 }
 
-fn return_to(model: &mut Model, moment: Option<Moment>) -> Vec<Effect> {
-    let Some(Moment { view, materials, scenes, photograph }) = moment else { return Vec::new() };
+fn return_to(model: &mut Model, moment: Option<Arc<Moment>>) {
+    let Some(moment) = moment else { return };
+    let Moment { view, materials, scenes, photograph } = Arc::unwrap_or_clone(moment);
     model.view = view;
     model.exposed = Exposed::Restored;
     if scenes.as_ref() != model.settings.loss.file_scenes() {
@@ -53,20 +56,19 @@ fn return_to(model: &mut Model, moment: Option<Moment>) -> Vec<Effect> {
     if photograph.as_ref() != model.photograph.source() {
         model.photograph.set(photograph);
     }
-    if materials == model.history.materials {
-        return Vec::new();
+    if materials != model.history.materials {
+        model.effects.push(Effect::Read(model.materials.restore(&materials)));
+        model.history.materials = materials;
     }
-    let request = model.materials.restore(&materials);
-    model.history.materials = materials;
-    vec![Effect::Read(request)]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::command::DisplayCommand;
     use crate::model::material::loaded::LoadedMaterial;
     use crate::model::material::read::ReadMaterial;
+    use crate::model::material::request::Item;
+    use crate::model::opening;
     use svbrdf_files::source::MaterialSource;
 
     /// A model with the built-in materials.
@@ -94,11 +96,10 @@ mod tests {
     fn undo_reads_a_closed_prediction_again_and_keeps_the_others() {
         let mut model = model();
         pause(&mut model, 1.0);
-        model.apply(crate::model::command::MaterialsCommand::Close(1).into());
+        opening::close(&mut model, 1);
         pause(&mut model, 2.0);
-        let effects = model.apply(DisplayCommand::Undo.into());
-        let [Effect::Read(request)] = &effects[..] else { panic!("{effects:?}") };
-        use crate::model::material::request::Item;
+        undo(&mut model);
+        let [Effect::Read(request)] = &model.effects[..] else { panic!("{:?}", model.effects) };
         let reads = request.items.iter().filter(|item| matches!(item, Item::Read(_))).count();
         assert_eq!((request.items.len(), reads), (svbrdf_files::samples::COUNT, 1));
     }

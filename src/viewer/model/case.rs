@@ -1,62 +1,19 @@
-//! Commands about the data set.
+//! Material of a data set, put into the window.
 
 use std::sync::Arc;
 
 use svbrdf_core::material::Grid;
 use svbrdf_files::session::window::Framing;
 
-use crate::model::Model;
-use crate::model::command::DatasetCommand;
-use crate::model::command::effect::Effect;
-use crate::model::dataset::{CELL, DatasetState, OpenDataset};
-use crate::model::exposed::Exposed;
-use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::read::ReadMaterial;
-
-pub(super) fn apply(model: &mut Model, command: DatasetCommand) -> Vec<Effect> {
-    let dataset = &mut model.dataset;
-    match command {
-        DatasetCommand::Open(paths) => return vec![Effect::OpenDataset(paths)],
-        DatasetCommand::Show { case, ahead } => show(dataset, case, ahead),
-        DatasetCommand::ShowFromSheet { case, ahead } => {
-            show(dataset, case, ahead);
-            (dataset.sheet.is_open, dataset.sheet.is_behind) = (false, true);
-        }
-        DatasetCommand::SetList(list) => dataset.list = list,
-        DatasetCommand::ShowSheet(is_open) => {
-            (dataset.sheet.is_open, dataset.sheet.is_behind) = (is_open && dataset.open.is_some(), false);
-        }
-        DatasetCommand::SetCell(cell) => dataset.sheet.cell = cell.clamp(*CELL.start(), *CELL.end()),
-        DatasetCommand::ToggleMark => {
-            let before = dataset.pinned();
-            change_mark(dataset, |mark| mark.is_marked ^= true);
-            dataset.is_stale |= dataset.pinned() != before;
-        }
-        DatasetCommand::SetNote(note) => change_mark(dataset, |mark| mark.note = note),
-    }
-    Vec::new()
-}
-
-fn show(dataset: &mut DatasetState, case: usize, ahead: Vec<usize>) {
-    let count = dataset.open.as_ref().map_or(0, |open| open.cases.len());
-    if case < count {
-        (dataset.wanted, dataset.ahead) = (case, ahead);
-    }
-}
-
-/// Changes the mark of the material in the window; one without anything is removed.
-fn change_mark(
-    dataset: &mut DatasetState,
-    change: impl FnOnce(&mut svbrdf_files::session::dataset::SessionMark),
-) {
-    let Some(name) = dataset.name().map(str::to_owned) else { return };
-    change(dataset.marks.entry(name).or_default());
-    dataset.marks.retain(|_, mark| mark.is_marked || !mark.note.is_empty());
-}
+use super::Model;
+use super::dataset::OpenDataset;
+use super::material::loaded::LoadedMaterial;
+use super::material::read::ReadMaterial;
+use super::view::state::Exposed;
 
 /// Puts a material into the window, the ground truth first, with what is not there of it. What the hand has set stays: the view is
 /// at the same place, by shares of the size, and the chosen method is the same wherever it has a prediction.
-pub fn show_case(
+pub fn show(
     model: &mut Model,
     open: &OpenDataset,
     case: usize,

@@ -1,0 +1,116 @@
+//! Dialogs, each with what is typed and chosen in it so far.
+
+use std::path::{Path, PathBuf};
+
+use super::settings::save_kind::SaveKind;
+
+/// The dialogs that are open.
+#[derive(Clone, Debug, Default)]
+pub struct Dialogs {
+    pub open: Option<OpenDialog>,
+    pub save: Option<SaveDialog>,
+}
+
+impl Dialogs {
+    /// Whether a dialog is open: the panes behind it do not move.
+    pub fn is_open(&self) -> bool {
+        self.open.is_some() || self.save.is_some()
+    }
+}
+
+/// What went wrong with the path of a dialog, and where its cursor is.
+#[derive(Clone, Debug, Default)]
+pub struct PathField {
+    pub problem: Option<String>,
+    /// Whether the field has been given the focus.
+    pub focused: bool,
+}
+
+impl PathField {
+    /// Shows what went wrong, and puts the cursor into the field.
+    pub fn fail(&mut self, problem: String) {
+        *self = Self { problem: Some(problem), focused: false };
+    }
+}
+
+/// The dialog that opens materials.
+#[derive(Clone, Debug, Default)]
+pub struct OpenDialog {
+    /// One path a line.
+    pub text: String,
+    pub opens: Opens,
+    /// Whether its materials have been asked for.
+    pub submitted: bool,
+    /// The number of the opening that reads its materials.
+    pub opening: Option<u64>,
+    pub field: PathField,
+}
+
+/// What the paths are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Opens {
+    #[default]
+    Comparison,
+    Predictions,
+    Dataset,
+    Photograph,
+}
+
+impl OpenDialog {
+    /// Shows what went wrong, and puts the cursor into the path field.
+    pub fn fail(&mut self, problem: String) {
+        self.field.fail(problem);
+        (self.submitted, self.opening) = (false, None);
+    }
+
+    /// Adds a path as a line of its own.
+    pub fn add(&mut self, path: &Path) {
+        if !self.text.is_empty() && !self.text.ends_with('\n') {
+            self.text.push('\n');
+        }
+        self.text += &path.display().to_string();
+    }
+
+    pub fn paths(&self) -> Vec<PathBuf> {
+        self.text.lines().map(str::trim).filter(|line| !line.is_empty()).map(PathBuf::from).collect()
+    }
+}
+
+/// The dialog that saves.
+#[derive(Clone, Debug)]
+pub struct SaveDialog {
+    pub path: String,
+    pub what: SaveKind,
+    /// The path of an existing file, once the dialog has said that it exists.
+    pub replaces: Option<String>,
+    /// Whether the button gets the focus, so that Return presses it.
+    pub focus_button: bool,
+    pub field: PathField,
+}
+
+impl SaveDialog {
+    /// `what` is chosen at first.
+    pub fn new(what: SaveKind) -> Self {
+        let path = what.proposal().to_owned();
+        Self { path, what, replaces: None, focus_button: false, field: PathField::default() }
+    }
+
+    /// Puts a path into the field. That a file exists, the dialog of the system has asked.
+    pub fn fill(&mut self, path: &Path) {
+        self.path = path.display().to_string();
+        self.replaces = Some(self.path.clone()).filter(|_| path.exists());
+        self.field.problem = None;
+    }
+
+    /// The file to write; `None` where it exists and the dialog has not said so yet.
+    pub fn confirmed(&mut self) -> Option<PathBuf> {
+        let path = PathBuf::from(self.path.trim());
+        if path.exists() && self.replaces.as_deref() != Some(self.path.trim()) {
+            self.replaces = Some(self.path.trim().to_owned());
+            self.focus_button = true;
+            return None;
+        }
+        self.field.problem = None;
+        Some(path)
+    }
+}

@@ -1,0 +1,50 @@
+//! Effects: what an edit of the model needs outside of it, as values. One place of the application carries them out.
+
+use std::path::PathBuf;
+
+use svbrdf_files::session::dataset::SessionDataset;
+
+use super::material::request::ReadRequest;
+use super::settings::save_kind::SaveRequest;
+
+/// What happens outside of the model: files, dialogs of the system, the clipboard, work that a person starts or cancels.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// Reads materials.
+    Read(ReadRequest),
+    /// Reads the materials that the open dialog has asked for, which stays open until they are there.
+    ReadForDialog(ReadRequest),
+    /// Cancels the opening of this number.
+    CancelReading(u64),
+    /// Reads scene files.
+    ReadScenes(Vec<PathBuf>),
+    /// Matches the materials of folders: the first has the ground truths, each other one the predictions of a method; or reads one
+    /// table of pairs.
+    OpenDataset(Vec<PathBuf>),
+    /// Opens the data set of a session, with the losses of a results folder.
+    RestoreDataset(Box<SessionDataset>, Option<PathBuf>),
+    /// Reads a material of the data set and its losses again.
+    ReadCaseAgain(usize),
+    ComputeLoss,
+    CancelLoss,
+    /// Searches the worst scene of the chosen prediction, and shows it.
+    FindWorst,
+    CancelSearch,
+    /// Asks with the system's dialog; the choice goes into the path field of the dialog that is open.
+    Browse(BrowseFor),
+    /// Writes a file.
+    Save(SaveRequest),
+    /// Cancels what is being written.
+    CancelSaving,
+    /// Puts the view on the clipboard as a picture.
+    CopyPicture,
+}
+
+/// What the file dialog of the system is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrowseFor {
+    Files,
+    Folders,
+    /// A file to save.
+    Saving,
+}
