@@ -1,4 +1,4 @@
-// How the light and the view of a scene move: the twin of src/viewer/model/view/endpoint.rs.
+// How the light and the view of a scene move: the twin of src/viewer/model/endpoint.rs.
 
 /** @typedef {"light" | "view"} Endpoint */
 

@@ -1,16 +1,22 @@
 //! The window: ground truth and predictions side by side under a light and a view that are dragged.
 //!
-//! In every frame input becomes commands, commands change the [`model`], and the model is drawn by `ui`. Slow work is done by
-//! `jobs`; what a command does outside of the model is carried out by `app`.
+//! In every frame input edits the [`model`], and the model is drawn; what is edited in a panel is drawn in the next frame. Slow work is
+//! done by [`jobs`]. Each feature has a folder with its panel, over [`pane`] and below [`frame`].
 
-pub mod app;
+pub mod dataset;
 mod error;
+pub mod files;
+pub mod frame;
 pub mod jobs;
+pub mod loss;
 pub mod model;
-pub mod ui;
+pub mod pane;
+pub mod photograph;
+pub mod why;
+pub mod widgets;
 pub mod window;
 
 pub use error::Error;
 pub use model::dataset::OpenDataset;
-pub use model::settings::options::ViewerOptions;
+pub use model::session::ViewerOptions;
 pub use window::run;

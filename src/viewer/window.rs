@@ -9,12 +9,12 @@ use svbrdf_core::error::Error as CoreError;
 use svbrdf_files::disk::signals;
 use svbrdf_gpu::Gpu;
 
-use super::app::restart;
-use super::app::storage::{self, NAME, Storage};
-use super::app::{App, CrashGuard};
-use super::jobs::work::{panics, priority};
-use super::model::settings::options::ViewerOptions;
 use crate::error::Error;
+use crate::frame::restart;
+use crate::frame::storage::{self, NAME, Storage};
+use crate::frame::{App, CrashGuard};
+use crate::jobs::work::{panics, priority};
+use crate::model::session::ViewerOptions;
 
 /// Size of the first window, in points: with its title bar it fits a screen of 1366 x 768. Least and greatest size of a window.
 const FIRST: [f32; 2] = [1340.0, 700.0];

@@ -102,12 +102,12 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
 
 #[needs(adapter)]
 fn every_pane_in_false_colours_has_a_scale_and_no_other() {
-    use svbrdf_viewer::ui::pane::scale::PaneScale;
+    use svbrdf_viewer::pane::scale::PaneScale;
     let mut window = with_differences();
     let scales = |window: &Window<'_>| {
         let parts = &window.state().parts;
         let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
-        let scenery = svbrdf_viewer::ui::pane::scenery::Scenery::new(&window.ctx, displayed);
+        let scenery = svbrdf_viewer::pane::scenery::Scenery::new(&window.ctx, displayed);
         let contents = scenery.contents();
         contents.into_iter().map(|content| PaneScale::of(&scenery, content)).collect::<Vec<_>>()
     };

@@ -3,7 +3,7 @@
 use svbrdf_core::loss::{Loss, Sampling};
 
 use svbrdf_viewer::jobs::displayed::Displayed;
-use svbrdf_viewer::ui::pane::scenery::Scenery;
+use svbrdf_viewer::pane::scenery::Scenery;
 
 use super::*;
 

@@ -69,16 +69,16 @@ use svbrdf_files::session::Session;
 use svbrdf_files::session::window::Framing;
 use svbrdf_needs::needs;
 use svbrdf_viewer::ViewerOptions;
-use svbrdf_viewer::app::storage::Storage;
-use svbrdf_viewer::app::{App, CrashGuard};
+use svbrdf_viewer::frame::keys;
+use svbrdf_viewer::frame::storage::Storage;
+use svbrdf_viewer::frame::{App, CrashGuard};
+use svbrdf_viewer::model::dialogs::{SaveKind, SaveRequest};
 use svbrdf_viewer::model::effect::Effect;
+use svbrdf_viewer::model::endpoint;
 use svbrdf_viewer::model::inspection::{Inspection, Region};
 use svbrdf_viewer::model::settings::Tab;
-use svbrdf_viewer::model::settings::save_kind::{SaveKind, SaveRequest};
-use svbrdf_viewer::model::view::endpoint;
-use svbrdf_viewer::model::view::state::{AutoExposure, Layout, Projection, ViewState};
+use svbrdf_viewer::model::view::{AutoExposure, Layout, Projection, ViewState};
 use svbrdf_viewer::model::{Model, display, exposure, opening, undo as history};
-use svbrdf_viewer::ui::input::keys;
 
 type Window<'a> = Harness<'a, App>;
 

@@ -7,12 +7,12 @@ use svbrdf_core::picture::statistics::{Distributions, Statistics};
 use svbrdf_evaluate::diagnose::Diagnosis;
 use svbrdf_evaluate::photograph::PhotographComparison;
 use svbrdf_evaluate::why::{Attribution, RankedScene, Worst};
-use svbrdf_viewer::app::App;
+use svbrdf_viewer::frame::App;
 use svbrdf_viewer::jobs::Jobs;
 use svbrdf_viewer::jobs::why::ComparedPair;
 use svbrdf_viewer::model::Model;
 use svbrdf_viewer::model::message::Message;
-use svbrdf_viewer::model::view::state::ViewState;
+use svbrdf_viewer::model::view::ViewState;
 
 /// What the tests read of a window.
 pub trait Observed {

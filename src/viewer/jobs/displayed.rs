@@ -14,7 +14,7 @@ use super::panes::error_map::ErrorMapSummary;
 use super::photograph::{DisplayedPhotograph, Photographs};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
-use crate::model::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// What the panes display of the model, with the results of the jobs.
 #[derive(Clone, Copy, Debug)]

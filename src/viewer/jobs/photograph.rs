@@ -22,9 +22,9 @@ use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
 use crate::model::material::loaded::{LoadedMaterial, ids};
 use crate::model::material::photograph::PhotographState;
+use crate::model::material::read::file_name;
 use crate::model::material::read::{MaterialId, ReadMaterial};
-use crate::model::material::source::file_name;
-use crate::model::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// What the samples of a photograph depend on: its file, the stamp of the file when it was opened, and how it is read.
 type ReadKey = (PathBuf, Option<Stamp>, Option<Transfer>);

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use svbrdf_core::material::Grid;
 use svbrdf_files::session::window::Framing;
 
-use super::Model;
-use super::dataset::OpenDataset;
-use super::material::loaded::LoadedMaterial;
-use super::material::read::ReadMaterial;
-use super::view::state::Exposed;
+use crate::model::Model;
+use crate::model::dataset::OpenDataset;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::ReadMaterial;
+use crate::model::view::Exposed;
 
 /// Puts a material into the window, the ground truth first, with what is not there of it. What the hand has set stays: the view is
 /// at the same place, by shares of the size, and the chosen method is the same wherever it has a prediction.

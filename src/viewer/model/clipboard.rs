@@ -2,9 +2,9 @@
 
 use svbrdf_core::model::scene::{Scene, SceneFile};
 
-use super::Model;
-use super::exposure;
-use super::message::Message;
+use crate::model::Model;
+use crate::model::exposure;
+use crate::model::message::Message;
 
 /// Takes the scene of this text of the clipboard.
 pub fn paste(model: &mut Model, text: &str) {
@@ -33,7 +33,7 @@ pub fn text(scene: Scene) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::view::state::ViewState;
+    use crate::model::view::ViewState;
 
     #[test]
     fn a_copied_scene_can_be_pasted() {

@@ -3,9 +3,9 @@
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session::window::Framing;
 
-use super::Model;
-use super::view::framing::Framed;
-use super::view::state::{Exposed, Layout};
+use crate::model::Model;
+use crate::model::framing::Framed;
+use crate::model::view::{Exposed, Layout};
 
 /// Shows the quantity `by` places after this one.
 pub fn cycle_quantity(model: &mut Model, by: isize) {

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use svbrdf_files::session::dataset::SessionDataset;
 
-use super::material::request::ReadRequest;
-use super::settings::save_kind::SaveRequest;
+use crate::model::dialogs::SaveRequest;
+use crate::model::material::request::ReadRequest;
 
 /// What happens outside of the model: files, dialogs of the system, the clipboard, work that a person starts or cancels.
 #[derive(Clone, Debug)]

@@ -5,8 +5,8 @@ use svbrdf_core::picture::exposure;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_files::source::Place;
 
-use super::Model;
-use super::view::state::{AutoExposure, Exposed, STOPS};
+use crate::model::Model;
+use crate::model::view::{AutoExposure, Exposed, STOPS};
 
 /// Computes the exposure where its state asks for it. Called in every frame.
 pub fn follow(model: &mut Model) {

@@ -8,7 +8,7 @@ use svbrdf_core::loss::FileScenes;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::source::MaterialSource;
 
-use super::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// How long nothing changes, in seconds, before it becomes a moment to return to: all of a drag is one step.
 const STABLE: f32 = 0.4;

@@ -15,11 +15,11 @@ use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
 
-use super::Model;
-use super::dataset::{DatasetState, OpenDataset};
-use super::effect::Effect;
-use super::material::request::{ReadRequest, Target};
-use super::message::{Message, Retry};
+use crate::model::Model;
+use crate::model::dataset::{DatasetState, OpenDataset};
+use crate::model::effect::Effect;
+use crate::model::material::request::{ReadRequest, Target};
+use crate::model::message::{Message, Retry};
 
 /// Opens materials: the first as ground truth where there is none or where `replace` is set, the others as predictions. Scene files,
 /// conventions, sessions and data sets among them are what they are.

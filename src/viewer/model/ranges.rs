@@ -6,9 +6,9 @@ use std::ops::RangeInclusive;
 use svbrdf_core::loss::{LossSettings, Sampling, Texels};
 use svbrdf_files::session::window::SessionDisplay as PaneDisplay;
 
-use super::Model;
-use super::settings::Settings;
-use super::view::state::{STOPS, ViewState};
+use crate::model::Model;
+use crate::model::settings::Settings;
+use crate::model::view::{STOPS, ViewState};
 
 /// Physical pixels per texel.
 const PIXELS_PER_TEXEL: RangeInclusive<f32> = 1e-4..=1e6;

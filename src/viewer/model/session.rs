@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::loss::ALL_SCENES_TARGET;
+use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes};
 use svbrdf_evaluate::dataset::{Method, Source};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::photograph::SessionPhotograph;
@@ -12,20 +12,42 @@ use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 use svbrdf_files::session::window::{SessionInspection, SessionWindow};
 use svbrdf_files::session::{Session, SessionMaterial};
-
-use super::Model;
-use super::dataset::{DatasetState, OpenDataset};
-use super::effect::Effect;
-use super::history::History;
-use super::inspection::Inspection;
-use super::material::read::Rules;
-use super::material::request::{ReadRequest, Target};
-use super::message::Message;
-use super::opening;
-use super::ranges::bring_into_range;
-use super::view::state::{Exposed, ViewState};
-use crate::model::settings::options::ViewerOptions;
 use svbrdf_files::source::{MaterialSource, Place};
+
+use crate::model::dataset::{DatasetState, OpenDataset};
+use crate::model::effect::Effect;
+use crate::model::history::History;
+use crate::model::inspection::Inspection;
+use crate::model::material::read::Rules;
+use crate::model::material::request::{ReadRequest, Target};
+use crate::model::message::Message;
+use crate::model::ranges::bring_into_range;
+use crate::model::view::{Exposed, ViewState};
+use crate::model::{Model, opening};
+
+/// The materials that the window opens, and how it reads them.
+#[derive(Clone, Debug, Default)]
+pub struct ViewerOptions {
+    /// A session, in place of materials.
+    pub session: Option<Session>,
+    /// `None` for the built-in pair.
+    pub ground_truth: Option<MaterialSource>,
+    pub predictions: Vec<MaterialSource>,
+    /// A data set, in place of materials.
+    pub dataset: Option<Box<OpenDataset>>,
+    /// The results folder of the data set of the session.
+    pub results: Option<PathBuf>,
+    /// Whether guesses about materials are errors.
+    pub strict: bool,
+    /// Whether predictions of another size are resized to the ground truth.
+    pub fit: bool,
+    /// A photograph that renderings are compared with, or what lists several.
+    pub photograph: Option<PathBuf>,
+    /// The convention of renderings and loss; `None` for that of the session or the default.
+    pub convention: Option<ChosenConvention>,
+    /// The scenes of the loss; `None` for the scenes of the session or the settings.
+    pub scenes: Option<FileScenes>,
+}
 
 /// Number of comparisons that are remembered.
 const RECENT: usize = 12;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::Model;
-use super::effect::Effect;
-use super::history::Moment;
-use super::view::state::Exposed;
+use crate::model::Model;
+use crate::model::effect::Effect;
+use crate::model::history::Moment;
+use crate::model::view::Exposed;
 
 /// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
 pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_settled: bool) {

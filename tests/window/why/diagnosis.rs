@@ -2,7 +2,7 @@
 
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
 use svbrdf_files::read::NormalY;
-use svbrdf_viewer::model::settings::why::WhySection;
+use svbrdf_viewer::model::settings::WhySection;
 
 use super::*;
 use crate::materials::SIDE as WHOLE;

@@ -19,7 +19,7 @@ use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
 use crate::jobs::work::picture::Picture;
 use crate::jobs::work::waker::Waker;
-use crate::model::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// What the pictures of the cells depend on.
 #[derive(Clone, Debug, PartialEq)]

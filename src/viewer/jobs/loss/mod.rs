@@ -14,7 +14,7 @@ use crate::jobs::work::waker::Waker;
 use crate::model::material::list::MaterialList;
 use crate::model::material::loaded::{LoadedMaterial, ids};
 use crate::model::material::read::MaterialId;
-use crate::model::settings::loss_query::LossQuery;
+use crate::model::settings::LossQuery;
 
 /// Progress and staleness are shown after this time: what takes less would only flicker.
 const SOON: Duration = Duration::from_millis(100);

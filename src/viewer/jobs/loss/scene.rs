@@ -11,7 +11,7 @@ use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
-use crate::model::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// What the losses depend on.
 #[derive(Clone, Debug, PartialEq)]

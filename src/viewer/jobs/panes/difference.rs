@@ -16,7 +16,7 @@ use crate::jobs::work::job::Job;
 use crate::jobs::work::latest::Latest;
 use crate::model::material::loaded::{LoadedMaterial, ids};
 use crate::model::material::read::{MaterialId, ReadMaterial};
-use crate::model::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// What the statistics depend on.
 #[derive(Clone, Debug, PartialEq)]

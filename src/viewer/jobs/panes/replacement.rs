@@ -14,7 +14,7 @@ use crate::jobs::work::latest::Latest;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
 use crate::model::material::read::ReadMaterial;
-use crate::model::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// What is shown in the place of a prediction.
 #[derive(Clone, Copy, Debug, PartialEq)]

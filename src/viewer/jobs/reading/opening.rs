@@ -14,9 +14,9 @@ use crate::error::Error;
 use crate::jobs::work::job::{Job, Worker};
 use crate::jobs::work::priority;
 use crate::jobs::work::waker::Waker;
+use crate::model::material::read::label;
 use crate::model::material::read::{MaterialId, ReadMaterial};
 use crate::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
-use crate::model::material::source::label;
 use svbrdf_files::source::MaterialSource;
 
 /// The openings that are going on.

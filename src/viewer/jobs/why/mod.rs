@@ -15,7 +15,7 @@ use svbrdf_evaluate::why::Worst;
 use crate::error::Error;
 use crate::jobs::why::attribution::attributed;
 use crate::jobs::work::context::JobContext;
-use crate::model::settings::why::{WhySection, WhySections};
+use crate::model::settings::{WhySection, WhySections};
 
 pub use attribution::{ATTRIBUTION_TARGET, Attributed, AttributionJob};
 pub use diagnosis::{Diagnosed, DiagnosisJob};

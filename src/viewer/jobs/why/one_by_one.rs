@@ -93,7 +93,7 @@ mod tests {
     use super::*;
     use crate::model::material::loaded::LoadedMaterial;
     use crate::model::material::read::ReadMaterial;
-    use crate::model::view::state::ViewState;
+    use crate::model::view::ViewState;
 
     #[test]
     fn a_pair_that_fails_is_reported_once_and_does_not_keep_the_others_waiting() {

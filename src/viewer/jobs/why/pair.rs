@@ -11,7 +11,7 @@ use svbrdf_evaluate::diagnose::Storage;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
 use crate::model::material::read::ReadMaterial;
-use crate::model::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// Identity of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]

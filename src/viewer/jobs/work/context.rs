@@ -7,7 +7,7 @@ use svbrdf_gpu::Gpu;
 use crate::jobs::work::waker::Waker;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
-use crate::model::view::state::ViewState;
+use crate::model::view::ViewState;
 
 /// The materials and the view of one frame, for jobs that follow them.
 #[derive(Clone, Copy, Debug)]

@@ -12,8 +12,8 @@ use svbrdf_files::session::dataset::SessionMark;
 use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::error::Error;
+use crate::model::dataset::list::ListView;
 use crate::model::material::read::Rules;
-use list::ListView;
 
 /// The most predictions of one ground truth that have a pane each; more are a list.
 pub const MOST_PANES: usize = 24;

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{ReadOptions, Sidecar};
 
-use super::loaded::{LoadedMaterial, mismatch, rename};
-use super::problem::MaterialProblem;
-use super::read::{MaterialId, ReadMaterial, Rules};
-use super::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use crate::error::Error;
+use crate::model::material::loaded::{LoadedMaterial, mismatch, rename};
+use crate::model::material::problem::MaterialProblem;
+use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
+use crate::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use svbrdf_files::source::{MaterialSource, Place};
 
 /// The materials in the window.

@@ -7,8 +7,8 @@ use svbrdf_core::material::{Grid, Material};
 use svbrdf_evaluate::report::distinct_names;
 use svbrdf_files::source::Place;
 
-use super::problem::SizeMismatch;
-use super::read::{MaterialId, ReadMaterial};
+use crate::model::material::problem::SizeMismatch;
+use crate::model::material::read::{MaterialId, ReadMaterial};
 
 /// A material in the window.
 #[derive(Clone, Debug)]

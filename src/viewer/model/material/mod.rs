@@ -6,4 +6,3 @@ pub mod photograph;
 pub mod problem;
 pub mod read;
 pub mod request;
-pub mod source;

@@ -7,7 +7,6 @@ use svbrdf_core::material::Material;
 use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::read::{Note, Read};
-
 use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::error::Error;
@@ -127,4 +126,18 @@ impl Rules {
         }
         Ok(ReadMaterial::new(source, read))
     }
+}
+
+/// The name that it is given, or the last part of its path.
+pub fn label(source: &MaterialSource) -> String {
+    match (&source.name, &source.place) {
+        (Some(name), _) => name.clone(),
+        (None, Place::BuiltIn(_)) => "built-in material".to_owned(),
+        (None, Place::Path(path)) => file_name(path),
+    }
+}
+
+/// The last part of a path, as text.
+pub fn file_name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned())
 }

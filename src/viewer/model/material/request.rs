@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use svbrdf_files::samples;
 
-use super::loaded::LoadedMaterial;
-use super::read::{MaterialId, ReadMaterial};
 use crate::error::Error;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::read::{MaterialId, ReadMaterial};
 use svbrdf_files::source::MaterialSource;
 
 /// Where materials go once they have been read.

@@ -1,0 +1,278 @@
+//! List of materials: a row each with name and the losses of the methods.
+
+use std::ops::Range;
+
+use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, WidgetInfo, pos2, vec2};
+
+use egui_material_icons::icons;
+
+use svbrdf_core::text::line;
+
+use crate::dataset::rows::{Rows, chosen_method};
+use crate::jobs::displayed::Displayed;
+use crate::model::dataset::list::{CaseLosses, Filter, ListView, Order};
+use crate::model::dataset::{DatasetState, OpenDataset};
+use crate::model::material::loaded::drawable;
+use crate::widgets::names::shortened;
+use crate::widgets::numbers::significant;
+use crate::widgets::{named, theme};
+
+/// The sign of a material that is marked, after its name.
+pub const MARK: &str = " *";
+/// Height of the name, and height of the bar of a method, in points.
+const NAME: f32 = 17.0;
+const BAR: f32 = 5.0;
+/// The most bars in a row: more methods are in the contact sheet.
+const MOST_BARS: usize = 12;
+
+/// The list at the left of the panes.
+#[derive(Debug)]
+pub struct MaterialsDrawer<'a> {
+    pub displayed: Displayed<'a>,
+    pub open: &'a OpenDataset,
+    pub rows: &'a Rows,
+    /// The rows in sight.
+    pub in_sight: &'a mut Range<usize>,
+    pub scrolled_to: &'a mut Option<usize>,
+}
+
+impl MaterialsDrawer<'_> {
+    pub fn ui(&mut self, ui: &mut egui::Ui, next: &mut DatasetState) {
+        self.controls(ui, next);
+        egui::Panel::bottom("material card").resizable(false).frame(egui::Frame::NONE).show(ui, |ui| {
+            self.card(ui, next);
+        });
+        self.list(ui, next);
+    }
+
+    fn controls(&self, ui: &mut egui::Ui, next: &mut DatasetState) {
+        ui.horizontal(|ui| {
+            let sheet = ui.selectable_label(next.sheet.is_open, "Sheet");
+            if sheet.on_hover_text("Contact sheet: all materials under the present light (S)").clicked() {
+                next.show_sheet(!next.sheet.is_open);
+            }
+            let search = egui::TextEdit::singleline(&mut next.list.search)
+                .hint_text("Search")
+                .desired_width(f32::INFINITY);
+            let search = ui.add(search);
+            search.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Search materials"));
+        });
+        let list = &mut next.list;
+        ui.horizontal(|ui| {
+            self.order(ui, list);
+            let arrow = if list.is_reversed { icons::ICON_ARROW_UPWARD } else { icons::ICON_ARROW_DOWNWARD };
+            let reverse = ui.selectable_label(list.is_reversed, arrow.codepoint);
+            reverse.widget_info(|| {
+                WidgetInfo::selected(egui::Role::Button, true, list.is_reversed, "Reverse order")
+            });
+            if reverse.on_hover_text("The other way round").clicked() {
+                list.is_reversed ^= true;
+            }
+            let filters =
+                egui::ComboBox::from_id_salt("filter").selected_text(list.filter.name()).width(70.0);
+            let filters = filters.show_ui(ui, |ui| {
+                let has_floors = self.open.settings.diagnose;
+                for filter in
+                    Filter::ALL.into_iter().filter(|one| has_floors || *one != Filter::NotResolvable)
+                {
+                    ui.selectable_value(&mut list.filter, filter, filter.name());
+                }
+            });
+            named(&filters.response, "Materials that are listed");
+        });
+        ui.label(RichText::new(self.counts()).small().weak());
+    }
+
+    /// How many are listed, and how many losses are there.
+    fn counts(&self) -> String {
+        let (listed, all) = (self.rows.cases.len(), self.open.cases.len());
+        let losses = &self.displayed.jobs.dataset.losses;
+        let noun = self.open.noun();
+        let materials =
+            if listed == all { format!("{all} {noun}s") } else { format!("{listed} of {all} {noun}s") };
+        match losses.count() {
+            known if known < all => format!("{materials}, losses of {known}"),
+            _ => materials,
+        }
+    }
+
+    fn order(&self, ui: &mut egui::Ui, list: &mut ListView) {
+        let methods = self.open.methods();
+        let names: Vec<&str> = methods.iter().map(String::as_str).collect();
+        let names = shortened(&names, 14);
+        let text = |order: Order| match order {
+            Order::Name => "by name".to_owned(),
+            Order::Loss(method) => format!("loss of {}", names.get(method).map_or("", String::as_str)),
+            Order::Difference(a, b) => {
+                let name = |of: usize| names.get(of).map_or("", String::as_str);
+                format!("{} \u{2212} {}", name(a), name(b))
+            }
+            Order::Disagreement => "disagreement".to_owned(),
+            Order::State => "state".to_owned(),
+        };
+        let combo = egui::ComboBox::from_id_salt("order").selected_text(text(list.order)).width(112.0);
+        let combo = combo.show_ui(ui, |ui| {
+            let mut one = |order| ui.selectable_value(&mut list.order, order, text(order));
+            one(Order::Name);
+            (0..methods.len()).for_each(|method| drop(one(Order::Loss(method))));
+            if methods.len() > 1 {
+                one(Order::Disagreement).on_hover_text("The largest difference of two methods first");
+            }
+            one(Order::State).on_hover_text("Failed first, then marked");
+            let pairs = (0..methods.len()).flat_map(|a| (0..methods.len()).map(move |b| (a, b)));
+            // All pairs of many methods would fill the window.
+            for (a, b) in pairs.filter(|(a, b)| a != b && methods.len() <= 5) {
+                one(Order::Difference(a, b)).on_hover_text("Where the first is worse by the most, first");
+            }
+        });
+        named(&combo.response, "Order of the materials");
+    }
+
+    /// What is known of the material in the window that is not in its panes, and what a person has noted.
+    fn card(&self, ui: &mut egui::Ui, next: &mut DatasetState) {
+        let dataset = &self.displayed.model.dataset;
+        let name = self.open.name(dataset.wanted);
+        let mark = dataset.mark(name).cloned().unwrap_or_default();
+        ui.separator();
+        for (method, problem) in dataset.problems.iter().filter(|_| !dataset.is_waiting()) {
+            let text = drawable(&line(&format!("{method}: {problem}")));
+            let label = egui::Label::new(RichText::new(&text).small().color(ui.visuals().error_fg_color));
+            ui.add(label.truncate()).on_hover_text(text);
+        }
+        for note in &self.displayed.jobs.dataset.losses.notes {
+            let label = egui::Label::new(RichText::new(note).small().color(ui.visuals().warn_fg_color));
+            ui.add(label.truncate()).on_hover_text(note);
+        }
+        ui.horizontal(|ui| {
+            let star = ui.selectable_label(mark.is_marked, icons::ICON_STAR.codepoint);
+            star.widget_info(|| {
+                WidgetInfo::selected(egui::Role::Button, true, mark.is_marked, "Mark this material")
+            });
+            let hover = match self.open.is_of_predictions() {
+                true => "Pin this prediction: it stays beside the others (K)",
+                false => "Mark this material (K)",
+            };
+            if star.on_hover_text(hover).clicked() {
+                next.toggle_mark();
+            }
+            let mut note = mark.note.clone();
+            let hint = format!("Note on {}", drawable(name));
+            let field = egui::TextEdit::singleline(&mut note).hint_text(hint).desired_width(f32::INFINITY);
+            let field = ui.add(field);
+            field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Note on this material"));
+            if note != mark.note {
+                next.change_mark(|mark| mark.note = note);
+            }
+        });
+    }
+
+    fn list(&mut self, ui: &mut egui::Ui, next: &mut DatasetState) {
+        let height = self.row_height();
+        let wanted = self.displayed.model.dataset.wanted;
+        let spacing = ui.spacing().item_spacing.y;
+        let mut area = egui::ScrollArea::vertical().auto_shrink([false, false]).id_salt("materials");
+        // What is shown is in sight when it changes, and stays where it is otherwise.
+        if *self.scrolled_to != Some(wanted)
+            && let Some(row) = self.rows.row(wanted)
+        {
+            let inner = self.in_sight.start + 1..self.in_sight.end.saturating_sub(1);
+            if !inner.contains(&row) {
+                let above = ui.available_height() / 2.0 - height / 2.0;
+                area = area.vertical_scroll_offset((row as f32 * (height + spacing) - above).max(0.0));
+            }
+            *self.scrolled_to = Some(wanted);
+        }
+        let shown = area.show_rows(ui, height, self.rows.cases.len(), |ui, rows| {
+            for row in rows.clone() {
+                self.row(ui, row, next);
+            }
+            rows
+        });
+        *self.in_sight = shown.inner;
+        if self.rows.cases.is_empty() {
+            ui.weak(format!("No {} is like this.", self.open.noun()));
+        }
+    }
+
+    fn bars(&self) -> usize {
+        self.open.methods().len().min(MOST_BARS)
+    }
+
+    fn row_height(&self) -> f32 {
+        NAME + BAR * self.bars() as f32 + 7.0
+    }
+
+    fn row(&mut self, ui: &mut egui::Ui, row: usize, next: &mut DatasetState) {
+        let Some((case, ahead)) = self.rows.at(row) else { return };
+        let (dataset, jobs) = (&self.displayed.model.dataset, &self.displayed.jobs.dataset);
+        let name = self.open.name(case);
+        let (rect, response) =
+            ui.allocate_exact_size(vec2(ui.available_width(), self.row_height()), Sense::click());
+        let is_shown = dataset.wanted == case;
+        response.widget_info(|| {
+            WidgetInfo::selected(egui::Role::Button, true, is_shown, format!("Material {name}"))
+        });
+        let visuals = ui.style().interact_selectable(&response, is_shown);
+        if is_shown || response.hovered() {
+            ui.painter().rect_filled(rect, 3.0, visuals.weak_bg_fill);
+        }
+        let right = rect.shrink(2.0);
+        let mark = dataset.mark(name).filter(|mark| mark.is_marked).map_or("", |_| MARK);
+        let text = format!("{}{mark}", drawable(name));
+        let painter = ui.painter().with_clip_rect(right.intersect(ui.clip_rect()));
+        painter.text(right.min, Align2::LEFT_TOP, text, FontId::proportional(13.0), visuals.text_color());
+        let losses = jobs.losses.row(case);
+        let bars = Rect::from_min_max(pos2(right.left(), right.top() + NAME), right.max);
+        self.paint_bars(ui, bars, losses);
+        if response.clicked() {
+            next.show(case, ahead);
+        }
+        response.on_hover_ui(|ui| self.hover(ui, name, losses));
+    }
+
+    /// A bar a method, the chosen one in the accent, from the same zero to the same largest loss in every row.
+    fn paint_bars(&self, ui: &egui::Ui, area: Rect, losses: Option<&CaseLosses>) {
+        let Some(losses) = losses else { return };
+        let largest = self.displayed.jobs.dataset.losses.largest.max(f64::MIN_POSITIVE);
+        let chosen = chosen_method(self.displayed);
+        let is_alone = self.open.methods().len() == 1;
+        for (index, known) in losses.by_method.iter().take(MOST_BARS).enumerate() {
+            let top = area.top() + index as f32 * BAR;
+            let is_chosen = is_alone || self.open.methods().get(index).map(String::as_str) == chosen;
+            let colour = match known {
+                None => ui.visuals().error_fg_color,
+                Some(_) if is_chosen => theme::accent(ui.visuals()),
+                Some(_) => ui.visuals().text_color().gamma_multiply(0.45),
+            };
+            let width = known.map_or(3.0, |known| area.width() * (known.loss / largest) as f32);
+            let bar = Rect::from_min_size(pos2(area.left(), top), vec2(width.max(1.0), BAR - 1.5));
+            ui.painter().rect_filled(bar, 0.0, colour);
+        }
+    }
+
+    fn hover(&self, ui: &mut egui::Ui, name: &str, losses: Option<&CaseLosses>) {
+        ui.strong(drawable(name));
+        let Some(losses) = losses else {
+            ui.weak("Its losses are not known yet.");
+            return;
+        };
+        egui::Grid::new("losses").spacing([10.0, 1.0]).show(ui, |ui| {
+            for (method, known) in self.open.methods().iter().zip(&losses.by_method) {
+                ui.label(drawable(method));
+                match known {
+                    Some(known) => {
+                        let [loss, interval] = significant(&known.estimate());
+                        ui.monospace(loss);
+                        ui.label(RichText::new(interval).monospace().weak());
+                    }
+                    None => {
+                        let problem = losses.problems.iter().find(|(of, _)| of == method);
+                        ui.colored_label(ui.visuals().error_fg_color, "none");
+                        ui.label(drawable(&line(problem.map_or("", |(_, problem)| problem))));
+                    }
+                }
+                ui.end_row();
+            }
+        });
+    }
+}

@@ -1,0 +1,137 @@
+//! Data set: the list of its materials, the contact sheet and the summary of its methods.
+
+pub mod list;
+pub mod rows;
+pub mod sheet;
+
+use eframe::egui::{self, RichText};
+
+use svbrdf_evaluate::report::{Reader, Report as _};
+
+use crate::dataset::list::MaterialsDrawer;
+use crate::dataset::rows::Rows;
+use crate::dataset::sheet::ContactSheet;
+use crate::jobs::Jobs;
+use crate::jobs::dataset::DisplayedCases;
+use crate::jobs::displayed::Displayed;
+use crate::loss::order;
+use crate::model::Model;
+use crate::model::material::loaded::drawable;
+use crate::widgets::paint::PanelTextures;
+use crate::widgets::{bare, report_table};
+
+/// The list and the sheet between frames.
+#[derive(Debug, Default)]
+pub struct DatasetUi {
+    rows: Rows,
+    /// What the last frame displayed.
+    pub displayed: DisplayedCases,
+    /// The first row of the list in sight, and how many are.
+    in_sight: std::ops::Range<usize>,
+    /// The material that the list has scrolled to.
+    scrolled_to: Option<usize>,
+}
+
+impl DatasetUi {
+    /// Goes to the next or the previous material of the list, by the keys of pages.
+    pub fn turn_pages(&mut self, ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
+        self.rows.follow(Displayed::of(model, jobs));
+        let dataset = &mut model.dataset;
+        if dataset.open.is_none() || ctx.text_edit_focused() {
+            return;
+        }
+        let pressed = |key| ctx.input_mut(|i| i.count_and_consume_key(egui::Modifiers::NONE, key));
+        let steps = pressed(egui::Key::PageDown) as isize - pressed(egui::Key::PageUp) as isize;
+        if steps != 0 && !dataset.sheet.is_open {
+            let now = self.rows.row(dataset.wanted);
+            let next = match now {
+                Some(row) => row.saturating_add_signed(steps).min(self.rows.cases.len().saturating_sub(1)),
+                None => 0,
+            };
+            if let Some((case, ahead)) = self.rows.at(next) {
+                dataset.show(case, ahead);
+            }
+        }
+    }
+
+    /// The materials that are listed, in their order.
+    pub fn listed(&self) -> &[usize] {
+        &self.rows.cases
+    }
+
+    /// The name of the window: which material is shown, and where it is in the list.
+    pub fn title(&self, displayed: Displayed<'_>) -> Option<String> {
+        let dataset = &displayed.model.dataset;
+        let (open, shown) = (dataset.open.as_ref()?, dataset.shown?);
+        let place = self.rows.row(shown).map(|row| format!(" ({} of {})", row + 1, self.rows.cases.len()));
+        Some(format!("{}{}", open.name(shown), place.unwrap_or_default()))
+    }
+
+    /// The list, at the left.
+    pub fn drawer(&mut self, ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+        self.rows.follow(shown);
+        self.displayed = DisplayedCases::default();
+        let dataset = &shown.model.dataset;
+        let Some(open) = dataset.open.as_deref().filter(|_| dataset.list.is_open) else { return };
+        // In a narrow window the panes keep most of the room.
+        let width = (0.24 * ui.ctx().content_rect().width()).clamp(160.0, 250.0);
+        let panel = bare(egui::Panel::left("materials"), ui).default_size(width).size_range(150.0..=560.0);
+        panel.show(ui, |ui| {
+            let mut drawer = MaterialsDrawer {
+                displayed: shown,
+                open,
+                rows: &self.rows,
+                in_sight: &mut self.in_sight,
+                scrolled_to: &mut self.scrolled_to,
+            };
+            drawer.ui(ui, &mut next.dataset);
+        });
+        self.displayed.cases =
+            self.rows.cases.get(self.in_sight.clone()).map(<[usize]>::to_vec).unwrap_or_default();
+    }
+
+    /// The contact sheet, in place of the panes; false where it is closed.
+    pub fn sheet(
+        &mut self,
+        ui: &mut egui::Ui,
+        displayed: Displayed<'_>,
+        next: &mut Model,
+        textures: &mut PanelTextures,
+    ) -> bool {
+        let dataset = &displayed.model.dataset;
+        let Some(open) = dataset.open.as_deref().filter(|_| dataset.sheet.is_open) else { return false };
+        let in_sight = &mut self.displayed;
+        ContactSheet { displayed, open, rows: &self.rows, textures, in_sight }.ui(ui, next);
+        true
+    }
+}
+
+/// The summary of a data set: what `svbrdf rank --dataset` prints.
+pub fn summary(ui: &mut egui::Ui, displayed: Displayed<'_>, next: &mut Model) {
+    let Some(open) = displayed.model.dataset.open.as_deref() else { return };
+    let jobs = &displayed.jobs.dataset;
+    let Some(report) = jobs.summary.get() else {
+        ui.weak("No loss is known yet.");
+        return;
+    };
+    let (known, all) = (jobs.losses.count(), open.cases.len());
+    if known < all {
+        let bar = egui::ProgressBar::new(known as f32 / all as f32);
+        ui.add(bar.text(format!("losses of {known} of {all} materials")));
+    }
+    ui.horizontal(|ui| {
+        if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
+            ui.copy_text(report.text());
+        }
+        if ui.small_button("LaTeX").on_hover_text("Copies the table for a paper").clicked() {
+            ui.copy_text(report.latex());
+        }
+    });
+    report_table(ui, &report.table(Reader::Person));
+    for condition in report.conditions() {
+        ui.label(RichText::new(drawable(&condition)).small().weak());
+    }
+    if open.methods().len() > 1 {
+        order::fold(ui, &mut next.asks_order, &jobs.order);
+    }
+}

@@ -1,0 +1,253 @@
+//! Contact sheet: a row a material, a column a method, all under the light and view of the window.
+
+use eframe::egui::scroll_area::ScrollSource;
+use eframe::egui::{
+    self, Align2, FontId, PointerButton, Rect, Response, Sense, TextureOptions, WidgetInfo, pos2, vec2,
+};
+
+use svbrdf_core::material::Grid;
+use svbrdf_core::model::scene::Endpoint;
+use svbrdf_core::text::line;
+
+use crate::dataset::list::MARK;
+use crate::dataset::rows::{Rows, chosen_method};
+use crate::jobs::dataset::DisplayedCases;
+use crate::jobs::dataset::cells::Cell;
+use crate::jobs::displayed::Displayed;
+use crate::model::Model;
+use crate::model::dataset::OpenDataset;
+use crate::model::endpoint;
+use crate::model::material::loaded::drawable;
+use crate::widgets::names::Names;
+use crate::widgets::numbers::{digits, significant};
+use crate::widgets::paint::PanelTextures;
+use crate::widgets::paint::colour_bar;
+use crate::widgets::{names, theme};
+
+/// Width of the names of materials, height of the names of methods, and gap between cells, in points.
+const NAMES: f32 = 104.0;
+/// Room before the names, in points.
+const INDENT: f32 = 8.0;
+const HEAD: f32 = 20.0;
+const GAP: f32 = 4.0;
+/// The change of the size of a cell by a step of the wheel, per point of its motion.
+const WHEEL: f32 = 0.004;
+
+/// The sheet in the place of the panes.
+#[derive(Debug)]
+pub struct ContactSheet<'a> {
+    pub displayed: Displayed<'a>,
+    pub open: &'a OpenDataset,
+    pub rows: &'a Rows,
+    pub textures: &'a mut PanelTextures,
+    pub in_sight: &'a mut DisplayedCases,
+}
+
+impl ContactSheet<'_> {
+    pub fn ui(&mut self, ui: &mut egui::Ui, next: &mut Model) {
+        let cell = self.displayed.model.dataset.sheet.cell;
+        let area = ui.available_rect_before_wrap();
+        let over = area.with_min_x(area.left() + NAMES);
+        let is_over = ui.input(|i| i.pointer.hover_pos().is_some_and(|at| over.contains(at)));
+        if is_over {
+            wheel(ui, next);
+        }
+        let columns = self.open.methods().len() + 1;
+        let width = NAMES + columns as f32 * (cell + GAP);
+        ui.add_space(2.0);
+        let scroll = egui::ScrollArea::horizontal().id_salt("columns").auto_shrink([false, false]);
+        scroll.show(ui, |ui| {
+            ui.set_min_width(width.max(area.width()));
+            self.head(ui, cell);
+            ui.spacing_mut().item_spacing.y = GAP;
+            let rows = egui::ScrollArea::vertical().id_salt("rows").auto_shrink([false, false]);
+            // Over the pictures the wheel sizes them.
+            let rows = rows.scroll_source(ScrollSource { mouse_wheel: !is_over, ..ScrollSource::SCROLL_BAR });
+            rows.show_rows(ui, cell, self.rows.cases.len(), |ui, range| {
+                for row in range {
+                    self.row(ui, row, cell, next);
+                }
+            });
+        });
+        self.in_sight.pixels = (cell * ui.pixels_per_point()).round() as usize;
+    }
+
+    /// The names of the columns.
+    fn head(&self, ui: &mut egui::Ui, cell: f32) {
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
+        self.legend(ui, rect.with_max_x(rect.left() + NAMES));
+        let methods: Vec<&str> = self.open.methods().iter().map(String::as_str).collect();
+        let all = Names::new(&methods);
+        let font = FontId::proportional(12.0);
+        let chosen = chosen_method(self.displayed);
+        for column in 0..=methods.len() {
+            let left = rect.left() + NAMES + column as f32 * (cell + GAP);
+            let text = match column.checked_sub(1) {
+                None => Some("GROUND TRUTH".to_owned()),
+                Some(method) => {
+                    let text = |most| drawable(&all.shortened(method, most));
+                    names::fitted(ui, &font, cell, text)
+                }
+            };
+            let is_chosen = column > 0 && methods.get(column - 1).copied() == chosen;
+            let colour = if is_chosen { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
+            let room = Rect::from_min_size(pos2(left, rect.top()), vec2(cell, HEAD));
+            let painter = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
+            painter.text(
+                pos2(left, rect.center().y),
+                Align2::LEFT_CENTER,
+                text.unwrap_or_default(),
+                font.clone(),
+                colour,
+            );
+        }
+    }
+
+    /// The colours of differences, which all cells share, between the numbers of both ends.
+    fn legend(&self, ui: &egui::Ui, area: Rect) {
+        let (display, range) = (&self.displayed.model.view.display, self.displayed.range());
+        if !display.difference {
+            return;
+        }
+        let (kind, _) = display.differences.pointwise(display.quantity);
+        let least = if kind.is_signed() { -1.0 } else { 0.0 };
+        let (font, ink) = (FontId::monospace(10.0), ui.visuals().text_color());
+        let middle = area.center().y;
+        let text = |value: f64| digits(value).replace('-', "\u{2212}");
+        let at = pos2(area.left() + INDENT, middle);
+        let low = ui.painter().text(at, Align2::LEFT_CENTER, text(least * range), font.clone(), ink);
+        let at = pos2(area.right() - GAP, middle);
+        let high = ui.painter().text(at, Align2::RIGHT_CENTER, text(range), font, ink);
+        let bar =
+            Rect::from_min_max(pos2(low.right() + 3.0, middle - 4.0), pos2(high.left() - 3.0, middle + 4.0));
+        ui.painter().add(colour_bar(bar, [least as f32, 1.0], kind.is_signed()));
+    }
+
+    fn row(&mut self, ui: &mut egui::Ui, row: usize, cell: f32, next: &mut Model) {
+        let Some((case, ahead)) = self.rows.at(row) else { return };
+        let columns = self.open.methods().len() + 1;
+        let (rect, _) =
+            ui.allocate_exact_size(vec2(NAMES + columns as f32 * (cell + GAP), cell), Sense::hover());
+        let names = Rect::from_min_size(rect.min + vec2(INDENT, 0.0), vec2(NAMES - INDENT - 6.0, cell));
+        let name = drawable(self.open.name(case));
+        let mark = self.displayed.model.dataset.mark(self.open.name(case)).filter(|mark| mark.is_marked);
+        let text = format!("{name}{}", mark.map_or("", |_| MARK));
+        let colour = ui.visuals().text_color();
+        let galley = ui.painter().layout(text, FontId::proportional(12.0), colour, names.width());
+        let painter = ui.painter().with_clip_rect(names.intersect(ui.clip_rect()));
+        painter.galley(names.min, galley, colour);
+        for column in 0..columns {
+            let left = rect.left() + NAMES + column as f32 * (cell + GAP);
+            let square = Rect::from_min_size(pos2(left, rect.top()), vec2(cell, cell));
+            if !ui.is_rect_visible(square) {
+                continue;
+            }
+            let at = Cell { case, column };
+            self.in_sight.cells.push(at);
+            let id = ui.scope_id().with(("cell", case, column));
+            let response = ui.interact(square, id, Sense::click_and_drag());
+            let shown = self.paint(ui, square, at);
+            response.widget_info(|| {
+                WidgetInfo::labeled(egui::Role::Button, true, format!("Cell {name}, {}", self.column(column)))
+            });
+            self.gesture(&response, shown, (case, &ahead), next);
+            response.on_hover_ui(|ui| self.hover(ui, &name, at));
+        }
+    }
+
+    fn column(&self, column: usize) -> &str {
+        column
+            .checked_sub(1)
+            .and_then(|method| self.open.methods().get(method))
+            .map_or("ground truth", String::as_str)
+    }
+
+    /// Draws a cell; where its picture is, and its size in texels.
+    fn paint(&mut self, ui: &egui::Ui, square: Rect, cell: Cell) -> Option<(Rect, [usize; 2])> {
+        let jobs = &self.displayed.jobs.dataset;
+        if let Some(sheet) = jobs.sheet.get()
+            && let Some(([least, most], size)) = sheet.part(cell)
+        {
+            let texture = self.textures.id(ui.ctx(), &sheet.picture, TextureOptions::LINEAR);
+            let [width, height] = size.map(|side| side as f32);
+            let fitted = vec2(width, height) * (square.width() / width.max(height).max(1.0));
+            let at = Rect::from_center_size(square.center(), fitted);
+            let part = Rect::from_min_max(pos2(least[0], least[1]), pos2(most[0], most[1]));
+            ui.painter().image(texture, at, part, egui::Color32::WHITE);
+            return Some((at, size));
+        }
+        ui.painter().rect_filled(square, 2.0, ui.visuals().faint_bg_color);
+        if let Some(Err(_)) = jobs.cells.get(cell) {
+            let colour = ui.visuals().error_fg_color;
+            ui.painter().text(
+                square.center(),
+                Align2::CENTER_CENTER,
+                "none",
+                FontId::proportional(12.0),
+                colour,
+            );
+        }
+        None
+    }
+
+    /// A drag moves light or view in all cells, as in a pane; a click opens the material.
+    fn gesture(
+        &self,
+        response: &Response,
+        shown: Option<(Rect, [usize; 2])>,
+        (case, ahead): (usize, &[usize]),
+        next: &mut Model,
+    ) {
+        if response.clicked() {
+            return next.dataset.show_from_sheet(case, ahead.to_vec());
+        }
+        let (Some((at, [width, height])), Some(pointer)) = (shown, response.interact_pointer_pos()) else {
+            return;
+        };
+        let share = [(pointer.x - at.left()) / at.width(), (pointer.y - at.top()) / at.height()];
+        let place = [share[0] * width as f32, share[1] * height as f32];
+        let point = Grid { width, height }.point(place).map(f64::from);
+        let scene = &mut next.view.scene;
+        if response.dragged_by(PointerButton::Primary) && next.settings.highlight_follows {
+            endpoint::put_highlight(scene, point);
+        } else if response.dragged_by(PointerButton::Primary) {
+            endpoint::move_over_plane(scene, Endpoint::Light, point);
+        } else if response.dragged_by(PointerButton::Secondary) {
+            endpoint::move_over_plane(scene, Endpoint::View, point);
+        }
+    }
+
+    fn hover(&self, ui: &mut egui::Ui, name: &str, cell: Cell) {
+        ui.strong(format!("{name}, {}", drawable(self.column(cell.column))));
+        let jobs = &self.displayed.jobs.dataset;
+        let losses = jobs.losses.row(cell.case);
+        if let Some(method) = cell.column.checked_sub(1) {
+            match losses.map(|losses| (losses.by_method.get(method).copied().flatten(), losses)) {
+                None => drop(ui.weak("Its loss is not known yet.")),
+                Some((Some(known), _)) => {
+                    let [loss, interval] = significant(&known.estimate());
+                    ui.monospace(format!("loss {loss} {interval}"));
+                }
+                Some((None, losses)) => {
+                    let of = |(of, _): &&(String, String)| of == self.column(cell.column);
+                    let problem = losses.problems.iter().find(of).map_or("", |(_, problem)| problem);
+                    ui.colored_label(ui.visuals().error_fg_color, drawable(&line(problem)));
+                }
+            }
+        } else if let Some(Err(problem)) = jobs.cells.get(cell) {
+            ui.colored_label(ui.visuals().error_fg_color, drawable(&line(problem)));
+        }
+    }
+}
+
+/// The wheel over the pictures changes their size, with Shift the height of the light.
+fn wheel(ui: &egui::Ui, next: &mut Model) {
+    let (delta, modifiers) = ui.input(|i| (i.smooth_scroll_delta, i.modifiers));
+    let turned = delta.x + delta.y;
+    let factor = (turned * WHEEL).exp();
+    if turned != 0.0 && modifiers.shift_only() {
+        endpoint::scale_height(&mut next.view.scene, Endpoint::Light, f64::from(factor));
+    } else if turned != 0.0 && modifiers.is_none() {
+        next.dataset.set_cell(next.dataset.sheet.cell * factor);
+    }
+}

@@ -1,0 +1,195 @@
+//! The materials in the window, and the assumptions in reading each.
+
+pub mod open;
+pub mod path_field;
+pub mod read_options;
+pub mod save;
+
+use eframe::egui::text::{LayoutJob, TextFormat};
+use eframe::egui::{self, FontId, RichText};
+
+use svbrdf_evaluate::diagnose::{Finding, sentence_of};
+use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions, Sidecar};
+use svbrdf_files::source::Place;
+
+use crate::files::read_options::{is_offered, read_options, remedy_button};
+use crate::jobs::displayed::Displayed;
+use crate::jobs::why::ComparedPair;
+use crate::model::effect::Effect;
+use crate::model::material::loaded::{LoadedMaterial, drawable};
+use crate::model::{Model, opening};
+use crate::widgets::{named, theme};
+
+/// Draws the section.
+pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+    let materials = &shown.model.materials.all;
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Reload").on_hover_text("Read all files again (Ctrl+R)").clicked() {
+            opening::reload(next);
+        }
+        ui.checkbox(&mut next.settings.watch, "Watch")
+            .on_hover_text("Read files again when they change on disk");
+        let built_in = ui.button("Built-in pair");
+        if built_in.on_hover_text("Show the materials that come with the program").clicked() {
+            opening::open_built_in(next);
+        }
+    });
+    for opening in shown.jobs.openings.iter() {
+        ui.add(egui::ProgressBar::new(opening.fraction()).text(opening.text()));
+        let cancel = ui.small_button("Cancel reading");
+        if cancel.on_hover_text("What is in the window stays").clicked() {
+            next.effects.push(Effect::CancelReading(opening.number()));
+        }
+    }
+    let pairs = ComparedPair::all(materials, &shown.model.view);
+    for (index, material) in materials.iter().enumerate() {
+        ui.separator();
+        let pair = index.checked_sub(1).and_then(|prediction| pairs.get(prediction));
+        let seed = shown.model.settings.loss.seed;
+        let diagnosed = pair.and_then(|pair| shown.jobs.why.diagnosis.get(pair, seed));
+        let findings: Vec<_> = diagnosed.into_iter().flat_map(|one| one.diagnosis.marked()).collect();
+        let role = match index {
+            0 if materials.len() == 1 => "MATERIAL".to_owned(),
+            0 => "GROUND TRUTH".to_owned(),
+            prediction => format!("Prediction {prediction}"),
+        };
+        // Its id changes whenever it is read again; what is unfolded stays unfolded.
+        ui.push_id(index, |ui| section(ui, (index, &role), material, &findings, next));
+    }
+}
+
+/// The button that saves the chosen assumptions, where they are not the saved ones.
+fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, next: &mut Model) {
+    let (Place::Path(path), record) = (&material.read.source.place, &material.read.record) else { return };
+    if record.options == record.saved {
+        return;
+    }
+    let button = ui.button("Save assumptions");
+    let name = format!("Save assumptions of {}", material.name());
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    let place = Sidecar::path_for(path);
+    let hover = format!(
+        "Write these assumptions to {}, which is read whenever the material is opened",
+        place.display()
+    );
+    if button.on_hover_text(hover).clicked() {
+        opening::save_assumptions(next, index);
+    }
+}
+
+/// The names of a file of several materials, to choose one.
+fn chooser(ui: &mut egui::Ui, material: &LoadedMaterial, read: &mut ReadOptions) {
+    let names = material.read.record.notes.iter().find_map(|note| match note {
+        Note::Materials { names, index } => Some((names, *index)),
+        _ => None,
+    });
+    let Some((names, index)) = names else { return };
+    let mut chosen = index;
+    let text = names.get(index).map_or("", String::as_str);
+    let response = egui::ComboBox::from_id_salt((material.id(), "material"))
+        .selected_text(format!("material {text}"))
+        .show_ui(ui, |ui| {
+            for (i, name) in names.iter().enumerate() {
+                ui.selectable_value(&mut chosen, i, format!("{i}: {name}"));
+            }
+        })
+        .response;
+    named(&response, &format!("material of {}", material.name()));
+    response.on_hover_text(format!("The file has {} materials", names.len()));
+    if chosen != index {
+        read.exemplar = Some(chosen);
+    }
+}
+
+/// An assumption and its reason, in two rows at most.
+fn line(ui: &mut egui::Ui, assumption: &Assumption) {
+    const ROWS: usize = 2;
+    let (font, small) = (FontId::proportional(12.5), FontId::proportional(11.0));
+    let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
+    let (panel, warning) = (ui.visuals().panel_fill, ui.visuals().warn_fg_color);
+    let mut job = LayoutJob::default();
+    job.append(&format!("{}: ", assumption.what.name()), 0.0, TextFormat::simple(font.clone(), weak));
+    job.append(&assumption.chosen, 0.0, TextFormat::simple(font, text));
+    if assumption.certainty == Certainty::Unsure {
+        let badge = TextFormat { background: warning, ..TextFormat::simple(small.clone(), panel) };
+        job.append(" unsure ", 6.0, badge);
+    }
+    job.append(&format!(": {}", assumption.why), 0.0, TextFormat::simple(small, weak));
+    job.wrap.max_rows = ROWS;
+    ui.label(job);
+}
+
+/// A finding about how the material was read, with the button that corrects it.
+fn finding_line(
+    ui: &mut egui::Ui,
+    index: usize,
+    material: &LoadedMaterial,
+    finding: &Finding,
+    next: &mut Model,
+) {
+    let Some(remedy) = finding.remedy_of_prediction().filter(|remedy| is_offered(material, *remedy)) else {
+        return;
+    };
+    ui.label(RichText::new(sentence_of(finding)).small().color(ui.visuals().warn_fg_color));
+    remedy_button(ui, index, material, remedy, next);
+}
+
+fn section(
+    ui: &mut egui::Ui,
+    (index, role): (usize, &str),
+    material: &LoadedMaterial,
+    findings: &[&Finding],
+    next: &mut Model,
+) {
+    let (record, place) = (&material.read.record, &material.read.source.place);
+    let colour = if index == 0 { theme::ground_truth(ui.visuals()) } else { ui.visuals().text_color() };
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(role).color(colour).small());
+        if index > 0 {
+            let swap = ui.small_button("Make ground truth");
+            if swap.on_hover_text("Compare the others with this one").clicked() {
+                next.materials.make_ground_truth(index);
+            }
+            if ui.small_button("Close").on_hover_text("Take it out of the comparison").clicked() {
+                opening::close(next, index);
+            }
+        }
+    });
+    let [width, height] = record.material.size();
+    ui.add(egui::Label::new(RichText::new(material.name()).strong()).truncate());
+    let location = match place {
+        Place::BuiltIn(_) => "built in".to_owned(),
+        Place::Path(path) => drawable(&path.display().to_string()),
+    };
+    ui.add(
+        egui::Label::new(RichText::new(format!("{width} x {height}, {location}")).small().weak()).truncate(),
+    );
+    if let Some(problem) = &material.problem {
+        ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
+    }
+    record.assumptions.iter().for_each(|assumption| line(ui, assumption));
+    findings.iter().for_each(|finding| finding_line(ui, index, material, finding, next));
+    // Which file is which map stands in "As stored".
+    for note in record.notes.iter().filter(|note| !note.is_routine()) {
+        let text = RichText::new(note.to_string()).small();
+        ui.label(if note.changes_look() { text.color(ui.visuals().warn_fg_color) } else { text });
+    }
+    if matches!(place, Place::Path(_)) {
+        let mut read = record.options;
+        chooser(ui, material, &mut read);
+        let change = ui.collapsing("Change...", |ui| {
+            read_options(ui, material.name(), &mut read, &record.assumptions);
+        });
+        change.header_response.on_hover_text("Say how its files are to be read");
+        if read != record.options {
+            opening::read_as(next, index, read);
+        }
+        save_button(ui, index, material, next);
+    }
+    let stored = ui.collapsing("As stored", |ui| {
+        for map in &record.maps {
+            ui.label(RichText::new(map.to_string()).small());
+        }
+    });
+    stored.header_response.on_hover_text("Which file is which map, and what it holds");
+}

@@ -1,0 +1,70 @@
+//! Content of the window: the panes, and the legend below them. It is what a saved picture of the view shows.
+
+use eframe::egui;
+
+use svbrdf_core::model::scene::Kind;
+
+use crate::jobs::displayed::Displayed;
+use crate::model::Model;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::pane::gpu_view::GpuView;
+use crate::pane::legend::LegendStrip;
+use crate::pane::scenery::Scenery;
+use crate::pane::viewport::{STRIP, Viewport};
+use crate::widgets::bare;
+use crate::widgets::numbers::digits;
+
+/// Height of the caption of a picture that is saved, in points.
+pub const CAPTION: f32 = 20.0;
+
+/// Draws the panes and what is below them.
+pub fn ui(
+    ui: &mut egui::Ui,
+    shown: Displayed<'_>,
+    next: &mut Model,
+    viewport: &mut Viewport,
+    gpu: Option<&mut GpuView>,
+) {
+    if shown.is_picture {
+        let grid = shown.model.materials.ground_truth().map(LoadedMaterial::grid);
+        let magnification = grid.map(|grid| viewport.magnification(grid, &shown.model.view));
+        let panel = bare(egui::Panel::bottom("caption"), ui).exact_size(CAPTION).resizable(false);
+        panel.show(ui, |ui| caption(ui, shown.model, magnification));
+    }
+    let has_legend = shown.model.view.display.difference && compares(shown);
+    if has_legend {
+        let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
+        panel.show(ui, |ui| LegendStrip::new(shown).ui(ui, next));
+    }
+    egui::CentralPanel::no_frame().show(ui, |ui| {
+        let scenery = Scenery::new(ui.ctx(), shown);
+        viewport.ui(ui, &scenery, next, gpu, &shown.jobs.uploads, has_legend);
+    });
+}
+
+/// How a saved picture was rendered, in a line that is cut where the picture is too narrow.
+fn caption(ui: &mut egui::Ui, model: &Model, magnification: Option<f32>) {
+    let view = &model.view;
+    let place = |[x, y, z]: [f64; 3]| format!("{x:.2}, {y:.2}, {z:.2}");
+    let kind = if view.scene.kind == Kind::Near { "near-field" } else { "distant" };
+    let size = model.materials.ground_truth().map(|one| one.material().size());
+    let texels = size.map(|[width, height]| format!("{width} x {height} texels"));
+    let parts = [
+        texels,
+        magnification.map(|pixels| format!("{} pixels per texel", digits(f64::from(pixels)))),
+        Some(format!("{kind} light {}", place(view.scene.light))),
+        Some(format!("view {}", place(view.scene.view))),
+        Some(format!("exposure {:+.1} EV", view.exposure_ev)),
+        Some(view.convention().name.to_owned()),
+    ];
+    let text = parts.into_iter().flatten().collect::<Vec<_>>().join("  \u{b7}  ");
+    ui.horizontal_centered(|ui| {
+        ui.add_space(8.0);
+        ui.add(egui::Label::new(egui::RichText::new(text).small()).truncate());
+    });
+}
+
+/// Whether there is something to compare: predictions, or a photograph.
+fn compares(displayed: Displayed<'_>) -> bool {
+    !displayed.model.materials.predictions().is_empty() || displayed.photograph().is_some()
+}

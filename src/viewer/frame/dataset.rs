@@ -1,0 +1,88 @@
+//! Data set: matched on a worker, and shown material by material.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use svbrdf_evaluate::dataset::{DatasetReading, Method, Source};
+use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
+
+use crate::frame::layout::Parts;
+use crate::jobs::work::job::Job;
+use crate::model::case;
+use crate::model::dataset::{DatasetState, OpenDataset, TARGET_ERROR};
+
+/// Matches the materials of these folders, or of one table.
+pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
+    parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
+        let mut paths = paths.into_iter();
+        let first = paths.next().unwrap_or_default();
+        let methods: Vec<_> = paths.map(|path| (None, path)).collect();
+        let source = if methods.is_empty() { Source::Table(first) } else { Source::folders(first, methods) };
+        let open = OpenDataset::new(source, DatasetReading::default(), (TARGET_ERROR, 0), None)?;
+        Ok(DatasetState::of(Arc::new(open), 0, Default::default()))
+    }));
+}
+
+/// Matches the materials of a session; `results` is a folder that a person named.
+pub(super) fn restore(parts: &mut Parts, session: SessionDataset, results: Option<PathBuf>) {
+    let strict = parts.model.materials.rules.strict;
+    parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
+        let SessionDataset { ground_truths, methods, predictions, shown, marks, .. } = session;
+        let named = |all: Vec<SessionMethod>| -> Vec<Method> {
+            all.into_iter().map(|one| Method { name: one.name, path: one.path }).collect()
+        };
+        let source = match (methods.is_empty(), predictions.is_empty()) {
+            (_, false) => {
+                Source::Predictions { ground_truth: ground_truths, predictions: named(predictions) }
+            }
+            (true, true) => Source::Table(ground_truths),
+            (false, true) => Source::Folders { ground_truths, methods: named(methods) },
+        };
+        let reading = DatasetReading {
+            ground_truths: session.read,
+            predictions: session.read_predictions,
+            methods: session.read_methods,
+            strict,
+        };
+        let mut open = OpenDataset::new(source, reading, (session.target_error, session.seed), results)?;
+        open.settings.diagnose = session.diagnose;
+        let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
+        Ok(DatasetState::of(Arc::new(open), wanted, marks))
+    }));
+}
+
+/// Reads a material and its losses again.
+pub(super) fn read_again(parts: &mut Parts, case: usize) {
+    let jobs = &mut parts.jobs.dataset;
+    if parts.model.dataset.open.as_ref().is_some_and(|open| open.is_of_predictions()) {
+        // It may be the ground truth of all.
+        jobs.restart();
+        return;
+    }
+    jobs.cases.forget(case);
+    jobs.losses.forget(case);
+    jobs.cells.forget(case);
+}
+
+/// Takes over a data set that has been matched.
+pub(super) fn take(parts: &mut Parts) {
+    let Some(result) = parts.jobs.dataset.opening.as_ref().and_then(Job::poll) else { return };
+    parts.jobs.dataset.opening = None;
+    match result {
+        Ok(state) => {
+            parts.model.dialogs.open = None;
+            parts.model.open_dataset(state);
+        }
+        Err(error) => parts.model.not_opened(error),
+    }
+}
+
+/// Puts the material that was asked for into the window, once it has been read: all of it in one frame, so that nothing of one material
+/// is seen beside something of another.
+pub(super) fn show(parts: &mut Parts) {
+    let dataset = &parts.model.dataset;
+    let Some(open) = dataset.open.clone().filter(|_| dataset.is_waiting()) else { return };
+    let Some(read) = parts.jobs.dataset.cases.get(dataset.wanted, &dataset.pinned()).cloned() else { return };
+    read.uploads.iter().for_each(|(id, uploaded)| parts.jobs.uploads.add(*id, Some(uploaded.clone())));
+    case::show(&mut parts.model, &open, read.case, &read.materials, read.problems.clone());
+}

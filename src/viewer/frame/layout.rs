@@ -1,0 +1,157 @@
+//! User interface: input, panes, panels and dialogs.
+//!
+//! [`WindowUi::input`] reads keys and gestures before anything is drawn, and edits the model. [`WindowUi::draw`] draws the model as it is
+//! shown; what is clicked and dragged in panels and dialogs edits the model of the next frame.
+
+use eframe::egui;
+
+use crate::dataset::DatasetUi;
+use crate::error::Error;
+use crate::files;
+use crate::frame::content::{self, CAPTION};
+use crate::frame::{help, inspection, keys, messages, side, status, top};
+use crate::jobs::Jobs;
+use crate::jobs::displayed::Displayed;
+use crate::model::Model;
+use crate::model::view::WindowGeometry;
+use crate::pane::gpu_view::GpuView;
+use crate::pane::snapshot::snapshot;
+use crate::pane::viewport::Viewport;
+use crate::widgets::paint::PanelTextures;
+use crate::widgets::{bare, fixed};
+
+/// Width of the side panel, in points.
+const SIDE: f32 = 320.0;
+/// Width of a window, in points, below which the side panel is closed until it is asked for.
+const NARROW: f32 = 900.0;
+
+/// The state of the user interface between frames.
+#[derive(Debug, Default)]
+pub struct WindowUi {
+    viewport: Viewport,
+    textures: PanelTextures,
+    pub dataset: DatasetUi,
+    /// Size of the panes and the legend, in pixels.
+    picture_size: [u32; 2],
+    /// Whether the drawer is there.
+    has_drawer: bool,
+}
+
+impl WindowUi {
+    /// What the last frame measured.
+    pub fn geometry(&self, ctx: &egui::Context) -> WindowGeometry {
+        WindowGeometry {
+            pane: self.viewport.pane_pixels(),
+            picture: self.picture_size,
+            window: (ctx.content_rect().size() * ctx.zoom_factor()).into(),
+            is_narrow: ctx.content_rect().width() < NARROW,
+            texel: self.viewport.last_texel,
+        }
+    }
+
+    /// Carries out keys, dropped files and gestures: all that is read before the window is drawn.
+    pub fn input(&mut self, ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
+        keys::act(ctx, model, jobs);
+        if model.is_modal() {
+            return;
+        }
+        self.dataset.turn_pages(ctx, model, jobs);
+        if !model.dataset.sheet.is_open {
+            self.viewport.gestures(ctx, model);
+        }
+    }
+
+    /// Draws everything that is `shown`; what is clicked and dragged in panels and dialogs edits the `next` model.
+    pub fn draw(
+        &mut self,
+        ui: &mut egui::Ui,
+        shown: Displayed<'_>,
+        next: &mut Model,
+        gpu: Option<&mut GpuView>,
+    ) {
+        let model = shown.model;
+        bare(egui::Panel::top("top"), ui).show(ui, |ui| top::ui(ui, model, next));
+        bare(egui::Panel::bottom("status"), ui).show(ui, |ui| status::ui(ui, shown, &self.viewport, next));
+        let was_open = model.side_panel();
+        let mut is_open = was_open;
+        bare(egui::Panel::right("side"), ui).exact_size(SIDE).resizable(false).show_collapsible(
+            ui,
+            &mut is_open,
+            // Contents that are too wide are cut off: the panel does not grow.
+            |ui| fixed(ui, |ui| side::ui(ui, shown, next, &mut self.textures)),
+        );
+        if is_open != was_open {
+            next.toggle_side_panel();
+        }
+        self.dataset.drawer(ui, shown, next);
+        // Panes stay where they are in a drag.
+        if !ui.input(|i| i.pointer.any_down()) {
+            self.has_drawer = !model.inspection.pins.is_empty();
+        }
+        if self.has_drawer && !model.dataset.sheet.is_open && model.materials.ground_truth().is_some() {
+            inspection::drawer(ui, shown, next);
+        }
+        let area = ui.available_rect_before_wrap();
+        self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
+        let panes = if self.dataset.sheet(ui, shown, next, &mut self.textures) {
+            area
+        } else {
+            content::ui(ui, shown, next, &mut self.viewport, gpu);
+            self.viewport.area
+        };
+        messages::ui(ui.ctx(), panes, &model.messages, next);
+        if model.help {
+            help::ui(ui.ctx(), &mut next.help);
+        }
+        files::open::ui(ui.ctx(), next);
+        files::save::ui(ui.ctx(), shown.jobs.saving.as_ref(), next);
+    }
+}
+
+impl WindowUi {
+    /// The panes and the legend in a picture.
+    ///
+    /// # Errors
+    /// As [`snapshot`]; an internal one without an adapter.
+    pub fn picture(
+        &mut self,
+        ctx: &egui::Context,
+        displayed: Displayed<'_>,
+        gpu: Option<&mut GpuView>,
+    ) -> Result<egui::ColorImage, Error> {
+        let Some(view) = gpu else {
+            return Err(Error::internal("there is no graphics adapter to draw the view"));
+        };
+        let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), displayed.model.settings.dark);
+        for material in displayed.materials() {
+            let uploaded = displayed.jobs.uploads.get(material.id());
+            uploaded.into_iter().for_each(|uploaded| uploaded.complete(&gpu, material.material()));
+        }
+        // Gestures and controls stay in the window.
+        let displayed = Displayed { is_picture: true, ..displayed };
+        let mut viewport = self.viewport.exact();
+        let scale = ctx.pixels_per_point();
+        let [width, height] = self.picture_size;
+        let size = [width, height + (CAPTION * scale) as u32];
+        Ok(snapshot(&state, &gpu, (size, scale), dark, |ui| {
+            content::ui(ui, displayed, &mut displayed.model.clone(), &mut viewport, Some(view));
+        })?)
+    }
+}
+
+/// What effects and results change.
+#[derive(Debug)]
+pub struct Parts {
+    pub model: Model,
+    pub jobs: Jobs,
+    pub ui: WindowUi,
+    /// `None` where there is no adapter.
+    pub gpu: Option<GpuView>,
+}
+
+impl Parts {
+    /// What the panes display.
+    pub fn displayed(&self) -> Displayed<'_> {
+        Displayed::of(&self.model, &self.jobs)
+    }
+}

@@ -1,0 +1,289 @@
+//! Application: the frame of the window, which holds the model, the jobs and the user interface together.
+
+pub mod content;
+pub mod crash;
+pub mod dataset;
+pub mod effects;
+pub mod events;
+pub mod help;
+pub mod inspection;
+pub mod keys;
+pub mod layout;
+pub mod light_and_view;
+pub mod menu;
+pub mod messages;
+pub mod restart;
+pub mod saving;
+pub mod side;
+pub mod status;
+pub mod storage;
+pub mod top;
+
+use std::time::Duration;
+
+use eframe::egui;
+
+use svbrdf_core::error::Error as CoreError;
+
+use crate::frame::crash::DeviceLoss;
+use crate::frame::layout::Parts;
+use crate::frame::restart::Restarts;
+use crate::frame::storage::{NAME, Storage};
+pub use crash::CrashGuard;
+
+use crate::error::Error;
+use crate::frame::layout::WindowUi;
+use crate::jobs::Jobs;
+use crate::jobs::displayed::Displayed;
+use crate::jobs::work::waker::Waker;
+use crate::model::Model;
+use crate::model::message::Message;
+use crate::model::ranges::UI_SCALE;
+use crate::model::session::ViewerOptions;
+use crate::model::view::ViewState;
+use crate::model::{exposure, undo};
+use crate::pane::gpu_view::GpuView;
+use crate::widgets::theme;
+
+/// The viewer.
+#[derive(Debug)]
+pub struct App {
+    pub parts: Parts,
+    storage: Storage,
+    crash: CrashGuard,
+    /// The title that the window was given.
+    title: String,
+    /// Whether the scale of text and controls is to be chosen by the monitor: at the first start.
+    unscaled: bool,
+}
+
+impl App {
+    /// Starts to read the materials that `options` names, and returns before they have been read.
+    pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions, storage: Storage) -> Self {
+        theme::install(&cc.egui_ctx);
+        let mut model = Model::default();
+        storage.load(&mut model);
+        cc.egui_ctx.set_zoom_factor(model.settings.ui_scale);
+        let gpu = adapter(cc, &mut model);
+        let woken = cc.egui_ctx.clone();
+        let waker = Waker::new(move |after: Duration| woken.request_repaint_after(after));
+        let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
+        let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu };
+        parts.model.start(options);
+        parts.model.report(Restarts::of_environment().map(|restarts| Message::Warning(restarts.message())));
+        effects::carry_out(&mut parts, &cc.egui_ctx);
+        let unscaled = storage.is_new();
+        Self { parts, storage, crash: CrashGuard::default(), title: String::new(), unscaled }
+    }
+
+    /// Reports failures of the frames to this guard.
+    #[must_use]
+    pub fn guarded(mut self, crash: CrashGuard) -> Self {
+        self.crash = crash;
+        self
+    }
+
+    /// Whether a frame has panicked.
+    pub fn has_crashed(&self) -> bool {
+        self.crash.has_crashed()
+    }
+
+    /// Edits the model as a panel does.
+    pub fn edit(&mut self, ctx: &egui::Context, edit: impl FnOnce(&mut Model)) {
+        edit(&mut self.parts.model);
+        effects::carry_out(&mut self.parts, ctx);
+        ctx.request_repaint();
+    }
+
+    /// Takes over what edits have made of the view `before`, in the same frame: it is no step of its own to undo.
+    fn settle(&mut self, ctx: &egui::Context, before: &ViewState) {
+        effects::carry_out(&mut self.parts, ctx);
+        if self.parts.model.view != *before {
+            self.parts.model.keep_visible();
+        }
+        exposure::follow(&mut self.parts.model);
+    }
+
+    /// One frame: input, model, picture. What a gesture changes is in the frame that read it; what is edited in a panel is in the next
+    /// one.
+    fn frame(&mut self, ui: &mut egui::Ui) {
+        let ctx = ui.ctx().clone();
+        theme::choose(&ctx, self.parts.model.settings.dark);
+        self.suit_monitor(&ctx);
+        self.parts.model.settings.ui_scale = scale_in_range(&ctx);
+        self.parts.model.time = ctx.input(|i| i.time);
+        self.parts.model.geometry = self.parts.ui.geometry(&ctx);
+        events::take_results(&mut self.parts, &ctx);
+        let before = self.parts.model.view.clone();
+        self.parts.ui.input(&ctx, &mut self.parts.model, &self.parts.jobs);
+        self.settle(&ctx, &before);
+        dataset::show(&mut self.parts);
+        exposure::follow(&mut self.parts.model);
+        self.follow(&ctx);
+        let mut next = self.parts.model.clone();
+        let shown = Displayed::of(&self.parts.model, &self.parts.jobs);
+        self.parts.ui.draw(ui, shown, &mut next, self.parts.gpu.as_mut());
+        self.name_window(&ctx);
+        let before = std::mem::replace(&mut self.parts.model, next).view;
+        self.settle(&ctx, &before);
+        let is_photograph_settled = self.parts.jobs.photograph.is_settled(&self.parts.model.photograph);
+        undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
+    }
+
+    /// Chooses the scale of text and controls at the first start: systems without one of their own draw text of 2 mm on a 4K screen.
+    fn suit_monitor(&mut self, ctx: &egui::Context) {
+        let (monitor, native) =
+            ctx.input(|i| (i.viewport().monitor_size, i.viewport().native_pixels_per_point));
+        let Some(monitor) = monitor.filter(|_| std::mem::take(&mut self.unscaled)) else { return };
+        if native.is_none_or(|native| native <= 1.0) {
+            ctx.set_zoom_factor(scale_of_monitor(monitor.y * ctx.pixels_per_point()));
+        }
+    }
+
+    /// Gives the window the name of what is open.
+    fn name_window(&mut self, ctx: &egui::Context) {
+        let of_dataset = self.parts.ui.dataset.title(self.parts.displayed());
+        let open = of_dataset.or_else(|| self.parts.model.materials.title());
+        let title = open.map_or_else(|| NAME.to_owned(), |open| format!("{open} - {NAME}"));
+        // Assistive software asks the root for the name of the window.
+        ctx.accesskit_node_builder(egui::accesskit_root_id(), |root| root.set_label(title.as_str()));
+        if title != self.title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
+    /// Lets the jobs follow the model, and takes in what they have found.
+    fn follow(&mut self, ctx: &egui::Context) {
+        if self.parts.jobs.openings.is_empty()
+            && let Some(inspection) = self.parts.model.inspected_later.take()
+        {
+            self.parts.model.inspection = inspection;
+        }
+        if let Some(ground_truth) = self.parts.model.materials.ground_truth() {
+            self.parts.model.inspection.keep_within(ground_truth.material().size());
+        }
+        let findings = self.parts.jobs.follow(&self.parts.model, &self.parts.ui.dataset.displayed);
+        self.parts.model.report(findings.errors.into_iter().map(Message::Failed));
+        if let Some(error) = findings.photograph_error {
+            self.parts.model.photograph.set(None);
+            self.parts.model.report([Message::Failed(error)]);
+        }
+        match findings.worst {
+            Some(Ok(worst)) => {
+                exposure::choose_scene(&mut self.parts.model, worst.scene);
+                ctx.request_repaint();
+            }
+            Some(Err(error)) => self.parts.model.report([Message::Failed(error)]),
+            None => {}
+        }
+    }
+}
+
+impl App {
+    /// Why the device of the window was lost, where it was.
+    fn loss(&self) -> Option<String> {
+        self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss()).map(told)
+    }
+}
+
+/// The reason of a loss, where its driver tells one.
+fn told(reason: &str) -> String {
+    let reason = reason.trim();
+    if reason.is_empty() { "no reason was given" } else { reason }.to_owned()
+}
+
+impl eframe::App for App {
+    /// The frame of a window, which closes where the device is lost or the frame panics.
+    fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
+        let crash = self.crash.clone();
+        let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui));
+        if let Some(reason) = self.loss() {
+            crash.fail(lost(&reason));
+            // egui-wgpu 0.37 would panic.
+            ui.ctx().graphics_mut(|graphics| *graphics = Default::default());
+        }
+        if crash.has_crashed() || crash.is_stopped() {
+            ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+        } else if is_drawn && !ui.input(|i| i.pointer.any_down()) {
+            self.storage.store(&self.parts.model);
+        }
+    }
+
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
+
+    fn on_exit(&mut self) {
+        if self.crash.has_crashed() {
+            return;
+        }
+        self.parts.model.remember_session(self.parts.jobs.openings.is_empty());
+        self.parts.model.settings.window = Some(self.parts.model.geometry.window);
+        self.storage.store(&self.parts.model);
+        // A file that is being written is completed, unless a signal ends the program.
+        if let Some(saving) = self.parts.jobs.saving.take() {
+            if self.crash.is_stopped() {
+                saving.cancel();
+            }
+            let _ = saving.wait();
+        }
+    }
+}
+
+/// The window library drops the application where it panics over the lost device, too.
+impl Drop for App {
+    fn drop(&mut self) {
+        if let Some(reason) = self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss_by_now()).map(told) {
+            let (model, is_read) = (&self.parts.model, self.parts.jobs.openings.is_empty());
+            let results = model.dataset.open.as_ref().and_then(|open| open.results.clone());
+            self.crash.lose(DeviceLoss { reason, session: is_read.then(|| model.session()), results });
+        }
+    }
+}
+
+/// The end of a window whose device was lost, where the program does not start anew.
+fn lost(reason: &str) -> Error {
+    let problem = format!("the graphics device was lost ({reason})");
+    let remedy = "start again, and reopen these materials with Ctrl+Shift+O; where it is lost again, update the graphics driver or \
+                  set WGPU_BACKEND to another one (vulkan, gl)";
+    CoreError::Gpu { problem, remedy }.into()
+}
+
+/// The scale of text and controls for a monitor of this height in pixels, in quarters: 1 up to 1080.
+fn scale_of_monitor(height: f32) -> f32 {
+    ((height / 1080.0 * 4.0).floor() / 4.0).clamp(1.0, 3.0)
+}
+
+/// The scale of text and controls, which Ctrl with plus, minus or 0 changes, too.
+fn scale_in_range(ctx: &egui::Context) -> f32 {
+    let scale = ctx.zoom_factor().clamp(*UI_SCALE.start(), *UI_SCALE.end());
+    ctx.set_zoom_factor(scale);
+    scale
+}
+
+/// The adapter of a window, and its limits for the user interface; a message where its driver fails.
+fn adapter(cc: &eframe::CreationContext<'_>, model: &mut Model) -> Option<GpuView> {
+    let gpu = match GpuView::new(cc.wgpu_render_state.as_ref()?) {
+        Ok(gpu) => gpu,
+        Err(error) => {
+            model.report([Message::Failed(error.into())]);
+            return None;
+        }
+    };
+    theme::suit(&cc.egui_ctx, &gpu.gpu.report);
+    let context = cc.egui_ctx.clone();
+    gpu.gpu.at_loss(move || context.request_repaint());
+    Some(gpu)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_monitor_has_larger_text_at_the_first_start() {
+        let scales = [600.0, 1080.0, 1200.0, 1440.0, 2160.0, 4320.0].map(scale_of_monitor);
+        assert_eq!(scales, [1.0, 1.0, 1.0, 1.25, 2.0, 3.0]);
+    }
+}

@@ -1,0 +1,86 @@
+//! Side panel: a tab, and below it the photograph, light and view.
+
+use eframe::egui::{self, RichText};
+
+use svbrdf_files::read::Certainty;
+
+use crate::frame::light_and_view;
+use crate::jobs::displayed::Displayed;
+use crate::model::Model;
+use crate::model::settings::Tab;
+use crate::widgets::bare;
+use crate::widgets::paint::PanelTextures;
+use crate::{dataset, files, loss, photograph, why};
+
+pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &mut PanelTextures) {
+    let model = shown.model;
+    tabs(ui, shown, &mut next.settings.tab);
+    bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
+        let header = egui::CollapsingHeader::new("Light and view").default_open(true);
+        let header = header.show_unindented(ui, |ui| light_and_view::ui(ui, model, next));
+        header
+            .header_response
+            .on_hover_text("The scene of the panes, and the convention of renderings and loss");
+    });
+    photograph::ui(ui, shown, next);
+    let tab = model.tab();
+    let scroll = egui::ScrollArea::vertical().id_salt(tab as usize);
+    scroll.auto_shrink([false, false]).show(ui, |ui| match tab {
+        Tab::Loss => {
+            loss::ui(ui, shown, next);
+            if model.materials.predictions().len() > 1 {
+                loss::order::fold(ui, &mut next.asks_order, &shown.jobs.order);
+            }
+            unsure_reading(ui, shown, &mut next.settings.tab);
+        }
+        Tab::Methods => dataset::summary(ui, shown, next),
+        Tab::Why => why::ui(ui, shown, next, textures),
+        Tab::Files => files::ui(ui, shown, next),
+    });
+}
+
+fn tabs(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Tab) {
+    let model = shown.model;
+    let unsure = unsure_guesses(shown);
+    ui.horizontal(|ui| {
+        let has_methods = model.has_methods();
+        for (tab, name, question) in
+            Tab::ALL.into_iter().filter(|(tab, ..)| has_methods || *tab != Tab::Methods)
+        {
+            let text = match tab {
+                Tab::Files if unsure > 0 => {
+                    RichText::new(format!("{name} ({unsure}?)")).color(ui.visuals().warn_fg_color)
+                }
+                _ => RichText::new(name),
+            };
+            let label = ui.selectable_label(model.tab() == tab, text.size(14.5));
+            label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Tab, true, format!("Tab {name}")));
+            let hover = match tab {
+                Tab::Files if unsure > 0 => format!("{question} {unsure} guesses are unsure"),
+                _ => question.to_owned(),
+            };
+            if label.on_hover_text(hover).clicked() {
+                *next = tab;
+            }
+        }
+    });
+    ui.separator();
+}
+
+/// Below the losses: that some may be of files that were read wrongly. A click opens *Files*.
+fn unsure_reading(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Tab) {
+    let text = match unsure_guesses(shown) {
+        0 => return,
+        1 => "A guess in reading is unsure".to_owned(),
+        unsure => format!("{unsure} guesses in reading are unsure"),
+    };
+    let label = ui.link(RichText::new(text).small().color(ui.visuals().warn_fg_color));
+    if label.on_hover_text("The losses depend on how files were read: see Files").clicked() {
+        *next = Tab::Files;
+    }
+}
+
+fn unsure_guesses(shown: Displayed<'_>) -> usize {
+    let all = shown.model.materials.all.iter().flat_map(|one| &one.read.record.assumptions);
+    all.filter(|assumption| assumption.certainty == Certainty::Unsure).count()
+}

@@ -1,0 +1,290 @@
+//! The losses with their intervals, and their differences.
+
+use eframe::egui::{self, Color32, RichText, Sense, Stroke, pos2, vec2};
+
+use svbrdf_core::loss::{Estimate, Loss};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_evaluate::report::SampledScenes;
+
+use crate::jobs::loss::KeyedLosses;
+use crate::model::{Model, display};
+use crate::widgets::names::{FEWEST, Names, fitted};
+use crate::widgets::numbers::{half_width, signed, significant};
+use crate::widgets::theme;
+
+/// Number of predictions from which on there is a field that filters them.
+const MANY: usize = 12;
+/// Heights of a line and of the bar below it, in points.
+const LINE: f32 = 17.0;
+const BAR: f32 = 3.0;
+/// Widths of the columns, in points: the loss, half the width of its interval, the difference from the chosen prediction.
+const MEAN: f32 = 48.0;
+const HALF: f32 = 52.0;
+const DIFFERENCE: f32 = 68.0;
+/// Between two columns, in points.
+const GAP: f32 = 4.0;
+/// Size of the small numbers, in points.
+const NUMBERS: f32 = 11.5;
+
+/// What follows the number of a prediction whose loss is stale.
+const STALE_MARK: &str = " (stale)";
+
+/// What the rows show.
+#[derive(Debug)]
+pub struct Results<'a> {
+    pub latest: &'a KeyedLosses,
+    pub chosen: usize,
+    /// Of each prediction, whether its files or those of the ground truth hold something else by now.
+    pub stale: Vec<bool>,
+}
+
+impl Results<'_> {
+    /// A row for each prediction; a click chooses it.
+    pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
+        let losses = &self.latest.report.outcome.losses;
+        let filter = if losses.len() > MANY { filter(ui) } else { String::new() };
+        let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
+        let short = Names::new(&names);
+        // 15 predictions are seen at once in a window of 860 points.
+        ui.spacing_mut().item_spacing.y = 2.0;
+        ui.spacing_mut().button_padding.y = 1.0;
+        ui.spacing_mut().interact_size.y = LINE;
+        self.heads(ui);
+        for index in order(losses) {
+            if !names[index].to_lowercase().contains(&filter) {
+                continue;
+            }
+            let is_stale = self.stale.get(index).is_some_and(|is_stale| *is_stale);
+            let mark = if is_stale { STALE_MARK } else { "" };
+            let name = |most| format!("{}{mark}  {}", index + 1, short.shortened(index, most));
+            if self.row(ui, index, &losses[index], &name).clicked() {
+                display::choose(next, index);
+            }
+            if index == self.chosen {
+                self.interval(ui, &losses[index]);
+            }
+        }
+        ui.add_space(4.0);
+        ui.label(RichText::new(summary(self.latest)).weak().small());
+    }
+
+    fn heads(&self, ui: &mut egui::Ui) {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            ui.add_space(name_width(ui));
+            let small = |text: String| RichText::new(text).small().weak();
+            cell(ui, MEAN, small("loss".to_owned()));
+            cell(ui, HALF, small("±".to_owned())).on_hover_text("Half the width of the 95% interval");
+            let versus = if self.latest.differences.len() > 1 {
+                format!("vs {}", self.chosen + 1)
+            } else {
+                String::new()
+            };
+            cell(ui, DIFFERENCE, small(versus))
+                .on_hover_text("The loss - the loss of the chosen prediction, on the same scenes");
+        });
+    }
+
+    /// One line: name, loss, half the width of its interval, and the difference from the chosen prediction; its bar below.
+    fn row(
+        &self,
+        ui: &mut egui::Ui,
+        index: usize,
+        loss: &Loss,
+        name: &dyn Fn(usize) -> String,
+    ) -> egui::Response {
+        let [mean, _] = significant(&loss.estimate);
+        let line = ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = GAP;
+            let size = vec2(name_width(ui), ui.spacing().interact_size.y);
+            let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_justify(true);
+            let chosen = index == self.chosen;
+            let font = egui::TextStyle::Button.resolve(ui.style());
+            let room = size.x - 2.0 * ui.spacing().button_padding.x;
+            let name = fitted(ui, &font, room, name).unwrap_or_else(|| name(FEWEST));
+            let left = ui.allocate_ui_with_layout(size, layout.with_main_align(egui::Align::Min), |ui| {
+                ui.add(egui::Button::selectable(chosen, name).truncate())
+            });
+            cell(ui, MEAN, RichText::new(mean).monospace().strong())
+                .on_hover_text(self.in_full(&loss.estimate));
+            let half = format!("±{}", half_width(&loss.estimate));
+            cell(ui, HALF, RichText::new(half).monospace().size(NUMBERS).weak())
+                .on_hover_text(self.in_full(&loss.estimate));
+            self.difference(ui, index);
+            left.inner.on_hover_text(format!("{}\nClick to choose this prediction", loss.prediction))
+        });
+        self.bar(ui, index, &loss.estimate);
+        line.inner
+    }
+
+    /// The loss as a share of the largest one, with its interval as a line.
+    fn bar(&self, ui: &mut egui::Ui, index: usize, estimate: &Estimate) {
+        let end = |estimate: &Estimate| estimate.interval95.map_or(estimate.mean, |[_, high]| high);
+        let losses = &self.latest.report.outcome.losses;
+        let most = losses.iter().map(|loss| end(&loss.estimate)).fold(f64::MIN_POSITIVE, f64::max);
+        // Close below its line.
+        ui.add_space(1.0 - ui.spacing().item_spacing.y);
+        let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), BAR), Sense::hover());
+        let x = |value: f64| area.left() + area.width() * (value / most).clamp(0.0, 1.0) as f32;
+        let colour = theme::series(index, ui.visuals().dark_mode);
+        ui.painter().rect_filled(area.with_max_x(x(estimate.mean)), 0.0, colour);
+        if let Some([low, high]) = estimate.interval95 {
+            let line = [pos2(x(low), area.center().y), pos2(x(high).max(x(low) + 1.0), area.center().y)];
+            ui.painter().line_segment(line, Stroke::new(1.0, theme::ground_truth(ui.visuals())));
+        }
+    }
+
+    /// The loss - the loss of the chosen prediction, and whether the difference is significant.
+    fn difference(&self, ui: &mut egui::Ui, index: usize) {
+        if index == self.chosen {
+            let text = if self.latest.differences.len() > 1 { "chosen" } else { "" };
+            cell(ui, DIFFERENCE, RichText::new(text).small().weak());
+            return;
+        }
+        let of_chosen = self.latest.differences.get(self.chosen);
+        let Some(estimate) = of_chosen.and_then(|all| all.get(index)) else { return };
+        let verdict = Verdict::of(estimate);
+        let [mean, interval] = significant(estimate);
+        let text = format!("{} {}", signed(&mean), verdict.arrow());
+        let text = RichText::new(text).monospace().size(NUMBERS).color(verdict.colour(ui.visuals()));
+        let response = cell(ui, DIFFERENCE, text);
+        let meaning = verdict.meaning(index + 1, self.chosen + 1);
+        let full = format!("{} {interval} {}", signed(&mean), verdict.text());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &full));
+        response.on_hover_text(format!("95% interval {interval}\n{meaning}\n{}", self.in_full(estimate)));
+    }
+
+    /// Below the chosen prediction: its interval.
+    fn interval(&self, ui: &mut egui::Ui, loss: &Loss) {
+        let [_, interval] = significant(&loss.estimate);
+        ui.horizontal(|ui| {
+            ui.add_space(10.0);
+            ui.label(RichText::new(interval).monospace().size(NUMBERS))
+                .on_hover_text(self.in_full(&loss.estimate));
+        });
+    }
+
+    /// Every digit, the standard error and the scenes.
+    fn in_full(&self, estimate: &Estimate) -> String {
+        let [mean, error, interval] = estimate.texts();
+        let SampledScenes { near, distant, .. } = self.latest.report.sampled;
+        format!(
+            "{mean} ± {error} (standard error)\n95% interval {interval}\n{near} near-field and {distant} distant scenes"
+        )
+    }
+}
+
+/// The room that the columns of numbers leave for a name, in points.
+fn name_width(ui: &egui::Ui) -> f32 {
+    (ui.available_width() - MEAN - HALF - DIFFERENCE - 3.0 * GAP).max(60.0)
+}
+
+/// A text at the right end of a column.
+fn cell(ui: &mut egui::Ui, width: f32, text: RichText) -> egui::Response {
+    let size = vec2(width, ui.spacing().interact_size.y);
+    let layout = egui::Layout::right_to_left(egui::Align::Center);
+    ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_width(width);
+        ui.label(text)
+    })
+    .inner
+}
+
+/// The text that names must contain.
+fn filter(ui: &mut egui::Ui) -> String {
+    let id = ui.scope_id().with("filter");
+    let mut filter: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    ui.add(egui::TextEdit::singleline(&mut filter).hint_text("Filter names").desired_width(120.0));
+    ui.data_mut(|data| data.insert_temp(id, filter.clone()));
+    filter.to_lowercase()
+}
+
+/// The indices of the losses, the least first.
+fn order(losses: &[Loss]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..losses.len()).collect();
+    order.sort_by(|a, b| losses[*a].estimate.mean.total_cmp(&losses[*b].estimate.mean));
+    order
+}
+
+/// What a difference says of its first prediction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Better,
+    Worse,
+    NotSignificant,
+}
+
+impl Verdict {
+    /// By whether the 95% interval excludes 0, and on which side.
+    fn of(difference: &Estimate) -> Self {
+        match difference.interval95 {
+            Some([_, high]) if high < 0.0 => Self::Better,
+            Some([low, _]) if low > 0.0 => Self::Worse,
+            _ => Self::NotSignificant,
+        }
+    }
+
+    fn text(self) -> &'static str {
+        match self {
+            Self::Better => "\u{2193} better",
+            Self::Worse => "\u{2191} worse",
+            Self::NotSignificant => "no significant difference",
+        }
+    }
+
+    fn arrow(self) -> &'static str {
+        match self {
+            Self::Better => "\u{2193}",
+            Self::Worse => "\u{2191}",
+            Self::NotSignificant => "~",
+        }
+    }
+
+    fn colour(self, visuals: &egui::Visuals) -> Color32 {
+        match self {
+            Self::Better => theme::better(visuals),
+            Self::Worse => theme::problem(visuals),
+            Self::NotSignificant => visuals.weak_text_color(),
+        }
+    }
+
+    fn meaning(self, first: usize, second: usize) -> String {
+        match self {
+            Self::Better => format!("{first} is closer to the ground truth than {second}"),
+            Self::Worse => format!("{first} is farther from the ground truth than {second}"),
+            Self::NotSignificant => "The 95% interval includes 0: use more scenes".to_owned(),
+        }
+    }
+}
+
+fn summary(latest: &KeyedLosses) -> String {
+    let report = &latest.report;
+    let sampler = match report.sampled.sampler {
+        Some(Sampler::Sobol) => "scrambled Sobol",
+        Some(Sampler::Random) => "random",
+        None => "listed",
+    };
+    format!(
+        "convention {}, epsilon {}, {sampler} scenes{}, {}",
+        report.convention,
+        report.epsilon,
+        // The one that was asked for: a first estimate has scenes of another one.
+        latest.request().seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
+        report.precision,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_is_a_verdict_only_where_its_interval_excludes_0() {
+        let of = |interval95| Verdict::of(&Estimate { mean: 0.0, standard_error: None, interval95 });
+        assert_eq!(of(Some([-0.2, -0.1])), Verdict::Better);
+        assert_eq!(of(Some([0.1, 0.2])), Verdict::Worse);
+        assert_eq!(of(Some([-0.1, 0.2])), Verdict::NotSignificant);
+        assert_eq!(of(Some([0.0, 0.0])), Verdict::NotSignificant);
+        assert_eq!(of(None), Verdict::NotSignificant);
+    }
+}

@@ -1,0 +1,19 @@
+//! Panes: their arrangement, what each displays, its marks and handles, and the gestures of the mouse in them.
+
+pub mod cells;
+pub mod draft_policy;
+pub mod gestures;
+pub mod gpu_view;
+pub mod handles;
+pub mod hovered;
+pub mod legend;
+pub mod marks;
+pub mod placed;
+pub mod scale;
+pub mod scenery;
+pub mod shaded;
+pub mod snapshot;
+pub mod statistics;
+pub mod title;
+pub mod viewport;
+pub mod visible;

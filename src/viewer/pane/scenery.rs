@@ -1,0 +1,223 @@
+//! Scenery: which panes there are, and what each displays.
+
+use eframe::egui;
+
+use svbrdf_core::loss::Loss;
+use svbrdf_gpu::DisplayMode;
+
+use crate::jobs::displayed::Displayed;
+use crate::jobs::panes::computed_maps::ComputedMaps;
+use crate::jobs::photograph::DisplayedPhotograph;
+use crate::model::inspection::Inspection;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::view::{Layout, ViewState};
+use crate::pane::gpu_view::{GpuView, PaneTexels};
+use crate::widgets::names::shortened;
+
+/// What the panes show, for one frame.
+#[derive(Debug)]
+pub struct Scenery<'a> {
+    pub materials: &'a [LoadedMaterial],
+    pub state: &'a ViewState,
+    pub dark: bool,
+    /// Whether this is in a picture that is saved, which has no buttons.
+    pub is_picture: bool,
+    /// Whether every pane shows the ground truth, as long as a key is held.
+    pub peek: bool,
+    /// Whether the chosen prediction and the ground truth are swapped.
+    pub swapped: bool,
+    /// Whether materials are being read.
+    pub reading: bool,
+    /// Why there is no material.
+    pub problem: Option<&'a str>,
+    /// The difference that has the last colour.
+    pub range: f64,
+    /// Where the difference is a map that no shader computes, the maps once they are there.
+    pub computed_maps: Option<&'a ComputedMaps>,
+    /// The photograph, where renderings are compared with one.
+    pub photograph: Option<DisplayedPhotograph<'a>>,
+    /// Pins and rectangle.
+    pub inspection: &'a Inspection,
+    /// The losses of the predictions, where they are complete and up to date.
+    pub losses: Option<&'a [Loss]>,
+}
+
+/// The content of a pane: the index of the material that it displays, that of the material it is compared with, and how.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PaneContent {
+    pub index: usize,
+    pub reference: usize,
+    pub mode: DisplayMode,
+    /// Whether the difference from the reference is displayed, in place of the value.
+    pub difference: bool,
+    pub photograph: PhotographUse,
+}
+
+/// What a photograph is in a pane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PhotographUse {
+    /// Nothing: materials are compared with each other.
+    Absent,
+    /// What is displayed, at the exposure of the material.
+    Displayed,
+    /// What the material is compared with, at its exposure.
+    Reference,
+}
+
+impl<'a> Scenery<'a> {
+    pub fn new(ctx: &egui::Context, shown: Displayed<'a>) -> Self {
+        let model = shown.model;
+        Self {
+            materials: shown.materials(),
+            state: &model.view,
+            dark: model.settings.dark,
+            is_picture: shown.is_picture,
+            peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
+            swapped: model.swapped,
+            reading: !shown.jobs.openings.is_empty(),
+            problem: model.dataset.problems.first().map(|(_, problem)| problem.as_str()),
+            range: shown.range(),
+            computed_maps: shown.computed_maps().map(AsRef::as_ref),
+            photograph: shown.photograph(),
+            inspection: &model.inspection,
+            losses: shown.jobs.loss.finished(&model.materials, &model.loss_query()),
+        }
+    }
+
+    /// The index of the chosen prediction; the ground truth's where there is no prediction.
+    pub fn chosen(&self) -> usize {
+        (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1))
+    }
+
+    /// The index of the material that is displayed in the place of material `index`.
+    fn in_place_of(&self, index: usize) -> usize {
+        match index {
+            _ if self.peek => 0,
+            0 if self.swapped => self.chosen(),
+            i if self.swapped && i == self.chosen() => 0,
+            i => i,
+        }
+    }
+
+    /// The content of every pane. The ground truth is never compared with itself: its pane shows its value.
+    pub fn contents(&self) -> Vec<PaneContent> {
+        let content = |index, reference, mode| {
+            let difference = self.state.display.difference && index != 0;
+            let reference = if difference { 0 } else { reference };
+            PaneContent { index, reference, mode, difference, photograph: PhotographUse::Absent }
+        };
+        if self.photograph.is_some() {
+            return self.photograph_contents();
+        }
+        let (ground_truth, chosen) = (self.in_place_of(0), self.in_place_of(self.chosen()));
+        match self.state.display.layout {
+            Layout::SideBySide => (0..self.materials.len())
+                .map(|i| content(self.in_place_of(i), 0, DisplayMode::Value))
+                .collect(),
+            Layout::Single => vec![content(chosen, 0, DisplayMode::Value)],
+            Layout::Wipe => {
+                vec![content(chosen, ground_truth, DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0))]
+            }
+        }
+    }
+
+    /// The content of every pane beside a photograph: the photograph at the exposure of the chosen material, then every material.
+    fn photograph_contents(&self) -> Vec<PaneContent> {
+        let difference = self.state.display.difference;
+        let material = |index| PaneContent {
+            index,
+            reference: index,
+            mode: DisplayMode::Value,
+            difference,
+            photograph: PhotographUse::Reference,
+        };
+        let chosen = material(self.chosen());
+        let photograph = PaneContent { difference: false, photograph: PhotographUse::Displayed, ..chosen };
+        let mut panes: Vec<PaneContent> = match self.state.display.layout {
+            Layout::SideBySide => {
+                std::iter::once(photograph).chain((0..self.materials.len()).map(material)).collect()
+            }
+            Layout::Single => vec![if self.swapped { photograph } else { chosen }],
+            Layout::Wipe => {
+                vec![PaneContent { mode: DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0), ..chosen }]
+            }
+        };
+        if self.peek {
+            panes.fill(photograph);
+        } else if self.swapped && self.state.display.layout == Layout::SideBySide {
+            panes.swap(0, self.chosen() + 1);
+        }
+        panes
+    }
+
+    /// The name of what a pane shows, without its difference, in about `most` characters.
+    pub fn name_of(&self, content: PaneContent, most: usize) -> String {
+        match (self.photograph, content.photograph) {
+            (Some(photograph), PhotographUse::Displayed) => photograph.title(content.index),
+            _ => self.title(content.index, most),
+        }
+    }
+
+    /// The name of what a pane compares with, in about `most` characters.
+    pub fn name_of_reference(&self, content: PaneContent, most: usize) -> String {
+        match (self.photograph, content.photograph) {
+            (Some(photograph), PhotographUse::Reference) => photograph.title(content.index),
+            _ => self.title(content.reference, most),
+        }
+    }
+
+    /// What the first material is: alone it is the ground truth of nothing.
+    fn role(&self) -> &'static str {
+        if self.materials.len() == 1 && self.photograph.is_none() { "MATERIAL" } else { "GROUND TRUTH" }
+    }
+
+    /// The name of material `index` in titles. Of names that are too long, what all have in common is left out.
+    fn title(&self, index: usize, most: usize) -> String {
+        let labels: Vec<String> = self.materials.iter().map(LoadedMaterial::label).collect();
+        let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
+        let (ground_truth, predictions) = labels.split_at(labels.len().min(1));
+        match index.checked_sub(1) {
+            None => format!("{}  {}", self.role(), shortened(ground_truth, most).concat()),
+            Some(prediction) => format!("{index}  {}", shortened(predictions, most)[prediction]),
+        }
+    }
+}
+
+/// What a pane draws and what it compares that with; a hint in its place where that is not there yet.
+pub fn texels(
+    gpu: &mut GpuView,
+    scenery: &Scenery<'_>,
+    content: PaneContent,
+) -> Result<[PaneTexels; 2], &'static str> {
+    let [material_id, reference] = [content.index, content.reference].map(|i| scenery.materials[i].id());
+    let material = PaneTexels::Shaded(material_id);
+    if content.difference && scenery.state.is_computed() {
+        let map = scenery.computed_maps.and_then(|maps| maps.shaded(content.index));
+        let is_error_map = scenery.state.is_error_map();
+        let hint =
+            if is_error_map { "Averaging over the scenes of the loss..." } else { "Computing FLIP..." };
+        gpu.give(material_id, map.ok_or(hint)?);
+        return Ok([PaneTexels::Differences(material_id), PaneTexels::Shaded(reference)]);
+    }
+    let compares = content.difference || content.mode != DisplayMode::Value;
+    if content.photograph == PhotographUse::Absent
+        || (content.photograph == PhotographUse::Reference && !compares)
+    {
+        return Ok([material, PaneTexels::Shaded(reference)]);
+    }
+    let photograph = scenery.photograph.and_then(|photograph| photograph.all?.shaded(content.index));
+    gpu.give_photograph(material_id, photograph.ok_or("Reading the photograph...")?);
+    let photograph = PaneTexels::Photograph(material_id);
+    Ok([if content.photograph == PhotographUse::Displayed { photograph } else { material }, photograph])
+}
+
+/// The index of the material whose value is displayed at this x of a pane, from -1 to 1; the number of materials for a photograph.
+pub fn index_at(scenery: &Scenery<'_>, content: PaneContent, x: f32) -> usize {
+    let photograph = scenery.materials.len();
+    match (content.mode, content.photograph) {
+        (_, PhotographUse::Displayed) => photograph,
+        (DisplayMode::Wipe(line), PhotographUse::Reference) if x < line => photograph,
+        (DisplayMode::Wipe(line), _) if x < line => content.reference,
+        _ => content.index,
+    }
+}

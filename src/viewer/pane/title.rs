@@ -1,0 +1,126 @@
+//! Title above a pane.
+
+use eframe::egui::{self, FontId, Rect, Sense, vec2};
+
+use svbrdf_gpu::DisplayMode;
+
+use crate::model::view::Layout;
+use crate::model::{Model, display};
+use crate::pane::scenery::{PaneContent, PhotographUse, Scenery};
+use crate::widgets::bounds::inset;
+use crate::widgets::names::{FEWEST, fitted};
+use crate::widgets::numbers::significant;
+use crate::widgets::theme;
+
+/// Width of the button that shows the prediction itself again, in points.
+const BACK: f32 = 96.0;
+/// Least width of a title with the loss, in points.
+const LEAST: f32 = 150.0;
+/// Width of the colour of a prediction, in points.
+const SWATCH: f32 = 14.0;
+
+/// The title of a pane. A click on the title of a prediction chooses the prediction.
+pub fn title_bar(
+    ui: &mut egui::Ui,
+    scenery: &Scenery<'_>,
+    number: usize,
+    content: PaneContent,
+    rect: Rect,
+    next: &mut Model,
+) {
+    let is_material = content.photograph != PhotographUse::Displayed;
+    let prediction = content.index.checked_sub(1).filter(|_| is_material);
+    let chosen = is_material && content.index == scenery.chosen() && content.index != 0;
+    let text = text(scenery, content, usize::MAX, true);
+    let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
+    let replaced = chosen && scenery.state.display.is_replaced();
+    let loss = prediction.filter(|_| !replaced).and_then(|index| loss_of(scenery, index, rect));
+    response.widget_info(|| egui::WidgetInfo {
+        current_text_value: loss.clone(),
+        ..egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}"))
+    });
+    let has_button = replaced && !scenery.is_picture;
+    let back =
+        inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
+    let painter = ui.painter_at(rect);
+    let colour = if content.index == 0 || !is_material {
+        theme::ground_truth(ui.visuals())
+    } else {
+        ui.visuals().text_color()
+    };
+    let swatch = prediction.map(|index| theme::series(index, ui.visuals().dark_mode));
+    let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
+    if let Some(colour) = swatch {
+        let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
+        painter.rect_filled(Rect::from_center_size(middle, vec2(8.0, 8.0)), 0.0, colour);
+    }
+    let weak = ui.visuals().weak_text_color();
+    let loss = loss.map(|loss| painter.layout_no_wrap(loss, FontId::monospace(12.0), weak));
+    let button = if has_button { BACK } else { 0.0 };
+    let room_of = |loss: f32| (rect.width() - left - 8.0 - button.max(loss)).max(0.0);
+    let font = FontId::proportional(13.5);
+    let width = room_of(loss.as_ref().map_or(0.0, |loss| loss.size().x + 8.0));
+    let with_loss = short_in(ui, scenery, content, &font, width);
+    // Where a name does not fit beside it, the loss goes, which the panel has.
+    let (width, loss) = if with_loss.is_some() { (width, loss) } else { (room_of(0.0), None) };
+    let short = with_loss.or_else(|| short_in(ui, scenery, content, &font, width));
+    let short = short.unwrap_or_else(|| self::text(scenery, content, FEWEST, false));
+    if let Some(loss) = loss {
+        let at = rect.right_center() - vec2(8.0 + loss.size().x, 0.5 * loss.size().y);
+        painter.galley(at, loss, weak);
+    }
+    let galley = egui::WidgetText::from(egui::RichText::new(&short).font(font.clone()).color(colour))
+        .into_galley(ui, Some(egui::TextWrapMode::Truncate), width, font);
+    let elided = galley.elided || short != text;
+    let at = rect.left_center() + vec2(left, -galley.size().y * 0.5);
+    painter.galley(at, galley, colour);
+    if chosen && scenery.state.display.layout == Layout::SideBySide && scenery.materials.len() > 2 {
+        let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
+        painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
+    }
+    if has_button {
+        let label = if scenery.state.display.corrected.is_some() { "Show original" } else { "Show all maps" };
+        let button = ui.put(back, egui::Button::new(egui::RichText::new(label).small()));
+        if button.on_hover_text("Show the prediction itself again (Esc)").clicked() {
+            return next.view.isolate(None);
+        }
+    }
+    let response = if elided { response.on_hover_text(text) } else { response };
+    if let Some(index) = prediction.filter(|_| response.clicked()) {
+        display::choose(next, index);
+    }
+}
+
+/// The names and the quantity in this width: names lose what they have in common, and then their middles; where that is not enough,
+/// the quantity goes, which the legend has.
+fn short_in(
+    ui: &egui::Ui,
+    scenery: &Scenery<'_>,
+    content: PaneContent,
+    font: &FontId,
+    width: f32,
+) -> Option<String> {
+    let with =
+        |has_quantity: bool| fitted(ui, font, width, |most| text(scenery, content, most, has_quantity));
+    with(true).or_else(|| with(false))
+}
+
+/// The loss of a prediction, where there may be room for it.
+fn loss_of(scenery: &Scenery<'_>, prediction: usize, title: Rect) -> Option<String> {
+    let loss = scenery.losses?.get(prediction).filter(|_| title.width() >= LEAST)?;
+    Some(format!("loss {}", significant(&loss.estimate)[0]))
+}
+
+/// The names, of at most `most` characters each, and the quantity of differences where there is room for it.
+fn text(scenery: &Scenery<'_>, content: PaneContent, most: usize, has_quantity: bool) -> String {
+    let name = scenery.name_of(content, most);
+    let names = match content.mode {
+        DisplayMode::Value => name,
+        DisplayMode::Wipe(_) => format!("{}   |   {name}", scenery.name_of_reference(content, most)),
+    };
+    if content.difference && has_quantity {
+        format!("{names}: {}", scenery.state.difference_name())
+    } else {
+        names
+    }
+}

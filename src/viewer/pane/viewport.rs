@@ -1,0 +1,377 @@
+//! Viewport: the panes, drawn, and the gestures in them.
+
+use std::collections::BTreeSet;
+
+use eframe::egui::{self, Align, Layout, Rect, RichText, Sense, Vec2, vec2};
+
+use svbrdf_core::material::Grid;
+use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
+
+use crate::jobs::reading::upload::{BAND, Uploads};
+use crate::model::Model;
+use crate::model::framing;
+use crate::model::material::loaded::drawable;
+use crate::model::view::{Projection, ViewState};
+use crate::pane::cells::{TITLE, cells, columns, picture_rect};
+use crate::pane::draft_policy::{DraftPolicy, PAUSE, PaneView};
+use crate::pane::gestures::{self, Gesture};
+use crate::pane::gpu_view::GpuView;
+use crate::pane::handles;
+use crate::pane::hovered::Hovered;
+use crate::pane::placed::Placed;
+use crate::pane::scale::PaneScale;
+use crate::pane::scenery::texels;
+use crate::pane::scenery::{PaneContent, PhotographUse, Scenery};
+use crate::pane::shaded::{ShadedPart, ShadingRequest};
+use crate::pane::title::title_bar;
+use crate::pane::visible::shaded_part;
+use crate::widgets::paint::{note, paint_hint};
+use crate::widgets::readout::{self, Readout};
+use crate::widgets::theme;
+
+/// A view steeper than this above the plane (its sine) is one from straight above.
+const STEEP: f64 = 0.999;
+
+/// Side of a pane below which handles would cover its picture, in points: they are shown under the pointer.
+const HANDLES: f32 = 120.0;
+
+/// Height of the strip below the panes, in points.
+pub const STRIP: f32 = 92.0;
+
+/// The state of the panes between frames.
+#[derive(Debug)]
+pub struct Viewport {
+    gesture: Option<Gesture>,
+    /// Where the panes with materials were drawn, for the gestures of the next frame.
+    drawn: Vec<DrawnPane>,
+    /// What is under the pointer.
+    pub hovered: Option<Hovered>,
+    /// The texel that was under the pointer last.
+    pub last_texel: Option<[usize; 2]>,
+    policy: DraftPolicy,
+    /// Whether pixels show the nearest of their texels: while something moves on a slow adapter.
+    is_draft: bool,
+    /// Whether everything is shaded in full at once, for pictures that are saved.
+    is_exact: bool,
+    /// Where the panes are.
+    pub area: Rect,
+    /// Size of a pane in physical pixels.
+    pane_pixels: Vec2,
+}
+
+impl Default for Viewport {
+    fn default() -> Self {
+        Self {
+            gesture: None,
+            drawn: Vec::new(),
+            hovered: None,
+            last_texel: None,
+            policy: DraftPolicy::default(),
+            is_draft: false,
+            is_exact: false,
+            area: Rect::ZERO,
+            pane_pixels: Vec2::ZERO,
+        }
+    }
+}
+
+/// A pane that was drawn.
+#[derive(Clone, Copy, Debug)]
+struct DrawnPane {
+    id: egui::Id,
+    rect: Rect,
+}
+
+impl Viewport {
+    /// Panes like these that are shaded in full before they are drawn.
+    pub fn exact(&self) -> Self {
+        Self { is_exact: true, ..Self::default() }
+    }
+
+    /// Carries out the gestures of the mouse in the panes, as the last frame has drawn them.
+    pub fn gestures(&mut self, ctx: &egui::Context, model: &mut Model) {
+        let Some(ground_truth) = model.materials.ground_truth() else { return };
+        let grid = ground_truth.grid();
+        for DrawnPane { id, rect } in &self.drawn {
+            let Some(response) = ctx.read_response(*id) else { continue };
+            let placed = placed(&model.view, grid, *rect, self.pane_pixels());
+            gestures::act(ctx, &response, &placed, &mut self.gesture, model);
+        }
+    }
+
+    /// Draws the panes, which may have a strip below them.
+    pub fn ui(
+        &mut self,
+        ui: &mut egui::Ui,
+        scenery: &Scenery<'_>,
+        next: &mut Model,
+        gpu: Option<&mut GpuView>,
+        uploads: &Uploads,
+        has_strip: bool,
+    ) {
+        let area = ui.available_rect_before_wrap();
+        self.area = area;
+        self.hovered = None;
+        self.drawn.clear();
+        let Some(gpu) = gpu else {
+            let text = "No graphics adapter: materials cannot be drawn. The loss can be computed.";
+            return note(ui, area, text);
+        };
+        if scenery.materials.is_empty() {
+            return empty(ui, area, scenery);
+        }
+        let contents = scenery.contents();
+        let grid = scenery.materials[0].grid();
+        // The strip comes and goes with the difference: the arrangement is that beside it.
+        let beside_strip = if has_strip { area } else { area.with_max_y(area.bottom() - STRIP) };
+        let columns = columns(beside_strip, contents.len(), grid);
+        let cells = cells(area, contents.len(), columns, ui.pixels_per_point());
+        if let Some(cell) = cells.first() {
+            let pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
+            if pixels != self.pane_pixels {
+                // The status line was drawn before.
+                ui.ctx().request_repaint();
+            }
+            self.pane_pixels = pixels;
+        }
+        if let Err(problem) = self.shade(ui, gpu, uploads, scenery, &contents) {
+            return note(ui, area, &problem);
+        }
+        let panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
+        self.hovered = panes.iter().find_map(|(content, cell)| {
+            let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());
+            Hovered::in_pane(ui, scenery, *content, &placed)
+        });
+        self.last_texel = self.hovered.and_then(|hovered| hovered.texel).or(self.last_texel);
+        for (i, (content, cell)) in panes.into_iter().enumerate() {
+            let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
+            title_bar(ui, scenery, i, content, title, next);
+            let rect = picture_rect(ui, cell);
+            self.pane(ui, scenery, gpu, i, content, rect);
+        }
+    }
+
+    fn pane(
+        &mut self,
+        ui: &mut egui::Ui,
+        scenery: &Scenery<'_>,
+        gpu: &mut GpuView,
+        number: usize,
+        content: PaneContent,
+        rect: Rect,
+    ) {
+        let id = ui.scope_id().with(("pane", number));
+        let response = ui.interact(rect, id, Sense::drag());
+        self.drawn.push(DrawnPane { id, rect });
+        let label = format!("Pane {}", scenery.name_of(content, usize::MAX));
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
+        let placed = placed(scenery.state, scenery.materials[0].grid(), rect, self.pane_pixels());
+        self.paint(ui, scenery, gpu, (number, content), &placed);
+    }
+
+    fn paint(
+        &self,
+        ui: &egui::Ui,
+        scenery: &Scenery<'_>,
+        gpu: &mut GpuView,
+        (number, content): (usize, PaneContent),
+        placed: &Placed,
+    ) {
+        let (rect, camera) = (placed.rect, placed.camera);
+        let state = scenery.state;
+        let painter = ui.painter_at(rect);
+        let background = theme::surround(scenery.dark).to_normalized_gamma_f32();
+        let params = DisplayParams {
+            camera,
+            exposure_ev: state.exposure_ev,
+            mode: content.mode,
+            difference: content.difference.then(|| DisplayedDifference {
+                kind: state.difference_kind(),
+                range: scenery.range as f32,
+                is_computed: state.is_computed(),
+            }),
+            encoding: state.display.quantity.into(),
+            show_clipping: state.display.show_clipping,
+            epsilon: state.convention().epsilon as f32,
+            false_colour: state.display.false_colour,
+            nearest: self.is_draft,
+            background: [background[0], background[1], background[2]],
+        };
+        let drawn = match texels(gpu, scenery, content) {
+            Ok(drawn) => drawn,
+            Err(hint) => {
+                painter.rect_filled(rect, 0.0, theme::surround(scenery.dark));
+                return paint_hint(&painter, rect, hint);
+            }
+        };
+        gpu.paint(&painter, rect, number, drawn, params);
+        self.paint_marks(&painter, scenery, content, placed);
+        let has_room = rect.size().min_elem() >= HANDLES || ui.rect_contains_pointer(rect);
+        if state.display.quantity == Quantity::Rendering && has_room {
+            handles::paint_endpoints(&painter, rect, &camera, state);
+        }
+        if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
+            handles::paint_wipe(&painter, rect, state.display.wipe);
+        }
+        if let Some(scale) = PaneScale::of(scenery, content) {
+            scale.paint(&painter, rect);
+        }
+        if let (2.., Some(one)) = (gpu.reduction(), scenery.materials.first()) {
+            let grid = one.grid();
+            paint_hint(
+                &painter,
+                rect,
+                &reduced(gpu.reduction(), grid, gpu.gpu.report.max_texture_side as usize),
+            );
+        } else if let Some(text) = hint(scenery, self.pane_pixels()) {
+            paint_hint(&painter, rect, &text);
+        }
+    }
+
+    /// Shades every material in a pane; on a slow adapter only what the screen needs while something moves, and the rest bit by
+    /// bit.
+    fn shade(
+        &mut self,
+        ui: &egui::Ui,
+        gpu: &mut GpuView,
+        uploads: &Uploads,
+        scenery: &Scenery<'_>,
+        contents: &[PaneContent],
+    ) -> Result<(), String> {
+        let state = scenery.state;
+        let params = ShadeParams {
+            scene: state.scene,
+            convention: state.convention(),
+            quantity: state.display.quantity,
+        };
+        // Where the last frame did not ask for this one, the time between them is not that of a frame.
+        let (now, seconds) = ui.input(|i| (i.time, i.stable_dt));
+        let software = gpu.gpu.report.software;
+        let visible = PaneView { params, framing: state.display.framing };
+        let moves = self.policy.frame(visible, now, seconds, software);
+        if moves {
+            ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
+        }
+        let grid = scenery.materials[0].grid();
+        let is_large = grid.width * grid.height > BAND && (software || self.policy.is_slow());
+        // What is compared with a computed map or a photograph, and what is saved, is never shaded in part.
+        let is_exact = self.is_exact || state.is_computed() || scenery.photograph.is_some();
+        self.is_draft = moves && !is_exact;
+        let part = if self.is_draft || is_large && !is_exact {
+            shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state))
+        } else {
+            ShadedPart::Whole
+        };
+        let sharpens = !moves && part != ShadedPart::Whole;
+        let request = ShadingRequest { params, part, sharpens, waits: scenery.reading, exact: is_exact };
+        gpu.keep_only(scenery.materials, contents.len());
+        let displayed: BTreeSet<usize> = contents.iter().flat_map(|one| [one.index, one.reference]).collect();
+        let materials: Vec<_> = displayed.into_iter().map(|index| &scenery.materials[index]).collect();
+        if gpu.shade(&materials, uploads, request)? {
+            ui.ctx().request_repaint();
+        }
+        Ok(())
+    }
+
+    /// What is drawn over a pane about texels.
+    fn paint_marks(
+        &self,
+        painter: &egui::Painter,
+        scenery: &Scenery<'_>,
+        content: PaneContent,
+        placed: &Placed,
+    ) {
+        let state = scenery.state;
+        if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
+            let (index, difference) = (content.index, content.difference);
+            let photographs = scenery.photograph.and_then(|photograph| photograph.all).map(AsRef::as_ref);
+            let readout = Readout {
+                materials: scenery.materials,
+                state,
+                computed_maps: scenery.computed_maps,
+                photographs,
+            };
+            placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
+                (PhotographUse::Displayed, Some(photographs)) => {
+                    readout::photograph(photographs, index, texel)
+                }
+                _ => readout::numbers(readout, index, difference, texel),
+            });
+        }
+        placed.paint_inspected(painter, scenery.inspection);
+        let texel = self.hovered.and_then(|hovered| hovered.texel);
+        if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
+            placed.paint_crosshair(painter, texel);
+        }
+    }
+
+    /// Screen pixels per texel in the middle of a pane.
+    pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
+        let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
+        placed(state, grid, rect, self.pane_pixels()).side_in_the_middle()
+    }
+
+    /// Width and height of the picture of a pane, in physical pixels; 0 before there is one.
+    pub fn pane_pixels(&self) -> [f32; 2] {
+        self.pane_pixels.into()
+    }
+}
+
+/// A picture in `rect`, of panes of `pixels` = [width, height].
+fn placed(state: &ViewState, grid: Grid, rect: Rect, pixels: [f32; 2]) -> Placed {
+    Placed { rect, camera: state.camera(grid, pixels), grid }
+}
+
+/// The badge of a pane whose adapter has no room for all texels, of which it takes at most `limit` along a side.
+fn reduced(stride: usize, grid: Grid, limit: usize) -> String {
+    let reason = match grid.width.max(grid.height) {
+        side if side > limit => {
+            format!("The adapter takes at most {limit} along a side, and these are {side}")
+        }
+        _ => "The adapter's memory is full".to_owned(),
+    };
+    format!("Reduced display: one of {stride} x {stride} texels. {reason}. Losses use all texels.")
+}
+
+/// What a pane says at its bottom, where its picture may puzzle.
+fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<String> {
+    let state = scenery.state;
+    let grid = scenery.materials.first()?.grid();
+    if framing::visible_share(state, grid, pane) < framing::NEARLY_LOST {
+        return Some("F fits the material".to_owned());
+    }
+    let (convention, drawn) = (state.convention().name, state.convention().drawn().name);
+    if state.display.quantity == Quantity::Rendering && drawn != convention {
+        return Some(format!("drawn as {drawn}"));
+    }
+    let [x, y, z] = state.scene.view;
+    let steep = z > STEEP * (x * x + y * y + z * z).sqrt();
+    let perspective = state.display.projection == Projection::Perspective;
+    let text = "Perspective from straight above: right-drag to tilt";
+    (perspective && steep).then(|| text.to_owned())
+}
+
+/// Says why there is no material.
+fn empty(ui: &mut egui::Ui, area: Rect, scenery: &Scenery<'_>) {
+    let text = match scenery.problem {
+        _ if scenery.reading => "Reading...",
+        Some(problem) => problem,
+        None => "Open a material with Ctrl+O, or drop files or folders here.",
+    };
+    let middle = area.shrink2(vec2(0.1 * area.width(), 0.45 * area.height()));
+    let builder = egui::UiBuilder::new().max_rect(middle).layout(Layout::top_down(Align::Center));
+    ui.scope_builder(builder, |ui| ui.label(RichText::new(drawable(text)).size(15.0)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_badge_tells_a_limit_of_the_adapter_from_a_lack_of_memory() {
+        let of = |width| reduced(2, Grid { width, height: 8 }, 16_384);
+        assert!(of(16_400).contains("at most 16384 along a side, and these are 16400"), "{}", of(16_400));
+        assert!(of(16_384).contains("memory is full"), "{}", of(16_384));
+    }
+}

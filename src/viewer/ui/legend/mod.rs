@@ -1,4 +1,0 @@
-//! Legend of the differences.
-
-pub mod statistics;
-pub mod strip;

@@ -1,3 +1,0 @@
-//! Tab *Files*: the materials, and what was assumed about each.
-
-pub mod panel;

@@ -1,0 +1,248 @@
+//! Lines of the hypotheses of a diagnosis: the marked ones, and the others behind one line.
+
+use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, pos2, vec2};
+
+use svbrdf_evaluate::diagnose::{Change, Finding, Hypothesis};
+
+use crate::jobs::why::{ComparedPair, Diagnosed};
+use crate::model::Model;
+use crate::model::settings::WhySection;
+use crate::model::view::ViewState;
+use crate::widgets::numbers::digits;
+use crate::widgets::theme;
+
+/// Where the value and the share of a line end, in points from the right.
+const VALUE: f32 = 62.0;
+pub const SHARE: f32 = 4.0;
+/// Where the name of a hypothesis begins, in points from the left, and the space after it.
+const NAME: [f32; 2] = [14.0, 6.0];
+
+/// The lines of one prediction.
+#[derive(Debug)]
+pub struct HypothesisLines<'a> {
+    pub pair: &'a ComparedPair,
+    pub diagnosed: Option<&'a Diagnosed>,
+    /// The change after which the pane shows the prediction.
+    pub corrected: Option<Change>,
+    /// Whether the lines without a mark are unfolded.
+    pub is_open: bool,
+}
+
+impl HypothesisLines<'_> {
+    /// The marked lines, or the one that explains most, and the others behind one line. As many rows while it is diagnosed, where at
+    /// most one has a mark.
+    pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
+        let Some(diagnosed) = self.diagnosed else {
+            let mut all = Hypothesis::of(self.pair.prediction_storage());
+            all.next().into_iter().for_each(|one| drop(line(ui, one, None, false)));
+            self.header(ui, "Other explanations", next);
+            all.filter(|_| self.is_open).for_each(|one| drop(line(ui, one, None, false)));
+            return;
+        };
+        let first = first(&diagnosed.diagnosis.findings);
+        first.iter().for_each(|finding| self.finding(ui, finding, next));
+        let is_other = |finding: &&Finding| !first.contains(finding);
+        let others: Vec<&Finding> = diagnosed.diagnosis.findings.iter().filter(is_other).collect();
+        self.header(ui, &format!("{} other explanations: none marked", others.len()), next);
+        others.iter().filter(|_| self.is_open).for_each(|finding| self.finding(ui, finding, next));
+    }
+
+    /// The line that unfolds the others.
+    fn header(&self, ui: &mut egui::Ui, text: &str, next: &mut Model) {
+        let row = Row { label: text.to_owned(), selected: false };
+        let (response, area) = row.ui(ui, true);
+        let (ink, middle) = (ui.visuals().text_color(), area.center().y);
+        let icon = egui::Rect::from_center_size(pos2(area.left() + 7.0, middle), egui::vec2(8.0, 8.0));
+        let openness = if self.is_open { 1.0 } else { 0.0 };
+        egui::collapsing_header::paint_default_icon(ui, openness, &response.clone().with_new_rect(icon));
+        let at = pos2(area.left() + NAME[0], middle);
+        ui.painter().text(at, Align2::LEFT_CENTER, text, FontId::proportional(12.5), ink);
+        let hover = "The changes that do not lower the loss significantly and by at least 10%";
+        if response.on_hover_text(hover).clicked() {
+            next.settings.sections.toggle(WhySection::Hypotheses);
+        }
+    }
+
+    fn finding(&self, ui: &mut egui::Ui, finding: &Finding, next: &mut Model) {
+        let change = shown_change(finding, self.pair);
+        let is_shown = change.is_some() && change == self.corrected;
+        let names = [self.pair.ground_truth().name(), self.pair.prediction().name()];
+        let response = line(ui, finding.hypothesis, Some(finding), is_shown);
+        let response = response.on_hover_ui(|ui| {
+            details(ui, finding, change, is_shown);
+            if let Some(option) = finding.command_option(names) {
+                ui.label(format!("Option of the command line: {option}"));
+            }
+        });
+        if change.is_some() && response.clicked() {
+            toggle(&mut next.view, change, self.corrected);
+        }
+    }
+}
+
+/// The marked findings, or else the one that explains most.
+fn first(findings: &[Finding]) -> Vec<&Finding> {
+    let marked: Vec<&Finding> = findings.iter().filter(|finding| finding.marked).collect();
+    if !marked.is_empty() {
+        return marked;
+    }
+    findings.iter().max_by(|a, b| a.share.total_cmp(&b.share)).into_iter().collect()
+}
+
+/// The change that the pane of the prediction can show.
+pub fn shown_change(finding: &Finding, pair: &ComparedPair) -> Option<Change> {
+    finding.change.filter(|change| change.fits(pair.prediction().size()))
+}
+
+/// Shows the prediction after this change, or itself where it is `corrected` so.
+pub fn toggle(view: &mut ViewState, change: Option<Change>, corrected: Option<Change>) {
+    view.correct(change.filter(|change| corrected != Some(*change)));
+}
+
+/// The line of a hypothesis: its name, the value and the share; dots where they are not there yet.
+fn line(
+    ui: &mut egui::Ui,
+    hypothesis: Hypothesis,
+    finding: Option<&Finding>,
+    is_shown: bool,
+) -> egui::Response {
+    let name = label(hypothesis);
+    let [value, share] = match finding {
+        Some(finding) => [value(finding), share(finding)],
+        None => ["...", ""].map(str::to_owned),
+    };
+    let is_marked = finding.is_some_and(|finding| finding.marked);
+    let mark = if is_marked { ", marked" } else { "" };
+    let row = Row { label: format!("{name} {value}: {share} of the loss{mark}"), selected: is_shown };
+    let is_button = finding.is_some_and(|finding| finding.change.is_some_and(has_maps));
+    let (response, area) = row.ui(ui, is_button);
+    let ink = if is_marked || is_shown { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
+    let (middle, painter) = (area.center().y, ui.painter());
+    if is_marked {
+        painter.circle_filled(pos2(area.left() + 7.0, middle), 3.5, theme::accent(ui.visuals()));
+    }
+    let at = pos2(area.left() + NAME[0], middle);
+    let end = NAME[1] + painter.text(at, Align2::LEFT_CENTER, name, FontId::proportional(12.5), ink).right();
+    let font = FontId::monospace(11.5);
+    let at = pos2(area.right() - SHARE, middle);
+    painter.text(at, Align2::RIGHT_CENTER, share, font.clone(), ink);
+    let width = area.right() - VALUE - end;
+    let galley = egui::WidgetText::from(RichText::new(value).font(font.clone()).color(ink)).into_galley(
+        ui,
+        Some(egui::TextWrapMode::Truncate),
+        width,
+        font,
+    );
+    let at = pos2(area.right() - VALUE - galley.size().x, middle - 0.5 * galley.size().y);
+    ui.painter().galley(at, galley, ink);
+    response
+}
+
+/// Whether the maps of the prediction change.
+fn has_maps(change: Change) -> bool {
+    !matches!(change, Change::Exposure(_) | Change::GroundTruth(_))
+}
+
+/// All numbers of a finding, and what a click does.
+fn details(ui: &mut egui::Ui, finding: &Finding, change: Option<Change>, is_shown: bool) {
+    let unit = finding.unit.map(|unit| format!(" {unit}")).unwrap_or_default();
+    ui.strong(format!("{}: {}{unit}", label(finding.hypothesis), value_text(finding)));
+    let range = |interval: Option<[f64; 2]>, text: &dyn Fn(f64) -> String| {
+        interval.map(|[low, high]| format!(", 95% {} to {}", text(low), text(high))).unwrap_or_default()
+    };
+    ui.label(format!("Loss {}{}", digits(finding.loss), range(finding.interval95, &digits)));
+    let interval = range(finding.share_interval95, &percent);
+    ui.label(format!("{} of the loss disappears{interval}", share(finding)));
+    ui.label(format!("p = {:.2e}, corrected for all hypotheses", finding.p));
+    match (finding.change, change) {
+        (_, Some(change)) if is_shown => {
+            ui.label(format!("Click to show the prediction itself, not {change}"))
+        }
+        (_, Some(change)) => ui.label(format!("Click to show the prediction {change}")),
+        (Some(Change::GroundTruth(_)), None) => ui.label("It changes the ground truth, not the prediction"),
+        (Some(_), None) => ui.label("No map shows it: an exposure changes the radiance alone"),
+        (None, None) => ui.label("The best value changes nothing"),
+    };
+}
+
+fn value_text(finding: &Finding) -> String {
+    finding.value.to_string().replace('-', "\u{2212}").replace('_', " ")
+}
+
+/// The value with its unit where there is room.
+fn value(finding: &Finding) -> String {
+    match (finding.hypothesis, finding.unit) {
+        (Hypothesis::ExposureRgb, _) | (_, None) => value_text(finding),
+        (_, Some(unit)) => format!("{} {unit}", value_text(finding)),
+    }
+}
+
+pub fn share(finding: &Finding) -> String {
+    percent(finding.share)
+}
+
+fn percent(share: f64) -> String {
+    let text = format!("{:.1}%", 100.0 * share);
+    let text = if text == "-0.0%" { "0.0%".to_owned() } else { text };
+    text.replace('-', "\u{2212}")
+}
+
+/// The name of a hypothesis in the window.
+pub fn label(hypothesis: Hypothesis) -> &'static str {
+    match hypothesis {
+        Hypothesis::Exposure => "Exposure",
+        Hypothesis::ExposureRgb => "Exposure, RGB",
+        Hypothesis::Shift => "Shift",
+        Hypothesis::Symmetry => "Symmetry",
+        Hypothesis::NormalY => "Normal Y",
+        Hypothesis::NormalX => "Normal X",
+        Hypothesis::AlbedoEncoding => "Colour encoding",
+        Hypothesis::DiffuseEncoding => "Diffuse encoding",
+        Hypothesis::SpecularEncoding => "Specular encoding",
+        Hypothesis::Roughness => "Roughness",
+        Hypothesis::Channels => "Red and blue",
+        Hypothesis::Energy => "Diffuse scaling",
+        Hypothesis::GroundTruth => "Ground truth",
+    }
+}
+
+/// Height of a row, in points.
+const ROW: f32 = 17.0;
+
+/// A row, drawn without its text.
+#[derive(Debug)]
+pub struct Row {
+    /// What it is called.
+    pub label: String,
+    pub selected: bool,
+}
+
+impl Row {
+    /// The row with its area; a label where it is no button.
+    pub fn ui(self, ui: &mut egui::Ui, is_button: bool) -> (egui::Response, Rect) {
+        let sense = if is_button { Sense::click() } else { Sense::hover() };
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), sense);
+        let role = if is_button { egui::Role::Button } else { egui::Role::Label };
+        response.widget_info(|| egui::WidgetInfo::selected(role, true, self.selected, &self.label));
+        let (visuals, painter) = (ui.visuals(), ui.painter());
+        if self.selected {
+            painter.rect_filled(area, 3.0, visuals.selection.bg_fill);
+        } else if is_button && response.hovered() {
+            painter.rect_filled(area, 3.0, visuals.widgets.hovered.weak_bg_fill);
+        }
+        if response.has_focus() {
+            painter.rect_stroke(area, 3.0, visuals.selection.stroke, egui::StrokeKind::Inside);
+        }
+        (response, area)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_have_a_real_minus_sign_and_none_where_they_round_to_0() {
+        assert_eq!([0.83, -0.133, -0.0001, 0.0].map(percent), ["83.0%", "\u{2212}13.3%", "0.0%", "0.0%"]);
+    }
+}

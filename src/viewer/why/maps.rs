@@ -1,0 +1,233 @@
+//! Shares of the maps in the loss of the chosen prediction.
+
+use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
+
+use svbrdf_core::material::Map;
+use svbrdf_core::model::scene::Kind;
+use svbrdf_evaluate::why::MapShare;
+
+use crate::jobs::displayed::Displayed;
+use crate::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair};
+use crate::model::Model;
+use crate::model::material::loaded::LoadedMaterial;
+use crate::widgets::numbers::{accuracy, seconds, significant};
+use crate::widgets::{progress, theme};
+
+/// Most predictions that have numbers in every row.
+const WITH_NUMBERS: usize = 4;
+/// Heights of rows with and without numbers, in points.
+const ROW: f32 = 18.0;
+const LOW: f32 = 8.0;
+/// Widths of the name of a map, of the number of a prediction and of its amounts, in points.
+const NAME: f32 = 72.0;
+const NUMBER: f32 = 16.0;
+const AMOUNTS: f32 = 114.0;
+
+/// The section; `pairs` are the ground truth and each prediction.
+pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next: &mut Model) {
+    let (display, seed) = (&shown.model.view.display, shown.model.settings.loss.seed);
+    let predictions = shown.model.materials.predictions();
+    let of = |pair| shown.jobs.why.attribution.get(pair, &seed);
+    let all: Vec<Option<&Attributed>> = pairs.iter().map(of).collect();
+    let axis = axis(all.iter().copied().flatten());
+    for map in Map::ALL {
+        ui.scope(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            for (index, attributed) in all.iter().enumerate() {
+                let row = MapRow {
+                    map,
+                    index,
+                    name: predictions.get(index).map_or("", LoadedMaterial::name),
+                    count: all.len(),
+                    attributed: *attributed,
+                    axis,
+                    is_chosen: index == display.prediction,
+                };
+                let is_isolated = row.is_chosen && display.isolated == Some(map);
+                if row.ui(ui, is_isolated, display.only_right).clicked() {
+                    next.view.choose(index);
+                    next.view.isolate((!is_isolated).then_some(map));
+                }
+            }
+        });
+    }
+    let attributed = all.get(display.prediction).copied().flatten();
+    state_line(ui, shown, pairs.get(display.prediction), attributed);
+    // Its row is kept where there is no note: what is below does not move when one comes.
+    let note = attributed.and_then(|attributed| attributed.attribution.note()).unwrap_or_default();
+    ui.add(egui::Label::new(RichText::new(note).small()).truncate());
+    pane_choice(ui, &mut next.view.display.only_right);
+}
+
+/// One line of constant height: the progress, or the sum and what it took.
+fn state_line(
+    ui: &mut egui::Ui,
+    shown: Displayed<'_>,
+    pair: Option<&ComparedPair>,
+    attributed: Option<&Attributed>,
+) {
+    let jobs = &shown.jobs.why;
+    let height = ui.spacing().interact_size.y;
+    let Some(Attributed { attribution, elapsed }) = attributed else {
+        let busy = jobs.attribution.busy();
+        let awaits = |pair| jobs.diagnosis.awaits(pair, shown.model.settings.loss.seed);
+        let text = match busy {
+            None if pair.is_some_and(awaits) => "After the diagnosis".to_owned(),
+            _ => format!("Mixing maps, {} s", busy.unwrap_or_default().1.as_secs()),
+        };
+        let (fraction, _) = busy.unwrap_or_default();
+        progress(ui, fraction, text);
+        return;
+    };
+    let count = |kind| attribution.scenes.iter().filter(|scene| scene.kind == kind).count();
+    let [mean, interval] = significant(&attribution.loss);
+    let text = format!(
+        "Sum {mean} {interval}, {} + {} scenes, {}",
+        count(Kind::Near),
+        count(Kind::Distant),
+        seconds(*elapsed)
+    );
+    let missed = attribution.loss.relative_error95() > ATTRIBUTION_TARGET;
+    let missed =
+        if missed { format!("Not within {}: ", accuracy(ATTRIBUTION_TARGET)) } else { String::new() };
+    let text = missed + &text;
+    ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
+        ui.set_min_height(height);
+        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
+            "All 16 mixtures of true and predicted maps, in the same scenes on the same texels. The Shapley value \
+             of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; \
+             the four add up to the loss. A negative share: the error of this map partly cancels the errors of others. At most 49,152 scenes are \
+             sampled.",
+        );
+    });
+}
+
+/// What a click on a map shows.
+fn pane_choice(ui: &mut egui::Ui, only_right: &mut bool) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label("A click shows").on_hover_text(
+            "A click on a bar chooses the prediction and shows it with this map alone wrong, or alone right, in its \
+             pane. Another click, or Esc, shows the prediction itself.",
+        );
+        for (right, name, hover) in [
+            (false, "only it wrong", "The ground truth with this map of the prediction"),
+            (true, "only it right", "The prediction with this map of the ground truth"),
+        ] {
+            ui.selectable_value(only_right, right, name).on_hover_text(hover);
+        }
+    });
+}
+
+/// One map of one prediction.
+struct MapRow<'a> {
+    map: Map,
+    /// The prediction, its name, and the number of predictions.
+    index: usize,
+    name: &'a str,
+    count: usize,
+    attributed: Option<&'a Attributed>,
+    /// The values at both ends of the bars.
+    axis: [f64; 2],
+    is_chosen: bool,
+}
+
+impl MapRow<'_> {
+    fn ui(&self, ui: &mut egui::Ui, isolated: bool, only_right: bool) -> egui::Response {
+        let has_numbers = self.is_chosen || self.count <= WITH_NUMBERS;
+        let height = if has_numbers { ROW } else { LOW };
+        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
+        let share = self.attributed.map(|attributed| attributed.attribution.of(self.map));
+        let text = self.attributed.map_or_else(String::new, |attributed| percent(attributed, self.map));
+        let of = if self.is_chosen { String::new() } else { format!(" of {}", self.name) };
+        let label = format!("{}{of}: {text} of the loss", self.map.name());
+        response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, isolated, &label));
+        let visuals = ui.visuals();
+        let painter = ui.painter();
+        // The name of the map is that of all its rows.
+        let row = area.with_min_x(area.left() + NAME);
+        if isolated {
+            painter.rect_filled(row, 3.0, visuals.selection.bg_fill);
+        } else if response.hovered() {
+            painter.rect_filled(row, 3.0, visuals.widgets.hovered.weak_bg_fill);
+        }
+        if response.has_focus() {
+            painter.rect_stroke(row, 3.0, visuals.selection.stroke, egui::StrokeKind::Inside);
+        }
+        let ink = visuals.text_color();
+        let (middle, font) = (area.center().y, FontId::monospace(12.0));
+        if self.index == 0 {
+            let name = pos2(area.left() + 4.0, area.top() + 0.5 * ROW);
+            painter.text(name, Align2::LEFT_CENTER, self.map.name(), FontId::proportional(13.0), ink);
+        }
+        let bars = Rect::from_x_y_ranges(row.left() + NUMBER..=area.right() - AMOUNTS, area.y_range());
+        if let Some(share) = share {
+            self.bar(ui, bars, share);
+        }
+        if has_numbers {
+            if self.count > 1 {
+                let at = pos2(row.left() + 4.0, middle);
+                painter.text(at, Align2::LEFT_CENTER, (self.index + 1).to_string(), font.clone(), ink);
+            }
+            let value = share.map_or_else(|| "...".to_owned(), |share| format!("{:.4}", share.shapley.mean));
+            painter.text(pos2(area.right() - 4.0, middle), Align2::RIGHT_CENTER, value, font.clone(), ink);
+            painter.text(pos2(area.right() - 64.0, middle), Align2::RIGHT_CENTER, text, font, ink);
+        }
+        let side = if only_right { "right" } else { "wrong" };
+        let map = self.map.name();
+        response.on_hover_ui(|ui| {
+            ui.strong(format!("{}  {}: {map}", self.index + 1, self.name));
+            if let Some(share) = share {
+                ui.label(numbers(share));
+            }
+            ui.label(match isolated {
+                true => "Click to show the prediction itself (Esc)".to_owned(),
+                false => format!("Click to show the prediction with only its {map} {side}"),
+            });
+        })
+    }
+
+    fn bar(&self, ui: &egui::Ui, area: Rect, share: &MapShare) {
+        let [low, high] = self.axis;
+        let x = |value: f64| area.left() + area.width() * ((value - low) / (high - low)) as f32;
+        let (zero, end, middle) = (x(0.0), x(share.shapley.mean), area.center().y);
+        let half = (0.5 * area.height() - 1.0).min(4.0);
+        let bar = Rect::from_x_y_ranges(zero.min(end)..=zero.max(end), middle - half..=middle + half);
+        let painter = ui.painter();
+        painter.rect_filled(bar, 1.0, theme::series(self.index, ui.visuals().dark_mode));
+        let thin = Stroke::new(1.0, ui.visuals().weak_text_color());
+        painter.line_segment([pos2(zero, area.top()), pos2(zero, area.bottom())], thin);
+        if let Some([low, high]) = share.shapley.interval95 {
+            let stroke = Stroke::new(1.5, ui.visuals().text_color());
+            painter.line_segment([pos2(x(low), middle), pos2(x(high), middle)], stroke);
+            for at in [x(low), x(high)] {
+                painter.line_segment([pos2(at, middle - half), pos2(at, middle + half)], stroke);
+            }
+        }
+    }
+}
+
+fn percent(Attributed { attribution, .. }: &Attributed, map: Map) -> String {
+    let whole = attribution.loss.mean;
+    if whole > 0.0 {
+        format!("{:.1}%", 100.0 * attribution.of(map).shapley.mean / whole)
+    } else {
+        "-".to_owned()
+    }
+}
+
+/// The numbers of a map, for its tooltip.
+fn numbers(share: &MapShare) -> String {
+    let [shapley, wrong, right] = [share.shapley, share.only_wrong, share.only_right].map(|estimate| {
+        let [mean, interval] = significant(&estimate);
+        format!("{mean} {interval}")
+    });
+    format!("Shapley value {shapley}\nLoss with only it wrong {wrong}\nLoss with only it right {right}")
+}
+
+/// From 0, or the least value where errors of maps cancel, to the largest: one axis for all predictions.
+fn axis<'a>(all: impl Iterator<Item = &'a Attributed>) -> [f64; 2] {
+    let ends = |share: &MapShare| share.shapley.interval95.unwrap_or([share.shapley.mean; 2]);
+    all.flat_map(|one| &one.attribution.maps)
+        .map(ends)
+        .fold([0.0, f64::MIN_POSITIVE], |[low, high], ends| [low.min(ends[0]), high.max(ends[1])])
+}

@@ -1,0 +1,150 @@
+//! Tab *Why*: maps and scenes from which the losses of the predictions come.
+
+pub mod diagnosis;
+pub mod hypotheses;
+pub mod maps;
+pub mod scenes;
+
+use std::time::Duration;
+
+use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
+
+use crate::jobs::displayed::Displayed;
+use crate::jobs::why::{AnalysisTable, ComparedPair};
+use crate::model::material::loaded::LoadedMaterial;
+use crate::model::settings::WhySection;
+use crate::model::view::ViewState;
+use crate::model::{Model, display};
+use crate::widgets::names::shortened;
+use crate::widgets::paint::PanelTextures;
+use crate::widgets::{progress, report_table, theme};
+
+/// Most predictions with high rows.
+const LONG: usize = 4;
+/// Characters of a name in a row.
+const NAME: usize = 30;
+
+/// Draws the tab.
+pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &mut PanelTextures) {
+    let (model, jobs) = (shown.model, &shown.jobs.why);
+    let pairs = ComparedPair::all(&model.materials.all, &model.view);
+    let Some(pair) = pairs.get(model.view.display.prediction) else {
+        ui.label("Open a prediction to compare with the ground truth.");
+        return;
+    };
+    ui.strong("Loss in this scene").on_hover_text(
+        "Under the light and view of the panes: the mean of the log difference over the texels",
+    );
+    let losses = shown.jobs.scene_loss.get(&model.materials.all, &model.view);
+    ui.scope(|ui| {
+        if losses.is_none_or(|(_, current)| !current) {
+            ui.set_opacity(0.5);
+        }
+        rows(ui, shown, losses.map(|(losses, _)| losses), next);
+    });
+    displayed_quantity(ui, &model.view, &mut next.view);
+    let tables = jobs.tables.analyses();
+    let tables = tables.map(|one| (WhySection::Table(one.name), one.title, one.details));
+    let own = [
+        (
+            WhySection::Diagnosis,
+            "Would something trivial explain it?",
+            "Whether an exposure, a shift, a symmetry or another reading of the files explains the loss",
+        ),
+        (WhySection::Maps, "Which map", "How much of the loss comes from each map"),
+        (WhySection::Scenes, "Which scenes", "The scenes of the loss, worst first"),
+    ];
+    for (section, title, question) in own.into_iter().chain(tables) {
+        ui.separator();
+        let open = model.settings.sections.is_open(section);
+        let header = egui::CollapsingHeader::new(RichText::new(title).strong()).open(Some(open));
+        let header = header.show_unindented(ui, |ui| match section {
+            WhySection::Diagnosis | WhySection::Hypotheses => diagnosis::ui(ui, shown, &pairs, next),
+            WhySection::Maps => maps::ui(ui, shown, &pairs, next),
+            WhySection::Scenes => scenes::ui(ui, shown, pair, textures, next),
+            WhySection::Table(analysis) => {
+                table(ui, jobs.tables.get(analysis, pair, &model.settings.loss.listed_scenes()))
+            }
+        });
+        if header.header_response.on_hover_text(question).clicked() {
+            next.settings.sections.toggle(section);
+        }
+    }
+}
+
+/// A row per prediction, which stays where it is while its loss is computed.
+fn rows(ui: &mut egui::Ui, shown: Displayed<'_>, losses: Option<&[f64]>, next: &mut Model) {
+    let names: Vec<&str> = shown.model.materials.predictions().iter().map(LoadedMaterial::name).collect();
+    let most = losses.unwrap_or_default().iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    // Many rows are low ones.
+    let is_long = names.len() > LONG;
+    ui.spacing_mut().item_spacing.y = if is_long { 1.0 } else { 4.0 };
+    let height = if is_long { 2.0 } else { 6.0 };
+    for (index, name) in shortened(&names, NAME).into_iter().enumerate() {
+        let loss = losses.and_then(|losses| losses.get(index));
+        let left = |ui: &mut egui::Ui| {
+            ui.selectable_label(
+                index == shown.model.view.display.prediction,
+                format!("{}  {name}", index + 1),
+            )
+            .on_hover_text(names[index])
+        };
+        let right = |ui: &mut egui::Ui| {
+            ui.label(
+                RichText::new(loss.map_or_else(|| "\u{2013}".to_owned(), |loss| format!("{loss:.4}")))
+                    .monospace(),
+            );
+        };
+        let (response, ()) = Sides::new().shrink_left().truncate().show(ui, left, right);
+        if response.clicked() {
+            display::choose(next, index);
+        }
+        let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let bar = Rect::from_min_size(
+            area.min,
+            vec2(area.width() * (loss.unwrap_or(&0.0) / most) as f32, area.height()),
+        );
+        ui.painter().rect_filled(bar, 1.0, theme::series(index, ui.visuals().dark_mode));
+    }
+}
+
+/// What the panes show: values, or differences.
+fn displayed_quantity(ui: &mut egui::Ui, view: &ViewState, next: &mut ViewState) {
+    ui.add_space(6.0);
+    let difference = view.display.difference;
+    ui.horizontal_wrapped(|ui| {
+        let label = if difference { "Show the values" } else { "Show where: the difference" };
+        if ui.button(label).on_hover_text("Value or difference in the panes (D)").clicked() {
+            next.display.difference = !difference;
+        }
+        let is_displayed = difference && view.is_error_map();
+        let hover = "Where on the material the loss comes from: the log difference of each texel, averaged over the \
+                     scenes of the loss";
+        let button = ui.add(egui::Button::new("Error map").selected(is_displayed));
+        if button.on_hover_text(hover).clicked() && !is_displayed {
+            next.show_error_map();
+        }
+    });
+}
+
+/// The table of the chosen prediction, or how far it is.
+fn table(ui: &mut egui::Ui, found: Result<&AnalysisTable, Option<(f32, Duration)>>) {
+    let AnalysisTable { heading, table } = match found {
+        Ok(found) => found,
+        Err(busy) => {
+            let (fraction, elapsed) = busy.unwrap_or_default();
+            progress(ui, fraction, format!("{} s", elapsed.as_secs()));
+            return;
+        }
+    };
+    ui.horizontal(|ui| {
+        if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
+            ui.copy_text(format!("{heading}\n{}", table.text()));
+        }
+        ui.add(
+            egui::Label::new(RichText::new(heading.trim_end().replace('\n', "; ")).small().weak()).truncate(),
+        )
+        .on_hover_text(heading.trim_end());
+    });
+    report_table(ui, table);
+}

@@ -1,0 +1,143 @@
+//! Widgets and formats that several parts of the window share.
+
+pub mod bounds;
+pub mod names;
+pub mod numbers;
+pub mod paint;
+pub mod readout;
+pub mod theme;
+
+use eframe::egui::text::{LayoutJob, TextFormat};
+use eframe::egui::{self, DragValue, Response, RichText};
+
+use svbrdf_evaluate::report::{Cell, Table};
+
+use crate::model::Model;
+use crate::model::material::loaded::drawable;
+use crate::model::message::Message;
+
+/// A number to drag or type; a double-click resets it to `default`. A field that nobody edits writes nothing.
+///
+/// `name` is its accessible name.
+pub fn number<T: egui::emath::Numeric>(
+    ui: &mut egui::Ui,
+    name: &str,
+    value: &mut T,
+    default: T,
+    shape: impl FnOnce(DragValue<'_>) -> DragValue<'_>,
+) -> Response {
+    let before = *value;
+    // As a field is left, egui writes its text once more, which has fewer digits than the number.
+    let is_edited = is_edited(ui, ui.next_auto_id());
+    let response = ui.add(shape(field(value, is_edited)));
+    response.widget_info(|| {
+        let mut info = egui::WidgetInfo::labeled(egui::Role::SpinButton, true, name);
+        info.value = Some(before.to_f64());
+        info
+    });
+    if response.double_clicked() {
+        *value = default;
+        ui.memory_mut(|m| m.surrender_focus(response.id));
+    }
+    response
+}
+
+/// Whether a field can be edited in this frame: by keys, by a drag or by assistive software.
+fn is_edited(ui: &egui::Ui, id: egui::Id) -> bool {
+    use egui::accesskit::Action;
+    let asked = |action| ui.input(|input| input.has_accesskit_action_request(id, action));
+    let has_focus = ui.is_enabled()
+        && ui.memory_mut(|memory| {
+            // Here Tab takes the focus away.
+            memory.interested_in_focus(id, ui.layer_id());
+            memory.has_focus(id)
+        });
+    has_focus
+        || ui.ctx().is_being_dragged(id)
+        || [Action::Increment, Action::Decrement, Action::SetValue].into_iter().any(asked)
+}
+
+/// A field of `value`, which it writes only where `is_edited`.
+fn field<T: egui::emath::Numeric>(value: &mut T, is_edited: bool) -> DragValue<'_> {
+    let field = DragValue::from_get_set(move |new| {
+        if let Some(new) = new.filter(|_| is_edited) {
+            *value = T::from_f64(new);
+        }
+        value.to_f64()
+    });
+    let field = field.clamp_existing_to_range(false);
+    if T::INTEGRAL { field.max_decimals(0).range(T::MIN..=T::MAX).speed(0.25) } else { field }
+}
+
+/// Puts a text on the clipboard, and reports it; `what` names it.
+pub fn copy(ctx: &egui::Context, model: &mut Model, text: String, what: &str) {
+    ctx.copy_text(text);
+    model.report([Message::Done(format!("Copied {what}"))]);
+}
+
+/// Gives a drop-down its accessible name.
+pub fn named(combo: &Response, name: &str) {
+    combo.widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, name));
+}
+
+/// How far work is, as wide as there is room.
+pub fn progress(ui: &mut egui::Ui, fraction: f32, text: String) -> Response {
+    ui.add(egui::ProgressBar::new(fraction).text(text).corner_radius(3.0))
+}
+
+/// A panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.
+pub fn bare(panel: egui::Panel, ui: &egui::Ui) -> egui::Panel {
+    panel.frame(egui::Frame::side_top_panel(ui.style()).fill(egui::Color32::TRANSPARENT))
+}
+
+/// A text in this number of rows, which it does not exceed and which are kept without it; `hover` is shown on it.
+pub fn rows(ui: &mut egui::Ui, text: Option<String>, format: TextFormat, rows: usize, hover: &str) {
+    // Rows are rounded to pixels.
+    let empty = LayoutJob::single_section("\n".repeat(rows - 1), format.clone());
+    let height = ui.painter().layout_job(empty).size().y;
+    ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
+        ui.set_min_height(height);
+        if let Some(text) = text {
+            let mut job = LayoutJob::single_section(text, format);
+            job.wrap.max_rows = rows;
+            ui.label(job).on_hover_text(hover);
+        }
+    });
+}
+
+/// Draws contents into the room that `ui` has; they do not widen it, whatever they need.
+pub fn fixed<R>(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui) -> R) -> R {
+    let rect = ui.available_rect_before_wrap();
+    ui.allocate_rect(rect, egui::Sense::hover());
+    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(rect));
+    child.shrink_clip_rect(rect.expand(ui.spacing().item_spacing.x));
+    contents(&mut child)
+}
+
+/// The table of a report, which scrolls sideways.
+pub fn report_table(ui: &mut egui::Ui, table: &Table) {
+    egui::ScrollArea::horizontal().id_salt("table").show(ui, |ui| {
+        egui::Grid::new("table").striped(true).spacing([8.0, 2.0]).min_row_height(0.0).show(ui, |ui| {
+            for title in &table.columns {
+                ui.label(RichText::new(drawable(title)).small().strong());
+            }
+            ui.end_row();
+            for row in &table.rows {
+                row.iter().for_each(|cell| value(ui, cell));
+                ui.end_row();
+            }
+        });
+    });
+}
+
+/// Words to the left, numbers to the right.
+fn value(ui: &mut egui::Ui, cell: &Cell) {
+    let text = RichText::new(drawable(&cell.text())).small();
+    match cell {
+        Cell::Text(_) => ui.label(text),
+        _ => {
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text.monospace()))
+                .inner
+        }
+    };
+}
