@@ -74,6 +74,11 @@ fn smith(x: f64, a: f64) -> f64 {
 fn vis(q: &Angles) -> f64 {
     if q.nl * q.nv <= 0.0 { 0.0 } else { smith(q.nl, q.a) * smith(q.nv, q.a) / (4.0 * q.nl * q.nv) }
 }
+fn ggx(q: &Angles) -> f64 {
+    let a2 = (q.a * q.a).max(1e-9);
+    let t = q.nh * q.nh * a2 + 1.0 - q.nh * q.nh;
+    a2 / (PI * t * t)
+}
 fn lobe(p: &Point, q: &Angles, d: f64, v: f64) -> [f64; 3] {
     times(fresnel(p, (1.0 - q.vh).powi(5)), d * v * q.nl)
 }
@@ -171,19 +176,11 @@ const ALL: [(&str, Renderer); 24] = [
         o.normal[1] *= 2.0;
         sum(diffuse(&o), specular(&o))
     }),
-    ("Kelemen", |p, q| {
-        let a2 = (q.a * q.a).max(1e-9);
-        let t = q.nh * q.nh * a2 + 1.0 - q.nh * q.nh;
-        sum(diffuse(p), lobe(p, q, a2 / (PI * t * t), 0.25 / (q.vh * q.vh).max(1e-3)))
-    }),
+    ("Kelemen", |p, q| sum(diffuse(p), lobe(p, q, ggx(q), 0.25 / (q.vh * q.vh).max(1e-3)))),
     ("V cavities", |p, q| {
-        let a2 = (q.a * q.a).max(1e-9);
-        let t = q.nh * q.nh * a2 + 1.0 - q.nh * q.nh;
         let g = (2.0 * q.nh * q.nv / q.vh).min(2.0 * q.nh * q.nl / q.vh).min(1.0);
-        sum(
-            diffuse(p),
-            lobe(p, q, a2 / (PI * t * t), if q.nl * q.nv > 0.0 { g / (4.0 * q.nl * q.nv) } else { 0.0 }),
-        )
+        let v = if q.nl * q.nv > 0.0 { g / (4.0 * q.nl * q.nv) } else { 0.0 };
+        sum(diffuse(p), lobe(p, q, ggx(q), v))
     }),
     ("diffuse without 1/pi", |p, _| sum(times(diffuse(p), PI), specular(p))),
     ("energy-conserving scale of specular", |p, _| {

@@ -170,23 +170,11 @@ impl fmt::Display for Texels {
     }
 }
 
-/// The precision of materials and renderings.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Precision {
+crate::choices! {
+    /// The precision of materials and renderings.
+    #[derive(Default)]
+    Precision, "precision":
     #[default]
-    F32,
-    F64,
-}
-
-impl FromStr for Precision {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self, Error> {
-        match name {
-            "f32" => Ok(Self::F32),
-            "f64" => Ok(Self::F64),
-            _ => Err(Error::unknown_name("precision", name, "f32, f64")),
-        }
-    }
+    F32 = "f32",
+    F64 = "f64",
 }

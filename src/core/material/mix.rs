@@ -2,36 +2,18 @@
 
 use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
-
 use super::{Material, Planes};
 use crate::error::Error;
 use crate::math::real::Real;
 
-/// One of the four maps of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum Map {
-    Normal,
-    Diffuse,
-    Specular,
-    Roughness,
-}
-
-impl Map {
-    /// All four, in the order in which reports list them.
-    pub const ALL: [Self; 4] = [Self::Normal, Self::Diffuse, Self::Specular, Self::Roughness];
-
-    /// The name for users.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Normal => "normal",
-            Self::Diffuse => "diffuse",
-            Self::Specular => "specular",
-            Self::Roughness => "roughness",
-        }
-    }
+crate::choices! {
+    /// One of the four maps of a material, in the order in which reports list them.
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    Map, "map":
+    Normal = "normal",
+    Diffuse = "diffuse",
+    Specular = "specular",
+    Roughness = "roughness",
 }
 
 impl<T: Real> Material<T> {

@@ -1,15 +1,10 @@
 //! Points of the unit cube for scenes: random, or scrambled Sobol sequences.
 
-use std::fmt;
-use std::str::FromStr;
-
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng as _, SeedableRng as _};
-use serde::{Deserialize, Serialize};
 
 use super::convention::Convention;
 use super::scene::{self, Kind, Scene};
-use crate::error::Error;
 
 /// Independent scramblings of the Sobol sequence per seed.
 ///
@@ -21,17 +16,17 @@ pub const REPLICATES: usize = 8;
 /// The longest Sobol sequence of the library. A longer replicate continues with another scrambling.
 const POINTS_PER_SCRAMBLING: usize = 1 << 16;
 
-/// How scenes are sampled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum Sampler {
+crate::choices! {
+    /// How scenes are sampled.
+    #[derive(Default)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    Sampler, "sampler":
     /// Independent uniform points: [`scene::sample`].
     #[default]
-    Random,
+    Random = "random",
     /// [`REPLICATES`] independently scrambled Sobol sequences (Owen 1995, by Burley's hash of 2020) in turn: scene i
     /// of a kind is point i / 8 of sequence i mod 8. Best where each has a power of two of points.
-    Sobol,
+    Sobol = "sobol",
 }
 
 impl Sampler {
@@ -143,27 +138,6 @@ fn scrambling(seed: u64, stream: u64, index: u64) -> u32 {
     generator.set_stream(2 + stream);
     generator.set_word_pos(u128::from(index));
     generator.next_u32()
-}
-
-impl FromStr for Sampler {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self, Error> {
-        match name {
-            "random" => Ok(Self::Random),
-            "sobol" => Ok(Self::Sobol),
-            _ => Err(Error::unknown_name("sampler", name, "random, sobol")),
-        }
-    }
-}
-
-impl fmt::Display for Sampler {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Random => "random",
-            Self::Sobol => "sobol",
-        })
-    }
 }
 
 #[cfg(test)]

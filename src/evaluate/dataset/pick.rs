@@ -1,45 +1,19 @@
 //! The choice among several predictions of a material by one method.
 
-use std::fmt;
-use std::str::FromStr;
-
-use serde::Serialize;
-
-use svbrdf_core::error::Error;
-
 use super::record::{KnownLoss, MaterialResult, PredictionResult};
 
-/// Which of several predictions of a material by one method counts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum Pick {
+svbrdf_core::choices! {
+    /// Which of several predictions of a material by one method counts.
+    #[derive(Default)]
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+    Pick, "choice of samples":
     /// The first.
     #[default]
-    Fixed,
+    Fixed = "fixed",
     /// The mean of the losses of all.
-    Mean,
+    Mean = "mean",
     /// The one with the smallest loss: what an oracle would choose.
-    Best,
-}
-
-impl FromStr for Pick {
-    type Err = Error;
-
-    fn from_str(name: &str) -> Result<Self, Error> {
-        let found = [Self::Fixed, Self::Mean, Self::Best].into_iter().find(|pick| pick.to_string() == name);
-        found.ok_or_else(|| Error::unknown_name("choice of samples", name, "fixed, mean, best"))
-    }
-}
-
-impl fmt::Display for Pick {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Fixed => "fixed",
-            Self::Mean => "mean",
-            Self::Best => "best",
-        })
-    }
+    Best = "best",
 }
 
 /// The loss of a method for a material: the mean of the predictions that count; `None` where none has a loss.
