@@ -36,7 +36,7 @@ pub fn of_json(problem: &impl std::fmt::Display) -> String {
 const LONGEST: usize = 2000;
 
 /// The text with every character written as `\u{...}` that steers a terminal, breaks lines other than as `\n`, hides text, or
-/// changes the direction of the text after it. For texts of several lines, whose parts from files are each a [`line`].
+/// changes the direction of the text after it. For texts of several lines, whose parts from files are each a [`line()`].
 pub fn printable(text: &str) -> String {
     escaped(text, |c| c != '\n' && steers(c))
 }

@@ -68,7 +68,7 @@ pub struct Material<T> {
 }
 
 impl<T: Real> Material<T> {
-    /// Takes over `planes` of `width` x `height` texels; normals of any length are normalized. The name becomes a [`line`].
+    /// Takes over `planes` of `width` x `height` texels; normals of any length are normalized. The name becomes a [`line()`].
     ///
     /// # Errors
     /// [`Error::BadPlanes`] without texels, or where a plane has not `width * height` values,

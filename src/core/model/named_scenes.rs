@@ -19,7 +19,7 @@ pub enum NamedScenes {
     },
     /// [`flash_9`].
     Flash9,
-    /// [`hemisphere`].
+    /// The 128 scenes of MatFusion.
     Hemisphere,
 }
 

@@ -43,7 +43,7 @@ impl AnalysisInput<'_> {
     }
 }
 
-/// Options of [`LossOptions`] that an analysis has.
+/// Options of [`LossOptions`](svbrdf_core::loss::LossOptions) that an analysis has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SceneOptions {
@@ -79,7 +79,7 @@ pub trait Analysis: Report + Schematic + Sized + 'static {
     /// The answer.
     ///
     /// # Errors
-    /// Where the materials cannot be compared; [`Error::Cancelled`].
+    /// Where the materials cannot be compared; [`Cancelled`](Error::is_cancelled).
     fn run(input: &AnalysisInput<'_>, options: &Self::Options, progress: &Progress) -> Result<Self, Error>;
 }
 

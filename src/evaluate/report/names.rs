@@ -5,7 +5,7 @@ use std::path::{Component, Path};
 use svbrdf_core::text::line;
 
 /// The names of materials, told apart: equal names are replaced by the part of their paths that tells them apart, such as the
-/// folder of a method, or where it takes several by those. The same path twice has the same name twice. Every name is a [`line`].
+/// folder of a method, or where it takes several by those. The same path twice has the same name twice. Every name is a [`line()`].
 pub fn distinct_names(named: &[(&str, &Path)]) -> Vec<String> {
     let all: Vec<_> = named.iter().map(|(name, path)| (*name, parts(path))).collect();
     let short: Vec<String> = all.iter().map(|one| name(one, &all, true)).collect();
