@@ -2,15 +2,13 @@
 //!
 //! | stage | from | to |
 //! |---|---|---|
-//! | `locate` | a path | files and pictures that may hold maps (`located`), by names, listings and documents |
-//! | `decode` | files | pictures as stored (`raster`) |
-//! | `recognize` | pictures | maps by role as stored (`stored`), by names, documents and pixels |
+//! | `formats` | a path | maps by role as stored (`stored`): a file or folder for each format, which locates, decodes and recognizes |
 //! | `gather` | stored maps | evidence of pixels, also of neighbouring materials |
 //! | `interpret` | stored maps and evidence | linear maps |
 //! | `assemble` | linear maps | a [`Material`], with the [record](Read) of its reading |
 //!
 //! A path enters as a [`MaterialPath`]: its sidecar file completes what is specified, and what is used of both goes with it through
-//! all stages. [`read()`] is the short form; [`read_bytes`] begins with a picture in memory, at `recognize`; a photograph, which is no
+//! all stages. [`read()`] is the short form; [`read_bytes`] begins with a picture in memory; a photograph, which is no
 //! material, is [decoded](read_photograph) alone.
 //!
 //! `docs/formats.md` lists every form that opens. Colour chunks are ignored. [`ReadOptions`] specify how values are stored; the
@@ -18,16 +16,14 @@
 
 mod assemble;
 pub(crate) mod decode;
+mod formats;
 mod gather;
 mod interpret;
-mod locate;
-mod located;
 mod measure;
 mod names;
 pub(crate) mod options;
 mod photograph;
 mod raster;
-mod recognize;
 mod record;
 mod stored;
 
@@ -35,11 +31,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use assemble::Read;
+pub use formats::{Binding, Sidecar, is_prefix};
 pub use gather::Neighbours;
 pub use gather::map_report::MapContent;
-pub use locate::is_prefix;
-pub use locate::sidecar::Sidecar;
-pub use located::binding::Binding;
 pub use options::extensions::EXTENSIONS;
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
@@ -57,14 +51,13 @@ use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
-use crate::disk::open::{NamedFile, hexadecimal};
+use crate::disk::open::hexadecimal;
 use crate::disk::{inputs, memory};
 use crate::error::Error;
 
-use decode::pictures;
 use decode::reader::Reader;
+use formats::{Located, WholePicture};
 use gather::map_report;
-use located::{Located, WholePicture};
 use stored::StoredMaterial;
 
 /// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them; its sidecar file
@@ -114,7 +107,7 @@ impl<'a> MaterialPath<'a> {
     pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
         let LocatedPath { saved, used, located } = self.located()?;
         let options = &used.options.with_preset();
-        let mut read = finish(stored(located, options, progress)?, options)?;
+        let mut read = finish(located.read(options, progress)?, options)?;
         (read.options, read.saved) = (used.options, saved.options);
         if saved != Sidecar::default() {
             let file = Sidecar::path_for(self.path);
@@ -145,7 +138,7 @@ impl<'a> MaterialPath<'a> {
     /// The names that the material may have once it is read, found without its pixels; at least one.
     pub fn possible_names(&self) -> Vec<String> {
         let used = self.used(&Sidecar::load(self.path).unwrap_or_default()).options;
-        let found = locate::names(self.path, &used).unwrap_or_default();
+        let found = formats::names(self.path, &used).unwrap_or_default();
         if found.is_empty() {
             vec![self.path.file_stem().unwrap_or(self.path.as_os_str()).to_string_lossy().into_owned()]
         } else {
@@ -162,7 +155,7 @@ impl<'a> MaterialPath<'a> {
     fn located(&self) -> Result<LocatedPath, Error> {
         let saved = Sidecar::load(self.path)?;
         let used = self.used(&saved);
-        let located = locate::locate(self.path, &saved, &used)?;
+        let located = formats::locate(self.path, &saved, &used)?;
         Ok(LocatedPath { saved, used, located })
     }
 }
@@ -192,40 +185,10 @@ pub struct Dependencies {
 /// As [`read`].
 pub fn read_bytes<T: Real>(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Read<T>, Error> {
     let options = &options.with_preset();
-    let picture = WholePicture { file: NamedFile::by_user(name), refusal: None };
     let decoded = decode::from_reader(Reader::of_bytes(bytes), Path::new(name), Subject::Material)?;
-    let stored = recognize::picture(picture, decoded, options)?;
+    let stored = WholePicture::by_user(Path::new(name)).recognized(decoded, options)?;
     let read = finish(StoredMaterial { name: name.to_owned(), ..stored }, options)?;
     Ok(Read { files: Vec::new(), ..read })
-}
-
-/// The stored maps of the first candidate that its pixels do not refuse.
-fn stored(located: Located, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
-    let Located { bound, candidates, folders, name } = located;
-    let decoded = bound.iter().map(pictures::binding).collect::<Result<Vec<_>, _>>()?;
-    let parts = bound.iter().zip(decoded).map(|(binding, decoded)| recognize::binding(binding, decoded));
-    let bound = parts.collect::<Result<Vec<_>, _>>()?;
-    let mut refusal = None;
-    let mut candidates = candidates.into_iter().peekable();
-    while let Some(candidate) = candidates.next() {
-        let decoded = pictures::candidate(candidate, progress);
-        let found = decoded.and_then(|decoded| recognize::candidate(decoded, &bound, options));
-        match found {
-            Ok(found) => return Ok(recognize::within(found, &folders, name)),
-            Err(
-                error @ (Error::NotAMaterial { .. } | Error::MissingMap { .. } | Error::NotPacked { .. }),
-            ) if candidates.peek().is_some() => {
-                refusal = Some(error);
-            }
-            // An incomplete set tells what it lacks.
-            Err(error) if error.is_cancelled() || matches!(error, Error::MissingMap { .. }) => {
-                return Err(error);
-            }
-            // Of several candidates the first is the one that the user named.
-            Err(error) => return Err(refusal.unwrap_or(error)),
-        }
-    }
-    Err(refusal.unwrap_or_else(|| Error::Internal("no candidate was located".to_owned())))
 }
 
 fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read<T>, Error> {

@@ -3,11 +3,8 @@
 //! Diffuse and specular become base colour and metallic where these keep them to a step of 8 bits, since every program reads them;
 //! else diffuse is the base colour, and `KHR_materials_specular` has specular as a part of the reflectance at an index of refraction.
 
-use std::borrow::Cow;
 use std::io::{self, Write};
 
-use gltf::Glb;
-use gltf::binary::Header;
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -64,7 +61,7 @@ fn is_metallic(material: &Material<f32>, sixteen: bool) -> bool {
 
 /// Writes the material with the [`ior`] that its specular needs.
 pub(super) fn write(
-    file: impl Write,
+    mut file: impl Write,
     material: &Material<f32>,
     ior: Option<f64>,
     sixteen: bool,
@@ -104,13 +101,19 @@ pub(super) fn write(
         document["extensionsUsed"] = json!(extensions);
     }
     let json = serde_json::to_vec(&document)?;
-    // Header and padding of the file and of its two parts.
-    const FRAME: usize = 40;
-    let length = u32::try_from(json.len().saturating_add(binary.bytes.len()).saturating_add(FRAME))
-        .map_err(|_| io::Error::other("a .glb holds at most 4 GiB"))?;
-    let header = Header { magic: *b"glTF", version: 2, length };
-    let glb = Glb { header, json: Cow::Owned(json), bin: Some(Cow::Borrowed(&binary.bytes)) };
-    glb.to_writer(file).map_err(io::Error::other)
+    let parts = [(b"JSON", &json, b' '), (b"BIN\0", &binary.bytes, 0)];
+    let padded = |bytes: &[u8]| bytes.len().next_multiple_of(4);
+    let total = parts.iter().fold(12, |sum: usize, (_, bytes, _)| sum.saturating_add(8 + padded(bytes)));
+    let total = u32::try_from(total).map_err(|_| io::Error::other("a .glb holds at most 4 GiB"))?;
+    file.write_all([*b"glTF", 2_u32.to_le_bytes(), total.to_le_bytes()].as_flattened())?;
+    for (kind, bytes, padding) in parts {
+        let length = padded(bytes);
+        file.write_all(&(length as u32).to_le_bytes())?;
+        file.write_all(kind)?;
+        file.write_all(bytes)?;
+        file.write_all(&[padding; 3][..length - bytes.len()])?;
+    }
+    Ok(())
 }
 
 /// The pictures in the order of the textures in [`material_of`].

@@ -13,7 +13,6 @@ mod layout;
 mod numpy;
 mod pfm;
 mod picture;
-pub(super) mod pictures;
 mod place;
 pub(super) mod reader;
 mod tiff;

@@ -8,6 +8,6 @@ mod words;
 
 pub(crate) use convention::word_beside;
 pub(crate) use label::Label;
-pub(crate) use listing::{is_junk, listing};
+pub(crate) use listing::{folder_of, folders, is_junk, list, listing, material_name};
 pub(crate) use set_labels::set_labels;
 pub(crate) use words::{is_named_as, is_named_within, size, words};

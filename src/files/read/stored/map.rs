@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use crate::disk::open::NamedFile;
 use crate::read::options::transfer::{encoded, linear};
 use crate::read::options::{Albedo, Workflow};
@@ -67,6 +69,23 @@ impl StoredMap {
         };
         let channels = [0, 1, 2].map(times).into();
         Self { raster: Raster { channels, ..self.raster.without_samples() }, ..self }
+    }
+
+    /// Normals stored as (n + 1) / 2 with x and y times `scale`, of length 1 again, stored likewise as floats.
+    pub(crate) fn scaled_normals(self, scale: f64) -> Self {
+        if scale == 1.0 || self.raster.channels.len() < 3 {
+            return self;
+        }
+        let raster = &self.raster;
+        let texel = |index: usize| {
+            let [x, y, z] = raster.rgb(index).map(|c| 2.0 * c - 1.0);
+            let n = [scale * x, scale * y, z];
+            let length = n.iter().map(|x| x * x).sum::<f64>().sqrt().max(f64::MIN_POSITIVE);
+            n.map(|x| (0.5 * x / length + 0.5) as f32)
+        };
+        let texels: Vec<[f32; 3]> = (0..raster.width * raster.height).into_par_iter().map(texel).collect();
+        let channels = Samples::interleaved(texels.into_flattened(), 3);
+        Self { raster: Raster { channels, alpha: None, ..raster.without_samples() }, ..self }
     }
 
     /// Takes the samples out, so that they can be dropped; size and names stay.

@@ -56,6 +56,16 @@ impl StoredMaterial {
         self.files.dedup();
     }
 
+    /// Notes the features of a document that are not modelled, and which of its materials this is.
+    pub(crate) fn note_document(&mut self, not_modelled: Vec<String>, (names, index): (Vec<String>, usize)) {
+        if !not_modelled.is_empty() {
+            self.notes.push(Note::NotModelled { features: not_modelled });
+        }
+        if names.len() > 1 {
+            self.notes.push(Note::Materials { names, index });
+        }
+    }
+
     /// Records that the heights of `file` tell the direction of y: it is read, and not left unused.
     pub(crate) fn use_heights(&mut self, file: &Path) {
         let name = file.file_name().unwrap_or_default().to_string_lossy();

@@ -1,0 +1,200 @@
+//! The files of a set: one picture for each map, by their names, with what else the folder tells about them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use crate::disk::open::NamedFile;
+use crate::read::names::{Label, is_named_within, size};
+use crate::read::options::{NormalY, Role, extensions};
+use crate::read::record::{Note, Unused};
+use crate::read::stored::Picture;
+
+/// The word of files that are maps by their numbers alone.
+pub(crate) const NUMBERED: &str = "0 to 3";
+
+/// A file whose name names a map.
+#[derive(Clone, Debug)]
+pub(crate) struct LabelledFile {
+    pub file: String,
+    pub label: Label,
+}
+
+impl LabelledFile {
+    /// The higher, the better a source for its map.
+    pub(crate) fn rank(&self) -> (u8, Option<usize>) {
+        let extension = extensions::of_name(&self.file);
+        (self.label.rank(), extensions::PICTURES.iter().position(|e| *e == extension))
+    }
+}
+
+/// A document beside a set that lists pictures of it.
+#[derive(Clone, Debug)]
+pub(crate) struct ListingDocument {
+    pub name: String,
+    /// The files of the set that it names.
+    pub files: Vec<String>,
+    /// Where y of normals points by its format.
+    pub normal_y: Option<NormalY>,
+}
+
+/// One file for each map.
+#[derive(Debug, Default)]
+pub(crate) struct SetFiles {
+    pub files: Vec<LabelledFile>,
+    /// Other pictures of the normal map, which count where the chosen one is constant.
+    pub other_normals: Vec<LabelledFile>,
+    /// Pictures whose names name no map.
+    pub unlabelled: Vec<String>,
+    /// Pictures of maps whose names are not those of the set, but nearly so.
+    pub misnamed: Vec<String>,
+    /// Documents beside them that list them, too.
+    pub documents: Vec<ListingDocument>,
+    /// Pictures of heights, which tell the direction of y.
+    pub heights: Vec<String>,
+    pub notes: Vec<Note>,
+}
+
+impl SetFiles {
+    /// The names of all pictures, also of those that count only where the pixels of others call for them.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
+        let labelled = self.files.iter().chain(&self.other_normals).map(|one| &one.file);
+        labelled.chain(&self.unlabelled).chain(&self.misnamed).chain(&self.heights)
+    }
+
+    /// Sorts out the pictures of the folder that are not those of the set of this `stem`: some may be maps of it all the same.
+    /// The others are reported where the `whole` folder was wanted.
+    pub(crate) fn leave(&mut self, others: Vec<LabelledFile>, stem: &[String], whole: bool) {
+        for LabelledFile { file, label } in others {
+            let is_akin = label.stem.starts_with(stem) || stem.starts_with(&label.stem);
+            let is_near = is_akin && (whole || !stem.is_empty());
+            if label.role == Role::Ignored && (whole || is_near) {
+                self.notes.push(Note::Unused { what: file, why: Unused::NotAMap });
+            } else if is_near {
+                self.misnamed.push(file);
+            } else if whole {
+                self.notes.push(Note::Unused { what: file, why: Unused::OtherStem });
+            }
+        }
+        if !whole {
+            self.unlabelled.retain(|name| stem.is_empty() || is_named_within(name, stem));
+        }
+    }
+}
+
+/// The set of a material, in one folder.
+#[derive(Debug)]
+pub(in crate::read) struct Set {
+    /// The path that the user gave, for messages.
+    pub path: PathBuf,
+    pub folder: PathBuf,
+    /// The name of the material.
+    pub name: String,
+    pub files: SetFiles,
+    /// The files of the folder, for messages.
+    pub listing: String,
+    /// Whether a folder of renderings is beside the files, as in the data sets of SurfaceNet.
+    pub has_renderings: bool,
+}
+
+impl Set {
+    /// A file of the folder, which the folder names.
+    pub(crate) fn file(&self, name: &str) -> NamedFile {
+        NamedFile::by_file(self.folder.join(name), &self.folder)
+    }
+
+    /// The pictures of the chosen files.
+    pub(crate) fn pictures(&self) -> Vec<Picture> {
+        let picture =
+            |LabelledFile { file, label }: &LabelledFile| Picture::of_file(self.file(file), label.role);
+        self.files.files.iter().map(picture).collect()
+    }
+
+    /// The path of a file of the folder.
+    pub(crate) fn path_of(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+}
+
+/// Longest document in bytes that is searched for names.
+const LONGEST: u64 = 4 << 20;
+
+/// The documents among the files `names` of `folder` that name a file of the set.
+pub(crate) fn documents_beside(folder: &Path, names: &[String], set: &SetFiles) -> Vec<ListingDocument> {
+    let listing = |name: &String| {
+        let normal_y = match extensions::of_name(name).as_str() {
+            "gltf" | "mtlx" => Some(NormalY::Up),
+            "mtl" => None,
+            _ => return None,
+        };
+        let path = folder.join(name);
+        if !path.metadata().is_ok_and(|meta| meta.len() <= LONGEST) {
+            return None;
+        }
+        let bytes = NamedFile::by_file(path, folder).bytes().ok()?;
+        let text = String::from_utf8_lossy(&bytes);
+        let is_named = |file: &String| text.contains(file);
+        let files: Vec<_> = set.files.iter().map(|file| file.file.clone()).filter(is_named).collect();
+        (!files.is_empty()).then(|| ListingDocument { name: name.clone(), files, normal_y })
+    };
+    names.iter().filter_map(listing).collect()
+}
+
+/// Words before that of a map which make it the map of a layer that is not modelled.
+const LAYERS: [&str; 6] = ["clear", "coat", "clearcoat", "sheen", "fuzz", "detail"];
+
+/// Moves the maps of layers, such as `x_coat_normal` beside `x_normal`, to their set: they are none of its maps.
+pub(super) fn add_layers(groups: &mut BTreeMap<Vec<String>, Vec<LabelledFile>>) {
+    let set_of = |stem: &[String]| {
+        let count = stem.iter().rev().take_while(|word| LAYERS.contains(&word.as_str())).count();
+        (count > 0 && count < stem.len()).then(|| stem[..stem.len() - count].to_vec())
+    };
+    let stems: Vec<_> = groups.keys().filter_map(|stem| Some((stem.clone(), set_of(stem)?))).collect();
+    for (stem, set) in stems {
+        let roles: Vec<Role> = groups[&stem].iter().map(|file| file.label.role).collect();
+        // A material may be a coat itself.
+        let has = |wanted: &[Role]| wanted.iter().any(|role| roles.contains(role));
+        let is_whole = has(&[Role::Normal]) && has(&[Role::Base, Role::Diffuse]) && has(&[Role::Roughness]);
+        if groups.contains_key(&set) && !is_whole {
+            let files = groups.remove(&stem).unwrap_or_default();
+            let of_set = groups.entry(set).or_default();
+            of_set.extend(files.into_iter().map(|mut file| {
+                file.label.role = Role::Ignored;
+                file
+            }));
+        }
+    }
+}
+
+/// The files of one size, where some maps are there in several: the size of the file `named`, else the largest that is `complete`.
+pub(super) fn of_one_size(
+    files: Vec<LabelledFile>,
+    named: Option<&str>,
+    complete: impl Fn(&[LabelledFile]) -> bool,
+    notes: &mut Vec<Note>,
+) -> Vec<LabelledFile> {
+    let sizes: BTreeSet<u32> = files.iter().filter_map(|file| size(&file.file)).collect();
+    let is_of = |file: &LabelledFile, wanted: u32| size(&file.file).is_none_or(|own| own == wanted);
+    let is_complete = |wanted: &u32| {
+        let of_size: Vec<_> = files.iter().filter(|file| is_of(file, *wanted)).cloned().collect();
+        complete(&of_size)
+    };
+    let own = named.and_then(size);
+    let Some(chosen) = own.or_else(|| sizes.into_iter().rev().find(is_complete)) else { return files };
+    let better = |file: &LabelledFile| {
+        let role = file.label.role;
+        files
+            .iter()
+            .find(|one| one.label.role == role && role != Role::Ignored && size(&one.file) == Some(chosen))
+    };
+    let dropped =
+        |file: &LabelledFile| better(file).filter(|_| !is_of(file, chosen)).map(|one| one.file.clone());
+    let all: Vec<_> = files.iter().map(|file| (file.clone(), dropped(file))).collect();
+    let mut kept = Vec::new();
+    for (file, better) in all {
+        match better {
+            Some(to) => notes.push(Note::Unused { what: file.file, why: Unused::Inferior { to } }),
+            None => kept.push(file),
+        }
+    }
+    kept
+}

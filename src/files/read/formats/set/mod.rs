@@ -1,0 +1,200 @@
+//! Sets of pictures, one for each map: the maps that they hold, by names and pixels together, and how files of such names store their
+//! values.
+
+mod files;
+mod grouping;
+mod maps;
+
+use svbrdf_core::progress::Progress;
+
+use crate::error::Error;
+use crate::read::measure::{NORMAL_AT_LEAST, dark_metal, normal_score};
+use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness, Workflow};
+use crate::read::record::{
+    Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, Unused, What,
+};
+use crate::read::stored::{
+    DecodedPicture, Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial, decoded,
+};
+
+use files::{LabelledFile, NUMBERED};
+pub(super) use files::{Set, SetFiles, documents_beside};
+pub(super) use grouping::{Wanted, choose, is_beside, is_complete, is_picture, is_shared_with};
+use maps::{PartialSet, is_colour};
+
+impl Set {
+    /// Reads its maps, with the maps `bound`; each picture is one step of `progress`. Pictures that are needed only where the pixels of
+    /// others are not those of their map are not decoded otherwise.
+    ///
+    /// # Errors
+    /// [`Error::NotAMaterial`] where maps are missing, or several pictures are equally the normal map; those of its pictures.
+    pub(in crate::read) fn read(
+        &self,
+        bound: &[(Role, StoredMap)],
+        options: &ReadOptions,
+        progress: &Progress,
+    ) -> Result<StoredMaterial, Error> {
+        let mut set = PartialSet::new(self);
+        for (file, DecodedPicture { map, notes, .. }) in
+            self.files.files.iter().zip(decoded(&self.pictures(), progress)?)
+        {
+            let (file, raster, notes) = match set.other_normals(file, &map.raster) {
+                Some(other) => other,
+                None => (file, map.raster, notes),
+            };
+            if set.is_contested(file) {
+                return Err(two_pictures(self, file, &self.files.other_normals[0]));
+            }
+            set.notes.extend(notes);
+            let is_normal = file.label.role == Role::Normal;
+            if file.label.word == NUMBERED && is_normal && normal_score(&raster) < NORMAL_AT_LEAST {
+                return Err(numbers_mislead(self, &file.file));
+            }
+            set.add(file, raster)?;
+        }
+        // A caller who specifies a specular map wants it to be used.
+        let has_specular =
+            bound.iter().any(|(role, _)| *role == Role::Specular) && options.workflow.is_none();
+        let workflow = if has_specular { Some(Workflow::Specular) } else { options.workflow };
+        for (role, map) in bound {
+            set.notes.push(Note::MapSpecified {
+                map: *role,
+                file: map.file.clone(),
+                by: SpecifiedBy::Caller,
+            });
+            set.are_floats &= !is_colour(*role) || (map.raster.is_float() && !map.is_specified());
+            set.maps.replace(*role, map.clone());
+        }
+        let is_bound = |file: &str| is_bound(self, bound, file);
+        for file in self.files.unlabelled.iter().filter(|file| !is_bound(file)) {
+            set.rescue(file, Unused::Unlabelled);
+        }
+        for file in self.files.misnamed.iter().filter(|file| !is_bound(file)) {
+            set.rescue(file, Unused::OtherStem);
+        }
+        let PartialSet { maps, mut notes, are_floats, mut doubts, is_glossy, height, .. } = set;
+        let options = &ReadOptions { workflow, ..*options };
+        let mut found = maps.material(&self.path, self.name.clone(), &self.listing, options)?;
+        found.assumptions.append(&mut doubts);
+        let packed = found
+            .metallic
+            .as_ref()
+            .filter(|metallic| !metallic.part.is_empty() && metallic.raster.size() != [1, 1]);
+        if let Some(median) = packed.and_then(|metallic| dark_metal(&metallic.raster, &found.colour.raster)) {
+            let why = Reason::DarkMetal(median);
+            found.assumptions.push(Assumption::new(What::Layout, "metallic 1", why, Certainty::Unsure));
+        }
+        add_hints(&mut found, self, are_floats, is_glossy);
+        let file = self.files.heights.first().map(|file| StoredHeight::File(self.file(file)));
+        found.height = file.or(height);
+        notes.extend(self.files.documents.iter().map(|one| Note::ListedBy { file: one.name.clone() }));
+        let is_unused = |note: &&Note| !matches!(note, Note::Unused { what, .. } if is_bound(what));
+        notes.extend(self.files.notes.iter().filter(is_unused).cloned());
+        notes.append(&mut found.notes);
+        Ok(StoredMaterial { notes, ..found })
+    }
+}
+
+/// Whether a file of the folder is one of the maps `bound`.
+fn is_bound(set: &Set, bound: &[(Role, StoredMap)], file: &str) -> bool {
+    let place = set.path_of(file);
+    let is_it = |map: &StoredMap| {
+        map.file == place
+            || map.file.canonicalize().is_ok_and(|one| place.canonicalize().is_ok_and(|p| p == one))
+    };
+    bound.iter().any(|(_, map)| map.file.file_name() == place.file_name() && is_it(map))
+}
+
+/// Two pictures of normals, neither of which is constant.
+fn two_pictures(set: &Set, one: &LabelledFile, other: &LabelledFile) -> Error {
+    let (first, second) = if one.file < other.file { (one, other) } else { (other, one) };
+    Error::NotAMaterial {
+        path: set.path.clone(),
+        expected: "one picture for the normal map".to_owned(),
+        found: format!("{} and {}", first.file, second.file),
+        remedy: "give the prefix that only the files of this material share, or move one away".to_owned(),
+    }
+}
+
+fn numbers_mislead(set: &Set, file: &str) -> Error {
+    Error::NotAMaterial {
+        path: set.path.clone(),
+        expected: "files 0 to 3 to be normal, diffuse, roughness and specular".to_owned(),
+        found: format!("{file} without the look of normals"),
+        remedy: "name the files by their maps".to_owned(),
+    }
+}
+
+/// Adds the hints of the names of `set` to its material, whose colours `are_floats` and whose specular `is_glossy` in
+/// alpha.
+fn add_hints(found: &mut StoredMaterial, set: &Set, are_floats: bool, is_glossy: bool) {
+    found.inferred = inferred(set, are_floats);
+    if is_diffmat(&set.files.files, found) {
+        let why = || StorageConvention::DiffMatNames.into();
+        found.inferred.albedo = Some((Albedo::Gamma22, why(), Certainty::Likely));
+        found.inferred.normal_y = Some((NormalY::Down, why(), Certainty::Unsure));
+    }
+    if is_glossy {
+        let why = || StorageConvention::SpecularGlossiness.into();
+        found.inferred.albedo = Some((Albedo::Srgb, why(), Certainty::Sure));
+        found.inferred.specular = found.inferred.albedo.clone();
+        found.inferred.roughness = Some((Roughness::Gloss, why(), Certainty::Sure));
+    }
+}
+
+/// The direction of y by the format of a document beside the set that lists its normal map.
+fn listed_y(set: &Set) -> Inferred<NormalY> {
+    let normal = set.files.files.iter().find(|file| file.label.role == Role::Normal)?;
+    let document = set.files.documents.iter().find(|one| one.files.contains(&normal.file))?;
+    let why = Reason::ListedNormals { document: document.name.clone() };
+    Some((document.normal_y?, why, Certainty::Likely))
+}
+
+/// Whether the files look as DiffMat writes them: whole names, colour in 8 bits, gray in 16.
+fn is_diffmat(files: &[LabelledFile], found: &StoredMaterial) -> bool {
+    let plain = ["basecolor", "normal", "roughness", "metallic"];
+    let deep = |source: &StoredMap| source.raster.depth == "16-bit" && source.raster.channels.len() == 1;
+    files.iter().all(|f| f.label.stem.is_empty() && plain.contains(&f.label.word.as_str()))
+        && found.colour.raster.depth == "8-bit"
+        && deep(&found.roughness)
+        && found.metallic.as_ref().is_some_and(deep)
+}
+
+/// The inferences of the names about values.
+fn inferred(set: &Set, are_floats: bool) -> Inferences {
+    let files = &set.files.files;
+    let word = |role: Role| files.iter().find(|f| f.label.role == role).map(|f| f.label.word.as_str());
+    let named = |f: &LabelledFile| {
+        f.label.roughness().map(|r| (r, Reason::FileName { file: f.file.clone() }, Certainty::Sure))
+    };
+    let roughness = files.iter().find_map(named);
+    let normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y)));
+    let normal_y =
+        normal_y.map(|(f, y)| (y, Reason::NormalName { file: f.file.clone(), y }, Certainty::Sure));
+    let normal_y = normal_y.or_else(|| listed_y(set));
+    let mut inferred = Inferences { roughness, normal_y, ..Inferences::default() };
+    if are_floats {
+        inferred.albedo = Some((Albedo::Linear, StorageConvention::Floats.into(), Certainty::Likely));
+        inferred.specular = inferred.albedo.clone();
+        return inferred;
+    }
+    let colour = word(Role::Diffuse).or(word(Role::Base)).unwrap_or_default();
+    let choice = if word(Role::Normal) == Some("nom") && word(Role::Roughness) == Some("rgh") {
+        let why = StorageConvention::MaterialGanNames;
+        inferred.roughness = Some((Roughness::Gamma22, why.into(), Certainty::Likely));
+        Some((Albedo::Gamma22, why, Certainty::Likely))
+    } else if colour == NUMBERED {
+        Some((Albedo::Gamma22, StorageConvention::NumberedResults, Certainty::Unsure))
+    } else if colour.contains("gammad") {
+        Some((Albedo::Gamma22, StorageConvention::GammadNames, Certainty::Sure))
+    } else if colour.starts_with("outputs") || colour.starts_with("targets") {
+        Some((Albedo::Linear, StorageConvention::DeschaintreNames, Certainty::Likely))
+    } else if word(Role::Specular) == Some("specular") && set.has_renderings {
+        Some((Albedo::Linear, StorageConvention::SurfaceNetFolder, Certainty::Likely))
+    } else {
+        None
+    };
+    inferred.albedo = choice.map(|(albedo, why, certainty)| (albedo, why.into(), certainty));
+    inferred.specular = inferred.albedo.clone();
+    inferred
+}
