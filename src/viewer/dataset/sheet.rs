@@ -14,14 +14,12 @@ use crate::dataset::rows::{Rows, chosen_method};
 use crate::jobs::dataset::DisplayedCases;
 use crate::jobs::dataset::cells::Cell;
 use crate::jobs::displayed::Displayed;
-use crate::model::Model;
 use crate::model::dataset::OpenDataset;
-use crate::model::endpoint;
 use crate::model::material::loaded::drawable;
+use crate::model::{Model, endpoint};
 use crate::widgets::names::Names;
 use crate::widgets::numbers::{digits, significant};
-use crate::widgets::paint::PanelTextures;
-use crate::widgets::paint::colour_bar;
+use crate::widgets::paint::{PanelTextures, colour_bar};
 use crate::widgets::{names, theme};
 
 /// Width of the names of materials, height of the names of methods, and gap between cells, in points.

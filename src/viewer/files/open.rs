@@ -6,11 +6,10 @@ use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
 use crate::files::path_field::{dialog, path_field, problem};
-use crate::model::Model;
 use crate::model::dialogs::{OpenDialog, Opens};
 use crate::model::effect::{BrowseFor, Effect};
 use crate::model::material::read::file_name;
-use crate::model::opening;
+use crate::model::{Model, opening};
 
 /// Height below the list of recent materials, and least height of the list.
 const BELOW_RECENT: f32 = 230.0;

@@ -7,8 +7,7 @@ use eframe::egui::{self, RichText};
 use crate::files::path_field::{dialog, path_field, problem};
 use crate::jobs::work::job::Job;
 use crate::model::Model;
-use crate::model::dialogs::{PathField, SaveDialog};
-use crate::model::dialogs::{SaveKind, SaveRequest};
+use crate::model::dialogs::{PathField, SaveDialog, SaveKind, SaveRequest};
 use crate::model::effect::{BrowseFor, Effect};
 use crate::widgets::{progress, theme};
 

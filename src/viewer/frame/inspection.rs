@@ -9,9 +9,8 @@ use crate::model::Model;
 use crate::model::inspection::{self, HEADS, Inspection};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::ViewState;
-use crate::widgets::bare;
 use crate::widgets::readout::in_width;
-use crate::widgets::theme;
+use crate::widgets::{bare, theme};
 
 /// Width of a name, and between columns, in points.
 const NAME: f32 = 110.0;

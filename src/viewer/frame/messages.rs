@@ -5,8 +5,7 @@ use eframe::egui::{self, Align2, RichText};
 use svbrdf_core::text::line;
 
 use crate::model::material::loaded::drawable;
-use crate::model::message::MessageList;
-use crate::model::message::{Message, Severity};
+use crate::model::message::{Message, MessageList, Severity};
 use crate::model::{Model, opening};
 use crate::widgets::theme;
 

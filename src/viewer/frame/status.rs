@@ -8,9 +8,8 @@ use crate::jobs::photograph::Photographs;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, display};
 use crate::pane::viewport::Viewport;
-use crate::widgets::number;
 use crate::widgets::readout::{self, Readout};
-use crate::widgets::theme;
+use crate::widgets::{number, theme};
 
 /// Width of the line, in points, below which its buttons have short names.
 const NARROW: f32 = 850.0;

@@ -7,8 +7,7 @@ use egui_material_icons::icons;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session::window::SessionDisplay;
 
-use crate::frame::keys;
-use crate::frame::menu;
+use crate::frame::{keys, menu};
 use crate::model::view::{AutoExposure, Layout, Projection};
 use crate::model::{Model, display, exposure, undo};
 use crate::widgets::number;

@@ -2,9 +2,8 @@
 
 use svbrdf_core::model::scene::{Scene, SceneFile};
 
-use crate::model::Model;
-use crate::model::exposure;
 use crate::model::message::Message;
+use crate::model::{Model, exposure};
 
 /// Takes the scene of this text of the clipboard.
 pub fn paste(model: &mut Model, text: &str) {

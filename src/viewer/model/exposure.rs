@@ -1,8 +1,7 @@
 //! Automatic exposure: the brightest 1% of the rendering of the ground truth just clip.
 
-use svbrdf_core::picture::exposure;
-
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::exposure;
 use svbrdf_files::source::Place;
 
 use crate::model::Model;

@@ -29,6 +29,7 @@ use svbrdf_core::loss::FileScenes;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::Session;
 
+use crate::error::Error;
 use crate::model::dataset::DatasetState;
 use crate::model::dialogs::Dialogs;
 use crate::model::effect::Effect;
@@ -36,14 +37,9 @@ use crate::model::history::History;
 use crate::model::inspection::Inspection;
 use crate::model::material::list::MaterialList;
 use crate::model::material::photograph::PhotographState;
-use crate::model::message::Message;
-use crate::model::message::MessageList;
-use crate::model::settings::LossQuery;
-use crate::model::settings::Settings;
-use crate::model::view::WindowGeometry;
-use crate::model::view::{Exposed, ViewState};
-
-use crate::error::Error;
+use crate::model::message::{Message, MessageList};
+use crate::model::settings::{LossQuery, Settings};
+use crate::model::view::{Exposed, ViewState, WindowGeometry};
 
 /// Everything that is edited in the window. A copy is cheap: what is large is shared.
 #[derive(Clone, Debug, Default)]

@@ -6,14 +6,13 @@ use std::sync::Arc;
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_evaluate::dataset::{Case, Source};
-use svbrdf_files::Error as FilesError;
 use svbrdf_files::convention::{self, ChosenConvention};
 use svbrdf_files::disk::open::allow_outside;
 use svbrdf_files::photograph::Capture;
 use svbrdf_files::read::{MaterialPath, ReadOptions};
-use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
+use svbrdf_files::{Error as FilesError, scene_file};
 
 use crate::model::Model;
 use crate::model::dataset::{DatasetState, OpenDataset};

@@ -5,7 +5,6 @@ pub mod draft_policy;
 pub mod gestures;
 pub mod gpu_view;
 pub mod handles;
-pub mod hovered;
 pub mod legend;
 pub mod marks;
 pub mod placed;

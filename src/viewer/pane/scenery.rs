@@ -1,4 +1,4 @@
-//! Scenery: which panes there are, and what each displays.
+//! Scenery: which panes there are, what each displays, and what of it is under the pointer.
 
 use eframe::egui;
 
@@ -12,6 +12,8 @@ use crate::model::inspection::Inspection;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::{Layout, ViewState};
 use crate::pane::gpu_view::{GpuView, PaneTexels};
+use crate::pane::handles::ndc_from_pos;
+use crate::pane::placed::Placed;
 use crate::widgets::names::shortened;
 
 /// What the panes show, for one frame.
@@ -219,5 +221,32 @@ pub fn index_at(scenery: &Scenery<'_>, content: PaneContent, x: f32) -> usize {
         (DisplayMode::Wipe(line), PhotographUse::Reference) if x < line => photograph,
         (DisplayMode::Wipe(line), _) if x < line => content.reference,
         _ => content.index,
+    }
+}
+
+/// What is under the pointer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hovered {
+    /// The index of the material there; the number of materials for a photograph.
+    pub index: usize,
+    /// The texel there; `None` beside the material.
+    pub texel: Option<[usize; 2]>,
+}
+
+impl Hovered {
+    /// What is under the pointer, if it is over this pane and nothing lies in between.
+    pub fn in_pane(
+        ui: &egui::Ui,
+        scenery: &Scenery<'_>,
+        content: PaneContent,
+        placed: &Placed,
+    ) -> Option<Self> {
+        let pos = ui.input(|i| i.pointer.latest_pos()).filter(|pos| placed.rect.contains(*pos))?;
+        let covered = ui.ctx().layer_id_at(pos).is_some_and(|layer| layer != ui.layer_id());
+        if covered {
+            return None;
+        }
+        let index = index_at(scenery, content, ndc_from_pos(placed.rect, pos)[0]);
+        placed.point(pos).map(|point| Self { index, texel: placed.grid.texel_at(point) })
     }
 }

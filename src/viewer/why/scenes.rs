@@ -7,8 +7,7 @@ use svbrdf_evaluate::why::{RankedScene, Worst};
 
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::{ComparedPair, MOST_THUMBNAILS, Thumbnails};
-use crate::model::dialogs::SaveDialog;
-use crate::model::dialogs::SaveKind;
+use crate::model::dialogs::{SaveDialog, SaveKind};
 use crate::model::effect::Effect;
 use crate::model::{Model, exposure};
 use crate::widgets::numbers::digits;
