@@ -5,7 +5,7 @@ use std::io::ErrorKind;
 use dds::header::{Dx9Header, Dx9PixelFormat, Header, PixelFormatFlags};
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
-use super::place::DecodedFile;
+use super::place::{DecodedFile, ratio};
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::error::Error;
@@ -34,8 +34,8 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
         Channels::Rgba => (Channels::Rgba, 4),
     };
     let texels = u64::from(size.width).saturating_mul(u64::from(size.height));
-    let _reserved =
-        place.check_size(size.width.into(), size.height.into(), texels.saturating_mul(4 * count as u64))?;
+    let bytes = texels.saturating_mul(4 * count as u64);
+    let _reserved = place.check_size([size.width.into(), size.height.into()], bytes, ratio::DDS)?;
     let values = texels as usize * count;
     let (buffer, depth) = match native.precision {
         Precision::U8 => (pixels(&mut decoder, vec![0_u8; values], channels, place)?, "8-bit"),

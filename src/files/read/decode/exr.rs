@@ -10,7 +10,7 @@ use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 use glam::DMat3;
 
 use super::dwa;
-use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE};
+use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE, ratio};
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::error::Error;
@@ -73,7 +73,7 @@ fn check(meta: &MetaData, place: DecodedFile<'_>) -> Result<u64, Error> {
         let (width, height) = (header.layer_size.0 as u64, header.layer_size.1 as u64);
         let samples = width.saturating_mul(height).saturating_mul(header.channels.list.len() as u64);
         bytes = bytes.saturating_add(samples.saturating_mul(4));
-        drop(place.check_size(width, height, bytes)?);
+        drop(place.check_size([width, height], bytes, ratio::EXR)?);
     }
     Ok(bytes)
 }

@@ -1,11 +1,11 @@
 //! JPEG: the values that libjpeg-turbo gives, on which this field trains and evaluates. What libjpeg-turbo-rs 0.8.0 decodes to other values
 //! is refused; `python/tests/test_jpeg.py` compares both.
 
-use std::io::{Read as _, Seek as _, SeekFrom};
+use std::io::Read as _;
 
 use libjpeg_turbo_rs::{ColorSpace, DecodeLimits, Decoder, JpegError, PixelFormat};
 
-use super::place::{Decoded, DecodedFile, alone};
+use super::place::{Decoded, DecodedFile, alone, ratio};
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::error::Error;
@@ -27,9 +27,7 @@ pub(super) struct Pixels {
 
 pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let unreadable = |error| Error::unreadable(place.path, error);
-    let length = reader.seek(SeekFrom::End(0)).map_err(unreadable)?;
-    let _reserved_for_file = place.reserve(length)?;
-    reader.rewind().map_err(unreadable)?;
+    let _reserved_for_file = place.reserve(place.length)?;
     let mut bytes = Vec::new();
     reader.read_to_end(&mut bytes).map_err(unreadable)?;
     // Sizes are checked with the memory, for a message with their numbers.
@@ -71,7 +69,8 @@ pub(super) fn pixels(bytes: &[u8], most: [usize; 2], place: DecodedFile<'_>) -> 
         return Err(place.bad(format!("{expected}, found {found}"), "convert it to PNG in RGB"));
     }
     let size = u64::from(width) * u64::from(height);
-    let _reserved = place.check_size(width.into(), height.into(), size * count as u64)?;
+    let most = if decoder.is_arithmetic() { ratio::NONE } else { ratio::JPEG };
+    let _reserved = place.check_size([width.into(), height.into()], size * count as u64, most)?;
     let _reserved_for_work = place.reserve(size * WORKING)?;
     if !is_whole(bytes) {
         return Err(place.truncated());
@@ -182,7 +181,8 @@ mod tests {
     ];
 
     fn decoded(bytes: &[u8]) -> Result<Decoded, Error> {
-        decode(Reader::of_bytes(bytes), DecodedFile { path: Path::new("m.jpg"), what: Subject::Material })
+        let place = DecodedFile::of(Path::new("m.jpg"), Subject::Material);
+        decode(Reader::of_bytes(bytes), DecodedFile { length: bytes.len() as u64, ..place })
     }
 
     #[test]

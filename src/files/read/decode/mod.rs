@@ -45,8 +45,9 @@ pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
 
 /// As [`whole`], from what `reader` gives; `path` is the name for messages.
 pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) -> Result<Decoded, Error> {
-    let place = DecodedFile { path, what };
-    let head = reader.fill_buf().map_err(|source| Error::unreadable(path, source))?;
+    let unreadable = |source| Error::unreadable(path, source);
+    let place = DecodedFile { length: reader.length().map_err(unreadable)?, ..DecodedFile::of(path, what) };
+    let head = reader.fill_buf().map_err(unreadable)?;
     lfs::refuse_pointer(path, head)?;
     let begins = |magic: &[u8]| head.starts_with(magic);
     if begins(&[0x76, 0x2f, 0x31, 0x01]) {
@@ -82,7 +83,7 @@ pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>),
         _ => {
             let names: Vec<_> = layers.iter().map(|layer| layer.name.as_str()).collect();
             let problem = format!("expected one picture, found the layers {}", names.join(", "));
-            return Err(DecodedFile { path: file.path(), what }.bad(problem, "open the file itself"));
+            return Err(DecodedFile::of(file.path(), what).bad(problem, "open the file itself"));
         }
     };
     let chosen = layers.swap_remove(chosen);
@@ -96,7 +97,7 @@ pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>),
 /// # Errors
 /// As [`whole`]; [`Error::BadImage`] where no layer or several could be meant.
 pub(super) fn photograph(file: &NamedFile) -> Result<(Raster, Vec<Note>), Error> {
-    let place = DecodedFile { path: file.path(), what: Subject::Photograph };
+    let place = DecodedFile::of(file.path(), Subject::Photograph);
     let Decoded { mut layers, notes, .. } = whole(file, place.what)?;
     let unnamed = layers.iter().position(|layer| layer.name.is_empty());
     let chosen = if layers.len() == 1 { Some(0) } else { unnamed };

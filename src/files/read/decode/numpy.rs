@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, Read, Seek as _};
 use exr::prelude::f16;
 
 use super::layout::{self, ArrayAxes};
-use super::place::{Decoded, DecodedFile, Layer, MAX_BYTES, alone};
+use super::place::{Decoded, DecodedFile, Layer, MAX_BYTES, alone, ratio};
 use super::reader::Reader;
 use crate::error::Error;
 use crate::npy::Header;
@@ -68,7 +68,7 @@ pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Resu
         let layer = decode(array, name, axes, place)?;
         // In memory: 2 to 4 bytes a sample.
         bytes += 4 * (layer.raster.width * layer.raster.height * layer.raster.channels.len()) as u64;
-        drop(place.check_size(layer.raster.width as u64, layer.raster.height as u64, bytes)?);
+        drop(place.check_size(layer.raster.size().map(|side| side as u64), bytes, ratio::NUMPY)?);
         decoded.notes.extend(layout::note(name, shape, axes));
         decoded.layers.push(layer);
     }
@@ -117,7 +117,8 @@ fn decode(
         )
     })?;
     let bytes = width.checked_mul(height).and_then(|n| n.checked_mul(8 * count));
-    let _reserved = place.check_size(width, height, bytes.unwrap_or(u64::MAX).min(MAX_BYTES + 1))?;
+    let bytes = bytes.unwrap_or(u64::MAX).min(MAX_BYTES + 1);
+    let _reserved = place.check_size([width, height], bytes, ratio::NUMPY)?;
     if header.is_fortran {
         return Err(
             place.bad(format!("{whose}expected rows first, found Fortran order"), "save a C-ordered copy")

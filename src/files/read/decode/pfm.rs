@@ -2,7 +2,7 @@
 
 use std::io::{BufRead as _, Read as _};
 
-use super::place::{DecodedFile, MAX_BYTES};
+use super::place::{DecodedFile, MAX_BYTES, ratio};
 use super::reader::Reader;
 use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
@@ -26,7 +26,7 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<R
         scale.parse().ok().filter(|scale: &f32| *scale != 0.0 && scale.is_finite()).ok_or_else(invalid)?;
     let count = if kind == "PF" { 3 } else { 1 };
     let bytes = width.saturating_mul(*height).saturating_mul(4 * count);
-    let _reserved = place.check_size(*width, *height, bytes.min(MAX_BYTES + 1))?;
+    let _reserved = place.check_size([*width, *height], bytes.min(MAX_BYTES + 1), ratio::PFM)?;
     let (width, height, count) = (*width as usize, *height as usize, count as usize);
     let _reserved_for_file = place.reserve(bytes)?;
     let mut stored = Vec::new();

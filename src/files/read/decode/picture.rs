@@ -16,7 +16,7 @@ use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 use super::head::{self, PngHead};
 use super::jpeg;
 use super::known;
-use super::place::{Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone};
+use super::place::{Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone, ratio};
 use super::reader::Reader;
 use crate::disk::panics::caught;
 use crate::error::Error;
@@ -40,27 +40,27 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             }
             reader.rewind().map_err(unreadable)?;
             let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
-            decode_with(Box::new(decoder), "HDR", place)
+            decode_with(Box::new(decoder), "HDR", ratio::HDR, place)
         }
         Ok(ImageFormat::Bmp) => {
             let decoder = BmpDecoder::new(reader).map_err(|error| explain(&error, "BMP", place))?;
-            decode_with(Box::new(decoder), "BMP", place)
+            decode_with(Box::new(decoder), "BMP", ratio::NONE, place)
         }
         Ok(ImageFormat::Pnm) => pnm(reader, place),
         Ok(ImageFormat::Qoi) => {
             let decoder = QoiDecoder::new(reader).map_err(|error| explain(&error, "QOI", place))?;
-            decode_with(Box::new(decoder), "QOI", place)
+            decode_with(Box::new(decoder), "QOI", ratio::QOI, place)
         }
         Ok(ImageFormat::WebP) => {
             let decoder = WebPDecoder::new(reader).map_err(|error| explain(&error, "WebP", place))?;
             let is_animated = decoder.has_animation();
-            let mut decoded = decode_with(Box::new(decoder), "WebP", place)?;
+            let mut decoded = decode_with(Box::new(decoder), "WebP", ratio::NONE, place)?;
             decoded.notes.extend(is_animated.then_some(Note::FirstOnly(place.what)));
             Ok(decoded)
         }
         _ if known::name(head).is_none() && is_tga(place) => {
             let decoder = TgaDecoder::new(reader).map_err(|error| explain(&error, "TGA", place))?;
-            decode_with(Box::new(decoder), "TGA", place)
+            decode_with(Box::new(decoder), "TGA", ratio::TGA, place)
         }
         other => {
             let other = other.ok().map(|format| (format!("{format:?}"), "convert it to PNG"));
@@ -88,7 +88,7 @@ fn png(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error>
     reader.rewind().map_err(unreadable)?;
     let decoder = PngDecoder::with_limits(reader, metadata_limits())
         .map_err(|e| of_metadata(&e, is_too_wide, place))?;
-    let mut decoded = decode_with(Box::new(decoder), "PNG", place)?;
+    let mut decoded = decode_with(Box::new(decoder), "PNG", ratio::PNG, place)?;
     decoded.notes.extend(is_animated.then_some(Note::FirstOnly(place.what)));
     if !place.is_data() {
         decoded.notes.extend(linear.map(|chunk| Note::LinearChunk(place.what, chunk)));
@@ -109,7 +109,7 @@ fn pnm(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error>
     }
     reader.rewind().map_err(unreadable)?;
     let decoder = PnmDecoder::new(reader).map_err(|error| explain(&error, "PNM", place))?;
-    decode_with(Box::new(decoder), "PNM", place)
+    decode_with(Box::new(decoder), "PNM", ratio::PNM, place)
 }
 
 /// By its name: a TGA begins with nothing of its own.
@@ -120,12 +120,13 @@ fn is_tga(place: DecodedFile<'_>) -> bool {
 fn decode_with(
     mut decoder: Box<dyn ImageDecoder + '_>,
     format: &str,
+    ratio: u64,
     place: DecodedFile<'_>,
 ) -> Result<Decoded, Error> {
     let broken = |error: ImageError| explain(&error, format, place);
     decoder.set_limits(limits()).map_err(broken)?;
     let (width, height) = decoder.dimensions();
-    let _reserved = place.check_size(width.into(), height.into(), decoder.total_bytes())?;
+    let _reserved = place.check_size([width.into(), height.into()], decoder.total_bytes(), ratio)?;
     let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms).to_exif();
     let notes = place.metadata_notes(orientation, decoder.icc_profile().ok().flatten().as_deref());
     let image = caught(|| DynamicImage::from_decoder(decoder))

@@ -15,6 +15,34 @@ pub(crate) const MAX_WIDTH: usize = 4 * MAX_SIDE;
 /// Most bytes that an image may decode to: a strip of the largest size takes 3 GiB in 8-bit RGB.
 pub(crate) const MAX_BYTES: u64 = 4 << 30;
 
+/// The most bytes of samples, as [`DecodedFile::check_size`] gets them, that a byte of a file stands for in each format.
+pub(crate) mod ratio {
+    /// Of zlib: two bits for 258 bytes.
+    const DEFLATE: u64 = 1032;
+    /// A byte of a palette is 8 texels of 4 bytes.
+    pub(crate) const PNG: u64 = 32 * DEFLATE;
+    /// LZW of one value: 3838 bytes a code of 12 bits; chroma may be halved.
+    pub(crate) const TIFF: u64 = 8192;
+    /// One bit a block, of which 4 x 4 are of luma. Arithmetic coding has no such limit.
+    pub(crate) const JPEG: u64 = 1366;
+    /// Runs of 62 texels of 4 bytes; two bytes for 128 texels.
+    pub(crate) const QOI: u64 = 248;
+    pub(crate) const TGA: u64 = 256;
+    /// Two runs of the old kind for a row of 65536 texels of 12 bytes.
+    pub(crate) const HDR: u64 = 1 << 16;
+    /// A byte of a bitmap is 8 texels.
+    pub(crate) const PNM: u64 = 8;
+    pub(crate) const PFM: u64 = 1;
+    /// Blocks of ASTC: 16 bytes for 144 texels of four floats.
+    pub(crate) const DDS: u64 = 144;
+    /// Runs within zlib, as blocks of DWA have them, of half, which takes twice as much as float.
+    pub(crate) const EXR: u64 = 2 * 64 * DEFLATE;
+    /// A value of a byte counts 8.
+    pub(crate) const NUMPY: u64 = 8 * DEFLATE;
+    /// A plane of one colour takes nothing in WebP, in runs of BMP and in arithmetic coding.
+    pub(crate) const NONE: u64 = u64::MAX;
+}
+
 /// The formats that open, for messages.
 pub(crate) const FORMATS: &str = "PNG, TIFF, JPEG, TGA, BMP, WebP, PNM, PFM, QOI, DDS, HDR, EXR, npy or npz";
 
@@ -45,9 +73,16 @@ pub(crate) struct Decoded {
 pub(crate) struct DecodedFile<'a> {
     pub path: &'a Path,
     pub what: Subject,
+    /// Its bytes.
+    pub length: u64,
 }
 
-impl DecodedFile<'_> {
+impl<'a> DecodedFile<'a> {
+    /// One whose length does not matter.
+    pub(super) fn of(path: &'a Path, what: Subject) -> Self {
+        Self { path, what, length: u64::MAX }
+    }
+
     pub(super) fn bad(self, problem: impl AsRef<str>, remedy: &str) -> Error {
         Error::BadImage {
             path: self.path.to_owned(),
@@ -84,8 +119,14 @@ impl DecodedFile<'_> {
         self.bad("expected the whole image, found the end of the file within it", "copy the file again")
     }
 
-    /// Refuses sizes before anything is allocated, and puts the memory aside: `bytes` is what all samples take.
-    pub(super) fn check_size(self, width: u64, height: u64, bytes: u64) -> Result<Reserved, Error> {
+    /// Refuses sizes before anything is allocated, and puts the memory aside: `bytes` is what all samples take, of which a byte of
+    /// the file stands for `ratio` at most.
+    pub(super) fn check_size(
+        self,
+        [width, height]: [u64; 2],
+        bytes: u64,
+        ratio: u64,
+    ) -> Result<Reserved, Error> {
         if width == 0 || height == 0 {
             return Err(
                 self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again")
@@ -98,6 +139,14 @@ impl DecodedFile<'_> {
                 MAX_BYTES >> 30
             );
             return Err(self.bad(problem, "scale it down"));
+        }
+        let least = bytes / ratio;
+        if least > self.length {
+            let problem = format!(
+                "expected at least {least} bytes for {width} x {height} pixels, found {}",
+                self.length
+            );
+            return Err(self.bad(problem, "copy the file again"));
         }
         self.reserve(bytes)
     }

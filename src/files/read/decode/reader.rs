@@ -14,6 +14,14 @@ impl<'a> Reader<'a> {
     pub(crate) fn of_bytes(bytes: &'a [u8]) -> Self {
         Self::Memory(Cursor::new(bytes))
     }
+
+    /// The bytes of the file.
+    pub(crate) fn length(&self) -> io::Result<u64> {
+        match self {
+            Self::File(reader) => reader.get_ref().metadata().map(|found| found.len()),
+            Self::Memory(reader) => Ok(reader.get_ref().len() as u64),
+        }
+    }
 }
 
 impl Read for Reader<'_> {

@@ -5,7 +5,7 @@ use tiff::TiffUnsupportedError as Unsupported;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use super::place::{Decoded, DecodedFile, MAX_BYTES, alone};
+use super::place::{Decoded, DecodedFile, MAX_BYTES, alone, ratio};
 use super::reader::Reader;
 use super::tiff_jpeg;
 use crate::error::Error;
@@ -43,7 +43,7 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decod
         .ok_or_else(|| place.bad(format!("expected gray or RGB, found {colour:?}"), "convert it to RGB"))?;
     let bytes =
         u64::from(width) * u64::from(height) * count as u64 * u64::from(colour.bit_depth()).div_ceil(8);
-    let _reserved = place.check_size(width.into(), height.into(), bytes)?;
+    let _reserved = place.check_size([width.into(), height.into()], bytes, ratio::TIFF)?;
     let planar = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(invalid)? == Some(2);
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(invalid)?.unwrap_or(1);
     let mut result = DecodingResult::U8(Vec::new());
@@ -199,7 +199,7 @@ mod tests {
             file.extend([1_u32.to_le_bytes(), value.to_le_bytes()].as_flattened());
         }
         file.extend([0; 4]);
-        let place = DecodedFile { path: Path::new("m.tif"), what: Subject::Material };
+        let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
         let refused = decode(Reader::of_bytes(&file), place).unwrap_err().to_string();
         assert!(refused.contains("found a TIFF with a depth of 1;"), "{refused}");
     }

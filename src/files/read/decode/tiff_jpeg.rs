@@ -123,7 +123,7 @@ mod tests {
     fn strips_and_tiles_of_jpeg_have_the_values_of_libtiff() {
         for texts in OF_LIBTIFF {
             let [file, values] = texts.map(|text| STANDARD.decode(text).unwrap());
-            let place = DecodedFile { path: Path::new("m.tif"), what: Subject::Material };
+            let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
             let raster = tiff::decode(Reader::of_bytes(&file), place).unwrap().layers.remove(0).raster;
             assert_eq!(raster.size(), [18, 20]);
             let rgb = |index| raster.rgb(index).map(|value| (255.0 * value).round() as u8);
