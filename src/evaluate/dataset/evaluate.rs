@@ -14,7 +14,6 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
-use svbrdf_core::render::simd::Level;
 use svbrdf_files::Error as FilesError;
 
 use super::record::{
@@ -22,7 +21,6 @@ use super::record::{
 };
 use super::remark::Remark;
 use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
-use svbrdf_files::disk::atomic::SOFTWARE;
 use svbrdf_files::read::{self, Dependencies, MaterialPath, Neighbours, ReadOptions};
 
 /// The results of a run over a data set.
@@ -188,12 +186,8 @@ impl<'a> Evaluation<'a> {
         // That of a file by its content.
         let is_named = name.parse().is_ok_and(|named: Convention| named == self.convention);
         let convention = if is_named { json!(name) } else { json!(self.convention) };
-        // Another version may compute other numbers, and remark on other things.
         let mut of = json!({
             "format": 2,
-            "software": SOFTWARE,
-            // Sums of other instruction sets differ in their last digits.
-            "simd": Level::best().name(),
             "convention": convention,
             "target_error": target_error,
             "seed": seed,
@@ -208,7 +202,7 @@ impl<'a> Evaluation<'a> {
         if let Some(scenes) = scenes {
             of["scenes"] = scenes.key();
         }
-        Some(Key { of, files: truth.files.iter().chain(&prediction.files).cloned().collect() })
+        Some(Key::new(of, truth.files.iter().chain(&prediction.files).cloned().collect()))
     }
 
     /// The result of a prediction that is not known, which is kept if it has a loss.

@@ -14,11 +14,12 @@ use serde_json::Value;
 use sha2::{Digest as _, Sha256};
 
 use svbrdf_core::progress::Progress;
+use svbrdf_core::render::simd::Level;
 use svbrdf_files::Error;
 
 use super::record::PredictionResult;
 use super::remark::Remark;
-use svbrdf_files::disk::atomic::update;
+use svbrdf_files::disk::atomic::{SOFTWARE, update};
 use svbrdf_files::disk::open::{NamedFile, hexadecimal};
 use svbrdf_files::disk::paths::plain;
 use svbrdf_files::disk::{inputs, own};
@@ -71,6 +72,19 @@ pub(super) struct Key {
 }
 
 impl Key {
+    /// That of a result of this program on this machine.
+    pub(super) fn new(of: Value, files: Vec<PathBuf>) -> Self {
+        Self::at(Level::best(), of, files)
+    }
+
+    /// Another version may compute other numbers, and remark on other things. The sums of another instruction set differ in their last
+    /// digits.
+    fn at(level: Level, mut of: Value, files: Vec<PathBuf>) -> Self {
+        of["software"] = SOFTWARE.into();
+        of["simd"] = level.name().into();
+        Self { of, files }
+    }
+
     /// `m0_ours_0123456789abcdef.json`.
     fn name(&self, material: &str) -> String {
         let method = self.of["method"].as_str().unwrap_or_default();
@@ -238,7 +252,18 @@ fn sha256(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
+
+    #[test]
+    fn every_instruction_set_has_its_own_keys() {
+        let levels: Vec<_> = Level::all().into_iter().filter_map(|(_, level)| level).collect();
+        let of = serde_json::json!({ "method": "m" });
+        let key = |level: &Level| Key::at(*level, of.clone(), Vec::new()).name("a");
+        assert_eq!(levels.iter().map(key).collect::<BTreeSet<_>>().len(), levels.len());
+        assert_eq!(Key::new(of.clone(), Vec::new()).name("a"), key(&Level::best()));
+    }
 
     #[test]
     fn what_could_not_be_kept_is_kept_as_soon_as_it_can_be() {
@@ -247,8 +272,7 @@ mod tests {
         let progress = Progress::default();
         let prediction = PredictionResult::default();
         let result = PairResult { reading: Vec::new(), floor: None, prediction, neighbours: Vec::new() };
-        let key =
-            |number: u32| Key { of: serde_json::json!({ "method": "m", "n": number }), files: Vec::new() };
+        let key = |number: u32| Key::new(serde_json::json!({ "method": "m", "n": number }), Vec::new());
         let count = || fs::read_dir(&path).map_or(0, |entries| entries.count());
         let folder = ResultsFolder::open(&path).unwrap();
         let add = |number| folder.add("a", &key(number), &result, &progress).unwrap();
