@@ -7,6 +7,8 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use crate::support::temporary::is_writing;
+
 use super::{command, files, folder, succeed, write_material};
 
 /// Width and height of the material: writing it takes a while.
@@ -32,10 +34,10 @@ fn send(signal: &str, child: &Child) {
     assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success());
 }
 
-/// Waits until `folder` has a temporary file or folder; false where the child has ended before.
+/// Waits until the child has a temporary file or folder in `folder`; false where it has ended before.
 fn writing(folder: &Path, child: &mut Child) -> bool {
     while child.try_wait().unwrap().is_none() {
-        if files(folder).iter().any(|name| name.starts_with(".svbrdf-")) {
+        if is_writing(folder, child.id()) {
             return true;
         }
         sleep(Duration::from_millis(1));
@@ -123,13 +125,14 @@ fn every_signal_that_ends_the_program_leaves_nothing_though_another_one_is_ignor
     }
 }
 
-/// What is written is complete before it has its name.
+/// What is written is complete before it has a name.
 #[test]
 fn a_kill_at_any_moment_leaves_the_whole_old_file() {
     let folder = folder();
     write_material(&folder.path().join("large.png"), LARGE, 90);
     let out = folder.path().join("out.exr");
     fs::write(&out, "old").unwrap();
+    let before = files(folder.path());
     let mut unfinished = 0;
     for delay in [0, 5, 20, 60] {
         let mut child = convert(folder.path(), "out.exr --depth float");
@@ -142,8 +145,7 @@ fn a_kill_at_any_moment_leaves_the_whole_old_file() {
         assert!(is_old || fs::metadata(&out).unwrap().len() > 1_000_000, "{delay}: a part of the new file");
         unfinished += u32::from(is_old && !ended);
         fs::write(&out, "old").unwrap();
-        let left = files(folder.path()).into_iter().filter(|name| name.starts_with(".svbrdf-"));
-        left.for_each(|name| fs::remove_file(folder.path().join(name)).unwrap());
+        assert_eq!(files(folder.path()), before, "{delay}: something is left");
     }
     assert!(unfinished > 0, "nothing was ever killed");
 }

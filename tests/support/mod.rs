@@ -11,5 +11,7 @@ pub mod pictures;
 pub mod png;
 pub mod points;
 pub mod surroundings;
+#[cfg(target_os = "linux")]
+pub mod temporary;
 pub mod textures;
 pub mod tolerance;

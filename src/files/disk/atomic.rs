@@ -12,8 +12,6 @@ use crate::error::Error;
 
 /// The program and its version, as the files that it writes name it.
 pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
-/// How the names of temporary files begin.
-pub const TEMPORARY: &str = ".svbrdf-";
 /// A chain of links that is longer has no end.
 const MOST_LINKS: usize = 40;
 
@@ -188,11 +186,7 @@ fn written(
             return Ok(());
         }
         let target = target_of(path)?;
-        let mut temporary = temporary_in(folder_of(&target))?;
-        fill(temporary.as_file_mut())?;
-        // The name must not lead to content that a loss of power takes away.
-        temporary.as_file().sync_all()?;
-        temporary.persist(&target)?;
+        temporary_in(folder_of(&target), fill)?.persist(&target)?;
         Ok(())
     };
     let remedy = "check that its folder is writable and the disk not full";
@@ -218,14 +212,51 @@ pub fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// A temporary file with the permissions of any other new file, not of a secret.
-fn temporary_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+/// Fills a file.
+type Fill<'a> = Box<dyn FnOnce(&mut File) -> io::Result<()> + 'a>;
+
+/// A temporary file that `fill` has filled, on the disk: its name must not lead to content that a loss of power takes away. It has the
+/// permissions of any other new file, not of a secret. On Linux it has no name before, and a process that is killed leaves nothing.
+fn temporary_in(
+    folder: &Path,
+    fill: impl FnOnce(&mut File) -> io::Result<()>,
+) -> io::Result<tempfile::TempPath> {
     let mut builder = tempfile::Builder::new();
+    builder.prefix(".svbrdf-");
     #[cfg(unix)]
-    let permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
-    #[cfg(unix)]
-    builder.permissions(permissions);
-    builder.prefix(TEMPORARY).tempfile_in(folder)
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut fill: Fill<'_> = Box::new(fill);
+    #[cfg(target_os = "linux")]
+    if let Some(mut file) = unnamed(folder) {
+        fill(&mut file)?;
+        file.sync_all()?;
+        if let Ok(named) = builder.make_in(folder, |path| name(&file, path)) {
+            return Ok(named.into_temp_path());
+        }
+        // As without /proc.
+        file.rewind()?;
+        fill = Box::new(move |named| io::copy(&mut file, named).map(drop));
+    }
+    let mut named = builder.tempfile_in(folder)?;
+    fill(named.as_file_mut())?;
+    named.as_file().sync_all()?;
+    Ok(named.into_temp_path())
+}
+
+/// A file without a name; `None` where the file system has none, as NFS.
+#[cfg(target_os = "linux")]
+fn unnamed(folder: &Path) -> Option<File> {
+    use rustix::fs::{Mode, OFlags};
+    let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
+    rustix::fs::open(folder, flags, Mode::from_raw_mode(0o666)).ok().map(File::from)
+}
+
+/// Gives a file without a name this one.
+#[cfg(target_os = "linux")]
+fn name(file: &File, path: &Path) -> io::Result<()> {
+    use rustix::fs::{AtFlags, CWD};
+    let own = format!("/proc/self/fd/{}", std::os::fd::AsRawFd::as_raw_fd(file));
+    Ok(rustix::fs::linkat(CWD, own, CWD, path, AtFlags::SYMLINK_FOLLOW)?)
 }
 
 fn unwritable(path: &Path, source: io::Error, remedy: &'static str) -> Error {
