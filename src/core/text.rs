@@ -1,5 +1,7 @@
 //! Numbers as people read them.
 
+use std::ffi::OsStr;
+
 /// A time in two digits or three, as people read it.
 pub fn time(seconds: f64) -> String {
     match seconds {
@@ -60,21 +62,24 @@ fn escaped(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
 }
 
 /// An argument of a command as shells read it: in quotes where it has other characters than those of plain names. What steers a
-/// terminal stands there as the numbers of its bytes, which bash, zsh and ksh read in `$'...'`.
-pub fn quoted(argument: &str) -> String {
+/// terminal, or is no UTF-8, stands there as the numbers of its bytes, which bash, zsh and ksh read in `$'...'`.
+pub fn quoted(argument: impl AsRef<OsStr>) -> String {
+    let argument = argument.as_ref();
     let is_plain = |c: char| c.is_alphanumeric() || "-_./=:,%+@".contains(c);
-    if !argument.is_empty() && argument.chars().all(is_plain) {
-        return argument.to_owned();
+    match argument.to_str() {
+        Some(text) if !text.is_empty() && text.chars().all(is_plain) => return text.to_owned(),
+        Some(text) if !text.contains(steers) => return format!("'{}'", text.replace('\'', r"'\''")),
+        _ => {}
     }
-    if !argument.contains(steers) {
-        return format!("'{}'", argument.replace('\'', r"'\''"));
-    }
+    let octal = |bytes: &[u8]| bytes.iter().map(|byte| format!("\\{byte:03o}")).collect::<String>();
     let quoted = |c: char| match c {
         '\'' | '\\' => format!("\\{c}"),
-        c if steers(c) => c.to_string().bytes().map(|byte| format!("\\{byte:03o}")).collect(),
+        c if steers(c) => octal(c.to_string().as_bytes()),
         c => c.to_string(),
     };
-    format!("$'{}'", argument.chars().map(quoted).collect::<String>())
+    let chunks = argument.as_encoded_bytes().utf8_chunks();
+    let text = chunks.map(|one| one.valid().chars().map(quoted).collect::<String>() + &octal(one.invalid()));
+    format!("$'{}'", text.collect::<String>())
 }
 
 /// The text in one line of a readable length, in which nothing steers what follows: for every name from a file. Names of
@@ -144,6 +149,11 @@ mod tests {
             ("it's\n\\\u{1b}7", r"$'it\'s\012\\\0337'"),
         ] {
             assert_eq!(quoted(argument), text);
+        }
+        #[cfg(unix)]
+        {
+            let bytes: &OsStr = std::os::unix::ffi::OsStrExt::from_bytes(b"a\xff'");
+            assert_eq!(quoted(bytes), r"$'a\377\''");
         }
     }
 }

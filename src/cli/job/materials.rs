@@ -174,7 +174,7 @@ fn note_paths(paths: &[PathBuf]) {
     let is_matched = |case: &Case| case.candidates.iter().any(|candidate| candidate.missing.is_none());
     let count = cases.map_or(0, |cases| cases.iter().filter(|case| is_matched(case)).count());
     if count > 0 {
-        let paths: Vec<String> = paths.iter().map(|path| quoted(&path.display().to_string())).collect();
+        let paths: Vec<String> = paths.iter().map(quoted).collect();
         let (names, paths) = (paths.join(" and "), paths.join(" "));
         exit::tell(&format!(
             "note: {names} have {count} materials of the same names: svbrdf rank --dataset {paths} compares them"

@@ -19,7 +19,7 @@ use svbrdf_files::disk::signals;
 
 /// The command line of this process, quoted for a shell.
 pub fn command_line() -> String {
-    let arguments = std::env::args_os().skip(1).map(|argument| quoted(&argument.to_string_lossy()));
+    let arguments = std::env::args_os().skip(1).map(quoted);
     std::iter::once("svbrdf".to_owned()).chain(arguments).collect::<Vec<_>>().join(" ")
 }
 

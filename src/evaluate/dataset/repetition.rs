@@ -1,5 +1,7 @@
 //! The command that repeats a ranking of a data set.
 
+use std::ffi::OsString;
+
 use svbrdf_core::text::{line, quoted};
 
 use super::pick::Pick;
@@ -8,17 +10,17 @@ use super::record::{DatasetReading, DatasetSettings, Method, Source};
 /// The command line that makes the same results, quoted for a shell. Options that have their defaults are left out.
 pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick: Pick) -> String {
     let DatasetSettings { source, convention, target_error, scenes, seed, metrics, diagnose, .. } = settings;
-    let mut words = vec!["svbrdf".to_owned(), "rank".to_owned()];
+    let mut words: Vec<OsString> = vec!["svbrdf".into(), "rank".into()];
     match source {
         Source::Folders { ground_truths, methods } => {
-            words.extend(["--dataset".to_owned(), ground_truths.display().to_string()]);
+            words.extend([OsString::from("--dataset"), ground_truths.into()]);
             words.extend(methods.iter().map(method));
         }
         Source::Predictions { ground_truth, predictions } => {
-            words.push(ground_truth.display().to_string());
+            words.push(ground_truth.into());
             words.extend(predictions.iter().map(method));
         }
-        Source::Table(path) => words.extend(["--pairs".to_owned(), path.display().to_string()]),
+        Source::Table(path) => words.extend([OsString::from("--pairs"), path.into()]),
     }
     let options = [
         ("--convention", convention.argument(), "printed"),
@@ -27,19 +29,21 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
         ("--pick", pick.to_string(), "fixed"),
     ];
     let specified = options.into_iter().filter(|(_, value, default)| value != default);
-    words.extend(specified.flat_map(|(name, value, _)| [name.to_owned(), value]));
-    words.extend(scenes.iter().flat_map(|scenes| scenes.options.clone()));
+    words.extend(specified.flat_map(|(name, value, _)| [OsString::from(name), value.into()]));
+    words.extend(scenes.iter().flat_map(|scenes| scenes.options.iter().map(OsString::from)));
     let switches = [("--metrics", *metrics), ("--diagnose", *diagnose), ("--strict", reading.strict)];
-    words.extend(switches.into_iter().filter(|(_, is)| *is).map(|(name, _)| name.to_owned()));
-    words.extend(read_options(reading));
-    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+    words.extend(switches.into_iter().filter(|(_, is)| *is).map(|(name, _)| OsString::from(name)));
+    words.extend(read_options(reading).into_iter().map(OsString::from));
+    words.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 
 /// The path of a method, with its name where that is another one than the path has.
-fn method(method: &Method) -> String {
-    let path = method.path.display().to_string();
+fn method(method: &Method) -> OsString {
     let own = method.path.file_name().unwrap_or_default().to_string_lossy();
-    if line(&own) == method.name { path } else { format!("{}={path}", method.name) }
+    let name = if line(&own) == method.name { String::new() } else { format!("{}=", method.name) };
+    let mut word = OsString::from(name);
+    word.push(&method.path);
+    word
 }
 
 /// `--read gt:KEY=VALUE,...` for the ground truths, the predictions and the methods that are read by options.

@@ -50,7 +50,7 @@ impl Remedy {
 
     /// The option of the command line for the material `name`, quoted for a shell: `--read 'run 2:normal-y=down'`.
     pub fn command_option(self, name: &str) -> String {
-        format!("--read {}", quoted(&self.statement(name)))
+        format!("--read {}", quoted(self.statement(name)))
     }
 }
 

@@ -1,6 +1,5 @@
 //! Report: the page of the comparison with its findings, as `svbrdf report` writes it.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -91,9 +90,9 @@ fn reading(ReadMaterial { record, .. }: &ReadMaterial) -> Vec<String> {
 
 /// The command that makes the report at `path`, of a session beside it.
 fn repetition(path: &Path, session: &Session) -> Result<Repetition, Error> {
-    let text_of = |name: Option<&OsStr>| name.unwrap_or_default().to_string_lossy().into_owned();
-    let name = format!("{}.svbrdf-session.json", text_of(path.file_stem()));
+    let name = format!("{}.svbrdf-session.json", path.file_stem().unwrap_or_default().to_string_lossy());
     let text = session.text(&path.with_file_name(&name))?;
-    let command = format!("svbrdf report {} -o {}", quoted(&name), quoted(&text_of(path.file_name())));
+    let command =
+        format!("svbrdf report {} -o {}", quoted(&name), quoted(path.file_name().unwrap_or_default()));
     Ok(Repetition { command, session: Some([name, text]) })
 }

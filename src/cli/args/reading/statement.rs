@@ -62,6 +62,6 @@ impl fmt::Display for Statement {
             Whose::Predictions => "pred:",
             Whose::Named(name) => &format!("{name}:"),
         };
-        write!(f, "--read {}", quoted(&format!("{prefix}{}", self.options.words())))
+        write!(f, "--read {}", quoted(format!("{prefix}{}", self.options.words())))
     }
 }
