@@ -3,18 +3,25 @@
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
+use glob::Pattern;
+
 use super::{NamedPath, is_there};
 use crate::cli::output::CommandError;
 
-/// Expands the wildcards `*`, `?` and `[...]` in paths, in natural order: `step9` before `step10`. A path that exists is taken as it is.
+/// Expands the wildcards `*`, `?` and `[...]` in paths, in natural order: `step9` before `step10`. A path that exists is taken as it is,
+/// and so is the part of a path that does.
 pub fn expanded(all: impl Iterator<Item = NamedPath>) -> Result<Vec<NamedPath>, CommandError> {
     let one = |given: NamedPath| -> Result<Vec<NamedPath>, CommandError> {
-        let text = given.path.to_string_lossy();
-        if !text.contains(['*', '?', '[']) || is_there(&given.path) {
+        let folder = given.path.ancestors().find(|above| above.is_dir()).unwrap_or(Path::new(""));
+        let rest = given.path.strip_prefix(folder).unwrap_or(&given.path);
+        if !rest.to_string_lossy().contains(['*', '?', '[']) || is_there(&given.path) {
             return Ok(vec![given]);
         }
+        let text = given.path.to_string_lossy();
         let wrong = |problem: String| CommandError::Usage(format!("the pattern {text} {problem}"));
-        let matches = glob::glob(&text).map_err(|problem| wrong(format!("is malformed: {problem}")))?;
+        let pattern = Path::new(&Pattern::escape(&folder.to_string_lossy())).join(rest);
+        let matches = glob::glob(&pattern.to_string_lossy());
+        let matches = matches.map_err(|problem| wrong(format!("is malformed: {problem}")))?;
         let mut found: Vec<PathBuf> = matches.flatten().collect();
         found.sort_by(|a, b| natural_order(a, b));
         match (found.len(), &given.name) {
@@ -52,13 +59,15 @@ mod tests {
 
     #[test]
     fn patterns_are_expanded_in_the_order_of_their_numbers() {
-        let folder = tempfile::tempdir().unwrap();
+        let above = tempfile::tempdir().unwrap();
+        let folder = above.path().join("[ab]*");
+        std::fs::create_dir(&folder).unwrap();
         let names = ["a.png", "a_step9.png", "a_step010.png", "a_step10.png", "a_step100.png", "b_step1.png"];
         for name in names {
-            std::fs::write(folder.path().join(name), "").unwrap();
+            std::fs::write(folder.join(name), "").unwrap();
         }
-        let given = NamedPath { name: None, path: folder.path().join("*.png") };
-        let found = expanded(std::iter::once(given)).unwrap();
-        assert_eq!(found.iter().map(|one| one.path.file_name().unwrap()).collect::<Vec<_>>(), names);
+        let found = |rest: &str| expanded(std::iter::once(folder.join(rest).into())).unwrap();
+        assert_eq!(found("*.png").iter().map(|one| one.path.file_name().unwrap()).collect::<Vec<_>>(), names);
+        assert_eq!(found("{}.png"), [NamedPath::from(folder.join("{}.png"))]);
     }
 }
