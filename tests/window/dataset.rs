@@ -9,6 +9,9 @@ use svbrdf_viewer::model::dataset::list::{Filter, ListView, Order};
 use super::observed::Observed;
 use super::*;
 
+/// A note that a spreadsheet would run.
+const FORMULA: &str = "=cmd|' /C calc'!A0";
+
 /// Writes a material whose error is so many times the least.
 fn write(path: &Path, side: u32, error: u32) {
     write_packed(path, side, |tile, x, y| {
@@ -141,7 +144,7 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     assert_eq!(title(&window).unwrap(), format!("{name} (1 of 6)"));
     window.key_press(egui::Key::K);
     window.run_steps(2);
-    edit(&mut window, |model| model.dataset.change_mark(|mark| mark.note = "blotches".to_owned()));
+    edit(&mut window, |model| model.dataset.change_mark(|mark| mark.note = FORMULA.to_owned()));
     let marked = ListView { filter: Filter::Marked, ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = marked);
     assert_eq!(title(&window).unwrap(), format!("{name} (1 of 1)"));
@@ -158,7 +161,7 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     edit(&mut window, |model| model.messages.dismiss_all());
     let list = std::fs::read_to_string(path).unwrap();
     let known = loss(&window, case, 0).unwrap().loss;
-    assert!(list.contains(&format!("\n{name},true,blotches,{known},")), "{list}");
+    assert!(list.contains(&format!("\n{name},true,'{FORMULA},{known},")), "{list}");
     assert_eq!(list.lines().count(), 7, "{list}");
 
     let path = folder.path().join("all.svbrdf-session.json");
@@ -172,7 +175,7 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     wait_for_losses(&mut other);
     wait(&mut other, "the marked one", |app| app.parts.model.dataset.shown == Some(case));
     let mark = other.model().dataset.mark(name).cloned().unwrap();
-    assert!(mark.is_marked && mark.note == "blotches");
+    assert!(mark.is_marked && mark.note == FORMULA);
     assert_eq!(loss(&other, case, 0), loss(&window, case, 0));
 }
 

@@ -209,7 +209,8 @@ impl Table {
     pub fn csv(&self) -> Result<String, Error> {
         let internal = |problem: csv::Error| Error::Internal(problem.to_string());
         let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.write_record(&self.columns).map_err(internal)?;
+        let heading = |name: &String| Cell::Text(name.clone()).in_table();
+        writer.write_record(self.columns.iter().map(heading)).map_err(internal)?;
         for row in &self.rows {
             writer.write_record(row.iter().map(Cell::in_table)).map_err(internal)?;
         }
@@ -262,8 +263,8 @@ mod tests {
     #[test]
     fn text_is_no_formula_and_steers_no_terminal() {
         let row = vec!["=cmd()".into(), "@a".into(), "a-b".into(), (-0.5).into(), "\u{1b}[2J".into()];
-        let table = Table::new(["a", "b", "c", "d", "e"], [row]);
-        assert_eq!(table.csv().unwrap(), "a,b,c,d,e\n'=cmd(),'@a,a-b,-0.5,\\u{1b}[2J\n");
+        let table = Table::new(["=a", "b", "c", "d", "e"], [row]);
+        assert_eq!(table.csv().unwrap(), "'=a,b,c,d,e\n'=cmd(),'@a,a-b,-0.5,\\u{1b}[2J\n");
     }
 
     #[test]
