@@ -15,8 +15,7 @@ const FACTORS: f32 = 76.0;
 
 /// Draws the section, where a photograph is open.
 pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
-    let open = &shown.model.photograph;
-    let Some(displayed) = shown.jobs.photograph.displayed(open, shown.materials()) else { return };
+    let Some(displayed) = shown.open_photograph() else { return };
     let panel = bare(egui::Panel::bottom("photograph"), ui).resizable(false);
     panel.show(ui, |ui| card(ui, shown, displayed, next));
 }

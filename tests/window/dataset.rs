@@ -4,6 +4,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_evaluate::dataset::{DatasetReading, Evaluation, KnownLoss, Source};
 use svbrdf_viewer::OpenDataset;
+use svbrdf_viewer::jobs::dataset::summary::Summarize;
 use svbrdf_viewer::model::dataset::list::{Filter, ListView, Order};
 
 use super::observed::Observed;
@@ -228,22 +229,22 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
     wait(&mut window, "the first material", |app| app.names()[0] == "a");
     wait_for_losses(&mut window);
     tab(&mut window, "Methods");
-    wait(&mut window, "the summary", |app| app.jobs().dataset.summary.get().is_some());
+    wait(&mut window, "the summary", |app| app.jobs().answers.latest(|_: &Summarize| true).is_some());
     see(&mut window, "theirs has 3 of 6 materials");
     window.key_press(egui::Key::S);
     window.run_steps(3);
     wait_in(&mut window, "the cells", |window| {
-        let sheet = window.jobs().dataset.sheet.get();
+        let sheet = window.jobs().dataset.sheet.as_deref();
         let of = |case, column| svbrdf_viewer::jobs::dataset::cells::Cell { case, column };
         sheet.is_some_and(|sheet| sheet.part(of(0, 1)).is_some() && sheet.part(of(2, 2)).is_none())
     });
-    let before = window.jobs().dataset.sheet.get().unwrap().picture.clone();
+    let before = window.jobs().dataset.sheet.as_deref().unwrap().picture.clone();
     let rect = window.get_by_label("Cell b, ours").rect();
     drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.75, 0.25));
     let light = window.scene().light;
     assert!((light[0] - 0.5).abs() < 0.05 && (light[1] - 0.5).abs() < 0.05, "{light:?}");
     wait_in(&mut window, "other pictures", |window| {
-        let sheet = window.jobs().dataset.sheet.get();
+        let sheet = window.jobs().dataset.sheet.as_deref();
         sheet.is_some_and(|sheet| !Arc::ptr_eq(&sheet.picture, &before) && sheet.picture != before)
     });
     assert_eq!(window.names()[0], "a", "a drag opens nothing");

@@ -9,7 +9,11 @@ use svbrdf_evaluate::photograph::PhotographComparison;
 use svbrdf_evaluate::why::{Attribution, RankedScene, Worst};
 use svbrdf_viewer::frame::App;
 use svbrdf_viewer::jobs::Jobs;
-use svbrdf_viewer::jobs::why::ComparedPair;
+use svbrdf_viewer::jobs::content::ComparedPair;
+use svbrdf_viewer::jobs::why::MOST_THUMBNAILS;
+use svbrdf_viewer::jobs::why::questions::{
+    Attribute, DrawScenes, FindWorst, RankScenes, SceneLosses, known_diagnosis,
+};
 use svbrdf_viewer::model::Model;
 use svbrdf_viewer::model::message::Message;
 use svbrdf_viewer::model::view::ViewState;
@@ -71,32 +75,38 @@ pub trait Observed {
     }
 
     /// The latest losses of the predictions in one scene, and whether it is the current one.
-    fn scene_losses(&self) -> Option<(&[f64], bool)> {
-        self.jobs().scene_loss.get(&self.model().materials.all, self.view())
+    fn scene_losses(&self) -> Option<(Vec<f64>, bool)> {
+        let (all, answers) = (&self.model().materials.all, &self.jobs().answers);
+        let wanted = SceneLosses::of(all, self.view())?;
+        let (latest, losses) = answers.latest(|one: &SceneLosses| one.materials == wanted.materials)?;
+        Some((losses.to_vec(), latest == wanted))
     }
 
     /// The diagnosis of the chosen prediction, after the floor of the ground truth.
-    fn diagnosis(&self) -> Option<&Diagnosis> {
+    fn diagnosis(&self) -> Option<Diagnosis> {
         let seed = self.model().settings.loss.seed;
-        self.jobs().why.diagnosis.get(&self.pair()?, seed).map(|done| &done.diagnosis)
+        known_diagnosis(&self.jobs().answers, &self.pair()?, seed).map(|found| found.answer.clone())
     }
 
     /// The attribution of the chosen prediction.
-    fn attribution(&self) -> Option<&Attribution> {
-        let seed = self.model().settings.loss.seed;
-        self.jobs().why.attribution.get(&self.pair()?, &seed).map(|done| &done.attribution)
+    fn attribution(&self) -> Option<Attribution> {
+        let (pair, seed) = (self.pair()?, self.model().settings.loss.seed);
+        self.jobs().answers.known(&Attribute { pair, seed }).map(|found| found.answer.clone())
     }
 
     /// The listed scenes of the chosen prediction, and the pixels of their thumbnails.
-    fn listed_scenes(&self) -> Option<(&[RankedScene], &[Vec<f32>])> {
-        let asked = self.model().settings.loss.listed_scenes();
-        let (list, thumbnails) = self.jobs().why.scenes.get(&self.pair()?, &asked)?;
-        Some((list, &thumbnails?.pixels))
+    fn listed_scenes(&self) -> Option<(Vec<RankedScene>, Vec<Vec<f32>>)> {
+        let (pair, scenes) = (self.pair()?, self.model().settings.loss.listed_scenes());
+        let list = self.jobs().answers.known(&RankScenes { pair: pair.clone(), scenes })?;
+        let scenes = list.iter().take(MOST_THUMBNAILS).map(|ranked| ranked.scene).collect();
+        let thumbnails = self.jobs().answers.known(&DrawScenes { pair, scenes })?;
+        Some((list.to_vec(), thumbnails.pixels.clone()))
     }
 
     /// The worst scene that was found for the chosen prediction.
-    fn worst(&self) -> Option<&Worst> {
-        self.jobs().why.search.found(&self.pair()?)
+    fn worst(&self) -> Option<Worst> {
+        let (pair, seed) = (self.pair()?, self.model().settings.loss.seed);
+        self.jobs().answers.known(&FindWorst { pair, seed }).map(|found| found.answer.clone())
     }
 
     /// The names of the materials, the ground truth first.

@@ -2,13 +2,17 @@
 
 use svbrdf_evaluate::report::{Report as _, RobustReport};
 use svbrdf_evaluate::robust::RobustInput;
+use svbrdf_viewer::jobs::order::PredictionOrder;
 
 use super::*;
 
 const TITLE: &str = "Does the order survive?";
 
-fn report(app: &App) -> Option<Arc<RobustReport>> {
-    app.parts.jobs.order.state().ok().flatten().map(|answer| answer.clone().unwrap())
+/// The answer, of the convention of now.
+fn report(app: &App) -> Option<RobustReport> {
+    let convention = app.view().convention();
+    let of_now = |one: &PredictionOrder| one.convention == convention;
+    app.jobs().answers.latest(of_now).map(|(_, report)| report.answer.clone().unwrap())
 }
 
 #[needs(adapter)]
@@ -52,5 +56,5 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
     click(&mut window, TITLE);
     edit(&mut window, |model| model.use_convention(ChosenConvention::read("guided-2020").unwrap()));
     rest(&mut window, 5);
-    assert!(window.jobs().order.state().is_ok(), "no job");
+    assert!(!window.jobs().answers.is_running::<PredictionOrder>());
 }

@@ -3,6 +3,7 @@
 use image::codecs::jpeg::JpegEncoder;
 
 use svbrdf_files::samples::generate;
+use svbrdf_viewer::jobs::dataset::summary::Summarize;
 
 use super::materials::SIDE;
 use super::*;
@@ -115,10 +116,10 @@ fn the_picture_of_a_data_set() {
     window.key_press(egui::Key::S);
     window.run_steps(4);
     edit(&mut window, |model| model.dataset.set_cell(142.0));
-    wait(&mut window, "the summary", |app| app.parts.jobs.dataset.summary.get().is_some());
+    wait(&mut window, "the summary", |app| app.jobs().answers.latest(|_: &Summarize| true).is_some());
     let cell = svbrdf_viewer::jobs::dataset::cells::Cell { case: 4, column: 2 };
     wait(&mut window, "the cells", |app| {
-        app.parts.jobs.dataset.sheet.get().is_some_and(|sheet| sheet.part(cell).is_some())
+        app.parts.jobs.dataset.sheet.as_deref().is_some_and(|sheet| sheet.part(cell).is_some())
     });
     rest(&mut window, 40);
     write(&mut window, "dataset.jpg");

@@ -13,7 +13,9 @@ use crate::dataset::rows::Rows;
 use crate::dataset::sheet::ContactSheet;
 use crate::jobs::Jobs;
 use crate::jobs::dataset::DisplayedCases;
+use crate::jobs::dataset::summary::Summarize;
 use crate::jobs::displayed::Displayed;
+use crate::jobs::order::MethodOrder;
 use crate::loss::order;
 use crate::model::Model;
 use crate::model::material::loaded::drawable;
@@ -108,13 +110,13 @@ impl DatasetUi {
 
 /// The summary of a data set: what `svbrdf rank --dataset` prints.
 pub fn summary(ui: &mut egui::Ui, displayed: Displayed<'_>, next: &mut Model) {
-    let Some(open) = displayed.model.dataset.open.as_deref() else { return };
-    let jobs = &displayed.jobs.dataset;
-    let Some(report) = jobs.summary.get() else {
+    let Some(open) = displayed.model.dataset.open.as_ref() else { return };
+    let (answers, losses) = (&displayed.jobs.answers, &displayed.jobs.dataset.losses);
+    let Some(report) = Summarize::drawn(open, losses, answers) else {
         ui.weak("No loss is known yet.");
         return;
     };
-    let (known, all) = (jobs.losses.count(), open.cases.len());
+    let (known, all) = (losses.count(), open.cases.len());
     if known < all {
         let bar = egui::ProgressBar::new(known as f32 / all as f32);
         ui.add(bar.text(format!("losses of {known} of {all} materials")));
@@ -132,6 +134,7 @@ pub fn summary(ui: &mut egui::Ui, displayed: Displayed<'_>, next: &mut Model) {
         ui.label(RichText::new(drawable(&condition)).small().weak());
     }
     if open.methods().len() > 1 {
-        order::fold(ui, &mut next.asks_order, &jobs.order);
+        let (open, settings, read_again) = (open.clone(), losses.settings(open), losses.read_again);
+        order::fold(ui, &mut next.asks_order, || answers.get(&MethodOrder { open, settings, read_again }));
     }
 }

@@ -163,7 +163,7 @@ impl ContactSheet<'_> {
     /// Draws a cell; where its picture is, and its size in texels.
     fn paint(&mut self, ui: &egui::Ui, square: Rect, cell: Cell) -> Option<(Rect, [usize; 2])> {
         let jobs = &self.displayed.jobs.dataset;
-        if let Some(sheet) = jobs.sheet.get()
+        if let Some(sheet) = jobs.sheet.as_deref()
             && let Some(([least, most], size)) = sheet.part(cell)
         {
             let texture = self.textures.id(ui.ctx(), &sheet.picture, TextureOptions::LINEAR);

@@ -13,8 +13,9 @@ use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions, Sidecar};
 use svbrdf_files::source::Place;
 
 use crate::files::read_options::{is_offered, read_options, remedy_button};
+use crate::jobs::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
-use crate::jobs::why::ComparedPair;
+use crate::jobs::why::questions::known_diagnosis;
 use crate::model::effect::Effect;
 use crate::model::material::loaded::{LoadedMaterial, drawable};
 use crate::model::{Model, opening};
@@ -46,8 +47,8 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
         ui.separator();
         let pair = index.checked_sub(1).and_then(|prediction| pairs.get(prediction));
         let seed = shown.model.settings.loss.seed;
-        let diagnosed = pair.and_then(|pair| shown.jobs.why.diagnosis.get(pair, seed));
-        let findings: Vec<_> = diagnosed.into_iter().flat_map(|one| one.diagnosis.marked()).collect();
+        let diagnosed = pair.and_then(|pair| known_diagnosis(&shown.jobs.answers, pair, seed));
+        let findings: Vec<_> = diagnosed.iter().flat_map(|one| one.marked()).collect();
         let role = match index {
             0 if materials.len() == 1 => "MATERIAL".to_owned(),
             0 => "GROUND TRUTH".to_owned(),

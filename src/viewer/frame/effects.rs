@@ -7,7 +7,6 @@ use eframe::egui;
 use crate::frame::layout::Parts;
 use crate::frame::{dataset, saving};
 use crate::jobs::browse;
-use crate::jobs::why::ComparedPair;
 use crate::jobs::work::job::Job;
 use crate::model::effect::Effect;
 
@@ -34,14 +33,8 @@ fn one(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {
         Effect::OpenDataset(paths) => dataset::open(parts, paths),
         Effect::RestoreDataset(session, results) => dataset::restore(parts, *session, results),
         Effect::ReadCaseAgain(case) => dataset::read_again(parts, case),
-        Effect::ComputeLoss => jobs.loss.start(&jobs.waker, &model.materials, &model.loss_query()),
+        Effect::ComputeLoss => jobs.loss.start(&model.materials, &model.loss_query()),
         Effect::CancelLoss => jobs.loss.cancel(),
-        Effect::FindWorst => {
-            if let Some(pair) = ComparedPair::of(&model.materials.all, &model.view) {
-                jobs.why.search.start(&jobs.waker, &pair, model.settings.loss.seed);
-            }
-        }
-        Effect::CancelSearch => jobs.why.search.cancel(),
         Effect::Browse(what) => {
             // Where what is open came from.
             let from = model.files().next().and_then(Path::parent);

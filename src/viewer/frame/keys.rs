@@ -6,7 +6,6 @@ use eframe::egui::{self, Key, Modifiers};
 
 use svbrdf_files::read::ReadOptions;
 
-use crate::jobs::Jobs;
 use crate::model::dataset::DatasetState;
 use crate::model::dialogs::{OpenDialog, SaveDialog, SaveKind};
 use crate::model::effect::Effect;
@@ -235,7 +234,7 @@ fn of_dataset(model: &mut Model, edit: impl FnOnce(&mut DatasetState)) {
 }
 
 /// Carries out the keys pressed in this frame; none while a text field has the focus.
-fn press(ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
+fn press(ctx: &egui::Context, model: &mut Model) {
     if ctx.text_edit_focused() {
         return;
     }
@@ -256,7 +255,7 @@ fn press(ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
         }
     }
     if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(NONE, Key::Escape)) {
-        escape(model, jobs);
+        escape(model);
     }
     // Copy and paste arrive as events, and `?` is on another key of every keyboard.
     for event in ctx.input(|input| input.events.clone()) {
@@ -270,8 +269,8 @@ fn press(ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
 }
 
 /// Carries out keys, and opens files that were dropped on the window: in place of the built-in materials, otherwise as predictions.
-pub fn act(ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
-    press(ctx, model, jobs);
+pub fn act(ctx: &egui::Context, model: &mut Model) {
+    press(ctx, model);
     let paths: Vec<PathBuf> =
         ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
     if !paths.is_empty() {
@@ -281,8 +280,8 @@ pub fn act(ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
 }
 
 /// Closes or cancels the first of these that is there.
-fn escape(model: &mut Model, jobs: &Jobs) {
-    let Model { dialogs, dataset, inspection, view, effects, help, .. } = model;
+fn escape(model: &mut Model) {
+    let Model { dialogs, dataset, inspection, view, effects, help, searched, .. } = model;
     match () {
         () if *help => *help = false,
         () if dialogs.open.is_some() => dialogs.open = None,
@@ -290,7 +289,7 @@ fn escape(model: &mut Model, jobs: &Jobs) {
         () if dataset.sheet.is_open => dataset.show_sheet(false),
         () if inspection.is_armed => inspection.is_armed = false,
         () if inspection.region.is_some() => inspection.region = None,
-        () if jobs.why.search.busy().is_some() => effects.push(Effect::CancelSearch),
+        () if searched.is_some() => *searched = None,
         () if view.display.is_replaced() => view.isolate(None),
         () if dataset.sheet.is_behind => dataset.show_sheet(true),
         () => effects.push(Effect::CancelLoss),

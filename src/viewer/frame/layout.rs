@@ -51,7 +51,7 @@ impl WindowUi {
 
     /// Carries out keys, dropped files and gestures: all that is read before the window is drawn.
     pub fn input(&mut self, ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
-        keys::act(ctx, model, jobs);
+        keys::act(ctx, model);
         if model.is_modal() {
             return;
         }

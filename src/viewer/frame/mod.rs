@@ -34,7 +34,10 @@ pub use crash::CrashGuard;
 use crate::error::Error;
 use crate::frame::layout::WindowUi;
 use crate::jobs::Jobs;
+use crate::jobs::answers::Answer;
+use crate::jobs::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
+use crate::jobs::why::questions::FindWorst;
 use crate::jobs::work::waker::Waker;
 use crate::model::Model;
 use crate::model::message::Message;
@@ -119,14 +122,17 @@ impl App {
         self.settle(&ctx, &before);
         dataset::show(&mut self.parts);
         exposure::follow(&mut self.parts.model);
-        self.follow(&ctx);
+        self.follow();
         let mut next = self.parts.model.clone();
         let shown = Displayed::of(&self.parts.model, &self.parts.jobs);
         self.parts.ui.draw(ui, shown, &mut next, self.parts.gpu.as_mut());
         self.name_window(&ctx);
         let before = std::mem::replace(&mut self.parts.model, next).view;
         self.settle(&ctx, &before);
-        let is_photograph_settled = self.parts.jobs.photograph.is_settled(&self.parts.model.photograph);
+        let errors = self.parts.jobs.answers.end_frame();
+        self.parts.model.report(errors.into_iter().map(Message::Failed));
+        let is_photograph_settled =
+            self.parts.model.photograph.source().is_none() || self.parts.jobs.panes.photograph.is_some();
         undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
     }
 
@@ -154,7 +160,7 @@ impl App {
     }
 
     /// Lets the jobs follow the model, and takes in what they have found.
-    fn follow(&mut self, ctx: &egui::Context) {
+    fn follow(&mut self) {
         if self.parts.jobs.openings.is_empty()
             && let Some(inspection) = self.parts.model.inspected_later.take()
         {
@@ -165,22 +171,30 @@ impl App {
         }
         let findings = self.parts.jobs.follow(&self.parts.model, &self.parts.ui.dataset.displayed);
         self.parts.model.report(findings.errors.into_iter().map(Message::Failed));
-        if let Some(error) = findings.photograph_error {
+        if findings.photograph_failed {
             self.parts.model.photograph.set(None);
-            self.parts.model.report([Message::Failed(error)]);
         }
-        match findings.worst {
-            Some(Ok(worst)) => {
-                exposure::choose_scene(&mut self.parts.model, worst.scene);
-                ctx.request_repaint();
-            }
-            Some(Err(error)) => self.parts.model.report([Message::Failed(error)]),
-            None => {}
-        }
+        self.search();
     }
 }
 
 impl App {
+    /// Searches for the worst scene, whatever the panels show, and shows it once it is found.
+    fn search(&mut self) {
+        let Parts { model, jobs, .. } = &mut self.parts;
+        let Some(searched) = model.searched else { return };
+        let is_chosen = model.chosen_prediction().is_some_and(|chosen| chosen.id() == searched);
+        let pair = ComparedPair::of(&model.materials.all, &model.view).filter(|_| is_chosen);
+        let found = pair.map(|pair| jobs.answers.get(&FindWorst { pair, seed: model.settings.loss.seed }));
+        if let Some(Answer::Running(..)) = found {
+            return;
+        }
+        model.searched = None;
+        if let Some(Answer::Ready(worst)) = found {
+            exposure::choose_scene(model, worst.scene);
+        }
+    }
+
     /// Why the device of the window was lost, where it was.
     fn loss(&self) -> Option<String> {
         self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss()).map(told)

@@ -6,6 +6,7 @@ use svbrdf_files::read::Certainty;
 
 use crate::frame::light_and_view;
 use crate::jobs::displayed::Displayed;
+use crate::jobs::order::PredictionOrder;
 use crate::model::Model;
 use crate::model::settings::Tab;
 use crate::widgets::bare;
@@ -29,7 +30,9 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
         Tab::Loss => {
             loss::ui(ui, shown, next);
             if model.materials.predictions().len() > 1 {
-                loss::order::fold(ui, &mut next.asks_order, &shown.jobs.order);
+                let question =
+                    || PredictionOrder::of(&model.materials.all, &model.view, &model.settings.loss);
+                loss::order::fold(ui, &mut next.asks_order, || shown.jobs.answers.get(&question()));
             }
             unsure_reading(ui, shown, &mut next.settings.tab);
         }

@@ -30,8 +30,8 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, viewport: &Viewport, next: &m
         read: Readout {
             materials,
             state: view,
-            computed_maps: shown.computed_maps().map(AsRef::as_ref),
-            photographs: shown.photographs().map(AsRef::as_ref),
+            computed_maps: shown.computed_maps(),
+            photographs: shown.photographs().map(|all| &all.answer),
         },
         texel: texel.filter(|texel| (0..2).all(|axis| texel[axis] < size[axis])),
         hovered: hovered.map(|hovered| hovered.index),

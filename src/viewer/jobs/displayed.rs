@@ -8,10 +8,13 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
 
 use super::Jobs;
+use super::answers::Answered;
+use super::content::{Content, Given};
 use super::panes::RangeKey;
 use super::panes::computed_maps::ComputedMaps;
-use super::panes::error_map::ErrorMapSummary;
-use super::photograph::{DisplayedPhotograph, Photographs};
+use super::panes::difference::{ComputedDifference, Differences};
+use super::panes::error_map::{ErrorMapSummary, ErrorMaps};
+use super::photograph::{ComparePhotograph, DisplayedPhotograph, Photographs};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::ViewState;
@@ -41,45 +44,83 @@ impl<'a> Displayed<'a> {
     }
 
     /// The error maps of what the panes display, once they are there.
-    pub fn current_error_maps(self) -> Option<&'a Arc<ComputedMaps>> {
-        self.jobs.panes.error_map.get(self.materials(), self.view(), self.model.settings.loss.listed_scenes())
+    pub fn current_error_maps(self) -> Option<&'a Arc<Answered<ComputedMaps>>> {
+        let (of, maps) = self.jobs.panes.error_maps.as_ref()?;
+        (*of == self.error_maps()).then_some(maps)
+    }
+
+    /// The question about the error maps of what the panes display.
+    pub fn error_maps(self) -> ErrorMaps {
+        ErrorMaps {
+            materials: Content::all(self.materials()),
+            scenes: self.model.settings.loss.listed_scenes(),
+            convention: self.view().convention(),
+            gpu: Given(self.jobs.gpu.clone()),
+        }
+    }
+
+    /// The question about the difference in the panes.
+    pub fn differences(self) -> Differences {
+        Differences::of(self.materials(), self.view(), self.jobs.gpu.as_ref())
+    }
+
+    /// The question about the photograph that is open, beside what the panes display.
+    pub fn compared_photograph(self) -> Option<ComparePhotograph> {
+        let (photograph, gpu) = (self.jobs.panes.photograph.clone(), self.jobs.gpu.as_ref());
+        ComparePhotograph::of(&self.model.photograph, self.materials(), self.view(), photograph, gpu)
     }
 
     /// The difference in the panes, where no shader computes it and it is there.
-    pub fn computed_maps(self) -> Option<&'a Arc<ComputedMaps>> {
+    pub fn computed_maps(self) -> Option<&'a ComputedMaps> {
         if self.view().is_error_map() {
-            return self.current_error_maps();
+            return self.current_error_maps().map(|maps| &maps.answer);
         }
-        self.jobs.panes.difference.maps(self.materials(), self.view())
+        self.latest_differences()?.0.maps()
+    }
+
+    /// The latest difference of what the panes display, and whether it is of the present scene and exposure.
+    fn latest_differences(self) -> Option<(&'a ComputedDifference, bool)> {
+        let (of, found) = self.jobs.panes.differences.as_ref()?;
+        let now = self.differences();
+        of.is_like(&now).then_some((&found.answer, *of == now))
     }
 
     pub fn error_map_summary(self) -> ErrorMapSummary {
         let scenes = self.model.settings.loss.listed_scenes().count().unwrap_or(0);
-        ErrorMapSummary { scenes, progress: self.jobs.panes.error_map.progress() }
+        ErrorMapSummary { scenes, progress: self.jobs.panes.error_map_progress }
     }
 
     /// The photograph, where the panes compare renderings with one. Maps, the error map and FLIP are of the ground truth.
     pub fn photograph(self) -> Option<DisplayedPhotograph<'a>> {
         let is_rendering = self.view().display.quantity == Quantity::Rendering && !self.view().is_computed();
-        let photograph = self.jobs.photograph.displayed(&self.model.photograph, self.materials());
-        photograph.filter(|_| is_rendering && !self.materials().is_empty())
+        self.open_photograph().filter(|_| is_rendering && !self.materials().is_empty())
+    }
+
+    /// The photograph that is open beside the materials, perhaps at the exposures of an earlier scene.
+    pub fn open_photograph(self) -> Option<DisplayedPhotograph<'a>> {
+        let (source, now) = (self.model.photograph.source()?, self.compared_photograph()?);
+        let photograph = self.jobs.panes.photograph.as_deref().map(|photograph| &photograph.answer);
+        let all = self.jobs.panes.photographs.as_ref().filter(|(of, _)| of.is_like(&now));
+        Some(DisplayedPhotograph { source, photograph, all: all.map(|(_, all)| &all.answer) })
     }
 
     /// The photograph beside every material, where the panes compare renderings with one and it is there.
-    pub fn photographs(self) -> Option<&'a Arc<Photographs>> {
-        self.photograph().and_then(|photograph| photograph.all)
+    pub fn photographs(self) -> Option<&'a Arc<Answered<Photographs>>> {
+        self.photograph()?.all?;
+        self.jobs.panes.photographs.as_ref().map(|(_, all)| all)
     }
 
     /// The distributions of the difference in the panes, and whether they are up to date.
     pub fn distributions(self) -> Option<(&'a Distributions, bool)> {
         if self.photograph().is_some() {
-            return self.jobs.photograph.distributions(&self.model.photograph, self.materials(), self.view());
+            let ((of, all), now) = (self.jobs.panes.photographs.as_ref()?, self.compared_photograph()?);
+            return of.has_kind_of(&now).then_some((&all.distributions, *of == now));
         }
         if self.view().is_error_map() {
             return self.current_error_maps().map(|maps| (&maps.distributions, true));
         }
-        let distributions = self.jobs.panes.difference.distributions(self.materials(), self.view())?;
-        Some((distributions, self.jobs.panes.difference.is_current(self.materials(), self.view())))
+        let (found, is_current) = self.latest_differences()?;
+        Some((found.distributions(), is_current))
     }
 
     /// The difference that has the last colour: the range set, or the automatic one.

@@ -1,13 +1,16 @@
 //! Jobs of the window: all background work, by one mechanism.
 //!
-//! A result belongs to a key: the ids of the materials (a reading of a version of their files), the question, the convention. The
-//! latest question wins. Workers wake the window; nothing here knows the window library.
+//! An answer belongs to its question, which names materials by a reading of a version of their files. Workers wake the window; nothing
+//! here knows the window library.
 
+pub mod answers;
 pub mod browse;
+pub mod content;
 pub mod dataset;
 pub mod displayed;
 pub mod follow;
 pub mod loss;
+pub mod order;
 pub mod panes;
 pub mod photograph;
 pub mod reading;
@@ -26,36 +29,30 @@ use crate::error::Error;
 use crate::model::Model;
 use crate::model::material::request::{ReadRequest, Target};
 
+use answers::Answers;
 use browse::Browsed;
 use dataset::DatasetJobs;
 use loss::LossJob;
-use loss::scene::SceneLossJob;
-use panes::PaneJobs;
-use photograph::PhotographJobs;
+use panes::Panes;
 use reading::opening::Openings;
 use reading::read::MaterialReader;
 use reading::upload::Uploads;
 use reading::watch::FileWatch;
-use why::WhyJobs;
 use work::job::Job;
-use work::order::{OrderJob, OrderKey};
 use work::waker::Waker;
 
 /// All background work of the window.
 #[derive(Debug, Default)]
 pub struct Jobs {
     pub waker: Waker,
+    pub answers: Answers,
     /// `None` where there is no adapter.
     pub gpu: Option<Gpu>,
     pub uploads: Uploads,
     pub openings: Openings,
     pub watch: FileWatch,
     pub loss: LossJob,
-    pub scene_loss: SceneLossJob,
-    pub order: OrderJob<OrderKey>,
-    pub why: WhyJobs,
-    pub panes: PaneJobs,
-    pub photograph: PhotographJobs,
+    pub panes: Panes,
     pub dataset: DatasetJobs,
     pub browsing: Option<Job<Browsed>>,
     pub saving: Option<Job<PathBuf>>,
@@ -65,7 +62,7 @@ pub struct Jobs {
 
 impl Jobs {
     pub fn new(waker: Waker, gpu: Option<Gpu>) -> Self {
-        Self { waker, gpu, ..Self::default() }
+        Self { answers: Answers::new(waker.clone()), waker, gpu, ..Self::default() }
     }
 
     /// Starts to read materials; the number of the opening.

@@ -1,4 +1,4 @@
-//! Jobs of a photograph in the place of the ground truth: read, and compared with every material, each at its own exposure.
+//! Questions about a photograph in the place of the ground truth: read, and compared with every material, each at its own exposure.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -17,35 +17,96 @@ use svbrdf_files::read::{Photograph, Transfer, read_photograph};
 use svbrdf_gpu::{Gpu, Shaded};
 
 use crate::error::Error;
-use crate::jobs::work::context::JobContext;
-use crate::jobs::work::job::Job;
-use crate::jobs::work::latest::Latest;
-use crate::model::material::loaded::{LoadedMaterial, ids};
+use crate::jobs::answers::{Answered, Question, Work};
+use crate::jobs::content::{Content, Given, read_all};
+use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::photograph::PhotographState;
+use crate::model::material::read::ReadMaterial;
 use crate::model::material::read::file_name;
-use crate::model::material::read::{MaterialId, ReadMaterial};
 use crate::model::view::ViewState;
 
-/// What the samples of a photograph depend on: its file, the stamp of the file when it was opened, and how it is read.
-type ReadKey = (PathBuf, Option<Stamp>, Option<Transfer>);
-
-/// What the comparisons depend on.
+/// The samples of a photograph.
 #[derive(Clone, Debug, PartialEq)]
-struct ComparedKey {
-    read: ReadKey,
+pub struct ReadPhotograph {
+    path: PathBuf,
+    /// Of the file when it was opened.
+    stamp: Option<Stamp>,
+    transfer: Option<Transfer>,
+}
+
+impl ReadPhotograph {
+    /// Of what is open.
+    pub fn of(state: &PhotographState) -> Option<Self> {
+        let source = state.source()?;
+        Some(Self { path: source.path.clone(), stamp: state.stamp(), transfer: source.transfer })
+    }
+}
+
+impl Question for ReadPhotograph {
+    type Answer = Photograph;
+    const IS_SHORT: bool = true;
+    const KEPT: usize = 1;
+
+    fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<Photograph, Error> {
+        Ok(read_photograph(&NamedFile::by_user(&self.path), self.transfer)?)
+    }
+}
+
+/// What was read of a photograph.
+pub type Samples = Arc<Answered<Photograph>>;
+
+/// A photograph beside every material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComparePhotograph {
+    read: ReadPhotograph,
     falloff: bool,
-    /// Of all materials.
-    ids: Vec<MaterialId>,
+    materials: Vec<Content>,
     scene: Scene,
     convention: Convention,
     kind: Difference,
+    /// What was read, and the adapter.
+    given: Given<(Option<Samples>, Option<Gpu>)>,
 }
 
-/// The jobs on the photograph that renderings are compared with.
-#[derive(Debug, Default)]
-pub struct PhotographJobs {
-    read: Latest<ReadKey, Arc<Photograph>>,
-    compared: Latest<ComparedKey, Arc<Photographs>>,
+impl ComparePhotograph {
+    /// Of the photograph that is open, which is `photograph` once it has been read.
+    pub fn of(
+        state: &PhotographState,
+        materials: &[LoadedMaterial],
+        view: &ViewState,
+        photograph: Option<Samples>,
+        gpu: Option<&Gpu>,
+    ) -> Option<Self> {
+        Some(Self {
+            read: ReadPhotograph::of(state)?,
+            falloff: state.source()?.falloff,
+            materials: Content::all(materials),
+            scene: view.scene,
+            convention: view.convention(),
+            kind: view.display.differences.kind(Quantity::Rendering),
+            given: Given((photograph, gpu.cloned())),
+        })
+    }
+
+    /// Whether it is of the same photograph and materials, perhaps in another scene.
+    pub fn is_like(&self, other: &Self) -> bool {
+        self.materials == other.materials && self.read == other.read
+    }
+
+    /// Whether the differences are of the same kind, too.
+    pub fn has_kind_of(&self, other: &Self) -> bool {
+        self.is_like(other) && self.kind == other.kind
+    }
+}
+
+impl Question for ComparePhotograph {
+    type Answer = Photographs;
+    const IS_SHORT: bool = true;
+    const KEPT: usize = 1;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Photographs, Error> {
+        Photographs::new(self, work.progress())
+    }
 }
 
 /// The photograph beside every material.
@@ -76,28 +137,26 @@ impl Photographs {
         image.map_or([f32::NAN; 3], |image| image.pixels[row * image.width + column])
     }
 
-    fn new(
-        (key, photograph): (&ComparedKey, &Photograph),
-        materials: &[Arc<ReadMaterial>],
-        gpu: Option<&Gpu>,
-        progress: &Progress,
-    ) -> Result<Self, Error> {
-        let (name, falloff) = (file_name(&key.read.0), key.falloff.then_some(&key.scene));
+    fn new(asked: &ComparePhotograph, progress: &Progress) -> Result<Self, Error> {
+        let ComparePhotograph { read, falloff, scene, convention, kind, given, .. } = asked;
+        let Given((photograph, gpu)) = given;
+        let photograph = photograph.as_ref().ok_or_else(|| Error::internal("the photograph is not read"))?;
+        let (name, falloff) = (file_name(&read.path), falloff.then_some(scene));
         let one = |loaded: &Arc<ReadMaterial>| -> Result<_, Error> {
             let material = loaded.material();
-            let on_texels = on_texels(photograph, &name, material.size(), falloff)?;
-            let photographs = [(on_texels, key.scene)];
-            Ok(compare(&photographs, material, material.name(), &key.convention, progress)?.remove(0))
+            let photographs = [(on_texels(photograph, &name, material.size(), falloff)?, *scene)];
+            Ok(compare(&photographs, material, material.name(), convention, progress)?.remove(0))
         };
+        let materials = read_all(&asked.materials)?;
         let comparisons = materials.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-        let values: Vec<_> = comparisons.iter().map(|compared| compared.differences(key.kind)).collect();
-        let distributions = Distributions::of(&values, key.kind.is_signed());
+        let values: Vec<_> = comparisons.iter().map(|compared| compared.differences(*kind)).collect();
+        let distributions = Distributions::of(&values, kind.is_signed());
         let upload = |gpu: &Gpu| {
             let one =
                 |compared: &PhotographComparison| Shaded::of_image(gpu, &compared.photograph).map(Arc::new);
             comparisons.iter().map(one).collect::<Result<Vec<_>, _>>()
         };
-        let shaded = gpu.map(upload).transpose()?.unwrap_or_default();
+        let shaded = gpu.as_ref().map(upload).transpose()?.unwrap_or_default();
         Ok(Self { comparisons, shaded, distributions })
     }
 }
@@ -109,7 +168,7 @@ pub struct DisplayedPhotograph<'a> {
     /// Once it has been read.
     pub photograph: Option<&'a Photograph>,
     /// Beside every material, once they are there.
-    pub all: Option<&'a Arc<Photographs>>,
+    pub all: Option<&'a Photographs>,
 }
 
 impl DisplayedPhotograph<'_> {
@@ -122,89 +181,5 @@ impl DisplayedPhotograph<'_> {
     pub fn title(&self, index: usize) -> String {
         let ev = self.all.and_then(|all| all.get(index)).map(|one| format!("  {:+.2} EV", one.exposure_ev()));
         format!("PHOTOGRAPH  {}{}", self.name(), ev.unwrap_or_default())
-    }
-}
-
-fn read_key(state: &PhotographState) -> Option<ReadKey> {
-    state.source().map(|source| (source.path.clone(), state.stamp(), source.transfer))
-}
-
-fn compared_key(
-    state: &PhotographState,
-    materials: &[LoadedMaterial],
-    view: &ViewState,
-) -> Option<ComparedKey> {
-    Some(ComparedKey {
-        read: read_key(state)?,
-        falloff: state.source()?.falloff,
-        ids: ids(materials),
-        scene: view.scene,
-        convention: view.convention(),
-        kind: view.display.differences.kind(Quantity::Rendering),
-    })
-}
-
-impl PhotographJobs {
-    /// The photograph, once it has been read.
-    fn photograph(&self, state: &PhotographState) -> Option<&Arc<Photograph>> {
-        let (of, photograph) = self.read.get()?;
-        (Some(of) == read_key(state).as_ref()).then_some(photograph)
-    }
-
-    /// Whether what is open has been read.
-    pub fn is_settled(&self, state: &PhotographState) -> bool {
-        state.source().is_none() || self.photograph(state).is_some()
-    }
-
-    /// Takes over results, and computes what is wanted now; why the photograph cannot be read, and why it cannot be compared.
-    pub fn follow(&mut self, work: &JobContext<'_>, state: &PhotographState) -> [Option<Error>; 2] {
-        let error = self.read.follow(read_key(state), |(path, _, transfer)| {
-            let (file, transfer) = (NamedFile::by_user(path), *transfer);
-            Job::start(work.waker, move |_| Ok(Arc::new(read_photograph(&file, transfer)?)))
-        });
-        if error.is_some() {
-            *self = Self::default();
-            return [error, None];
-        }
-        [None, self.compare(work, state)]
-    }
-
-    fn compare(&mut self, work: &JobContext<'_>, state: &PhotographState) -> Option<Error> {
-        let wanted = compared_key(state, work.materials, work.view).filter(|key| !key.ids.is_empty());
-        let Some(wanted) = wanted else {
-            self.compared = Latest::default();
-            return None;
-        };
-        let photograph = self.photograph(state)?.clone();
-        self.compared.follow(Some(wanted), |key| {
-            let (key, gpu, materials) = (key.clone(), work.gpu.cloned(), work.materials());
-            Job::start(work.waker, move |progress| {
-                Photographs::new((&key, &photograph), &materials, gpu.as_ref(), progress).map(Arc::new)
-            })
-        })
-    }
-
-    /// The photograph as it is displayed beside `materials`, perhaps at the exposures of an earlier scene.
-    pub fn displayed<'a>(
-        &'a self,
-        state: &'a PhotographState,
-        materials: &[LoadedMaterial],
-    ) -> Option<DisplayedPhotograph<'a>> {
-        let (source, now) = (state.source()?, read_key(state)?);
-        let all = self.compared.get().filter(|(of, _)| of.ids == ids(materials) && of.read == now);
-        let photograph = self.photograph(state).map(AsRef::as_ref);
-        Some(DisplayedPhotograph { source, photograph, all: all.map(|(_, all)| all) })
-    }
-
-    /// The distributions of the chosen difference of every material, and whether they are up to date.
-    pub fn distributions(
-        &self,
-        state: &PhotographState,
-        materials: &[LoadedMaterial],
-        view: &ViewState,
-    ) -> Option<(&Distributions, bool)> {
-        let now = compared_key(state, materials, view)?;
-        let (of, all) = self.compared.get()?;
-        (of.ids == now.ids && of.kind == now.kind).then_some((&all.distributions, *of == now))
     }
 }

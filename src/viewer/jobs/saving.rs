@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use svbrdf_core::image::Image;
+use svbrdf_core::loss::Comparison;
 use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::quantity::Quantity;
@@ -16,8 +17,8 @@ use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::scene_file;
 
+use super::content::ComparedPair;
 use super::displayed::Displayed;
-use super::why::ComparedPair;
 use super::work::job::Job;
 use super::work::waker::Waker;
 use crate::error::Error;
@@ -141,12 +142,17 @@ pub fn view(
 /// Starts to write the scenes of the loss of the chosen prediction, worst first.
 pub fn scenes(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let pair = ComparedPair::of(&displayed.model.materials.all, &displayed.model.view);
+    // Also where they are closed by then.
+    let read = pair.as_ref().map(ComparedPair::read);
+    let convention = displayed.model.view.convention();
     let request = displayed.model.settings.loss.listed_scenes();
     Job::start(&displayed.jobs.waker, move |progress| {
-        let pair = pair.ok_or(EvaluateError::NoPrediction)?;
+        let [truth, prediction] = read.ok_or(EvaluateError::NoPrediction)??;
         let destination = scene_file::destination(&path)?;
-        let outcome = pair.comparison()?.run(&request, progress)?;
-        let compared = Compared::new(pair.ground_truth(), &pair.convention);
+        let (predictions, truth) = ([prediction.material()], truth.material());
+        let comparison = Comparison::new(truth, &predictions, convention)?.without_pilot();
+        let outcome = comparison.run(&request, progress)?;
+        let compared = Compared::new(truth, &convention);
         let text = ScenesReport::new(compared, &outcome, usize::MAX).json()?;
         destination.replace(progress, |file| file.write_all(text.as_bytes()))?;
         Ok(path)

@@ -14,7 +14,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::report::{Report as _, SampledScenes};
 
 use crate::jobs::displayed::Displayed;
-use crate::jobs::loss::{KeyedLosses, LossJob};
+use crate::jobs::loss::{ComputedLosses, LossJob};
 use crate::loss::results::Results;
 use crate::model::Model;
 use crate::model::dialogs::OpenDialog;
@@ -49,7 +49,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
     // Of other materials or settings, or of other files than there are now.
     let is_stale = job.stale() || materials.is_stale();
     state(ui, job, is_stale);
-    if let Some(latest) = job.losses() {
+    if let Some((latest, _)) = job.losses() {
         ui.scope(|ui| {
             if is_stale {
                 ui.set_opacity(0.5);
@@ -81,7 +81,7 @@ fn controls(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
         let losses = job.losses();
         let button = ui.add_enabled(losses.is_some(), egui::Button::new("Copy losses"));
         if button.on_hover_text("As text, as `svbrdf loss` prints it").clicked()
-            && let Some(losses) = losses
+            && let Some((losses, _)) = losses
         {
             copy(ui.ctx(), next, losses.report.text(), "the losses as text");
         }
@@ -103,17 +103,17 @@ fn state(ui: &mut egui::Ui, job: &LossJob, is_stale: bool) {
     let text = match job.losses() {
         None => RichText::new("Not computed yet."),
         Some(_) if is_stale => RichText::new("Stale: materials or settings have changed."),
-        Some(losses) => outcome(job, losses, ui.visuals()),
+        Some((losses, elapsed)) => outcome(job, losses, elapsed, ui.visuals()),
     };
     ui.horizontal_wrapped(|ui| ui.label(text.small()));
 }
 
 /// The accuracy reached, what it took, and whether that meets the request.
-fn outcome(job: &LossJob, losses: &KeyedLosses, visuals: &egui::Visuals) -> RichText {
+fn outcome(job: &LossJob, losses: &ComputedLosses, elapsed: Duration, visuals: &egui::Visuals) -> RichText {
     let SampledScenes { near, distant, .. } = losses.report.sampled;
-    let (error, elapsed) = (losses.relative_error(), losses.elapsed);
+    let error = losses.report.outcome.relative_error95();
     let took = format!("{} from {near} + {distant} scenes in {}", numbers::accuracy(error), seconds(elapsed));
-    match missed(losses.request(), error, elapsed) {
+    match missed(&losses.request, error, elapsed) {
         _ if job.is_partial() => RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color),
         Some(missed) if job.is_complete() => {
             RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))

@@ -4,25 +4,27 @@ use eframe::egui::{self, RichText};
 
 use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
 
-use crate::jobs::work::order::OrderJob;
+use crate::jobs::answers::Answer;
+use crate::jobs::order::OrderAnswer;
 use crate::model::material::loaded::drawable;
 use crate::widgets::{progress, report_table, theme};
 
-/// The fold, which is unfolded where it `asks`.
-pub fn fold<K: Clone + PartialEq>(ui: &mut egui::Ui, asks: &mut bool, job: &OrderJob<K>) {
+/// The fold, which is unfolded where it `asks`, with the answer to `ask`.
+pub fn fold(ui: &mut egui::Ui, asks: &mut bool, ask: impl FnOnce() -> Answer<OrderAnswer>) {
     ui.add_space(4.0);
     let title = RichText::new("Does the order survive?").strong();
     let header = egui::CollapsingHeader::new(title).open(Some(*asks));
-    let header = header.show_unindented(ui, |ui| match job.state() {
-        Err(running) => {
-            let text = format!("{} s", running.elapsed().as_secs());
-            progress(ui, running.fraction(), text);
+    let header = header.show_unindented(ui, |ui| match ask() {
+        Answer::Partial(_, fraction, elapsed) | Answer::Running(fraction, elapsed) => {
+            progress(ui, fraction, format!("{} s", elapsed.as_secs()));
         }
-        Ok(Some(Ok(report))) => answer(ui, report),
-        Ok(Some(Err(problem))) => {
-            ui.label(RichText::new(drawable(problem)).small().color(theme::problem(ui.visuals())));
-        }
-        Ok(None) => {}
+        Answer::Ready(found) => match &found.answer {
+            Ok(report) => answer(ui, report),
+            Err(problem) => {
+                ui.label(RichText::new(drawable(problem)).small().color(theme::problem(ui.visuals())));
+            }
+        },
+        Answer::Failed(_) => {}
     });
     let hover = "The order under other conventions, epsilons and scenes, as `svbrdf rank --robust` prints it";
     *asks ^= header.header_response.on_hover_text(hover).clicked();

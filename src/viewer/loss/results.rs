@@ -6,7 +6,7 @@ use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::report::SampledScenes;
 
-use crate::jobs::loss::KeyedLosses;
+use crate::jobs::loss::ComputedLosses;
 use crate::model::{Model, display};
 use crate::widgets::names::{FEWEST, Names, fitted};
 use crate::widgets::numbers::{half_width, signed, significant};
@@ -32,7 +32,7 @@ const STALE_MARK: &str = " (stale)";
 /// What the rows show.
 #[derive(Debug)]
 pub struct Results<'a> {
-    pub latest: &'a KeyedLosses,
+    pub latest: &'a ComputedLosses,
     pub chosen: usize,
     /// Of each prediction, whether its files or those of the ground truth hold something else by now.
     pub stale: Vec<bool>,
@@ -257,7 +257,7 @@ impl Verdict {
     }
 }
 
-fn summary(latest: &KeyedLosses) -> String {
+fn summary(latest: &ComputedLosses) -> String {
     let report = &latest.report;
     let sampler = match report.sampled.sampler {
         Some(Sampler::Sobol) => "scrambled Sobol",
@@ -269,7 +269,7 @@ fn summary(latest: &KeyedLosses) -> String {
         report.convention,
         report.epsilon,
         // The one that was asked for: a first estimate has scenes of another one.
-        latest.request().seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
+        latest.request.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
         report.precision,
     )
 }

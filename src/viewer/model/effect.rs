@@ -27,9 +27,6 @@ pub enum Effect {
     ReadCaseAgain(usize),
     ComputeLoss,
     CancelLoss,
-    /// Searches the worst scene of the chosen prediction, and shows it.
-    FindWorst,
-    CancelSearch,
     /// Asks with the system's dialog; the choice goes into the path field of the dialog that is open.
     Browse(BrowseFor),
     /// Writes a file.

@@ -36,7 +36,9 @@ use crate::model::effect::Effect;
 use crate::model::history::History;
 use crate::model::inspection::Inspection;
 use crate::model::material::list::MaterialList;
+use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::photograph::PhotographState;
+use crate::model::material::read::MaterialId;
 use crate::model::message::{Message, MessageList};
 use crate::model::settings::{LossQuery, Settings};
 use crate::model::view::{Exposed, ViewState, WindowGeometry};
@@ -58,6 +60,8 @@ pub struct Model {
     pub inspected_later: Option<Inspection>,
     /// Scenes that the tab *Why* lists beyond the first few.
     pub more_scenes: usize,
+    /// The prediction whose worst scene is being searched for.
+    pub searched: Option<MaterialId>,
     /// What the automatic exposure was last computed for.
     pub exposed: Exposed,
     pub history: History,
@@ -82,6 +86,11 @@ pub struct Model {
 }
 
 impl Model {
+    /// The chosen prediction, if there is one.
+    pub fn chosen_prediction(&self) -> Option<&LoadedMaterial> {
+        self.materials.predictions().get(self.view.display.prediction)
+    }
+
     /// Whether the side panel is open. Narrow windows have a choice of their own, which starts closed.
     pub fn side_panel(&self) -> bool {
         if self.geometry.is_narrow { self.narrow_side_panel } else { self.settings.side_panel }

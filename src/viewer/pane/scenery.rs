@@ -79,7 +79,7 @@ impl<'a> Scenery<'a> {
             reading: !shown.jobs.openings.is_empty(),
             problem: model.dataset.problems.first().map(|(_, problem)| problem.as_str()),
             range: shown.range(),
-            computed_maps: shown.computed_maps().map(AsRef::as_ref),
+            computed_maps: shown.computed_maps(),
             photograph: shown.photograph(),
             inspection: &model.inspection,
             losses: shown.jobs.loss.finished(&model.materials, &model.loss_query()),

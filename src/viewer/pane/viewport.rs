@@ -282,7 +282,7 @@ impl Viewport {
         let state = scenery.state;
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
-            let photographs = scenery.photograph.and_then(|photograph| photograph.all).map(AsRef::as_ref);
+            let photographs = scenery.photograph.and_then(|photograph| photograph.all);
             let readout = Readout {
                 materials: scenery.materials,
                 state,

@@ -2,10 +2,10 @@
 
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, pos2, vec2};
 
-use svbrdf_evaluate::diagnose::{Change, Finding, Hypothesis};
+use svbrdf_evaluate::diagnose::{Change, Diagnosis, Finding, Hypothesis};
 
-use crate::jobs::why::{ComparedPair, Diagnosed};
 use crate::model::Model;
+use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::WhySection;
 use crate::model::view::ViewState;
 use crate::widgets::numbers::digits;
@@ -20,8 +20,9 @@ const NAME: [f32; 2] = [14.0, 6.0];
 /// The lines of one prediction.
 #[derive(Debug)]
 pub struct HypothesisLines<'a> {
-    pub pair: &'a ComparedPair,
-    pub diagnosed: Option<&'a Diagnosed>,
+    pub ground_truth: &'a LoadedMaterial,
+    pub prediction: &'a LoadedMaterial,
+    pub diagnosed: Option<&'a Diagnosis>,
     /// The change after which the pane shows the prediction.
     pub corrected: Option<Change>,
     /// Whether the lines without a mark are unfolded.
@@ -33,16 +34,16 @@ impl HypothesisLines<'_> {
     /// most one has a mark.
     pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
         let Some(diagnosed) = self.diagnosed else {
-            let mut all = Hypothesis::of(self.pair.prediction_storage());
+            let mut all = Hypothesis::of(&self.prediction.read.storage);
             all.next().into_iter().for_each(|one| drop(line(ui, one, None, false)));
             self.header(ui, "Other explanations", next);
             all.filter(|_| self.is_open).for_each(|one| drop(line(ui, one, None, false)));
             return;
         };
-        let first = first(&diagnosed.diagnosis.findings);
+        let first = first(&diagnosed.findings);
         first.iter().for_each(|finding| self.finding(ui, finding, next));
         let is_other = |finding: &&Finding| !first.contains(finding);
-        let others: Vec<&Finding> = diagnosed.diagnosis.findings.iter().filter(is_other).collect();
+        let others: Vec<&Finding> = diagnosed.findings.iter().filter(is_other).collect();
         self.header(ui, &format!("{} other explanations: none marked", others.len()), next);
         others.iter().filter(|_| self.is_open).for_each(|finding| self.finding(ui, finding, next));
     }
@@ -64,9 +65,9 @@ impl HypothesisLines<'_> {
     }
 
     fn finding(&self, ui: &mut egui::Ui, finding: &Finding, next: &mut Model) {
-        let change = shown_change(finding, self.pair);
+        let change = shown_change(finding, self.prediction);
         let is_shown = change.is_some() && change == self.corrected;
-        let names = [self.pair.ground_truth().name(), self.pair.prediction().name()];
+        let names = [self.ground_truth, self.prediction].map(|one| one.material().name());
         let response = line(ui, finding.hypothesis, Some(finding), is_shown);
         let response = response.on_hover_ui(|ui| {
             details(ui, finding, change, is_shown);
@@ -90,8 +91,8 @@ fn first(findings: &[Finding]) -> Vec<&Finding> {
 }
 
 /// The change that the pane of the prediction can show.
-pub fn shown_change(finding: &Finding, pair: &ComparedPair) -> Option<Change> {
-    finding.change.filter(|change| change.fits(pair.prediction().size()))
+pub fn shown_change(finding: &Finding, prediction: &LoadedMaterial) -> Option<Change> {
+    finding.change.filter(|change| change.fits(prediction.material().size()))
 }
 
 /// Shows the prediction after this change, or itself where it is `corrected` so.

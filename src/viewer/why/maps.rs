@@ -1,13 +1,17 @@
 //! Shares of the maps in the loss of the chosen prediction.
 
+use std::time::Duration;
+
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_evaluate::why::MapShare;
+use svbrdf_evaluate::why::{Attribution, MapShare};
 
+use crate::jobs::answers::{Answer, Answered};
+use crate::jobs::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
-use crate::jobs::why::{ATTRIBUTION_TARGET, Attributed, ComparedPair};
+use crate::jobs::why::questions::{ATTRIBUTION_TARGET, Attribute};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::widgets::numbers::{accuracy, seconds, significant};
@@ -27,8 +31,16 @@ const AMOUNTS: f32 = 114.0;
 pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next: &mut Model) {
     let (display, seed) = (&shown.model.view.display, shown.model.settings.loss.seed);
     let predictions = shown.model.materials.predictions();
-    let of = |pair| shown.jobs.why.attribution.get(pair, &seed);
-    let all: Vec<Option<&Attributed>> = pairs.iter().map(of).collect();
+    let answers = &shown.jobs.answers;
+    let ask = |(index, pair): (usize, &ComparedPair)| {
+        let question = Attribute { pair: pair.clone(), seed };
+        if index == display.prediction { answers.get(&question) } else { answers.get_later(&question) }
+    };
+    let asked: Vec<Answer<Attribution>> = pairs.iter().enumerate().map(ask).collect();
+    let busy = asked.get(display.prediction).and_then(Answer::busy).unwrap_or_default();
+    let found: Vec<_> = asked.into_iter().map(Answer::ready).collect();
+    let all: Vec<Option<&Attribution>> =
+        found.iter().map(|found| found.as_deref().map(|found| &found.answer)).collect();
     let axis = axis(all.iter().copied().flatten());
     for map in Map::ALL {
         ui.scope(|ui| {
@@ -51,10 +63,10 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next:
             }
         });
     }
-    let attributed = all.get(display.prediction).copied().flatten();
-    state_line(ui, shown, pairs.get(display.prediction), attributed);
+    let attributed = found.get(display.prediction).and_then(Option::as_deref);
+    state_line(ui, attributed, busy);
     // Its row is kept where there is no note: what is below does not move when one comes.
-    let note = attributed.and_then(|attributed| attributed.attribution.note()).unwrap_or_default();
+    let note = attributed.and_then(|attributed| attributed.note()).unwrap_or_default();
     ui.add(egui::Label::new(RichText::new(note).small()).truncate());
     pane_choice(ui, &mut next.view.display.only_right);
 }
@@ -62,20 +74,15 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next:
 /// One line of constant height: the progress, or the sum and what it took.
 fn state_line(
     ui: &mut egui::Ui,
-    shown: Displayed<'_>,
-    pair: Option<&ComparedPair>,
-    attributed: Option<&Attributed>,
+    attributed: Option<&Answered<Attribution>>,
+    (fraction, elapsed): (f32, Duration),
 ) {
-    let jobs = &shown.jobs.why;
     let height = ui.spacing().interact_size.y;
-    let Some(Attributed { attribution, elapsed }) = attributed else {
-        let busy = jobs.attribution.busy();
-        let awaits = |pair| jobs.diagnosis.awaits(pair, shown.model.settings.loss.seed);
-        let text = match busy {
-            None if pair.is_some_and(awaits) => "After the diagnosis".to_owned(),
-            _ => format!("Mixing maps, {} s", busy.unwrap_or_default().1.as_secs()),
+    let Some(Answered { answer: attribution, elapsed }) = attributed else {
+        let text = match elapsed {
+            Duration::ZERO => "After what is above".to_owned(),
+            _ => format!("Mixing maps, {} s", elapsed.as_secs()),
         };
-        let (fraction, _) = busy.unwrap_or_default();
         progress(ui, fraction, text);
         return;
     };
@@ -125,7 +132,7 @@ struct MapRow<'a> {
     index: usize,
     name: &'a str,
     count: usize,
-    attributed: Option<&'a Attributed>,
+    attributed: Option<&'a Attribution>,
     /// The values at both ends of the bars.
     axis: [f64; 2],
     is_chosen: bool,
@@ -136,7 +143,7 @@ impl MapRow<'_> {
         let has_numbers = self.is_chosen || self.count <= WITH_NUMBERS;
         let height = if has_numbers { ROW } else { LOW };
         let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
-        let share = self.attributed.map(|attributed| attributed.attribution.of(self.map));
+        let share = self.attributed.map(|attributed| attributed.of(self.map));
         let text = self.attributed.map_or_else(String::new, |attributed| percent(attributed, self.map));
         let of = if self.is_chosen { String::new() } else { format!(" of {}", self.name) };
         let label = format!("{}{of}: {text} of the loss", self.map.name());
@@ -206,7 +213,7 @@ impl MapRow<'_> {
     }
 }
 
-fn percent(Attributed { attribution, .. }: &Attributed, map: Map) -> String {
+fn percent(attribution: &Attribution, map: Map) -> String {
     let whole = attribution.loss.mean;
     if whole > 0.0 {
         format!("{:.1}%", 100.0 * attribution.of(map).shapley.mean / whole)
@@ -225,9 +232,9 @@ fn numbers(share: &MapShare) -> String {
 }
 
 /// From 0, or the least value where errors of maps cancel, to the largest: one axis for all predictions.
-fn axis<'a>(all: impl Iterator<Item = &'a Attributed>) -> [f64; 2] {
+fn axis<'a>(all: impl Iterator<Item = &'a Attribution>) -> [f64; 2] {
     let ends = |share: &MapShare| share.shapley.interval95.unwrap_or([share.shapley.mean; 2]);
-    all.flat_map(|one| &one.attribution.maps)
+    all.flat_map(|one| &one.maps)
         .map(ends)
         .fold([0.0, f64::MIN_POSITIVE], |[low, high], ends| [low.min(ends[0]), high.max(ends[1])])
 }

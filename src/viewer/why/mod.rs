@@ -5,12 +5,14 @@ pub mod hypotheses;
 pub mod maps;
 pub mod scenes;
 
-use std::time::Duration;
-
 use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
+use svbrdf_evaluate::analyses::ANALYSES;
+
+use crate::jobs::answers::Answer;
+use crate::jobs::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
-use crate::jobs::why::{AnalysisTable, ComparedPair};
+use crate::jobs::why::questions::{Analyse, AnalysisTable, SceneLosses};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::WhySection;
 use crate::model::view::ViewState;
@@ -19,6 +21,8 @@ use crate::widgets::names::shortened;
 use crate::widgets::paint::PanelTextures;
 use crate::widgets::{progress, report_table, theme};
 
+/// The analyses that have a section of their own.
+const OWN_SECTIONS: [&str; 3] = ["blame", "scenes", "worst"];
 /// Most predictions with high rows.
 const LONG: usize = 4;
 /// Characters of a name in a row.
@@ -26,7 +30,7 @@ const NAME: usize = 30;
 
 /// Draws the tab.
 pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &mut PanelTextures) {
-    let (model, jobs) = (shown.model, &shown.jobs.why);
+    let (model, answers) = (shown.model, &shown.jobs.answers);
     let pairs = ComparedPair::all(&model.materials.all, &model.view);
     let Some(pair) = pairs.get(model.view.display.prediction) else {
         ui.label("Open a prediction to compare with the ground truth.");
@@ -35,15 +39,16 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
     ui.strong("Loss in this scene").on_hover_text(
         "Under the light and view of the panes: the mean of the log difference over the texels",
     );
-    let losses = shown.jobs.scene_loss.get(&model.materials.all, &model.view);
+    let losses = SceneLosses::of(&model.materials.all, &model.view);
+    let losses = losses.and_then(|question| question.drawn(answers));
     ui.scope(|ui| {
-        if losses.is_none_or(|(_, current)| !current) {
+        if losses.as_ref().is_none_or(|(_, is_current)| !is_current) {
             ui.set_opacity(0.5);
         }
-        rows(ui, shown, losses.map(|(losses, _)| losses), next);
+        rows(ui, shown, losses.as_ref().map(|(losses, _)| losses.as_slice()), next);
     });
     displayed_quantity(ui, &model.view, &mut next.view);
-    let tables = jobs.tables.analyses();
+    let tables = ANALYSES.iter().filter(|analysis| !OWN_SECTIONS.contains(&analysis.name));
     let tables = tables.map(|one| (WhySection::Table(one.name), one.title, one.details));
     let own = [
         (
@@ -63,7 +68,8 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
             WhySection::Maps => maps::ui(ui, shown, &pairs, next),
             WhySection::Scenes => scenes::ui(ui, shown, pair, textures, next),
             WhySection::Table(analysis) => {
-                table(ui, jobs.tables.get(analysis, pair, &model.settings.loss.listed_scenes()))
+                let (pair, scenes) = (pair.clone(), model.settings.loss.listed_scenes());
+                table(ui, answers.get(&Analyse { analysis, pair, scenes }));
             }
         });
         if header.header_response.on_hover_text(question).clicked() {
@@ -128,15 +134,16 @@ fn displayed_quantity(ui: &mut egui::Ui, view: &ViewState, next: &mut ViewState)
 }
 
 /// The table of the chosen prediction, or how far it is.
-fn table(ui: &mut egui::Ui, found: Result<&AnalysisTable, Option<(f32, Duration)>>) {
-    let AnalysisTable { heading, table } = match found {
-        Ok(found) => found,
-        Err(busy) => {
-            let (fraction, elapsed) = busy.unwrap_or_default();
+fn table(ui: &mut egui::Ui, found: Answer<AnalysisTable>) {
+    let found = match found {
+        Answer::Ready(found) => found,
+        Answer::Partial(_, fraction, elapsed) | Answer::Running(fraction, elapsed) => {
             progress(ui, fraction, format!("{} s", elapsed.as_secs()));
             return;
         }
+        Answer::Failed(_) => return,
     };
+    let AnalysisTable { heading, table } = &found.answer;
     ui.horizontal(|ui| {
         if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
             ui.copy_text(format!("{heading}\n{}", table.text()));

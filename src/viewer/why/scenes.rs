@@ -5,10 +5,12 @@ use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke,
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_evaluate::why::{RankedScene, Worst};
 
+use crate::jobs::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
-use crate::jobs::why::{ComparedPair, MOST_THUMBNAILS, Thumbnails};
+use crate::jobs::why::questions::{DrawScenes, FindWorst, RankScenes};
+use crate::jobs::why::{MOST_THUMBNAILS, Thumbnails};
 use crate::model::dialogs::{SaveDialog, SaveKind};
-use crate::model::effect::Effect;
+use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, exposure};
 use crate::widgets::numbers::digits;
 use crate::widgets::paint::PanelTextures;
@@ -30,11 +32,26 @@ pub fn ui(
     next: &mut Model,
 ) {
     let scenes = shown.model.settings.loss.listed_scenes();
-    let (list, pictures) = shown.jobs.why.scenes.get(pair, &scenes).unzip();
-    let pictures = pictures.flatten();
+    let (answers, count) = (&shown.jobs.answers, scenes.count().unwrap_or(0));
+    let listed = answers.get(&RankScenes { pair: pair.clone(), scenes });
+    let busy = listed.busy();
+    let list = listed.ready();
+    let pictures = list.as_ref().and_then(|list| {
+        let scenes = list.iter().take(MOST_THUMBNAILS).map(|ranked| ranked.scene).collect();
+        answers.get(&DrawScenes { pair: pair.clone(), scenes }).ready()
+    });
+    let pictures = pictures.as_deref().map(|pictures| &pictures.answer);
     let texture =
         pictures.map(|pictures| textures.id(ui.ctx(), &pictures.picture, egui::TextureOptions::LINEAR));
-    thumbnails(ui, shown, list, scenes.count().unwrap_or(0), pictures.zip(texture), next);
+    let list = list.as_deref().map(|list| list.answer.as_slice());
+    thumbnails(ui, shown, list, count, pictures.zip(texture), next);
+    let text = match (pictures, busy) {
+        (Some(pictures), _) => format!("log difference, 0 to {}", digits(pictures.range)),
+        (None, Some((fraction, _))) => format!("{:.0}% of {count} scenes", 100.0 * fraction),
+        (None, None) => "...".to_owned(),
+    };
+    ui.label(RichText::new(text).small().weak())
+        .on_hover_text("From black to light yellow, the same in all thumbnails");
     search(ui, shown, pair, next);
 }
 
@@ -79,23 +96,19 @@ fn thumbnails(
             next.dialogs.save = Some(SaveDialog::new(SaveKind::Scenes));
         }
     });
-    let text = match (thumbnails, shown.jobs.why.scenes.busy()) {
-        (Some((thumbnails, _)), _) => format!("log difference, 0 to {}", digits(thumbnails.range)),
-        (None, Some(fraction)) => format!("{:.0}% of {count} scenes", 100.0 * fraction),
-        (None, None) => "...".to_owned(),
-    };
-    ui.label(RichText::new(text).small().weak())
-        .on_hover_text("From black to light yellow, the same in all thumbnails");
 }
 
 /// The button that searches, its progress, and what was found, in two rows.
 fn search(ui: &mut egui::Ui, shown: Displayed<'_>, pair: &ComparedPair, next: &mut Model) {
-    let search = &shown.jobs.why.search;
-    let worst = search.found(pair).filter(|_| search.busy().is_none());
+    let (answers, model) = (&shown.jobs.answers, shown.model);
+    let question = FindWorst { pair: pair.clone(), seed: model.settings.loss.seed };
+    let busy = model.searched.is_some().then(|| answers.get(&question).busy().unwrap_or_default());
+    let known = answers.known(&question);
+    let worst = known.as_deref().map(|known| &known.answer);
     ui.horizontal(|ui| {
-        if let Some((fraction, elapsed)) = search.busy() {
+        if let Some((fraction, elapsed)) = busy {
             if ui.button("Cancel search").on_hover_text("Esc").clicked() {
-                next.effects.push(Effect::CancelSearch);
+                next.searched = None;
             }
             let text = format!("{:.0}%, {} s", 100.0 * fraction, elapsed.as_secs());
             progress(ui, fraction, text);
@@ -104,7 +117,7 @@ fn search(ui: &mut egui::Ui, shown: Displayed<'_>, pair: &ComparedPair, next: &m
         let hover =
             "Searches all scenes that the loss samples from for the largest loss, and shows the scene";
         if ui.button("Find worst scene").on_hover_text(hover).clicked() {
-            next.effects.push(Effect::FindWorst);
+            next.searched = next.chosen_prediction().map(LoadedMaterial::id);
         }
         if let Some(worst) = worst {
             let chosen = worst.scene == shown.model.view.scene;

@@ -2,6 +2,7 @@
 
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
 use svbrdf_files::read::NormalY;
+use svbrdf_viewer::jobs::why::questions::Attribute;
 use svbrdf_viewer::model::settings::WhySection;
 
 use super::*;
@@ -108,13 +109,13 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
 /// The maps are mixed when the first line is there, or at once where it is folded.
 #[needs(adapter)]
 fn the_first_line_has_the_processors_to_itself() {
-    let mixes = |window: &Window<'_>| window.jobs().why.attribution.busy().is_some();
+    let mixes = |window: &Window<'_>| window.jobs().answers.is_running::<Attribute>();
     let mut window = built_in();
     tab(&mut window, "Why");
-    assert!(window.diagnosis().is_none() && has(&window, "After the diagnosis"));
+    assert!(window.diagnosis().is_none() && has(&window, "After what is above"));
     wait_in(&mut window, "the diagnosis", |window| {
         window.diagnosis().is_some() || {
-            assert!(!mixes(window) && window.attribution().is_none() && has(window, "After the diagnosis"));
+            assert!(!mixes(window) && window.attribution().is_none() && has(window, "After what is above"));
             false
         }
     });
@@ -122,7 +123,11 @@ fn the_first_line_has_the_processors_to_itself() {
     let mut folded = built_in();
     edit(&mut folded, |model| model.settings.sections.toggle(WhySection::Diagnosis));
     tab(&mut folded, "Why");
-    assert!(mixes(&folded));
+    wait_in(&mut folded, "the mixing of maps", |window| {
+        assert!(window.attribution().is_none(), "it is seen while it goes on");
+        mixes(window)
+    });
+    assert!(folded.diagnosis().is_none());
 }
 
 #[needs(adapter)]

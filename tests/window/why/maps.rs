@@ -34,7 +34,7 @@ fn the_shares_of_the_maps_are_those_of_the_core_for_the_chosen_prediction_and_co
     let display = &window.view().display;
     assert_eq!((display.prediction, display.isolated), (1, Some(Map::Roughness)), "a click chooses it");
     press(&mut window, egui::Key::Escape);
-    assert_eq!(window.attribution(), Some(&second), "it is not computed again");
+    assert_eq!(window.attribution(), Some(second.clone()), "it is not computed again");
     window.get_by_label("roughness: 60.1% of the loss");
     window.get_by_label("normal of blurred normals: 80.9% of the loss");
     choose(&mut window, "Convention", "guided-2020");

@@ -11,17 +11,15 @@ use std::sync::Arc;
 use svbrdf_gpu::Gpu;
 
 use super::work::job::Job;
-use super::work::order::OrderJob;
 use super::work::waker::Waker;
 use crate::error::Error;
+use crate::jobs::answers::{Answered, Answers};
 use crate::model::Model;
 use crate::model::dataset::{DatasetState, OpenDataset};
-use crate::model::settings::Tab;
 use cases::CaseJobs;
 use cells::{Cell, CellJobs};
 use losses::DatasetLosses;
-use sheet::SheetJob;
-use summary::{DatasetOrderKey, SummaryJob};
+use sheet::{DrawSheet, SheetPicture};
 
 /// The work for the data set of the window.
 #[derive(Debug, Default)]
@@ -33,9 +31,8 @@ pub struct DatasetJobs {
     pub losses: DatasetLosses,
     pub cases: CaseJobs,
     pub cells: CellJobs,
-    pub sheet: SheetJob,
-    pub summary: SummaryJob,
-    pub order: OrderJob<DatasetOrderKey>,
+    /// The latest pictures of the cells in sight.
+    pub sheet: Option<Arc<Answered<SheetPicture>>>,
 }
 
 /// What the window displays of a data set.
@@ -57,7 +54,7 @@ impl DatasetJobs {
     /// Takes over results, and computes what is displayed, then the rest.
     pub fn follow(
         &mut self,
-        waker: &Waker,
+        (waker, answers): (&Waker, &Answers),
         gpu: Option<&Gpu>,
         model: &Model,
         displayed: &DisplayedCases,
@@ -76,21 +73,13 @@ impl DatasetJobs {
         let wanted: Vec<usize> =
             std::iter::once(model.dataset.wanted).chain(model.dataset.ahead.iter().copied()).collect();
         let first: Vec<usize> = wanted[..1].iter().chain(&displayed.cases).copied().collect();
-        let summary_is_open = model.tab() == Tab::Methods && model.side_panel();
         let errors = [
             self.losses.follow(waker, open, &model.view.convention, &first),
             self.cases.follow(waker, gpu, open, model.materials.rules, (&wanted, &model.dataset.pinned())),
             self.cells.follow(waker, open, &displayed.cells, displayed.pixels),
-            self.sheet.follow(waker, &self.cells, &displayed.cells, &model.view, range),
-            self.summary.follow(waker, open, &self.losses, summary_is_open),
-            summary::follow_order(
-                &mut self.order,
-                waker,
-                open,
-                &self.losses,
-                summary_is_open && model.asks_order,
-            ),
         ];
+        let wanted = DrawSheet::of(&self.cells, &displayed.cells, &model.view, range);
+        self.sheet = wanted.and_then(|wanted| answers.get(&wanted).ready().or(self.sheet.take()));
         errors.into_iter().flatten().collect()
     }
 }

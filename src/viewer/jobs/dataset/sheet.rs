@@ -15,15 +15,14 @@ use svbrdf_core::progress::Progress;
 
 use super::cells::{Cell, CellJobs};
 use crate::error::Error;
-use crate::jobs::work::job::Job;
-use crate::jobs::work::latest::Latest;
+use crate::jobs::answers::{Question, Work};
+use crate::jobs::content::Given;
 use crate::jobs::work::picture::Picture;
-use crate::jobs::work::waker::Waker;
 use crate::model::view::ViewState;
 
-/// What the pictures of the cells depend on.
+/// The pictures of cells under a light and view.
 #[derive(Clone, Debug, PartialEq)]
-struct SheetKey {
+pub struct DrawSheet {
     cells: Vec<Cell>,
     /// That of the small materials.
     generation: u64,
@@ -31,6 +30,7 @@ struct SheetKey {
     convention: Convention,
     exposure_ev: f32,
     content: PictureContent,
+    materials: Given<HashMap<Cell, Arc<Material<f32>>>>,
 }
 
 /// The pictures of all cells, in one.
@@ -49,53 +49,40 @@ impl SheetPicture {
     }
 }
 
-/// The latest pictures.
-#[derive(Debug, Default)]
-pub struct SheetJob(Latest<SheetKey, SheetPicture>);
-
-impl SheetJob {
-    pub fn get(&self) -> Option<&SheetPicture> {
-        self.0.get().map(|(_, picture)| picture)
-    }
-
-    /// Takes over the pictures, and renders those of the present view; differences have this range.
-    pub(super) fn follow(
-        &mut self,
-        waker: &Waker,
-        cells: &CellJobs,
-        in_sight: &[Cell],
-        view: &ViewState,
-        range: f64,
-    ) -> Option<Error> {
-        if in_sight.is_empty() {
-            self.0 = Latest::default();
-            return None;
-        }
+impl DrawSheet {
+    /// The small materials in sight, where there are some, in the view of the window; differences have this range.
+    pub fn of(cells: &CellJobs, in_sight: &[Cell], view: &ViewState, range: f64) -> Option<Self> {
         let quantity = view.display.quantity;
         let (kind, _) = view.display.differences.pointwise(quantity);
         let difference = view.display.difference.then_some(ColouredDifference { kind, range: Some(range) });
-        let key = SheetKey {
+        // Differences are from the ground truth, whether it is in sight or not.
+        let truths = in_sight.iter().map(|cell| Cell { column: 0, ..*cell });
+        let of = |cell: Cell| Some((cell, cells.get(cell)?.as_ref().ok()?.clone()));
+        let materials = in_sight.iter().copied().chain(truths).filter_map(of).collect();
+        (!in_sight.is_empty()).then(|| Self {
             cells: in_sight.to_vec(),
             generation: cells.generation,
             scene: view.scene,
             convention: view.convention(),
             exposure_ev: view.exposure_ev,
             content: PictureContent { quantity, difference },
-        };
-        self.0.follow(Some(key), |key| {
-            let key = key.clone();
-            let of = |cell: &Cell| Some((*cell, cells.get(*cell)?.as_ref().ok()?.clone()));
-            let mut materials: HashMap<Cell, Arc<Material<f32>>> = key.cells.iter().filter_map(of).collect();
-            // Differences are from the ground truth, whether it is in sight or not.
-            let truths = key.cells.iter().map(|cell| Cell { column: 0, ..*cell });
-            materials.extend(truths.filter_map(|cell| of(&cell)));
-            Job::start(waker, move |progress| render(&key, &materials, progress))
+            materials: Given(materials),
         })
     }
 }
 
+impl Question for DrawSheet {
+    type Answer = SheetPicture;
+    const IS_SHORT: bool = true;
+    const KEPT: usize = 1;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<SheetPicture, Error> {
+        render(self, &self.materials.0, work.progress())
+    }
+}
+
 fn render(
-    key: &SheetKey,
+    key: &DrawSheet,
     materials: &HashMap<Cell, Arc<Material<f32>>>,
     progress: &Progress,
 ) -> Result<SheetPicture, Error> {
@@ -121,7 +108,7 @@ fn render(
 
 /// The colours of a cell: the value of the ground truth, and the value or the difference of a prediction, where both have one size.
 fn colours(
-    key: &SheetKey,
+    key: &DrawSheet,
     cell: Cell,
     image: &Image<f32>,
     truths: &HashMap<usize, &Image<f32>>,

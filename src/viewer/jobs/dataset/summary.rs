@@ -1,70 +1,54 @@
-//! Summary: what `svbrdf rank --dataset` prints, of the losses that are known; whether the order survives other questions.
+//! Summary: what `svbrdf rank --dataset` prints, of the losses that are known.
 
 use std::sync::Arc;
 
-use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::dataset::{self, DatasetReport, MaterialResult};
-use svbrdf_files::convention::ChosenConvention;
+use svbrdf_evaluate::dataset::{DatasetReport, DatasetSettings, MaterialResult};
 
 use super::losses::{DatasetLosses, PICK};
 use crate::error::Error;
-use crate::jobs::work::job::Job;
-use crate::jobs::work::latest::Latest;
-use crate::jobs::work::order::OrderJob;
-use crate::jobs::work::priority;
-use crate::jobs::work::waker::Waker;
+use crate::jobs::answers::{Answered, Answers, Question, Work};
 use crate::model::dataset::OpenDataset;
 
-/// The latest summary.
-#[derive(Debug, Default)]
-pub struct SummaryJob(Latest<u64, Arc<DatasetReport>>);
+/// The table of the methods over the materials whose losses are known.
+#[derive(Clone, Debug)]
+pub struct Summarize {
+    pub open: Arc<OpenDataset>,
+    pub settings: DatasetSettings,
+    pub results: Vec<Arc<MaterialResult>>,
+    /// That of the results.
+    pub generation: u64,
+}
 
-impl SummaryJob {
-    pub fn get(&self) -> Option<&Arc<DatasetReport>> {
-        self.0.get().map(|(_, report)| report)
+impl PartialEq for Summarize {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.open, &other.open) && self.generation == other.generation
     }
+}
 
-    /// Takes over the summary, and makes that of the losses of now, where it is in sight.
-    pub(super) fn follow(
-        &mut self,
-        waker: &Waker,
+impl Summarize {
+    /// The latest summary of this data set, as soon as there is one.
+    pub fn drawn(
         open: &Arc<OpenDataset>,
         losses: &DatasetLosses,
-        is_open: bool,
-    ) -> Option<Error> {
-        if !is_open || losses.count() == 0 {
-            return None;
-        }
-        self.0.follow(Some(losses.generation), |_| {
-            let (settings, reading) = (losses.settings(open), open.reading.clone());
-            let results: Vec<Arc<MaterialResult>> = losses.results().cloned().collect();
-            Job::start(waker, move |_| {
-                let results = results.iter().map(|one| (**one).clone()).collect();
-                Ok(Arc::new(DatasetReport::new(settings, reading, results, PICK)))
-            })
+        answers: &Answers,
+    ) -> Option<Arc<Answered<DatasetReport>>> {
+        let (open, settings, generation) = (open.clone(), losses.settings(open), losses.generation);
+        let question = Self { open, settings, results: losses.results().cloned().collect(), generation };
+        let ready = (losses.count() > 0).then(|| answers.get(&question))?.ready();
+        ready.or_else(|| {
+            let latest = answers.latest(|one: &Self| Arc::ptr_eq(&one.open, &question.open));
+            latest.map(|(_, report)| report)
         })
     }
 }
 
-/// What the order of the methods depends on: the convention, and how often a material was read again.
-pub type DatasetOrderKey = (ChosenConvention, u64);
+impl Question for Summarize {
+    type Answer = DatasetReport;
+    const IS_SHORT: bool = true;
+    const KEPT: usize = 1;
 
-/// Asks whether the order of the methods survives, as `svbrdf rank --dataset --robust` does, where that is in sight.
-pub(super) fn follow_order(
-    order: &mut OrderJob<DatasetOrderKey>,
-    waker: &Waker,
-    open: &Arc<OpenDataset>,
-    losses: &DatasetLosses,
-    is_open: bool,
-) -> Option<Error> {
-    let settings = losses.settings(open);
-    let key = (settings.convention.clone(), losses.read_again);
-    order.follow(waker, (is_open && open.methods().len() > 1).then_some(key), |_| {
-        let open = open.clone();
-        move |progress: &Progress| {
-            // Threads of its own, as for the losses.
-            let pool = priority::background_pool().map_err(|error| Error::internal(error.to_string()))?;
-            pool.install(|| Ok(dataset::robust(&open.cases, &settings, &open.reading, |_| (), progress)?))
-        }
-    })
+    fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<DatasetReport, Error> {
+        let results = self.results.iter().map(|one| (**one).clone()).collect();
+        Ok(DatasetReport::new(self.settings.clone(), self.open.reading.clone(), results, PICK))
+    }
 }

@@ -1,28 +1,35 @@
-//! Jobs on what the panes display: the replacement of the chosen prediction, and numbers about values, differences and error maps.
+//! What the panes display, and what is asked about it: the replacement of the chosen prediction, and numbers about differences, error maps
+//! and the photograph.
 
 pub mod computed_maps;
 pub mod difference;
 pub mod error_map;
 pub mod replacement;
 
-use difference::DifferenceJob;
-use error_map::ErrorMapJob;
-use replacement::ReplacementJob;
+use std::sync::Arc;
 
 use svbrdf_core::picture::quantity::Quantity;
 
+use super::answers::Answered;
+use super::content::Content;
+use super::photograph::{ComparePhotograph, Photographs, Samples};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::read::MaterialId;
+use computed_maps::ComputedMaps;
+use difference::{ComputedDifference, Differences};
+use error_map::ErrorMaps;
 
-/// The jobs, and the materials in the panes.
+/// What the panes display in this frame. A number is of the question beside it, which may be that of an earlier frame.
 #[derive(Debug, Default)]
-pub struct PaneJobs {
+pub struct Panes {
     /// The materials, with a replacement of the chosen prediction where one is displayed.
     pub displayed: Vec<LoadedMaterial>,
-    pub replacement: ReplacementJob,
-    pub difference: DifferenceJob,
-    pub error_map: ErrorMapJob,
+    pub differences: Option<(Differences, Arc<Answered<ComputedDifference>>)>,
+    pub error_maps: Option<(ErrorMaps, Arc<Answered<ComputedMaps>>)>,
+    /// The share of the texels of error maps that is done, while they are rendered.
+    pub error_map_progress: Option<f32>,
+    pub photograph: Option<Samples>,
+    pub photographs: Option<(ComparePhotograph, Arc<Answered<Photographs>>)>,
     /// The automatic range of the predictions themselves: that of a replacement would change with it.
     pub auto_range: Option<(RangeKey, f64)>,
 }
@@ -30,7 +37,7 @@ pub struct PaneJobs {
 /// What an automatic range holds for: the materials and the difference, under any scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RangeKey {
-    ids: Vec<MaterialId>,
+    materials: Vec<Content>,
     quantity: Quantity,
     difference: &'static str,
 }
@@ -38,7 +45,7 @@ pub struct RangeKey {
 impl RangeKey {
     pub fn of(model: &Model) -> Self {
         Self {
-            ids: model.materials.all.iter().map(LoadedMaterial::id).collect(),
+            materials: Content::all(&model.materials.all),
             quantity: model.view.display.quantity,
             difference: model.view.difference_name(),
         }

@@ -5,14 +5,13 @@ use std::sync::Arc;
 
 use svbrdf_core::material::{Map, Material};
 use svbrdf_evaluate::diagnose::Change;
+use svbrdf_gpu::Gpu;
 
 use crate::error::Error;
+use crate::jobs::answers::{Answers, Question, Work};
+use crate::jobs::content::{Content, Given, read_all};
 use crate::jobs::reading::upload::{Uploaded, Uploads};
-use crate::jobs::work::context::JobContext;
-use crate::jobs::work::job::Job;
-use crate::jobs::work::latest::Latest;
 use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::read::MaterialId;
 use crate::model::material::read::ReadMaterial;
 use crate::model::view::ViewState;
 
@@ -25,81 +24,68 @@ enum Replacement {
     Corrected(Change),
 }
 
-/// What a replacement depends on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct ReplacementKey {
-    /// Of the ground truth and of the prediction.
-    ids: [MaterialId; 2],
+/// A replacement of a prediction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replace {
+    /// The ground truth and the prediction.
+    pair: [Content; 2],
     replacement: Replacement,
+    gpu: Given<Option<Gpu>>,
 }
 
-/// The replacement in the panes, and the making of another one.
-#[derive(Debug, Default)]
-pub struct ReplacementJob {
-    job: Latest<ReplacementKey, Made>,
-    displayed: Option<(ReplacementKey, LoadedMaterial)>,
+impl Question for Replace {
+    /// The replacement, and its maps on the adapter.
+    type Answer = (Arc<ReadMaterial>, Option<Arc<Uploaded>>);
+    const IS_SHORT: bool = true;
+    const KEPT: usize = 1;
+
+    fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<Self::Answer, Error> {
+        let read = read_all(&self.pair)?;
+        let made = Arc::new(self.replacement.made([&read[0], &read[1]])?);
+        let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, made.material())));
+        Ok((made, uploaded))
+    }
 }
 
-/// A replacement, and its maps on the adapter.
-type Made = (Arc<ReadMaterial>, Option<Arc<Uploaded>>);
-
-impl ReplacementJob {
-    /// Takes over a replacement, and makes the one that is wanted now.
-    pub fn follow(&mut self, work: &JobContext<'_>, uploads: &mut Uploads) -> Option<Error> {
-        let wanted = key(work.materials, work.view);
-        let error = self.job.follow(wanted, |key| {
-            let pair = [0, work.view.display.prediction + 1].map(|index| work.materials[index].read.clone());
-            let (replacement, gpu) = (key.replacement, work.gpu.cloned());
-            Job::start(work.waker, move |_| {
-                let read = Arc::new(replacement.made(&pair)?);
-                let uploaded = gpu.map(|gpu| Arc::new(Uploaded::all(&gpu, read.material())));
-                Ok((read, uploaded))
-            })
-        });
-        let Some((key, (read, uploaded))) = self.job.get() else {
-            self.displayed = None;
-            return error;
-        };
-        if self.displayed.as_ref().is_none_or(|(of, _)| of != key) {
-            let Some(prediction) = work.materials.iter().find(|one| one.id() == key.ids[1]) else {
-                return error;
-            };
-            let name = key.replacement.name(prediction.name());
-            let material = LoadedMaterial::named(read.clone(), prediction.problem.clone(), name);
-            self.displayed = Some((*key, material));
-        }
-        // Also of a replacement that was not in the panes for a while.
-        uploads.add(read.id, uploaded.clone());
-        error
+impl Replace {
+    /// The replacement that is wanted.
+    fn of(materials: &[LoadedMaterial], view: &ViewState, gpu: Option<&Gpu>) -> Option<Self> {
+        let [ground_truth, prediction] = [materials.first()?, materials.get(view.display.prediction + 1)?];
+        let only_right = view.display.only_right;
+        let mixture = view.display.isolated.map(|map| Replacement::Mixture { map, only_right });
+        let corrected = view.display.corrected.filter(|change| change.fits(prediction.material().size()));
+        let replacement = mixture.or(corrected.map(Replacement::Corrected))?;
+        let pair = [ground_truth, prediction].map(Content::of);
+        Some(Self { pair, replacement, gpu: Given(gpu.cloned()) })
     }
 
-    /// `materials`, with the replacement in the place of the prediction that it is made of. While another one of the same
-    /// materials is made, the one before it stays.
-    pub fn displayed(&self, materials: &[LoadedMaterial], view: &ViewState) -> Vec<LoadedMaterial> {
+    /// `materials`, with the replacement in the place of the prediction that it is made of. While another one of the same materials
+    /// is made, the one before it stays.
+    pub fn displayed(
+        answers: &Answers,
+        uploads: &mut Uploads,
+        gpu: Option<&Gpu>,
+        (materials, view): (&[LoadedMaterial], &ViewState),
+    ) -> Vec<LoadedMaterial> {
         let mut displayed = materials.to_vec();
-        if let (Some(wanted), Some((of, replacement))) = (key(materials, view), &self.displayed)
-            && of.ids == wanted.ids
-        {
-            displayed[view.display.prediction + 1] = replacement.clone();
+        let Some(wanted) = Self::of(materials, view, gpu) else { return displayed };
+        let latest = || answers.latest(|one: &Self| one.pair == wanted.pair);
+        let found = answers.get(&wanted).ready().map(|made| (wanted.clone(), made)).or_else(latest);
+        if let Some((of, made)) = found {
+            let (read, uploaded) = &made.answer;
+            // Also of a replacement that was not in the panes for a while.
+            uploads.add(read.id, uploaded.clone());
+            let replaced = &mut displayed[view.display.prediction + 1];
+            let name = of.replacement.name(replaced.name());
+            *replaced = LoadedMaterial::named(read.clone(), replaced.problem.take(), name);
         }
         displayed
     }
 }
 
-/// The replacement that is wanted.
-fn key(materials: &[LoadedMaterial], state: &ViewState) -> Option<ReplacementKey> {
-    let [ground_truth, prediction] = [materials.first()?, materials.get(state.display.prediction + 1)?];
-    let ids = [ground_truth.id(), prediction.id()];
-    let only_right = state.display.only_right;
-    let mixture = state.display.isolated.map(|map| Replacement::Mixture { map, only_right });
-    let corrected = state.display.corrected.filter(|change| change.fits(prediction.material().size()));
-    let replacement = mixture.or(corrected.map(Replacement::Corrected))?;
-    Some(ReplacementKey { ids, replacement })
-}
-
 impl Replacement {
     /// The replacement made of a ground truth and a prediction.
-    fn made(self, [ground_truth, prediction]: &[Arc<ReadMaterial>; 2]) -> Result<ReadMaterial, Error> {
+    fn made(self, [ground_truth, prediction]: [&ReadMaterial; 2]) -> Result<ReadMaterial, Error> {
         let (truth, predicted) = (ground_truth.material(), prediction.material());
         let mixed = |base: &Material<f32>, other, map| base.with_maps_of(other, |of| of == map);
         let material = match self {

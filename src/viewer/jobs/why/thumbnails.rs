@@ -4,16 +4,15 @@ use std::sync::Arc;
 
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::{Material, Planes};
+use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 use svbrdf_core::statistics::quantile;
-use svbrdf_evaluate::why::RankedScene;
 
 use crate::error::Error;
-use crate::jobs::why::pair::ComparedPair;
 use crate::jobs::work::picture::Picture;
 
 /// Side of a thumbnail, in pixels.
@@ -48,17 +47,21 @@ impl Thumbnails {
     }
 }
 
-/// Renders the thumbnails of the first of `ranked`, one step of `progress` each.
+/// Renders the thumbnails of `scenes`, one step of `progress` each. The ground truth is the first of the materials.
 ///
 /// # Errors
 /// [`Cancelled`](Error::is_cancelled).
-pub fn make(pair: &ComparedPair, ranked: &[RankedScene], progress: &Progress) -> Result<Thumbnails, Error> {
-    let materials = [reduced(pair.ground_truth())?, reduced(pair.prediction())?];
-    let scenes = &ranked[..ranked.len().min(MOST)];
+pub fn make(
+    [ground_truth, prediction]: [&Material<f32>; 2],
+    convention: &Convention,
+    scenes: &[Scene],
+    progress: &Progress,
+) -> Result<Thumbnails, Error> {
+    let materials = [reduced(ground_truth)?, reduced(prediction)?];
     progress.begin(scenes.len() as u64);
     let mut pixels = Vec::new();
-    for ranked in scenes {
-        let differences = log_differences(&materials, &ranked.scene, pair, progress)?;
+    for scene in scenes {
+        let differences = log_differences(&materials, scene, convention, progress)?;
         pixels.push(averaged(&differences, materials[0].size()));
         progress.step()?;
     }
@@ -72,12 +75,12 @@ pub fn make(pair: &ComparedPair, ranked: &[RankedScene], progress: &Progress) ->
 fn log_differences(
     materials: &[Material<f32>; 2],
     scene: &Scene,
-    pair: &ComparedPair,
+    convention: &Convention,
     progress: &Progress,
 ) -> Result<Vec<f32>, Error> {
-    let render = |material| render::render_f32(material, scene, &pair.convention, &progress.part());
+    let render = |material| render::render_f32(material, scene, convention, &progress.part());
     let [ground_truth, prediction] = [render(&materials[0])?, render(&materials[1])?];
-    let params = DifferenceParams { epsilon: pair.convention.epsilon, exposure_ev: 0.0 };
+    let params = DifferenceParams { epsilon: convention.epsilon, exposure_ev: 0.0 };
     Ok(Difference::Log.of_images(&ground_truth, &prediction, params))
 }
 

@@ -1,10 +1,7 @@
 //! The mechanism of all background work: jobs with updates, progress and cancellation, the latest result for a key, the waker
 //! of the window, priorities of threads, and panics as errors.
 
-pub mod context;
 pub mod job;
-pub mod latest;
-pub mod order;
 pub mod panics;
 pub mod picture;
 pub mod priority;

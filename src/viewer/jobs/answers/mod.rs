@@ -1,0 +1,237 @@
+//! Answers: what the window draws is asked for where it is drawn, in every frame.
+//!
+//! A question that has no answer yet waits. One is answered at a time, on all processors: the first in the order of asking, which is that
+//! on the screen. What a frame does not ask for is cancelled; its answer stays for a while.
+
+mod entry;
+#[cfg(test)]
+mod tests;
+
+use std::any::{Any, TypeId};
+use std::cell::RefCell;
+use std::fmt;
+use std::ops::Deref;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use svbrdf_core::progress::Progress;
+
+use super::work::job::Worker;
+use super::work::waker::Waker;
+use crate::error::Error;
+use entry::{AnyEntry, Entry, Phase};
+
+/// A question with all that its answer depends on.
+pub trait Question: Clone + PartialEq + Send + 'static {
+    type Answer: Send + Sync + 'static;
+
+    /// Whether it is answered in a moment. Then it does not wait for others, and an earlier one of its kind is answered to the end: there
+    /// are answers while something moves.
+    const IS_SHORT: bool = false;
+
+    /// The answers of its kind that stay although no frame asks for them.
+    const KEPT: usize = 64;
+
+    /// The answer, computed on a thread of its own.
+    ///
+    /// # Errors
+    /// Where there is none; it is told once, and not tried again while it is asked for.
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Self::Answer, Error>;
+}
+
+/// The work on an answer.
+#[derive(Debug)]
+pub struct Work<'a, A> {
+    worker: &'a Worker<Arc<Answered<A>>>,
+    start: Instant,
+}
+
+impl<A> Work<'_, A> {
+    pub fn progress(&self) -> &Progress {
+        &self.worker.progress
+    }
+
+    /// Tells of an answer so far, in the place of the one before it.
+    pub fn tell(&self, answer: A) {
+        // Where the window has dropped this job, its progress ends the work.
+        let _ = self.worker.replace(Arc::new(Answered { answer, elapsed: self.start.elapsed() }));
+    }
+}
+
+/// What is known of an answer.
+#[derive(Debug)]
+pub enum Answer<A> {
+    Ready(Arc<Answered<A>>),
+    /// An answer so far, the share of the work that is done, and its time.
+    Partial(Arc<Answered<A>>, f32, Duration),
+    /// The share of the work that is done, and its time: 0 of what waits.
+    Running(f32, Duration),
+    Failed(Arc<str>),
+}
+
+/// An answer, and the time that it took.
+#[derive(Debug)]
+pub struct Answered<A> {
+    pub answer: A,
+    pub elapsed: Duration,
+}
+
+impl<A> Deref for Answered<A> {
+    type Target = A;
+
+    fn deref(&self) -> &A {
+        &self.answer
+    }
+}
+
+impl<A> Answer<A> {
+    pub fn ready(self) -> Option<Arc<Answered<A>>> {
+        match self {
+            Self::Ready(answered) => Some(answered),
+            Self::Partial(..) | Self::Running(..) | Self::Failed(_) => None,
+        }
+    }
+
+    /// The share and the time of the work that goes on.
+    pub fn busy(&self) -> Option<(f32, Duration)> {
+        match *self {
+            Self::Partial(_, fraction, elapsed) | Self::Running(fraction, elapsed) => {
+                Some((fraction, elapsed))
+            }
+            Self::Ready(_) | Self::Failed(_) => None,
+        }
+    }
+}
+
+/// The questions of the window with their answers.
+#[derive(Default)]
+pub struct Answers {
+    waker: Waker,
+    asked: RefCell<Asked>,
+}
+
+#[derive(Default)]
+struct Asked {
+    entries: Vec<Box<dyn AnyEntry>>,
+    frame: u64,
+    /// The questions of this frame so far.
+    count: usize,
+}
+
+impl fmt::Debug for Answers {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Answers")
+    }
+}
+
+impl Answers {
+    pub fn new(waker: Waker) -> Self {
+        Self { waker, asked: RefCell::default() }
+    }
+
+    /// The answer to `question`, which is asked for by this.
+    pub fn get<Q: Question>(&self, question: &Q) -> Answer<Q::Answer> {
+        self.ask(question, false)
+    }
+
+    /// The same of a question that is answered after all those of the frame that are not asked so.
+    pub fn get_later<Q: Question>(&self, question: &Q) -> Answer<Q::Answer> {
+        self.ask(question, true)
+    }
+
+    /// The answer, where there is one; it is not asked for.
+    pub fn known<Q: Question>(&self, question: &Q) -> Option<Arc<Answered<Q::Answer>>> {
+        let mut asked = self.asked.borrow_mut();
+        asked.entry(question)?.state().ready()
+    }
+
+    /// The latest answer to a question like this one, of those for which `is_like` holds.
+    pub fn latest<Q: Question>(&self, is_like: impl Fn(&Q) -> bool) -> Option<(Q, Arc<Answered<Q::Answer>>)> {
+        let mut asked = self.asked.borrow_mut();
+        let all = asked.of_kind::<Q>().filter(|entry| is_like(&entry.question));
+        let ready =
+            all.filter_map(|entry| Some((entry.turn, entry.question.clone(), entry.state().ready()?)));
+        ready.max_by_key(|(turn, ..)| *turn).map(|(_, question, answered)| (question, answered))
+    }
+
+    /// Whether a question like this one is being answered.
+    pub fn is_running<Q: Question>(&self) -> bool {
+        self.asked.borrow_mut().of_kind::<Q>().any(|entry| entry.phase() == Phase::Running)
+    }
+
+    fn ask<Q: Question>(&self, question: &Q, later: bool) -> Answer<Q::Answer> {
+        let mut asked = self.asked.borrow_mut();
+        asked.count += 1;
+        let turn = (asked.frame, later, asked.count);
+        if let Some(entry) = asked.entry(question) {
+            // Twice in a frame: the first counts.
+            if entry.turn.0 != turn.0 || (entry.turn.1 && !later) {
+                entry.turn = turn;
+            }
+            return entry.state();
+        }
+        asked.entries.push(Box::new(Entry::new(question.clone(), turn)));
+        Answer::Running(0.0, Duration::ZERO)
+    }
+
+    /// Ends a frame: starts what it has asked for, and cancels and drops what it has not. Returns what has failed since the last one.
+    pub fn end_frame(&mut self) -> Vec<Error> {
+        let Asked { entries, frame, count } = self.asked.get_mut();
+        entries.iter_mut().for_each(|entry| entry.poll());
+        let errors = entries.iter_mut().filter_map(|entry| entry.take_error()).collect();
+        entries.sort_by_key(|entry| (u64::MAX - entry.turn().0, entry.turn()));
+        let mut kept: Vec<(TypeId, usize)> = Vec::new();
+        entries.retain(|entry| {
+            let is_asked = entry.turn().0 == *frame;
+            match entry.phase() {
+                _ if is_asked => true,
+                Phase::Running => entry.is_short(),
+                Phase::Ready(most) => {
+                    let kind = entry.kind();
+                    let at = kept.iter().position(|(of, _)| *of == kind).unwrap_or_else(|| {
+                        kept.push((kind, 0));
+                        kept.len() - 1
+                    });
+                    kept[at].1 += 1;
+                    kept[at].1 <= most
+                }
+                Phase::Waiting | Phase::Failed => false,
+            }
+        });
+        start_next(entries, &self.waker);
+        (*frame, *count) = (*frame + 1, 0);
+        errors
+    }
+}
+
+/// Starts the short ones, one of a kind at a time, and the first of the others; what is before it in turn stops a running one.
+fn start_next(entries: &mut [Box<dyn AnyEntry>], waker: &Waker) {
+    let mut busy: Vec<TypeId> = entries
+        .iter()
+        .filter(|entry| entry.is_short() && entry.phase() == Phase::Running)
+        .map(|entry| entry.kind())
+        .collect();
+    for entry in entries.iter_mut().filter(|entry| entry.is_short() && entry.phase() == Phase::Waiting) {
+        if !busy.contains(&entry.kind()) {
+            busy.push(entry.kind());
+            entry.start(waker);
+        }
+    }
+    let mut others = entries
+        .iter_mut()
+        .filter(|entry| !entry.is_short() && matches!(entry.phase(), Phase::Waiting | Phase::Running));
+    if let Some(first) = others.next() {
+        others.for_each(|entry| entry.stop());
+        first.start(waker);
+    }
+}
+
+impl Asked {
+    fn of_kind<Q: Question>(&mut self) -> impl Iterator<Item = &mut Entry<Q>> {
+        self.entries.iter_mut().filter_map(|entry| (&mut **entry as &mut dyn Any).downcast_mut::<Entry<Q>>())
+    }
+
+    fn entry<Q: Question>(&mut self, question: &Q) -> Option<&mut Entry<Q>> {
+        self.of_kind::<Q>().find(|entry| entry.question == *question)
+    }
+}

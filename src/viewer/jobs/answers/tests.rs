@@ -1,0 +1,86 @@
+//! The order of answering, and what stays of it.
+
+use super::*;
+
+/// Fails where it is odd, and has no end from 100 on.
+#[derive(Clone, Debug, PartialEq)]
+struct Double(u32);
+
+impl Question for Double {
+    type Answer = u32;
+    const KEPT: usize = 2;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<u32, Error> {
+        if self.0 >= 100 {
+            loop {
+                work.progress().step()?;
+                std::thread::yield_now();
+            }
+        }
+        if self.0 % 2 == 1 { Err(Error::internal("planted")) } else { Ok(2 * self.0) }
+    }
+}
+
+/// A frame that asks for these, and what it finds.
+fn frame(answers: &mut Answers, asked: &[u32]) -> (Vec<Answer<u32>>, usize) {
+    let found = asked.iter().map(|number| answers.get(&Double(*number))).collect();
+    (found, answers.end_frame().len())
+}
+
+/// Frames until none of these waits; the errors that were told.
+fn settle(answers: &mut Answers, asked: &[u32]) -> usize {
+    let mut errors = 0;
+    loop {
+        let (found, told) = frame(answers, asked);
+        errors += told;
+        if found.iter().all(|one| one.busy().is_none()) {
+            return errors;
+        }
+        std::thread::yield_now();
+    }
+}
+
+fn known(answers: &Answers, number: u32) -> Option<u32> {
+    answers.known(&Double(number)).map(|answered| **answered)
+}
+
+#[test]
+fn what_fails_is_told_once_and_keeps_no_other_waiting() {
+    let mut answers = Answers::default();
+    assert_eq!(settle(&mut answers, &[1, 2, 4]), 1);
+    assert_eq!([1, 2, 4].map(|number| known(&answers, number)), [None, Some(4), Some(8)]);
+    assert_eq!(settle(&mut answers, &[1, 2]), 0, "it is not tried again");
+    frame(&mut answers, &[2]);
+    assert_eq!(settle(&mut answers, &[1]), 1, "it is, once it was not asked for");
+}
+
+#[test]
+fn the_first_in_a_frame_is_answered_first_and_what_nobody_asks_for_is_cancelled() {
+    let mut answers = Answers::default();
+    frame(&mut answers, &[100, 2]);
+    std::thread::sleep(Duration::from_millis(20));
+    assert!(known(&answers, 2).is_none(), "it waits for the first");
+    // Another order on the screen stops what is running.
+    settle_one(&mut answers, &[2, 100], 2);
+    // Out of sight, the endless one ends; what is asked for then has the processors.
+    assert_eq!(settle(&mut answers, &[4]), 0);
+}
+
+fn settle_one(answers: &mut Answers, asked: &[u32], number: u32) {
+    while known(answers, number).is_none() {
+        frame(answers, asked);
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn answers_out_of_sight_stay_as_many_as_their_kind_keeps_the_latest_first() {
+    let mut answers = Answers::default();
+    for number in [2, 4, 6, 8] {
+        settle(&mut answers, &[number]);
+    }
+    frame(&mut answers, &[8]);
+    assert_eq!([2, 4, 6, 8].map(|number| known(&answers, number)), [None, Some(8), Some(12), Some(16)]);
+    let (latest, answered) = answers.latest::<Double>(|one| one.0 < 8).unwrap();
+    assert_eq!((latest, **answered), (Double(6), 12));
+}
