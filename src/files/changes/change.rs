@@ -4,12 +4,12 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::reading::Reading;
-use super::shift::{before_shift, shifted};
-use super::storage::Storage;
-use super::symmetry::Symmetry;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
+
+use super::reading::Reading;
+use super::storage::Storage;
+use super::symmetry::Symmetry;
 
 /// A change that is tried on a prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -101,6 +101,21 @@ pub fn displacement([right, down]: [f64; 2]) -> String {
 fn texels(count: f64, [positive, negative]: [&str; 2]) -> String {
     let unit = if count.abs() == 1.0 { "texel" } else { "texels" };
     format!("{} {unit} {}", count.abs(), if count < 0.0 { negative } else { positive })
+}
+
+/// The material moved by (right, down) texels; what leaves on one side enters on the other.
+pub fn shifted(material: &Material<f32>, by: [i32; 2]) -> Material<f32> {
+    let [width, height] = material.size();
+    let texels: Vec<usize> =
+        (0..width * height).map(|texel| before_shift(texel, by, [width, height])).collect();
+    material.gathered(&texels, [width, height])
+}
+
+/// Where the texel was that is at `texel` of a map of `size` after it was moved by (right, down).
+pub(super) fn before_shift(texel: usize, [right, down]: [i32; 2], [width, height]: [usize; 2]) -> usize {
+    let back =
+        |at: usize, by: i32, count: usize| (at as i64 - i64::from(by)).rem_euclid(count as i64) as usize;
+    back(texel / width, down, height) * width + back(texel % width, right, width)
 }
 
 #[cfg(test)]

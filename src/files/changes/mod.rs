@@ -3,13 +3,12 @@
 mod change;
 mod reading;
 mod remedy;
-mod shift;
 mod storage;
 mod symmetry;
 
+pub use change::shifted;
 pub use change::{Change, displacement};
 pub use reading::Reading;
 pub use remedy::Remedy;
-pub use shift::shifted;
 pub use storage::{Storage, StoredEncoding};
 pub use symmetry::Symmetry;

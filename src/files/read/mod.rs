@@ -4,8 +4,7 @@
 //! |---|---|---|
 //! | `formats` | a path | maps by role as stored (`stored`): a file or folder for each format, which locates, decodes and recognizes |
 //! | `gather` | stored maps | evidence of pixels, also of neighbouring materials |
-//! | `interpret` | stored maps and evidence | linear maps |
-//! | `assemble` | linear maps | a [`Material`], with the [record](Read) of its reading |
+//! | `interpret` | stored maps and evidence | the planes of a [`Material`], with the [record](Read) of its reading |
 //!
 //! A path enters as a [`MaterialPath`]: its sidecar file completes what is specified, and what is used of both goes with it through
 //! all stages. [`read()`] is the short form; [`read_bytes`] begins with a picture in memory; a photograph, which is no
@@ -14,7 +13,6 @@
 //! `docs/formats.md` lists every form that opens. Colour chunks are ignored. [`ReadOptions`] specify how values are stored; the
 //! rest is inferred from names and pixels, and recorded as an [`Assumption`].
 
-mod assemble;
 pub(crate) mod decode;
 mod formats;
 mod gather;
@@ -25,12 +23,12 @@ pub(crate) mod options;
 mod photograph;
 mod raster;
 mod record;
+mod result;
 mod stored;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-pub use assemble::Read;
 pub use formats::{Binding, Sidecar, is_prefix};
 pub use gather::Neighbours;
 pub use gather::map_report::MapContent;
@@ -44,6 +42,7 @@ pub use record::{
     Assumption, Certainty, Evidence, Gray, Note, Reason, SpecifiedBy, StorageConvention, Subject, Unused,
     What,
 };
+pub use result::Read;
 
 use sha2::{Digest as _, Sha256};
 
@@ -191,7 +190,7 @@ pub fn read_bytes<T: Real>(name: &str, bytes: &[u8], options: &ReadOptions) -> R
     Ok(Read { files: Vec::new(), ..read })
 }
 
-fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read<T>, Error> {
+fn finish<T: Real>(mut stored: StoredMaterial, options: &ReadOptions) -> Result<Read<T>, Error> {
     let [width, height] = stored.colour.raster.size();
     // Three planes each of normals, diffuse and specular, one of roughness.
     let bytes = (width as u64).saturating_mul(height as u64).saturating_mul(10 * size_of::<T>() as u64);
@@ -199,14 +198,12 @@ fn finish<T: Real>(stored: StoredMaterial, options: &ReadOptions) -> Result<Read
     let maps = map_report::reports(&stored);
     let evidence = gather::evidences(&stored, options);
     let neighbours = evidence.neighbours().cloned();
-    let mut linear = interpret::interpret(stored, evidence, options)?;
-    let planes = assemble::planes(&mut linear, options);
-    let [width, height] = linear.size;
+    let ([width, height], planes) = interpret::interpret(&mut stored, evidence, options)?;
     Ok(Read {
-        material: Material::new(linear.name, width, height, planes)?,
-        assumptions: linear.assumptions,
-        notes: linear.notes,
-        files: linear.files,
+        material: Material::new(stored.name, width, height, planes)?,
+        assumptions: stored.assumptions,
+        notes: stored.notes,
+        files: stored.files,
         neighbours,
         maps,
         options: *options,

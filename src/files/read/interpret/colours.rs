@@ -1,6 +1,6 @@
 //! Encodings of colours: as specified, as the files tell, or as the gathered evidence suggests.
 
-use super::decide::decide;
+use super::values::decide;
 use crate::read::gather::{ColourEvidence, PRIOR, SURE};
 use crate::read::measure;
 use crate::read::options::{Albedo, ReadOptions};

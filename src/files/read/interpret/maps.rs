@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use svbrdf_core::material::resize::{self, Filter};
 use svbrdf_core::math::real::Real;
 
-use super::decide::decide;
+use super::values::decide;
 use super::values::{Clamped, unit};
 use crate::read::options::transfer::{self, linear};
 use crate::read::options::{Albedo, ReadOptions, Role, Roughness};

@@ -1,67 +1,47 @@
-//! Interpretation: from stored samples to linear values. Each choice made here is recorded as an assumption.
+//! Interpretation: from stored samples to the linear planes of a material, by its workflow. Each choice made here is recorded as an assumption.
 
 mod colours;
-mod decide;
 mod maps;
 mod normals;
 mod values;
+mod workflow;
 
 use std::path::PathBuf;
 
+use svbrdf_core::material::Planes;
 use svbrdf_core::math::real::Real;
 
 use crate::error::Error;
 use crate::read::gather::Evidences;
-use crate::read::options::{Energy, ReadOptions, Role};
-use crate::read::record::{Assumption, Certainty, Note, Reason, What};
-use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+use crate::read::options::{ReadOptions, Role};
+use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, What};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
 use maps::{colour_planes, gray_plane, roughness_encoding, roughness_plane};
 use values::Clamped;
+use workflow::Reflection;
 
-/// The maps of a material in linear values and one size, and the record of how they were read.
-#[derive(Debug)]
-pub(super) struct LinearMaterial<T> {
-    pub name: String,
-    /// (width, height) in texels.
-    pub size: [usize; 2],
-    /// The normals, not yet of unit length, y up.
-    pub normal: [Vec<T>; 3],
-    /// Diffuse, or the base colour where there is `metallic`.
-    pub colour: [Vec<T>; 3],
-    pub specular: Option<[Vec<T>; 3]>,
-    pub metallic: Option<Vec<T>>,
-    /// The reflectance of dielectrics, 1 for 0.08.
-    pub level: Option<Vec<T>>,
-    pub roughness: Vec<T>,
-    /// Whether diffuse is scaled by (1 - specular), where the files tell.
-    pub energy: Inferred<Energy>,
-    pub assumptions: Vec<Assumption>,
-    pub notes: Vec<Note>,
-    pub files: Vec<PathBuf>,
-}
-
-/// Interprets the stored maps of `found` by the `options`, the files and the gathered `evidence`; each map is dropped
+/// The size and the planes of the stored maps of `found`, by the `options`, the files and the gathered `evidence`; each map is dropped
 /// once it is linear.
 ///
 /// # Errors
 /// [`Error::NotFinite`] at NaN and infinity, [`Error::MapSizesDiffer`] where maps have another shape,
 /// [`Error::NotAMaterial`] where the normal map is gray.
 pub(super) fn interpret<T: Real>(
-    mut found: StoredMaterial,
+    found: &mut StoredMaterial,
     evidence: Evidences,
     options: &ReadOptions,
-) -> Result<LinearMaterial<T>, Error> {
+) -> Result<([usize; 2], Planes<T>), Error> {
     let Evidences { colours, heights } = evidence;
-    note_alpha(&mut found);
-    refuse_two_channels(&found)?;
+    note_alpha(found);
+    refuse_two_channels(found)?;
     let size = found.common_size()?;
-    values::check(&mut found, options)?;
-    let [colour_encoding, specular_encoding] = colours::encodings(&mut found, colours, options);
-    let roughness_encoding = roughness_encoding(&mut found, options);
+    values::check(found, options)?;
+    let [colour_encoding, specular_encoding] = colours::encodings(found, colours, options);
+    let roughness_encoding = roughness_encoding(found, options);
     let normal = match found.normal.take() {
-        Some(source) => normals::planes(source, &mut found, heights, options, size)?,
-        None => normals::flat(&mut found, size),
+        Some(source) => normals::planes(source, found, heights, options, size)?,
+        None => normals::flat(found, size),
     };
     let mut clamped = Clamped::default();
     let (colour, specular) = (found.colour.take(), found.specular.take());
@@ -77,22 +57,15 @@ pub(super) fn interpret<T: Real>(
         gray_plane(map, Role::SpecularLevel, size, &mut clamped, notes)
     });
     clamped.record(&mut found.assumptions);
-    let StoredMaterial { name, inferred, assumptions, notes, files, .. } = found;
-    let energy = inferred.energy;
-    Ok(LinearMaterial {
-        name,
-        size,
-        normal,
-        colour,
-        specular,
-        metallic,
-        level,
-        roughness,
-        energy,
-        assumptions,
-        notes,
-        files,
-    })
+    let maps = Reflection { colour, specular, metallic, level };
+    let (energy, assumptions) = (found.inferred.energy.take(), &mut found.assumptions);
+    let (diffuse, specular) = workflow::separated(maps, energy, options, assumptions);
+    let mut planes = Planes { normal, diffuse, specular, roughness };
+    if options.flip_v == Some(true) {
+        workflow::mirror(&mut planes, size[0]);
+        found.notes.push(Note::RowsFlipped { by: SpecifiedBy::Caller });
+    }
+    Ok((size, planes))
 }
 
 /// Notes the maps whose alpha is not used, also not by another map.

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use svbrdf_core::material::resize::{self, Filter};
 use svbrdf_core::math::real::Real;
 
-use super::decide::decide;
+use super::values::decide;
 use crate::error::Error;
 use crate::read::gather::HeightEvidence;
 use crate::read::measure::{self, NORMAL_AT_LEAST};

@@ -1,10 +1,12 @@
-//! Samples outside the range of a map: NaN, infinity, and values outside [0, 1].
+//! Values of samples: choices about them, recorded as assumptions, and those outside the range of a map.
+
+use std::fmt::Display;
 
 use crate::error::Error;
 use crate::read::options::{NonFinite, ReadOptions, Role};
 use crate::read::raster::OutOfRange;
 use crate::read::record::{Assumption, Certainty, Reason, What};
-use crate::read::stored::{StoredMap, StoredMaterial};
+use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.
 ///
@@ -93,4 +95,21 @@ impl Clamped {
             assumptions.push(clamped);
         }
     }
+}
+
+/// The `specified` value, else the `inferred`, else the `detected` one; recorded.
+pub(crate) fn decide<T: Copy + Display>(
+    assumptions: &mut Vec<Assumption>,
+    what: What,
+    specified: Option<T>,
+    inferred: Inferred<T>,
+    detected: impl FnOnce() -> (T, Reason, Certainty),
+) -> T {
+    if let Some(value) = specified {
+        assumptions.push(Assumption::given(what, value));
+        return value;
+    }
+    let (value, why, certainty) = inferred.unwrap_or_else(detected);
+    assumptions.push(Assumption::new(what, value, why, certainty));
+    value
 }

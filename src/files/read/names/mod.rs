@@ -1,13 +1,12 @@
 //! Names of files and layers, and the map that each stands for.
 
-mod convention;
 mod label;
 mod listing;
 mod set_labels;
 mod words;
 
-pub(crate) use convention::word_beside;
 pub(crate) use label::Label;
 pub(crate) use listing::{folder_of, folders, is_junk, list, listing, material_name};
 pub(crate) use set_labels::set_labels;
+pub(crate) use set_labels::word_beside;
 pub(crate) use words::{is_named_as, is_named_within, size, words};

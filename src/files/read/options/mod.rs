@@ -3,11 +3,9 @@
 mod choices;
 pub(crate) mod colour_space;
 pub(super) mod extensions;
-mod grid;
-mod layered;
-mod order;
 mod preset;
 mod role;
+mod tiles;
 pub(crate) mod transfer;
 mod words;
 
@@ -15,12 +13,14 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use crate::changes::Remedy;
 use crate::error::Error;
+
 pub use choices::{Albedo, Energy, NonFinite, NormalEncoding, NormalY, Reflectance, Roughness, Workflow};
-pub use grid::TileGrid;
-pub use order::Order;
 pub use preset::Preset;
 pub use role::Role;
+pub use tiles::Order;
+pub use tiles::TileGrid;
 
 /// How the files of a material are to be read. `None`: inferred from the files and reported; where the files do not
 /// tell, the default.
@@ -84,4 +84,135 @@ impl ReadOptions {
         flip_v: None,
         non_finite: None,
     };
+}
+
+impl Preset {
+    /// The options that it stands for. The direction of y is left open where names tell it.
+    pub(crate) fn options(self) -> ReadOptions {
+        let linear = (Albedo::Linear, Albedo::Linear);
+        let gamma = (Albedo::Gamma22, Albedo::Gamma22);
+        let srgb = (Albedo::Srgb, Albedo::Srgb);
+        let (scaled, unscaled) = (Some(Energy::Scaled), Some(Energy::Unscaled));
+        let up = Some(NormalY::Up);
+        let metallic = Some(Workflow::Metallic);
+        let specular = Some(Workflow::Specular);
+        let ((albedo, of_specular), roughness, normal_y, workflow, energy) = match self {
+            Self::Deschaintre | Self::Deschaintre18 | Self::SurfaceNet => {
+                (linear, Roughness::R, up, specular, scaled)
+            }
+            Self::Gao => ((Albedo::Gamma22, Albedo::Linear), Roughness::R, up, specular, unscaled),
+            Self::MaterialGan => (gamma, Roughness::Gamma22, up, specular, scaled),
+            Self::LookAhead => (gamma, Roughness::R, up, specular, scaled),
+            Self::MatFusion => (gamma, Roughness::R, up, None, unscaled),
+            Self::DiffMat => (gamma, Roughness::R, Some(NormalY::Down), metallic, None),
+            Self::OpenSvbrdf => (linear, Roughness::Anisotropic, up, specular, unscaled),
+            Self::Gltf | Self::Chord | Self::StableMaterials | Self::MatE => {
+                (srgb, Roughness::R, up, metallic, None)
+            }
+            Self::MaterialPalette => (gamma, Roughness::R, up, specular, unscaled),
+            Self::PolyHaven | Self::AmbientCg => (srgb, Roughness::R, None, metallic, None),
+            Self::SubstanceSg => (srgb, Roughness::Gloss, None, specular, None),
+        };
+        ReadOptions {
+            albedo: Some(albedo),
+            specular: Some(of_specular),
+            roughness: Some(roughness),
+            normal_y,
+            workflow,
+            energy,
+            ..ReadOptions::AUTO
+        }
+    }
+}
+
+impl ReadOptions {
+    /// These options, and those of `saved` where neither they nor their preset specify anything.
+    #[must_use]
+    pub fn over(self, saved: Self) -> Self {
+        let preset = self.preset.map(Preset::options).unwrap_or_default();
+        macro_rules! either {
+            ($($field:ident),+) => {
+                Self { $($field: self.$field.or(if preset.$field.is_some() { None } else { saved.$field })),+ }
+            };
+        }
+        either!(
+            preset,
+            albedo,
+            specular,
+            normal_y,
+            normal_encoding,
+            roughness,
+            workflow,
+            dielectric,
+            energy,
+            order,
+            grid,
+            exemplar,
+            flip_v,
+            non_finite
+        )
+    }
+
+    /// These options, and those of their preset where they specify nothing; except y of normals, which names tell better.
+    pub(crate) fn with_preset(self) -> Self {
+        let Some(preset) = self.preset else { return self };
+        let usual = preset.options();
+        Self {
+            albedo: self.albedo.or(usual.albedo),
+            specular: self.specular.or(self.albedo).or(usual.specular),
+            normal_encoding: self.normal_encoding.or(usual.normal_encoding),
+            roughness: self.roughness.or(usual.roughness),
+            workflow: self.workflow.or(usual.workflow),
+            energy: self.energy.or(usual.energy),
+            ..self
+        }
+    }
+
+    /// These options with the one that corrects the reading.
+    ///
+    /// # Errors
+    /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for a value that the option does not have.
+    pub fn with_remedy(self, remedy: Remedy) -> Result<Self, Error> {
+        Ok(remedy.to_string().parse::<Self>()?.over(self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_values_of_remedies_are_those_of_the_options() {
+        let remedies = [
+            (Remedy::NormalY("down"), ReadOptions { normal_y: Some(NormalY::Down), ..ReadOptions::AUTO }),
+            (
+                Remedy::Albedo("linear", None),
+                ReadOptions { albedo: Some(Albedo::Linear), ..ReadOptions::AUTO },
+            ),
+            (
+                Remedy::Albedo("linear", Some("gamma2.2")),
+                ReadOptions {
+                    albedo: Some(Albedo::Linear),
+                    specular: Some(Albedo::Gamma22),
+                    ..ReadOptions::AUTO
+                },
+            ),
+            (
+                Remedy::SpecularAlbedo("srgb"),
+                ReadOptions { specular: Some(Albedo::Srgb), ..ReadOptions::AUTO },
+            ),
+            (
+                Remedy::Roughness("alpha"),
+                ReadOptions { roughness: Some(Roughness::Alpha), ..ReadOptions::AUTO },
+            ),
+        ];
+        for (remedy, expected) in remedies {
+            assert_eq!(ReadOptions::AUTO.with_remedy(remedy).unwrap(), expected, "{remedy}");
+        }
+        let others = [Remedy::NormalY("up"), Remedy::Roughness("gloss"), Remedy::Roughness("r")];
+        for remedy in others.into_iter().chain(["scaled", "unscaled"].map(Remedy::Energy)) {
+            ReadOptions::AUTO.with_remedy(remedy).unwrap();
+        }
+        assert!(ReadOptions::AUTO.with_remedy(Remedy::Energy("none")).is_err());
+    }
 }

@@ -1,6 +1,6 @@
 //! Presets: bundles of options for sources of materials.
 
-use super::order::Order;
+use super::tiles::Order;
 use svbrdf_core::choices;
 
 choices! {

@@ -6,8 +6,7 @@ use rayon::prelude::*;
 
 use svbrdf_core::math::real::Real;
 
-use super::buffer::{Buffer, ChannelView};
-use super::out_of_range::OutOfRange;
+use super::buffer::{Buffer, ChannelView, OutOfRange};
 
 /// Samples that one task converts.
 const CHUNK: usize = 1 << 16;

@@ -1,13 +1,164 @@
-//! The record of a reading: assumptions and notes, as values with their words.
+//! The record of a reading: assumptions, as values that a user can inspect and change, and notes, with their words.
 
-mod assumption;
 mod evidence;
 mod note;
 mod reason;
-mod storage_convention;
 
-pub use assumption::{Assumption, Certainty, What};
-pub use evidence::Evidence;
+use std::fmt;
+
+use serde::Serialize;
+
+use svbrdf_core::material::Map;
+
+pub use evidence::{Evidence, StorageConvention};
 pub use note::{Gray, Note, SpecifiedBy, Subject, Unused};
 pub use reason::{Reason, SpaceKnown};
-pub use storage_convention::StorageConvention;
+
+/// The subject of an assumption.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case")]
+pub enum What {
+    /// Which part of a picture or file is which map.
+    Layout,
+    /// Whether colours are diffuse and specular, or a base colour and metallic.
+    Workflow,
+    /// Colour space of diffuse or base colour.
+    Albedo,
+    /// Colour space of specular.
+    Specular,
+    /// Direction of y in the normal map.
+    NormalY,
+    /// How the components of normals are stored.
+    NormalEncoding,
+    /// The meaning of a roughness value.
+    Roughness,
+    /// Whether the renderer that diffuse was made for scales it by (1 - specular).
+    Energy,
+    /// A map that is not there.
+    Missing,
+    /// Maps of different sizes.
+    Size,
+    /// Values that had to be changed.
+    Values,
+}
+
+impl What {
+    /// The name for users.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Layout => "layout",
+            Self::Workflow => "workflow",
+            Self::Albedo => "albedo",
+            Self::Specular => "specular",
+            Self::NormalY => "normal y",
+            Self::NormalEncoding => "normal encoding",
+            Self::Roughness => "roughness",
+            Self::Energy => "energy",
+            Self::Missing => "missing",
+            Self::Size => "size",
+            Self::Values => "values",
+        }
+    }
+}
+
+impl What {
+    /// The key of the option of reading that specifies it.
+    pub fn key(self) -> Option<&'static str> {
+        match self {
+            Self::Layout => Some("order"),
+            Self::Workflow => Some("workflow"),
+            Self::Albedo => Some("albedo"),
+            Self::Specular => Some("specular-albedo"),
+            Self::NormalY => Some("normal-y"),
+            Self::NormalEncoding => Some("normal-encoding"),
+            Self::Roughness => Some("roughness"),
+            Self::Energy => Some("energy"),
+            Self::Missing | Self::Size | Self::Values => None,
+        }
+    }
+}
+
+/// How far an assumption can be trusted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum Certainty {
+    /// Another reading is as plausible. Strict reading refuses it.
+    Unsure,
+    /// A convention or the pixels suggest it.
+    Likely,
+    /// The file declares it, or the specification of its format does.
+    Sure,
+    /// The user or a sidecar file specified it.
+    Given,
+}
+
+/// One thing that was assumed, and why.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Assumption {
+    pub what: What,
+    /// The choice, for the user.
+    pub chosen: String,
+    /// In words.
+    #[cfg_attr(feature = "schema", schemars(with = "String"))]
+    pub why: Reason,
+    pub certainty: Certainty,
+}
+
+impl Assumption {
+    pub fn new(what: What, chosen: impl fmt::Display, why: impl Into<Reason>, certainty: Certainty) -> Self {
+        Self { what, chosen: chosen.to_string(), why: why.into(), certainty }
+    }
+
+    /// Whether it is unsure, or inferred and stated nowhere.
+    pub fn is_guess(&self) -> bool {
+        let interprets = !matches!(self.what, What::Missing | What::Size | What::Values);
+        let is_stated = self.certainty >= Certainty::Sure || self.why.is_stated();
+        self.certainty == Certainty::Unsure || (interprets && !is_stated)
+    }
+
+    /// Whether users are told about it without asking: it is unsure, or a map is missing, resized or changed. A choice that was
+    /// specified is not doubtful.
+    pub fn is_doubtful(&self) -> bool {
+        match self.certainty {
+            Certainty::Given => false,
+            Certainty::Unsure => true,
+            _ => matches!(self.what, What::Missing | What::Size | What::Values),
+        }
+    }
+
+    /// The map that it is about; `None` for the material as a whole.
+    pub fn map(&self) -> Option<Map> {
+        match (self.what, &self.why) {
+            (What::NormalY | What::NormalEncoding, _) => Some(Map::Normal),
+            (What::Albedo | What::Energy, _) => Some(Map::Diffuse),
+            (What::Specular, _) => Some(Map::Specular),
+            (What::Roughness, _) => Some(Map::Roughness),
+            (What::Missing | What::Values, why) => match why {
+                Reason::NoNormalMap | Reason::NoDirection { .. } => Some(Map::Normal),
+                Reason::StorageConvention(StorageConvention::NoListedNormals) => Some(Map::Normal),
+                // The specified reflectance of dielectrics stands for a specular map.
+                Reason::NoSpecularMap | Reason::Specified(_) => Some(Map::Specular),
+                Reason::Exponent(_) | Reason::DiffuseAlone => Some(Map::Roughness),
+                Reason::MoreThanAllLight { .. } => Some(Map::Diffuse),
+                Reason::NotFinite { map, .. } | Reason::OutsideUnit { map, .. } => map.map(),
+                _ => None,
+            },
+            (What::Layout | What::Workflow | What::Size, _) => None,
+        }
+    }
+
+    /// A choice that the caller specified.
+    pub fn given(what: What, chosen: impl fmt::Display) -> Self {
+        Self::new(what, chosen, Reason::Specified(SpecifiedBy::Caller), Certainty::Given)
+    }
+}
+
+impl fmt::Display for Assumption {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let doubt = if self.certainty == Certainty::Unsure { " (unsure)" } else { "" };
+        write!(f, "{}: {}{doubt}: {}", self.what.name(), self.chosen, self.why)
+    }
+}

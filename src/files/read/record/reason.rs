@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use derive_more::Display;
 
 use super::evidence::Evidence;
+use super::evidence::StorageConvention;
 use super::note::SpecifiedBy;
-use super::storage_convention::StorageConvention;
 use crate::read::options::{Albedo, NormalY, Role};
 
 /// The reason of an assumption.

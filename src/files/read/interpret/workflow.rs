@@ -2,9 +2,9 @@
 
 use rayon::prelude::*;
 
+use svbrdf_core::material::Planes;
 use svbrdf_core::math::real::Real;
 
-use crate::read::interpret::LinearMaterial;
 use crate::read::options::{Energy, Preset, ReadOptions, Reflectance};
 use crate::read::record::{Assumption, Certainty, Reason, What};
 use crate::read::stored::Inferred;
@@ -15,30 +15,43 @@ const MOST_DIELECTRIC: f64 = 0.08;
 /// The three planes of a colour.
 type Colour<T> = [Vec<T>; 3];
 
-/// Takes diffuse and specular out of the maps of a material.
+/// Linear maps of one size, from which diffuse and specular follow.
+pub(super) struct Reflection<T> {
+    /// Diffuse, or the base colour where there is `metallic`.
+    pub colour: Colour<T>,
+    pub specular: Option<Colour<T>>,
+    pub metallic: Option<Vec<T>>,
+    /// The reflectance of dielectrics, 1 for 0.08.
+    pub level: Option<Vec<T>>,
+}
+
+/// Diffuse and specular of a material; the choices that are made here are recorded.
 pub(super) fn separated<T: Real>(
-    found: &mut LinearMaterial<T>,
+    maps: Reflection<T>,
+    energy: Inferred<Energy>,
     options: &ReadOptions,
+    assumptions: &mut Vec<Assumption>,
 ) -> (Colour<T>, Colour<T>) {
-    let colour = std::mem::take(&mut found.colour);
-    let (specular, metallic, level) = (found.specular.take(), found.metallic.take(), found.level.take());
+    let Reflection { colour, specular, metallic, level } = maps;
     let dielectric = options.dielectric.unwrap_or(Reflectance::DIELECTRIC);
     let reflectance =
         |i: usize| level.as_ref().map_or(dielectric.value(), |level| MOST_DIELECTRIC * level[i].f64());
-    match (metallic, specular) {
+    let (mut diffuse, specular) = match (metallic, specular) {
         (Some(metallic), _) => {
             from_base(colour, metallic, reflectance, options.preset == Some(Preset::MatFusion))
         }
         (None, Some(specular)) => (colour, specular),
         (None, None) => {
             if level.is_none() {
-                found.assumptions.push(missing_specular(options.dielectric));
+                assumptions.push(missing_specular(options.dielectric));
             }
-            let [width, height] = found.size;
-            let plane = |_| (0..width * height).into_par_iter().map(|i| T::of(reflectance(i))).collect();
-            (colour, [0, 1, 2].map(plane))
+            let plane = |_| (0..colour[0].len()).into_par_iter().map(|i| T::of(reflectance(i))).collect();
+            let specular = [0, 1, 2].map(plane);
+            (colour, specular)
         }
-    }
+    };
+    unscale_diffuse(&mut diffuse, &specular, energy, options, assumptions);
+    (diffuse, specular)
 }
 
 fn missing_specular(given: Option<Reflectance>) -> Assumption {
@@ -83,7 +96,7 @@ fn from_base<T: Real>(
 }
 
 /// d / (1 - s), at most 1, where the renderer that these maps were made for does not scale diffuse by (1 - s).
-pub(crate) fn unscale_diffuse<T: Real>(
+fn unscale_diffuse<T: Real>(
     diffuse: &mut [Vec<T>; 3],
     specular: &[Vec<T>; 3],
     inferred: Inferred<Energy>,
@@ -108,5 +121,18 @@ pub(crate) fn unscale_diffuse<T: Real>(
     if clamped > 0 {
         let why = Reason::MoreThanAllLight { count: clamped };
         assumptions.push(Assumption::new(What::Values, "diffuse 1", why, Certainty::Unsure));
+    }
+}
+
+/// Top and bottom exchanged, and the normals with them.
+pub(super) fn mirror<T: Real>(planes: &mut Planes<T>, width: usize) {
+    let Planes { normal, diffuse, specular, roughness } = planes;
+    normal[1].iter_mut().for_each(|y| *y = -*y);
+    for plane in normal.iter_mut().chain(diffuse).chain(specular).chain([roughness]) {
+        let height = plane.len() / width;
+        for row in 0..height / 2 {
+            let (above, below) = plane.split_at_mut((height - 1 - row) * width);
+            above[row * width..(row + 1) * width].swap_with_slice(&mut below[..width]);
+        }
     }
 }
