@@ -7,6 +7,8 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::{Map, Value};
+use svbrdf_evaluate::analyses::{ANALYSES as DECLARED, AnyAnalysis};
+use svbrdf_evaluate::report::OptionValue;
 use svbrdf_evaluate::schema;
 
 const TYPES: &str = r#""""The types of reports: the keys of their JSON."""
@@ -18,24 +20,47 @@ from typing import Any, Literal
 from ._report import Record, Report
 from ._scenes import Scene
 "#;
-const ANALYSES: &str = r#""""The analyses that each have one question."""
+const ANALYSES: &str = r#""""The analyses of predictions of one ground truth: of the rendering loss (Algorithm 1), of its causes, and of metrics."""
+from collections.abc import Sequence
 from typing import Literal
 
-from . import _core, _reports
-from ._asked import Asked, Predictions, Scenes, own_json
+from . import _map, _reports
+from ._arrays import Precision
+from ._asked import Asked, Predictions, Scenes
 from ._material import Material, Source
 from ._progress import Report as Progress
 "#;
 /// The command line alone has this report: the package has `Material.assumptions` and `Material.notes`.
 const OF_COMMAND_LINE: &str = "info";
-/// The package has a class with arrays and a function with further arguments for these.
-const OF_PACKAGE: [&str; 2] = ["MapReport", "metrics"];
-/// Arguments by the groups of scene options.
-const SCENES: [(&str, &[(&str, &str)]); 4] = [
-    ("seed", &[("seed", "int")]),
-    ("target_error", &[("target_error", "float")]),
-    ("sampled", &[("near", "int"), ("distant", "int"), ("sampler", r#"Literal["random", "sobol"]"#)]),
-    ("list", &[("scenes", "Scenes")]),
+/// The package has a class with arrays for this.
+const OF_PACKAGE: &str = "MapReport";
+/// The options of scenes and precision: name, type and description.
+const SCENES: [(&str, &str, &str); 9] = [
+    (
+        "near",
+        "int",
+        "The number of sampled near-field scenes; two for each distant one where only those are given.",
+    ),
+    ("distant", "int", "The number of sampled distant scenes; one for two near-field ones."),
+    (
+        "sampler",
+        r#"Literal["random", "sobol"]"#,
+        r#"Of the scenes: "random", or "sobol", which gives less error with as many scenes."#,
+    ),
+    ("seed", "int", "Names the sampled scenes; None: 0."),
+    ("scenes", "Scenes", "These scenes, or those of a file."),
+    (
+        "texels",
+        r#"int | Literal["all"]"#,
+        r#""all", or the number of random texels that are compared in each scene."#,
+    ),
+    (
+        "target_error",
+        "float",
+        "As many scenes as this relative error needs at 95% confidence, as a share of at most 0.1: 0.01 is 1%.",
+    ),
+    ("time_budget", "float", "As many scenes as fit into this time, in seconds."),
+    ("precision", "Precision", r#""f32", or "f64" for reference, which is many times slower."#),
 ];
 
 type Parts = Map<String, Value>;
@@ -54,13 +79,13 @@ fn main() -> Result<(), Box<dyn Error>> {
                 classes.insert(part.clone(), class(part, described, &parts, "Record"));
             }
         }
-        if schema["x-analysis"].is_object() && !OF_PACKAGE.contains(&name) {
-            functions.insert(name.to_owned(), function(name, &schema));
+        if let Some(analysis) = DECLARED.iter().find(|analysis| analysis.name == name) {
+            functions.insert(name.to_owned(), function(analysis, title));
         }
     }
     let folder = Path::new(&std::env::var("CARGO_MANIFEST_DIR")?).join("package/svbrdf");
     for (file, head, items) in [("_reports.py", TYPES, classes), ("_analyses.py", ANALYSES, functions)] {
-        let names: Vec<_> = items.keys().filter(|name| !OF_PACKAGE.contains(&name.as_str())).collect();
+        let names: Vec<_> = items.keys().filter(|name| *name != OF_PACKAGE).collect();
         let items: String = items.values().map(String::as_str).collect();
         fs::write(folder.join(file), format!("{head}\n__all__ = {names:?}\n{items}"))?;
     }
@@ -150,25 +175,55 @@ fn kind(name: &str, schema: &Value, parts: &Parts) -> String {
     }
 }
 
+/// An argument: its name, what is passed on, its type with its default, and its description.
+fn arguments(analysis: &AnyAnalysis) -> Vec<[String; 3]> {
+    let own = analysis.options.iter().map(|option| {
+        let kind = match option.value {
+            OptionValue::Count(default, _) => format!("int = {default}"),
+            OptionValue::Share(default) => format!("float = {default:?}"),
+            OptionValue::Stops(default) => format!("float = {default:?}"),
+            OptionValue::Direction(default) => {
+                format!(
+                    "tuple[float, float, float] = ({})",
+                    default.map(|number| number.to_string()).join(", ")
+                )
+            }
+            OptionValue::Choice(words) => {
+                let words: Vec<_> = words.iter().map(|[word, _]| format!("{word:?}")).collect();
+                format!("Literal[{}] = {}", words.join(", "), words[0])
+            }
+            OptionValue::Words(_) => "Sequence[str] = ()".to_owned(),
+        };
+        [option.name.to_owned(), kind, format!("{}.", option.about)]
+    });
+    let scenes = SCENES.iter().filter(|(name, ..)| analysis.scenes.contains(name));
+    let scenes = scenes.map(|(name, kind, about)| {
+        let kind = match *name {
+            "precision" => format!(r#"{kind} = "f32""#),
+            _ => format!("{kind} | None = None"),
+        };
+        [(*name).to_owned(), kind, (*about).to_owned()]
+    });
+    own.chain(scenes).collect()
+}
+
 /// The function of an analysis.
-fn function(name: &str, schema: &Value) -> String {
-    let (analysis, report) = (&schema["x-analysis"], text(&schema["title"]));
-    let (mut parameters, mut given, mut options, mut docs) =
-        (String::new(), String::new(), String::new(), String::new());
-    for (key, option) in members(&analysis["options"]["properties"]) {
-        let kind = kind(text(&option["type"]), option, &Parts::new());
-        let _ = writeln!(parameters, "    {key}: {kind} = {},", option["default"]);
-        let _ = write!(options, r#""{key}": {key}, "#);
-        let _ = write!(docs, "`{key}`: {}. ", text(&option["description"]));
+fn function(analysis: &AnyAnalysis, report: &str) -> String {
+    let AnyAnalysis { name, about, details, example, doing, .. } = analysis;
+    let (mut parameters, mut given, mut docs) = (String::new(), String::new(), String::new());
+    for [name, kind, about] in arguments(analysis) {
+        let _ = writeln!(parameters, "    {name}: {kind},");
+        let _ = writeln!(docs, "        {name}: {about}");
+        if name != "precision" {
+            let _ = write!(given, r#""{name}": {name}, "#);
+        }
     }
-    let groups = analysis["scenes"].as_array().into_iter().flatten();
-    let scenes = groups.flat_map(|group| SCENES.iter().filter(move |(name, _)| group == name));
-    for (key, kind) in scenes.flat_map(|(_, arguments)| *arguments) {
-        let _ = writeln!(parameters, "    {key}: {kind} | None = None,");
-        let _ = write!(given, r#""{key}": {key}, "#);
-    }
-    let [about, details, doing] = ["about", "details", "doing"].map(|key| text(&analysis[key]));
-    let about = about.replace("Prints", "Computes");
+    let about = about.replace("Prints", "Computes").replace("Writes", "Computes").replace(" to a file", "");
+    let report = if report == OF_PACKAGE { format!("_map.{report}") } else { format!("_reports.{report}") };
+    let details = details.replace("--", "");
+    let example: String = example.lines().map(|line| format!("    {}\n", line.trim_start())).collect();
+    let example = if example.is_empty() { example } else { example + "\n" };
+    let precision = if analysis.scenes.contains(&"precision") { ", precision" } else { "" };
     format!(
         r#"
 
@@ -178,15 +233,26 @@ def {name}(
     *,
 {parameters}    convention: str = "printed",
     progress: bool | Progress = False,
-) -> _reports.{report}:
+) -> {report}:
     """{about}.
 
     {details}
 
-    {docs}The other args and errors are those of `svbrdf.loss`.
+    All cores work on it, without the lock of the interpreter, and Ctrl+C ends it. The result does not depend on the number of cores.
+
+{example}    Args:
+        ground_truth: A material, or the path of one.
+        predictions: One or several materials or paths, of the same size.
+{docs}        convention: A name that `svbrdf conventions` lists, or the path of a .toml file.
+        progress: True for a bar of tqdm, or a function of (steps done, steps in all).
+
+    Raises:
+        OSError: A file cannot be read.
+        svbrdf.Error: A material or a scene cannot be used, the sizes differ, or an option has no such value or is not used.
+        TypeError, ValueError: Another argument has a wrong type or makes no sense.
     """
-    asked = Asked(ground_truth, predictions, {{{given}}}, convention)
-    return asked.answer(_reports.{report}, _core.analysis, "{doing}", progress, "{name}", own_json({{{options}}}))
+    asked = Asked(ground_truth, predictions, {{{given}}}, convention{precision})
+    return asked.answer({report}, "{name}", "{doing}", progress)
 "#
     )
 }

@@ -1,36 +1,78 @@
 //! The analyses that the crate declares.
 
-use pyo3::prelude::*;
-use svbrdf_core::text::of_json;
-use svbrdf_evaluate::Error as EvaluateError;
-use svbrdf_evaluate::analyses::AnyAnalysis;
-use svbrdf_evaluate::report::AnalysisInput;
+use std::collections::HashMap;
+use std::str::FromStr as _;
 
-use crate::asked::Asked;
+use pyo3::prelude::*;
+use serde_json::Value;
+use svbrdf_core::loss::Precision;
+use svbrdf_core::material::Material;
+use svbrdf_evaluate::Error as EvaluateError;
+use svbrdf_evaluate::analyses::{AnyAnalysis, Precise};
+use svbrdf_evaluate::report::{AnalysisInput, ArrayValues, ReportArray};
+
+use crate::arrays;
+use crate::asked::{Asked, options};
 use crate::errors::{Error, exception};
+use crate::material::CoreMaterial;
 use crate::report::Views;
 use crate::work;
 
-/// The report of the analysis of this name, with its own options as JSON.
+/// A report.
+#[derive(Debug, IntoPyObject)]
+pub struct Answer<'py> {
+    views: Views,
+    /// Its pictures by name.
+    arrays: HashMap<&'static str, Vec<Bound<'py, PyAny>>>,
+}
+
+/// The report of the analysis of this name.
 #[pyfunction]
-pub fn analysis(
-    py: Python<'_>,
+pub fn analysis<'py>(
+    py: Python<'py>,
     asked: Asked<'_>,
     name: &str,
-    options: &str,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
+) -> PyResult<Answer<'py>> {
     let analysis = AnyAnalysis::named(name).ok_or_else(|| Error::new_err(format!("no analysis {name}")))?;
-    let options = serde_json::from_str(options).map_err(|problem| Error::new_err(of_json(&problem)))?;
-    let materials = asked.singles();
+    match Precision::from_str(&asked.precision).map_err(exception)? {
+        Precision::F32 => report(py, analysis, &asked, &asked.singles(), progress),
+        Precision::F64 => report(py, analysis, &asked, &asked.materials(CoreMaterial::double), progress),
+    }
+}
+
+/// The report about the first of `materials` as the ground truth and the others as predictions.
+fn report<'py, T: Precise>(
+    py: Python<'py>,
+    analysis: &AnyAnalysis,
+    asked: &Asked<'_>,
+    materials: &[Material<T>],
+    progress: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Answer<'py>> {
+    let is_own = |name: &String| analysis.options.iter().any(|option| option.name == name);
+    let (own, scenes) = asked.question()?.into_iter().partition(|(name, _)| is_own(name));
+    let (own, scenes) = (Value::Object(own), options(scenes)?);
+    analysis.check(&own, &scenes).map_err(exception)?;
     let input = AnalysisInput {
         ground_truth: &materials[0],
         predictions: materials[1..].iter().collect(),
+        storages: asked.materials.iter().map(|material| &material.get().storage).collect(),
+        paths: asked.paths.clone(),
         convention: asked.convention()?,
-        request: analysis.request(&asked.options()?).map_err(exception)?,
+        question: analysis.question(&scenes, None).map_err(exception)?,
     };
     // A report is no value of several threads.
-    work::run(py, progress, |progress| {
-        Ok::<_, EvaluateError>(Views::new(&*analysis.run(&input, options, progress)?))
-    })?
+    let (views, arrays) = work::run(py, progress, |progress| {
+        let report = analysis.run(&input, own, progress)?;
+        let views = if analysis.pictures { Views::without_rows(&*report) } else { Views::new(&*report) };
+        Ok::<_, EvaluateError>((views, report.into_arrays()))
+    })?;
+    let array = |ReportArray { size, channels, values }: ReportArray| match values {
+        ArrayValues::F32(values) => arrays::array(py, values.into_iter(), size, channels),
+        ArrayValues::F64(values) => arrays::array(py, values.into_iter(), size, channels),
+    };
+    let named = |(name, all): (&'static str, Vec<ReportArray>)| {
+        Ok((name, all.into_iter().map(array).collect::<PyResult<_>>()?))
+    };
+    Ok(Answer { views: views?, arrays: arrays.into_iter().map(named).collect::<PyResult<_>>()? })
 }

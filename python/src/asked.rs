@@ -9,6 +9,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::text::of_json;
+use svbrdf_evaluate::analyses::options_of;
 use svbrdf_files::convention;
 
 use crate::errors::{Error, exception};
@@ -17,25 +18,28 @@ use crate::material::CoreMaterial;
 /// The longest time budget.
 const DAY: Duration = Duration::from_secs(86_400);
 
-/// The options of a question, which are JSON.
+/// A question, which is JSON.
+///
+/// # Errors
+/// Where it is no object.
+pub fn question(text: &str) -> PyResult<Map<String, Value>> {
+    serde_json::from_str(text).map_err(|problem| Error::new_err(of_json(&problem)))
+}
+
+/// The options of the scenes of a question.
 ///
 /// # Errors
 /// By its name, where one is unknown, or has a wrong type or makes no sense.
-pub fn options(question: &str) -> PyResult<LossOptions> {
-    let of = |given: Map<String, Value>| serde_json::from_value::<LossOptions>(given.into());
-    let wrong = |name: &str, problem: String| Error::new_err(format!("{name}: {problem}"));
-    let given: Map<String, Value> =
-        serde_json::from_str(question).map_err(|e| wrong("question", of_json(&e)))?;
-    for (name, value) in &given {
-        of(Map::from_iter([(name.clone(), value.clone())])).map_err(|e| wrong(name, of_json(&e)))?;
-    }
-    let options = of(given).map_err(|e| wrong("question", of_json(&e)))?;
+pub fn options(given: Map<String, Value>) -> PyResult<LossOptions> {
+    let options: LossOptions = options_of(given.into()).map_err(exception)?;
+    let wrong = |problem: String| Err(Error::new_err(problem));
     if let Some(target) = options.target_error.filter(|target| !(*target > 0.0 && *target <= 0.1)) {
-        let problem = format!("expected a share above 0, at most 0.1, such as 0.01 for 1%, found {target}");
-        return Err(wrong("target_error", problem));
+        return wrong(format!(
+            "target_error: expected a share above 0, at most 0.1, such as 0.01 for 1%, found {target}"
+        ));
     }
     if options.time_budget.is_some_and(|budget| budget.is_zero() || budget > DAY) {
-        return Err(wrong("time_budget", "expected seconds above 0, at most a day".to_owned()));
+        return wrong("time_budget: expected seconds above 0, at most a day".to_owned());
     }
     Ok(options)
 }
@@ -52,7 +56,7 @@ pub struct Asked<'py> {
     pub paths: Vec<Option<String>>,
     pub convention: String,
     pub precision: String,
-    /// [`LossOptions`] as JSON.
+    /// [`LossOptions`], and the own ones of an analysis, as JSON.
     question: String,
 }
 
@@ -65,20 +69,20 @@ impl Asked<'_> {
         convention::of_loss(&self.convention).map_err(exception)
     }
 
+    /// The question.
+    ///
+    /// # Errors
+    /// As [`question`].
+    pub fn question(&self) -> PyResult<Map<String, Value>> {
+        question(&self.question)
+    }
+
     /// The options of the question.
     ///
     /// # Errors
     /// As [`options`].
     pub fn options(&self) -> PyResult<LossOptions> {
-        options(&self.question)
-    }
-
-    /// The seed of the question.
-    ///
-    /// # Errors
-    /// As [`Asked::options`].
-    pub fn seed(&self) -> PyResult<u64> {
-        Ok(self.options()?.seed.unwrap_or(0))
+        options(self.question()?)
     }
 
     /// The request of the question.
@@ -87,14 +91,6 @@ impl Asked<'_> {
     /// As [`LossOptions::question`].
     pub fn request(&self) -> PyResult<Request> {
         Ok(self.options()?.question().map_err(exception)?.request)
-    }
-
-    /// The request for scenes that are listed one by one.
-    ///
-    /// # Errors
-    /// As [`LossOptions::listed`].
-    pub fn listed(&self) -> PyResult<Request> {
-        self.options()?.listed().map_err(exception)
     }
 
     /// The materials as the report calls them: each as `of` takes it from Python.

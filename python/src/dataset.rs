@@ -11,7 +11,7 @@ use svbrdf_evaluate::dataset::{
 
 use svbrdf_files::convention::ChosenConvention;
 
-use crate::asked::options;
+use crate::asked::{options, question};
 use crate::errors::exception;
 use crate::material::read_options;
 use crate::report::Views;
@@ -63,7 +63,7 @@ pub fn rank_dataset(
     let methods = asked.methods.into_iter().map(|(name, path)| Method { name, path }).collect();
     let source = Source::Folders { ground_truths: asked.ground_truths, methods };
     let cases = source.cases().map_err(exception)?;
-    let options = options(&asked.question)?;
+    let options = options(question(&asked.question)?)?;
     let request = options.question().map_err(exception)?.request;
     let scenes = FixedScenes::new(request, asked.scenes).map_err(exception)?;
     let (target_error, seed) = (options.target_error.unwrap_or(ALL_SCENES_TARGET), options.seed.unwrap_or(0));

@@ -10,13 +10,11 @@ mod conform;
 mod dataset;
 mod errors;
 mod files;
-mod loss;
 mod material;
 mod model;
 mod page;
 mod photo;
 mod report;
-mod why;
 mod work;
 
 use pyo3::prelude::*;
@@ -31,13 +29,11 @@ mod _core {
         dataset::rank_dataset,
         errors::Error,
         files::{built_in, read, write},
-        loss::{loss, rank},
         material::{CoreMaterial, distinct_names, render},
         model::{conventions, named_scenes, read_scenes, sample_scenes},
         page::page,
         photo::photo,
         report::{escaped, schema},
-        why::{diagnose, map},
     };
 
     #[allow(non_upper_case_globals, reason = "the name in Python")]

@@ -1,42 +1,44 @@
 //! The commands of the analyses, made from their declarations.
 
-use clap::builder::ValueParser;
-use clap::{Arg, ArgMatches, Args, Command, Error as ClapError, FromArgMatches, Subcommand};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _, ValueParser};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error as ClapError, FromArgMatches, Subcommand};
 use serde_json::{Map, Value};
 
-use svbrdf_core::loss::{LossOptions, Request};
-use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis};
-use svbrdf_evaluate::report::{AnalysisInput, AnalysisOption, SceneOptions};
+use svbrdf_core::loss::{Precision, Question};
+use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis, Precise};
+use svbrdf_evaluate::report::{AnalysisOption, OptionValue};
 
-use super::args::scenes::{ListArgs, SampledArgs, SeedArgs, TargetErrorArgs};
-use super::args::values::{percent, whole};
-use super::args::{ComparisonArgs, Given};
-use super::job::{ComparisonJob, Job, NewJob};
+use super::args::scenes::AnalysisSceneArgs;
+use super::args::values::{count, percent, stops, triple};
+use super::args::{ComparisonArgs, Given, offered};
+use super::job::{self, ComparisonJob, Job, NewJob};
 use super::output::{CommandError, ReportFormat, exit, warn_of, watched};
+use super::picture_file::{PictureArgs, PictureFile};
 
 /// The analyses that have a command with further arguments.
-const OTHERS: [&str; 1] = ["metrics"];
+const OTHERS: [&str; 1] = ["rank"];
 
 /// The arguments of the command of an analysis.
 #[derive(Debug)]
 pub struct AnalysisArgs {
     analysis: &'static AnyAnalysis,
-    seed: Option<SeedArgs>,
-    target_error: Option<TargetErrorArgs>,
-    sampled: Option<SampledArgs>,
-    list: Option<ListArgs>,
-    options: Value,
-    output: OutputArgs,
+    matches: ArgMatches,
+    output: Output<PictureArgs>,
+    comparison: ComparisonArgs,
 }
 
 #[derive(Debug, Args)]
-struct OutputArgs {
+struct FormatArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     format: ReportFormat,
+}
 
-    #[command(flatten)]
-    comparison: ComparisonArgs,
+/// Where a report goes.
+#[derive(Debug)]
+enum Output<P> {
+    Printed(ReportFormat),
+    Pictures(P),
 }
 
 fn commands() -> impl Iterator<Item = &'static AnyAnalysis> {
@@ -45,38 +47,56 @@ fn commands() -> impl Iterator<Item = &'static AnyAnalysis> {
 
 fn command(analysis: &AnyAnalysis) -> Command {
     let AnyAnalysis { name, about, details, .. } = analysis;
-    let command = Command::new(*name).args(analysis.options.iter().map(own_option));
-    let scenes = analysis.scenes.iter().fold(command, |command, scenes| match scenes {
-        SceneOptions::Seed => SeedArgs::augment_args(command),
-        SceneOptions::TargetError => TargetErrorArgs::augment_args(command).mut_arg("target_error", |arg| {
-            arg.help("Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152 [default: 1%]")
-        }),
-        SceneOptions::Sampled => SampledArgs::augment_args(command),
-        SceneOptions::List => ListArgs::augment_args(command),
-    });
+    let with_help = |arg: Arg| match analysis.scenes_help.iter().find(|(id, _)| arg.get_id() == id) {
+        Some((_, help)) => arg.help(*help),
+        None => arg,
+    };
+    let command = Command::new(*name);
+    let command = if analysis.pictures { PictureArgs::augment_args(command) } else { command };
+    let command = command
+        .args(analysis.options.iter().map(own_option))
+        .args(AnalysisSceneArgs::arguments(analysis.scenes).into_iter().map(with_help));
+    let session = if analysis.takes_settings() { " A session has settings of its own." } else { "" };
+    let command = if analysis.pictures { command } else { FormatArgs::augment_args(command) };
     // What is flattened into it would bring its own words.
-    OutputArgs::augment_args(scenes.next_help_heading(None::<&str>))
+    ComparisonArgs::augment_args(command)
         .about(*about)
-        .long_about(format!("{about}\n\n{details} Without GT and PRED: the built-in materials."))
+        .long_about(format!("{about}\n\n{details}{session} Without GT and PRED: the built-in materials."))
 }
 
 /// An option of the analysis itself.
 fn own_option(option: &AnalysisOption) -> Arg {
-    let AnalysisOption { name, about, default, is_share } = *option;
-    let (value_name, default, parser) = match is_share {
-        true => ("PERCENT", format!("{}%", 100.0 * default), ValueParser::new(parsed_share)),
-        false => ("N", default.to_string(), ValueParser::new(parsed_count)),
-    };
-    let arg = Arg::new(name).long(name.replace('_', "-")).help(about);
-    arg.value_name(value_name).value_parser(parser).default_value(default).allow_hyphen_values(true)
-}
-
-fn parsed_share(text: &str) -> Result<Value, String> {
-    percent(text).map(Value::from)
-}
-
-fn parsed_count(text: &str) -> Result<Value, String> {
-    Ok(whole::<u64>(text)?.into())
+    let AnalysisOption { name, about, value } = *option;
+    let arg = Arg::new(name).long(name.replace('_', "-")).help(about).allow_hyphen_values(true);
+    match value {
+        OptionValue::Count(default, [least, most]) => {
+            let parser = ValueParser::new(move |text: &str| count(text, least, most).map(Value::from));
+            arg.value_name("N").default_value(default.to_string()).value_parser(parser)
+        }
+        OptionValue::Share(default) => {
+            let parser = ValueParser::new(|text: &str| percent(text).map(Value::from));
+            arg.value_name("PERCENT").default_value(format!("{}%", 100.0 * default)).value_parser(parser)
+        }
+        OptionValue::Stops(default) => {
+            let parser = ValueParser::new(|text: &str| stops(text).map(Value::from));
+            arg.value_name("EV").default_value(default.to_string()).value_parser(parser)
+        }
+        OptionValue::Direction(default) => {
+            let parser = ValueParser::new(|text: &str| triple(text).map(Value::from_iter));
+            let default = default.map(|number| number.to_string()).join(",");
+            arg.value_name("X,Y,Z").default_value(default).value_parser(parser)
+        }
+        OptionValue::Choice(words) => {
+            let named = words.iter().map(|[word, about]| PossibleValue::new(*word).help(*about));
+            let parser = PossibleValuesParser::new(named).map(Value::from);
+            arg.value_name(name.to_uppercase()).default_value(words[0][0]).value_parser(parser)
+        }
+        OptionValue::Words(words) => {
+            let parser = offered(|text| Ok::<_, String>(Value::from(text)), words());
+            let arg = arg.value_name("WORDS,...").value_parser(parser).hide_possible_values(true);
+            arg.value_delimiter(',').action(ArgAction::Append)
+        }
+    }
 }
 
 impl Subcommand for AnalysisArgs {
@@ -98,17 +118,12 @@ impl FromArgMatches for AnalysisArgs {
         let unknown = || ClapError::new(clap::error::ErrorKind::InvalidSubcommand);
         let (name, matches) = matches.subcommand().ok_or_else(unknown)?;
         let analysis = AnyAnalysis::named(name).ok_or_else(unknown)?;
-        let value =
-            |option: &AnalysisOption| Some((option.name.to_owned(), matches.get_one(option.name).cloned()?));
-        Ok(Self {
-            analysis,
-            seed: args_of(analysis, SceneOptions::Seed, matches)?,
-            target_error: args_of(analysis, SceneOptions::TargetError, matches)?,
-            sampled: args_of(analysis, SceneOptions::Sampled, matches)?,
-            list: args_of(analysis, SceneOptions::List, matches)?,
-            options: analysis.options.iter().filter_map(value).collect::<Map<_, _>>().into(),
-            output: OutputArgs::from_arg_matches(matches)?,
-        })
+        let output = match analysis.pictures {
+            true => Output::Pictures(PictureArgs::from_arg_matches(matches)?),
+            false => Output::Printed(FormatArgs::from_arg_matches(matches)?.format),
+        };
+        let comparison = ComparisonArgs::from_arg_matches(matches)?;
+        Ok(Self { analysis, matches: matches.clone(), output, comparison })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), ClapError> {
@@ -117,56 +132,70 @@ impl FromArgMatches for AnalysisArgs {
     }
 }
 
-/// The arguments of these scenes, where the analysis has them.
-fn args_of<A: Args>(
-    analysis: &AnyAnalysis,
-    scenes: SceneOptions,
-    matches: &ArgMatches,
-) -> Result<Option<A>, ClapError> {
-    analysis.scenes.contains(&scenes).then(|| A::from_arg_matches(matches)).transpose()
-}
-
 impl AnalysisArgs {
     pub fn job(self, given: &Given) -> NewJob {
-        let Self { analysis, seed, target_error, sampled, list, options, output } = self;
-        let comparison = ComparisonJob::with_predictions(&output.comparison, given)?;
-        let sampled = sampled.map(|sampled| sampled.options()).unwrap_or_default();
-        let request = analysis.request(&LossOptions {
-            seed: seed.and_then(|seed| seed.seed),
-            target_error: target_error.and_then(|target| target.target_error),
-            file: list.map_or(Ok(None), |list| list.file())?,
-            ..sampled
-        })?;
-        Ok(Box::new(AnalysisJob { analysis: *analysis, comparison, request, options, format: output.format }))
+        let Self { analysis, matches, output, comparison } = self;
+        let comparison = ComparisonJob::with_predictions(&comparison, given)?;
+        let (scenes, precision) = AnalysisSceneArgs::options(&matches)?;
+        let own = |AnalysisOption { name, value, .. }: &AnalysisOption| {
+            let mut found = matches.get_many(name)?.cloned();
+            let is_list = matches!(value, OptionValue::Words(_));
+            Some(((*name).to_owned(), if is_list { found.collect() } else { found.next()? }))
+        };
+        let options: Value = analysis.options.iter().filter_map(own).collect::<Map<_, _>>().into();
+        analysis.check(&options, &scenes)?;
+        let saved = comparison.session.as_ref().and_then(|session| session.loss.as_ref());
+        let question = analysis.question(&scenes, saved)?;
+        let output = match output {
+            Output::Printed(format) => Output::Printed(format),
+            Output::Pictures(args) => Output::Pictures(PictureFile::new(args)?),
+        };
+        Ok(Box::new(AnalysisJob { analysis, comparison, question, precision, options, output }))
     }
 }
 
 /// An analysis of materials that are not opened yet.
 #[derive(Debug)]
-pub struct AnalysisJob {
-    pub analysis: AnyAnalysis,
-    pub comparison: ComparisonJob,
-    pub request: Request,
+struct AnalysisJob {
+    analysis: &'static AnyAnalysis,
+    comparison: ComparisonJob,
+    question: Question,
+    precision: Precision,
     /// Its own options: a JSON object.
-    pub options: Value,
-    pub format: ReportFormat,
+    options: Value,
+    output: Output<PictureFile>,
 }
 
-/// Prints the report to stdout; with `--strict` fails where a target error is not reached, after the report is printed.
 impl Job for AnalysisJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self {
-            analysis,
-            comparison: ComparisonJob { convention, materials, .. },
-            request,
-            options,
-            format,
-        } = *self;
-        let opened = materials.open::<f32>()?;
-        let (ground_truth, predictions) = (&opened.ground_truth, opened.predictions.iter().collect());
-        let input = AnalysisInput { ground_truth, predictions, convention, request };
+        match self.precision {
+            Precision::F32 => self.answer::<f32>(),
+            Precision::F64 => self.answer::<f64>(),
+        }
+    }
+}
+
+impl AnalysisJob {
+    /// Prints the report to stdout, and writes its pictures; with `--strict` fails where a target error is not reached, after that.
+    fn answer<T: Precise>(self) -> Result<(), CommandError> {
+        let Self { analysis, comparison, question, options, output, .. } = self;
+        let ComparisonJob { convention, materials, .. } = comparison;
+        let opened = materials.open::<T>()?;
+        if let Output::Pictures(file) = &output {
+            file.check()?;
+        }
+        let input = job::input(&opened, &materials, convention, question);
         let report = watched(analysis.doing, |progress| analysis.run(&input, options, progress))?;
-        exit::put(&format.write(&*report)?)?;
+        match output {
+            Output::Printed(format) => exit::put(&format.write(&*report)?)?,
+            Output::Pictures(file) => {
+                let predictions = input.predictions.iter().copied();
+                let materials: Vec<_> = std::iter::once(input.ground_truth).chain(predictions).collect();
+                let names: Vec<_> = materials.iter().map(|material| material.name()).collect();
+                let colours = file.write(&*report, &names, convention.name)?;
+                exit::put_text(&(report.text() + &colours))?;
+            }
+        }
         warn_of(report.missed(), materials.strict)
     }
 }

@@ -5,18 +5,15 @@ mod args;
 mod conform;
 mod conventions;
 mod convert;
-mod diagnose;
 #[cfg(test)]
 mod every_option;
 mod generate;
 mod help;
 mod info;
 mod job;
-mod loss;
-mod map;
-mod metrics;
 mod output;
 mod photo;
+mod picture_file;
 mod rank;
 mod render;
 mod report;
@@ -68,16 +65,12 @@ struct Cli {
 enum Subcommands {
     /// Opens a ground truth and predictions, or the built-in pair, in the window
     View(view::ViewArgs),
-    Loss(loss::LossArgs),
     Render(render::RenderArgs),
     Strip(strip::StripArgs),
     Report(report::ReportArgs),
     Rank(rank::RankArgs),
     #[command(flatten)]
     Analysis(analysis::AnalysisArgs),
-    Diagnose(diagnose::DiagnoseArgs),
-    Map(map::MapArgs),
-    Metrics(metrics::MetricsArgs),
     Photo(photo::PhotoArgs),
     Study(study::StudyArgs),
     Conform(conform::ConformArgs),
@@ -150,15 +143,11 @@ impl Subcommands {
     fn job(self, given: &Given) -> NewJob {
         match self {
             Self::View(args) => args.job(given),
-            Self::Loss(args) => args.job(given),
             Self::Render(args) => args.job(given),
             Self::Strip(args) => args.job(given),
             Self::Report(args) => args.job(given),
             Self::Rank(args) => args.job(given),
             Self::Analysis(args) => args.job(given),
-            Self::Diagnose(args) => args.job(given),
-            Self::Map(args) => args.job(given),
-            Self::Metrics(args) => args.job(given),
             Self::Photo(args) => args.job(given),
             Self::Study(args) => args.job(given),
             Self::Conform(args) => args.job(),

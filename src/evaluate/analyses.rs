@@ -1,28 +1,33 @@
 //! All analyses, each declared beside its report: what has a command, a function of Python and a table in the window.
 
-use serde_json::Value;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::{LossOptions, Request};
+use svbrdf_core::loss::{Compute, LossOptions, LossSettings, Question};
 use svbrdf_core::progress::Progress;
-use svbrdf_files::Error as FilesError;
+use svbrdf_core::text::of_json;
 
 use crate::error::Error;
 use crate::report::{
-    Analysis, AnalysisInput, AnalysisOption, BlameReport, MetricsReport, Report, SceneOptions, ScenesReport,
-    WorstReport,
+    Analysis, AnalysisInput, AnalysisOption, BlameReport, DiagnoseReport, LossReport, MapReport,
+    MetricsReport, OptionValue, RankReport, Report, ScenesReport, WorstReport,
 };
 
 /// All of them, in the order of the commands.
-pub const ANALYSES: [AnyAnalysis; 4] = [
+pub const ANALYSES: [AnyAnalysis; 8] = [
+    AnyAnalysis::of::<LossReport>(),
+    AnyAnalysis::of::<RankReport>(),
     AnyAnalysis::of::<BlameReport>(),
     AnyAnalysis::of::<ScenesReport>(),
     AnyAnalysis::of::<WorstReport>(),
+    AnyAnalysis::of::<DiagnoseReport>(),
+    AnyAnalysis::of::<MapReport>(),
     AnyAnalysis::of::<MetricsReport>(),
 ];
 
 /// Runs an analysis with its own options as a JSON object.
-type Answer = fn(&AnalysisInput<'_>, Value, &Progress) -> Result<Box<dyn Report>, Error>;
+pub type Answer<T> = fn(&AnalysisInput<'_, T>, Value, &Progress) -> Result<Box<dyn Report>, Error>;
 
 /// One of the [`ANALYSES`].
 #[derive(Clone, Copy, Debug)]
@@ -31,14 +36,39 @@ pub struct AnyAnalysis {
     pub title: &'static str,
     pub about: &'static str,
     pub details: &'static str,
+    pub example: &'static str,
     pub doing: &'static str,
-    pub scenes: &'static [SceneOptions],
+    /// Those of its options that decide scenes or precision.
+    pub scenes: &'static [&'static str],
+    pub scenes_help: &'static [(&'static str, &'static str)],
+    /// Whether its results are pictures.
+    pub pictures: bool,
     /// Its own options.
     pub options: &'static [AnalysisOption],
-    /// The schemas of its options and of its report.
+    /// The schema of its report.
     #[cfg(feature = "schema")]
-    pub schemas: [fn() -> schemars::Schema; 2],
-    answer: Answer,
+    pub schema: fn() -> schemars::Schema,
+    answer: Answer<f32>,
+    answer_double: Answer<f64>,
+    check: fn(Value, &LossOptions) -> Result<(), Error>,
+}
+
+/// A precision that analyses are run in.
+pub trait Precise: Compute {
+    /// What runs `analysis` in it.
+    fn answer(analysis: &AnyAnalysis) -> Answer<Self>;
+}
+
+impl Precise for f32 {
+    fn answer(analysis: &AnyAnalysis) -> Answer<Self> {
+        analysis.answer
+    }
+}
+
+impl Precise for f64 {
+    fn answer(analysis: &AnyAnalysis) -> Answer<Self> {
+        analysis.answer_double
+    }
 }
 
 impl AnyAnalysis {
@@ -49,12 +79,19 @@ impl AnyAnalysis {
             title: A::TITLE,
             about: A::ABOUT,
             details: A::DETAILS,
+            example: A::EXAMPLE,
             doing: A::DOING,
             scenes: A::SCENES,
+            scenes_help: A::SCENES_HELP,
+            pictures: A::PICTURES,
             options: A::OPTIONS,
             #[cfg(feature = "schema")]
-            schemas: [crate::json_schema::schema_of::<A::Options>, crate::json_schema::schema_of::<A>],
-            answer: answer::<A>,
+            schema: crate::json_schema::schema_of::<A>,
+            answer: |input, options, progress| Ok(Box::new(A::run(input, &options_of(options)?, progress)?)),
+            answer_double: |input, options, progress| {
+                Ok(Box::new(A::run_double(input, &options_of(options)?, progress)?))
+            },
+            check: |options, scenes| A::check(&options_of(options)?, scenes),
         }
     }
 
@@ -63,37 +100,75 @@ impl AnyAnalysis {
         ANALYSES.iter().find(|analysis| analysis.name == name)
     }
 
-    /// The scenes that `options` ask for.
+    /// Whether it samples scenes one by one where nothing decides their number.
+    pub fn lists_scenes(&self) -> bool {
+        self.scenes.contains(&"near") && !self.scenes.contains(&"target_error")
+    }
+
+    /// Whether settings of the loss in a session stand for options that are left open: where both a number of scenes and an accuracy can
+    /// be asked for.
+    pub fn takes_settings(&self) -> bool {
+        ["near", "target_error"].iter().all(|option| self.scenes.contains(option))
+    }
+
+    /// The question that `options` ask, where a session has `saved` settings over these.
     ///
     /// # Errors
     /// As [`LossOptions::question`].
-    pub fn request(&self, options: &LossOptions) -> Result<Request, CoreError> {
-        match self.scenes.contains(&SceneOptions::Sampled) {
-            true => options.listed(),
-            false => options.question().map(|question| question.request),
+    pub fn question(
+        &self,
+        options: &LossOptions,
+        saved: Option<&LossSettings>,
+    ) -> Result<Question, CoreError> {
+        match saved.filter(|_| self.takes_settings()) {
+            Some(saved) => options.over(saved),
+            None if self.lists_scenes() => options.listed().map(Question::from),
+            None => options.question(),
         }
+    }
+
+    /// Checks its own `options`, a JSON object, and those of its scenes, before anything is computed.
+    ///
+    /// # Errors
+    /// As [`Analysis::check`] and [`options_of`]; [`Error::BadOption`].
+    pub fn check(&self, options: &Value, scenes: &LossOptions) -> Result<(), Error> {
+        for AnalysisOption { name, value, .. } in self.options {
+            if let OptionValue::Count(_, [least, most]) = value
+                && let Some(found) = options[name].as_u64().filter(|found| !(least..=most).contains(&found))
+            {
+                let problem = format!("expected {least} to {most}, found {found}");
+                return Err(Error::BadOption { name: (*name).to_owned(), problem });
+            }
+        }
+        (self.check)(options.clone(), scenes)
     }
 
     /// The answer, with `options` as a JSON object; those that it lacks have their defaults.
     ///
     /// # Errors
-    /// As [`Analysis::run`]; [`FilesError::Internal`] for options that are none.
-    pub fn run(
+    /// As [`Analysis::run`] and [`options_of`].
+    pub fn run<T: Precise>(
         &self,
-        input: &AnalysisInput<'_>,
+        input: &AnalysisInput<'_, T>,
         options: Value,
         progress: &Progress,
     ) -> Result<Box<dyn Report>, Error> {
-        (self.answer)(input, options, progress)
+        T::answer(self)(input, options, progress)
     }
 }
 
-fn answer<A: Analysis>(
-    input: &AnalysisInput<'_>,
-    options: Value,
-    progress: &Progress,
-) -> Result<Box<dyn Report>, Error> {
-    let options =
-        serde_json::from_value(options).map_err(|problem| FilesError::Internal(problem.to_string()))?;
-    Ok(Box::new(A::run(input, &options, progress)?))
+/// Options, which all have defaults, of a JSON object.
+///
+/// # Errors
+/// [`Error::BadOption`].
+pub fn options_of<O: DeserializeOwned>(given: Value) -> Result<O, Error> {
+    let bad = |name: &str| {
+        let name = name.to_owned();
+        move |problem: serde_json::Error| Error::BadOption { name, problem: of_json(&problem) }
+    };
+    for (name, value) in given.as_object().into_iter().flatten() {
+        let alone = Map::from_iter([(name.clone(), value.clone())]);
+        serde_json::from_value::<O>(alone.into()).map_err(bad(name))?;
+    }
+    serde_json::from_value(given).map_err(bad("question"))
 }

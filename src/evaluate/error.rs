@@ -42,6 +42,10 @@ pub enum Error {
         option: &'static str,
     },
 
+    /// An option of an unknown name, a wrong type or an impossible value.
+    #[error("{name}: {problem}")]
+    BadOption { name: String, problem: String },
+
     /// Of a file, or of a computation.
     #[error(transparent)]
     Files(#[from] FilesError),

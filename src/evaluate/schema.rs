@@ -1,12 +1,9 @@
 //! JSON Schemas of the reports: the keys of their JSON with their types and meanings.
 
-use crate::report::{
-    ConformReport, DiagnoseReport, InfoReport, LossReport, MapReport, RankReport, RobustReport,
-};
+use crate::report::{ConformReport, InfoReport, RobustReport};
 use schemars::Schema;
-use serde_json::json;
 
-use crate::analyses::{ANALYSES, AnyAnalysis};
+use crate::analyses::ANALYSES;
 use crate::dataset::DatasetReport;
 use crate::json_schema::schema_of;
 use crate::photograph::PhotoReport;
@@ -16,11 +13,7 @@ type ReportSchema = (&'static str, fn() -> Schema);
 
 /// The schema of each other report by its name: that of its command, `dataset` for `rank --dataset`,
 /// `robust` for `rank --robust`.
-const OTHERS: [ReportSchema; 9] = [
-    ("loss", schema_of::<LossReport>),
-    ("rank", schema_of::<RankReport>),
-    ("diagnose", schema_of::<DiagnoseReport>),
-    ("map", schema_of::<MapReport>),
+const OTHERS: [ReportSchema; 5] = [
     ("photo", schema_of::<PhotoReport>),
     ("dataset", schema_of::<DatasetReport>),
     ("info", schema_of::<InfoReport>),
@@ -33,16 +26,8 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     OTHERS.iter().map(|(name, _)| *name).chain(ANALYSES.iter().map(|analysis| analysis.name))
 }
 
-/// The schema of the report of this name; that of an analysis tells its words and options, too, under `x-analysis`.
+/// The schema of the report of this name.
 pub fn named(name: &str) -> Option<Schema> {
-    let Some(analysis) = AnyAnalysis::named(name) else {
-        return OTHERS.iter().find(|(other, _)| *other == name).map(|(_, schema)| schema());
-    };
-    let AnyAnalysis { about, details, doing, scenes, schemas: [options, report], .. } = analysis;
-    let options = options();
-    let words =
-        json!({ "about": about, "details": details, "doing": doing, "scenes": scenes, "options": options });
-    let mut schema = report();
-    schema.insert("x-analysis".to_owned(), words);
-    Some(schema)
+    let of_analyses = ANALYSES.iter().map(|analysis| (analysis.name, analysis.schema));
+    OTHERS.into_iter().chain(of_analyses).find(|(other, _)| *other == name).map(|(_, schema)| schema())
 }

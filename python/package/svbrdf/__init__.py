@@ -17,10 +17,10 @@ are those of the command line, bit for bit. `svbrdf.torch` has the same loss for
 
 from . import _analyses, _reports
 from ._analyses import *  # noqa: F403
-from ._comparisons import MapReport, diagnose, loss, map, metrics, rank
 from ._conform import conform, probes
 from ._core import Error, __version__
 from ._dataset import rank_dataset
+from ._map import MapReport
 from ._material import Assumption, AssumptionWarning, Material, ReadOptions, built_in, read, write
 from ._page import Figure, figure, report
 from ._photo import photo
@@ -44,15 +44,10 @@ __all__ = [
     "__version__",
     "built_in",
     "conform",
-    "diagnose",
     "figure",
-    "loss",
-    "map",
-    "metrics",
     "named_scenes",
     "photo",
     "probes",
-    "rank",
     "rank_dataset",
     "read",
     "read_scenes",

@@ -3,7 +3,7 @@
 import json
 import operator
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any, Literal, TypedDict, TypeVar
 
 from . import _core
@@ -19,27 +19,15 @@ Predictions = Material | Source | Sequence[Material | Source]
 _R = TypeVar("_R", bound=Report)
 
 
-class Sampled(TypedDict, total=False):
-    """The scenes that are sampled or listed."""
+class Accuracy(TypedDict, total=False):
+    """The scenes, or an accuracy that decides them."""
 
     near: int | None
     distant: int | None
     seed: int | None
     sampler: Literal["random", "sobol"] | None
     scenes: Scenes | None
-
-
-class Accuracy(Sampled, total=False):
-    """The scenes, or an accuracy that decides them."""
-
     target_error: float | None
-
-
-class Question(Accuracy, total=False):
-    """Everything that decides the scenes of a loss; `svbrdf.loss` describes it."""
-
-    time_budget: float | None
-    texels: int | Literal["all"] | None
 
 
 class Asked:
@@ -55,7 +43,7 @@ class Asked:
         *,
         alone: bool = False,
     ) -> None:
-        """`alone`: a ground truth without predictions is enough. `question`: a `Question`, whose None is left open."""
+        """`alone`: a ground truth without predictions is enough. `question`: options by name; None is left open."""
         asked = question_json(**question)
         is_none = alone and isinstance(predictions, tuple | list) and not predictions
         given = () if is_none else listed(predictions, "predictions")
@@ -71,13 +59,12 @@ class Asked:
         }
         """The first argument of the function."""
 
-    def answer(
-        self, kind: type[_R], ask: "Callable[..., _core.Views]", doing: str, progress: bool | Progress, *more: Any
-    ) -> _R:
-        """The report of `ask`, a function of the core that takes `more`, too; called by a function of the package."""
+    def answer(self, kind: type[_R], analysis: str, doing: str, progress: bool | Progress) -> _R:
+        """The report of an analysis; called by a function of the package."""
         with reported(doing, progress) as report:
-            found = ask(self.core, *more, report)
-        return report_of(kind, found, stacklevel=4)
+            found = _core.analysis(self.core, analysis, report)
+        arrays = {name: tuple(all) for name, all in found["arrays"].items()}
+        return report_of(kind, found["views"], stacklevel=4, **arrays)
 
 
 def question_json(scenes: Scenes | None = None, **options: Any) -> str:
@@ -91,16 +78,10 @@ def question_json(scenes: Scenes | None = None, **options: Any) -> str:
     return json.dumps(given, allow_nan=False, default=_plain)
 
 
-def own_json(own: dict[str, Any]) -> str:
-    """The own options of an analysis, which are numbers, as JSON for the core."""
-    for name, value in own.items():
-        if value < 0:
-            raise ValueError(f"{name}: expected 0 or more, found {value}")
-    return json.dumps(own, allow_nan=False, default=_plain)
-
-
-def _plain(number: Any) -> int | float:
-    """A number of numpy."""
+def _plain(number: Any) -> Any:
+    """A sequence, or a number of numpy."""
+    if isinstance(number, Sequence):
+        return list(number)
     return operator.index(number) if hasattr(number, "__index__") else float(number)
 
 
@@ -129,16 +110,3 @@ def distinct(materials: Sequence[Material], words: Sequence[str]) -> list[str]:
         for material, word in zip(materials, words, strict=True)
     ]
     return _core.distinct_names(named)
-
-
-def check_unused(deciding: str, **given: object) -> None:
-    """Whether none of the arguments is given that do not apply beside the one that decides the scenes.
-
-    Raises:
-        ValueError: One is given.
-    """
-    unused = [name for name, value in given.items() if value is not None]
-    if unused:
-        raise ValueError(
-            f"{' and '.join(unused)}: not used with {deciding}, which decides the scenes; leave out either"
-        )

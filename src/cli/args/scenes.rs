@@ -1,10 +1,11 @@
 //! The question of a command, as arguments: the scenes of the loss, or what decides their number.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
-use clap::ValueEnum as _;
+use clap::{Arg, ArgMatches, Args as _, Command, ValueEnum as _};
 
-use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes, LossOptions};
+use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes, LossOptions, Precision, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
@@ -12,38 +13,25 @@ use svbrdf_files::scene_file;
 
 use super::given::refuse;
 use super::offered;
-use super::values::{degrees, percent, stops, triple, whole};
+use super::values::{degrees, duration, percent, stops, triple, whole};
 use crate::cli::output::CommandError;
 
-/// Sampled scenes, or those of a list.
-#[derive(Debug, clap::Args)]
-pub struct SceneArgs {
-    #[command(flatten)]
-    pub sampled: SampledArgs,
-
-    #[command(flatten)]
-    pub seed: SeedArgs,
-
-    #[command(flatten)]
-    pub list: ListArgs,
-}
-
 /// How many scenes are sampled, and how.
-#[derive(Clone, Copy, Debug, clap::Args)]
+#[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Scenes")]
 pub struct SampledArgs {
     /// Number of near-field scenes [default: 128; with --distant two for each distant one]
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
-    pub near: Option<usize>,
+    near: Option<usize>,
 
     /// Number of distant scenes [default: 64; with --near one for two near-field ones]
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
-    pub distant: Option<usize>,
+    distant: Option<usize>,
 
     /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: sobol]
     #[arg(long, value_name = "random|sobol")]
     #[arg(value_parser = offered(str::parse::<Sampler>, ["random", "sobol"]), hide_possible_values = true)]
-    pub sampler: Option<Sampler>,
+    sampler: Option<Sampler>,
 }
 
 /// The seed of a command that samples its scenes.
@@ -51,7 +39,7 @@ pub struct SampledArgs {
 pub struct SeedArgs {
     /// Seed of the sampled scenes [default: 0]
     #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
-    pub seed: Option<u64>,
+    seed: Option<u64>,
 }
 
 /// A loss to an accuracy.
@@ -71,7 +59,72 @@ pub struct QuestionArgs {
     target_error: TargetErrorArgs,
 
     #[command(flatten)]
-    scenes: SceneArgs,
+    sampled: SampledArgs,
+
+    #[command(flatten)]
+    seed: SeedArgs,
+
+    #[command(flatten)]
+    list: ListArgs,
+}
+
+/// All options of the analyses that decide scenes, texels and precision; each analysis has some of them.
+#[derive(Debug, clap::Args)]
+pub struct AnalysisSceneArgs {
+    #[command(flatten)]
+    question: QuestionArgs,
+
+    /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
+    /// [default: 32; with --near or --distant all]
+    #[arg(help_heading = "Scenes", long, value_name = "all|N", allow_negative_numbers = true)]
+    #[arg(value_parser = offered(str::parse::<Texels>, ["all"]), hide_possible_values = true)]
+    texels: Option<Texels>,
+
+    /// Samples as many scenes as fit into this time, such as 500ms or 2s
+    #[arg(help_heading = "Scenes", long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
+    time_budget: Option<Duration>,
+
+    /// Floating-point precision
+    #[arg(help_heading = None::<&str>, long, value_name = "f32|f64", default_value = "f32")]
+    #[arg(value_parser = offered(str::parse::<Precision>, ["f32", "f64"]), hide_possible_values = true)]
+    precision: Precision,
+}
+
+impl AnalysisSceneArgs {
+    /// The arguments of these options, in their order; `scenes` has those of named scenes, too.
+    pub fn arguments(options: &[&str]) -> Vec<Arg> {
+        fn option(arg: &Arg) -> &str {
+            let id = arg.get_id().as_str();
+            if ["lights", "fov"].contains(&id) { "scenes" } else { id }
+        }
+        let all = Self::augment_args(Command::new("all"));
+        let named = |name| all.get_arguments().filter(move |arg| option(arg) == name).cloned();
+        let all = options.iter().flat_map(|name| named(*name)).enumerate();
+        all.map(|(order, arg)| arg.display_order(order)).collect()
+    }
+
+    /// The options and the precision of `matches`, which may lack some arguments.
+    pub fn options(matches: &ArgMatches) -> Result<(LossOptions, Precision), CommandError> {
+        fn value<T: Clone + Send + Sync + 'static>(matches: &ArgMatches, id: &str) -> Option<T> {
+            matches.try_get_one(id).ok().flatten().cloned()
+        }
+        let list = ListArgs {
+            scenes: value(matches, "scenes"),
+            lights: value(matches, "lights"),
+            fov: value(matches, "fov"),
+        };
+        let options = LossOptions {
+            near: value(matches, "near"),
+            distant: value(matches, "distant"),
+            seed: value(matches, "seed"),
+            sampler: value(matches, "sampler"),
+            texels: value(matches, "texels"),
+            target_error: value(matches, "target_error"),
+            time_budget: value(matches, "time_budget"),
+            file: list.file()?,
+        };
+        Ok((options, value(matches, "precision").unwrap_or_default()))
+    }
 }
 
 /// The accuracy of a loss.
@@ -79,7 +132,7 @@ pub struct QuestionArgs {
 pub struct TargetErrorArgs {
     /// Samples as many scenes as this relative error of every loss needs at 95% confidence [default: 1%]
     #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true)]
-    pub target_error: Option<f64>,
+    target_error: Option<f64>,
 }
 
 /// The scenes of a file, or those of a publication.
@@ -114,19 +167,6 @@ pub enum Lights {
     Hemisphere,
 }
 
-impl SceneArgs {
-    pub fn options(&self) -> Result<LossOptions, CommandError> {
-        Ok(LossOptions { seed: self.seed.seed, file: self.list.file()?, ..self.sampled.options() })
-    }
-}
-
-impl SampledArgs {
-    pub fn options(self) -> LossOptions {
-        let Self { near, distant, sampler } = self;
-        LossOptions { near, distant, sampler, ..LossOptions::default() }
-    }
-}
-
 impl AccuracyArgs {
     /// The target error, 1% where it is not specified, and the seed.
     pub fn target_and_seed(&self) -> (f64, u64) {
@@ -141,17 +181,26 @@ impl AccuracyArgs {
 
 impl QuestionArgs {
     pub fn options(&self) -> Result<LossOptions, CommandError> {
-        Ok(LossOptions { target_error: self.target_error.target_error, ..self.scenes.options()? })
+        let Self { target_error, sampled: SampledArgs { near, distant, sampler }, seed, list } = self;
+        Ok(LossOptions {
+            near: *near,
+            distant: *distant,
+            sampler: *sampler,
+            seed: seed.seed,
+            target_error: target_error.target_error,
+            file: list.file()?,
+            ..LossOptions::default()
+        })
     }
 
     /// The target error, 1% where it is not specified, and the seed.
     pub fn target_and_seed(&self) -> (f64, u64) {
-        (self.target_error.target_error.unwrap_or(ALL_SCENES_TARGET), self.scenes.seed.seed.unwrap_or(0))
+        (self.target_error.target_error.unwrap_or(ALL_SCENES_TARGET), self.seed.seed.unwrap_or(0))
     }
 
     /// The options of the scenes as they are typed, but for the seed.
     pub fn words(&self) -> Vec<String> {
-        let SceneArgs { sampled: SampledArgs { near, distant, sampler }, list, .. } = &self.scenes;
+        let Self { sampled: SampledArgs { near, distant, sampler }, list, .. } = self;
         let options = [
             ("--near", near.map(|count| count.to_string())),
             ("--distant", distant.map(|count| count.to_string())),

@@ -37,10 +37,13 @@ pub fn whole<T: FromStr>(text: &str) -> Result<T, &'static str> {
     text.parse().map_err(|_| "expected a whole number, 0 or more and below 2^64")
 }
 
-/// The texels along a side of a map over directions.
-pub fn side(text: &str) -> Result<u16, &'static str> {
-    let side = text.parse().ok().filter(|side| (1..=1024).contains(side));
-    side.ok_or("expected a whole number of 1 to 1024")
+/// A number of things from `least` to `most`.
+pub fn count(text: &str, least: u64, most: u64) -> Result<u64, String> {
+    if most == u64::MAX {
+        return Ok(whole(text)?);
+    }
+    let count = text.parse().ok().filter(|count| (least..=most).contains(count));
+    count.ok_or_else(|| format!("expected a whole number of {least} to {most}"))
 }
 
 /// A loss that others are compared with. None is above NaN or infinity.

@@ -1,13 +1,15 @@
 //! A job: what a command compares, resolved once from its arguments before anything is computed.
 
-pub mod floor;
 pub mod materials;
 pub mod session;
 
 use std::fmt;
 use std::path::PathBuf;
 
+use svbrdf_core::loss::Question;
+use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_evaluate::report::AnalysisInput;
 
 use super::args::{ComparisonArgs, Given};
 use super::output::CommandError;
@@ -56,5 +58,22 @@ impl ComparisonJob {
             materials: MaterialJob::new(&args.materials, file.as_ref(), given)?,
             session,
         })
+    }
+}
+
+/// What an analysis of the `opened` materials takes.
+pub fn input<'a, T: Real>(
+    opened: &'a Opened<T>,
+    materials: &MaterialJob,
+    convention: Convention,
+    question: Question,
+) -> AnalysisInput<'a, T> {
+    AnalysisInput {
+        ground_truth: &opened.ground_truth,
+        predictions: opened.predictions.iter().collect(),
+        storages: opened.storages.iter().collect(),
+        paths: materials.paths.iter().map(|path| Some(path.display().to_string())).collect(),
+        convention,
+        question,
     }
 }

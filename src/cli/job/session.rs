@@ -22,7 +22,7 @@ pub struct SessionSettings {
     pub convention: Convention,
     pub exposure_ev: f32,
     display: SessionDisplay,
-    loss: Option<LossSettings>,
+    pub loss: Option<LossSettings>,
 }
 
 /// The session file that stands for the ground truth and its predictions, read; `None` where the ground truth is none.

@@ -59,6 +59,9 @@ pub enum CommandError {
 
 impl From<Error> for CommandError {
     fn from(error: Error) -> Self {
+        if let Error::BadOption { problem, .. } = error {
+            return Self::Usage(problem);
+        }
         match error.core() {
             _ if matches!(error, Error::OneScene { .. }) => Self::Usage(format!("--{error}")),
             Some(CoreError::UnusedOption { option, reason }) => {

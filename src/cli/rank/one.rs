@@ -1,22 +1,23 @@
 //! Many predictions of one ground truth.
 
-use svbrdf_core::loss::{Comparison, Question, Request};
+use svbrdf_core::loss::Question;
 use svbrdf_core::material::Material;
-use svbrdf_evaluate::rank::most_scenes;
-use svbrdf_evaluate::report::{Compared, MaterialReading, RankReport, Repetition, Report as _, RobustReport};
+use svbrdf_evaluate::report::{
+    Analysis as _, AnalysisInput, MaterialReading, NoOptions, RankReport, Repetition, Report as _,
+    RobustReport,
+};
 use svbrdf_evaluate::robust::RobustInput;
 
 use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use crate::cli::args::{Given, refuse};
-use crate::cli::job::floor::floor_of;
-use crate::cli::job::{ComparisonJob, Job, NewJob, Opened, SessionSettings};
+use crate::cli::job::{self, ComparisonJob, Job, NewJob, Opened, SessionSettings};
 use crate::cli::output::{CommandError, command_line, warn_of, watched};
 
 /// A ranking of the predictions of one ground truth.
 #[derive(Debug)]
 struct OneJob {
     comparison: ComparisonJob,
-    request: Request,
+    question: Question,
     /// The error of the losses and the seed of the questions about the order, where they are asked instead.
     robust: Option<(f64, u64)>,
     fail_above: Option<f64>,
@@ -40,36 +41,31 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
         refuse_scenes(given)?;
     }
     let robust = robust.then(|| scenes.target_and_seed());
-    let Question { request, .. } =
-        SessionSettings::question(comparison.session.as_ref(), &scenes.options()?)?;
-    Ok(Box::new(OneJob { comparison, request, robust, fail_above, output }))
+    let question = SessionSettings::question(comparison.session.as_ref(), &scenes.options()?)?;
+    Ok(Box::new(OneJob { comparison, question, robust, fail_above, output }))
 }
 
 /// Prints the ranking; fails where a loss is above a limit, after all are printed.
 impl Job for OneJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison: job, request, robust, fail_above, output } = *self;
-        let opened = job.materials.open::<f32>()?;
-        let predictions: Vec<_> = opened.predictions.iter().collect();
+        let Self { comparison, question, robust, fail_above, output } = *self;
+        let ComparisonJob { convention, materials, .. } = comparison;
+        let opened = materials.open::<f32>()?;
+        let input = job::input(&opened, &materials, convention, question);
         if let Some((target_error, seed)) = robust {
-            let (ground_truth, convention) = (&opened.ground_truth, job.convention);
+            let AnalysisInput { ground_truth, predictions, convention, .. } = input;
             let input = RobustInput { ground_truth, predictions, convention, target_error, seed };
             let report = watched("rendering", |progress| RobustReport::new(&input, progress))?;
             return Ok(output.put(&report, RobustReport::latex)?);
         }
-        let comparison = Comparison::new(&opened.ground_truth, &predictions, job.convention)?
-            .at_most(most_scenes(predictions.len()));
-        let outcome = watched("rendering", |progress| comparison.run(&request, progress))?;
-        let compared = Compared::new(&opened.ground_truth, &job.convention);
-        let mut report = RankReport::new(compared, &request, &outcome);
-        if opened.storages[0].has_steps() {
-            report = report.with_floor(&floor_of(&job, &opened, request.seed().unwrap_or(0))?);
-        }
+        let mut report =
+            watched(RankReport::DOING, |progress| RankReport::run(&input, &NoOptions {}, progress))?;
         report.repetition = Some(Repetition::new(command_line()));
         report.readings = readings(&opened);
         output.put(&report, RankReport::latex)?;
-        warn_of(report.missed(), job.materials.strict)?;
-        check_limit(fail_above, outcome.losses.iter().map(|l| (l.prediction.clone(), l.estimate.mean)))
+        warn_of(report.missed(), materials.strict)?;
+        report.ranking.sort_by_key(|place| place.index);
+        check_limit(fail_above, report.ranking.into_iter().map(|place| (place.prediction, place.loss.mean)))
     }
 }
 

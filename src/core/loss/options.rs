@@ -137,10 +137,12 @@ impl LossOptions {
         }
     }
 
-    /// Refuses these options.
-    fn refuse(&self, unused: &[&'static str], reason: &'static str) -> Result<(), Error> {
-        let Self { near, distant, seed, sampler, texels, target_error, time_budget, file: _ } = self;
-        let specified = [
+    /// The names of the options that are not left open; a list of scenes with a name is called `lights`.
+    pub fn specified(&self) -> impl Iterator<Item = &'static str> {
+        let Self { near, distant, seed, sampler, texels, target_error, time_budget, file } = self;
+        let is_named = |file: &FileScenes| file.path.as_os_str().is_empty() && !file.name.is_empty();
+        let list = if file.as_ref().is_some_and(is_named) { "lights" } else { "scenes" };
+        let all = [
             ("near", near.is_some()),
             ("distant", distant.is_some()),
             ("seed", seed.is_some()),
@@ -148,9 +150,15 @@ impl LossOptions {
             ("texels", texels.is_some()),
             ("target_error", target_error.is_some()),
             ("time_budget", time_budget.is_some()),
+            (list, file.is_some()),
         ];
-        match specified.into_iter().find(|(option, is_specified)| *is_specified && unused.contains(option)) {
-            Some((option, _)) => Err(Error::UnusedOption { option, reason }),
+        all.into_iter().filter(|(_, is_specified)| *is_specified).map(|(option, _)| option)
+    }
+
+    /// Refuses these options.
+    fn refuse(&self, unused: &[&'static str], reason: &'static str) -> Result<(), Error> {
+        match self.specified().find(|option| unused.contains(option)) {
+            Some(option) => Err(Error::UnusedOption { option, reason }),
             None => Ok(()),
         }
     }

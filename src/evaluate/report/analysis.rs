@@ -1,29 +1,35 @@
 //! An analysis: a report, and the declaration that its command, its function in Python, its JSON Schema and its table in the window follow
 //! from.
 
-use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use svbrdf_core::loss::Request;
+use svbrdf_core::loss::{LossOptions, Question};
 use svbrdf_core::material::Material;
+use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::Error as FilesError;
 
 use super::Report;
 use super::heading::Compared;
+use crate::diagnose::Storage;
 use crate::error::Error;
 
 /// A comparison of predictions with their ground truth.
 #[derive(Clone, Debug)]
-pub struct AnalysisInput<'a> {
-    pub ground_truth: &'a Material<f32>,
-    pub predictions: Vec<&'a Material<f32>>,
+pub struct AnalysisInput<'a, T: Real = f32> {
+    pub ground_truth: &'a Material<T>,
+    pub predictions: Vec<&'a Material<T>>,
+    /// How each is stored, the ground truth first.
+    pub storages: Vec<&'a Storage>,
+    /// Where each was read from, the ground truth first.
+    pub paths: Vec<Option<String>>,
     pub convention: Convention,
     /// Its scenes.
-    pub request: Request,
+    pub question: Question,
 }
 
-impl AnalysisInput<'_> {
+impl<T: Real> AnalysisInput<'_, T> {
     /// The settings of a report.
     pub fn compared(&self) -> Compared {
         Compared::new(self.ground_truth, &self.convention)
@@ -33,28 +39,14 @@ impl AnalysisInput<'_> {
     ///
     /// # Errors
     /// Its first.
-    pub fn each<T>(&self, of: impl Fn(&Material<f32>) -> Result<T, Error>) -> Result<Vec<T>, Error> {
+    pub fn each<R>(&self, of: impl Fn(&Material<T>) -> Result<R, Error>) -> Result<Vec<R>, Error> {
         self.predictions.iter().map(|prediction| of(prediction)).collect()
     }
 
     /// Names the sampled scenes; 0 for listed ones.
     pub fn seed(&self) -> u64 {
-        self.request.seed().unwrap_or(0)
+        self.question.request.seed().unwrap_or(0)
     }
-}
-
-/// Options of [`LossOptions`](svbrdf_core::loss::LossOptions) that an analysis has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SceneOptions {
-    /// The seed.
-    Seed,
-    /// The accuracy of the loss.
-    TargetError,
-    /// The numbers of scenes, and their sampler: each is rendered on all texels.
-    Sampled,
-    /// The scenes of a list.
-    List,
 }
 
 /// An analysis of predictions: the report that it gives, and what it is called.
@@ -67,42 +59,77 @@ pub trait Analysis: Report + Schematic + Sized + 'static {
     const ABOUT: &'static str;
     /// What its numbers mean.
     const DETAILS: &'static str;
+    /// A call in Python with its result.
+    const EXAMPLE: &'static str = "";
     /// What it does while it runs.
     const DOING: &'static str;
-    /// The options of its scenes.
-    const SCENES: &'static [SceneOptions];
-    /// Its own options: numbers with doc comments and defaults.
-    type Options: Default + DeserializeOwned + Schematic;
-    /// What the command line says of them.
-    const OPTIONS: &'static [AnalysisOption];
+    /// The fields of [`LossOptions`] that are its options, and `precision` where it has
+    /// [`Analysis::run_double`]. `scenes` are those of a list.
+    const SCENES: &'static [&'static str];
+    /// What the command line says of some of them in place of what it says everywhere.
+    const SCENES_HELP: &'static [(&'static str, &'static str)] = &[];
+    /// Whether its results are pictures: [`Report::pictures`] and [`Report::into_arrays`].
+    const PICTURES: bool = false;
+    /// Its own options; all have defaults.
+    type Options: Default + DeserializeOwned;
+    /// The same, declared.
+    const OPTIONS: &'static [AnalysisOption] = &[];
+
+    /// Checks its options and those of its scenes before anything is computed.
+    ///
+    /// # Errors
+    /// [`UnusedOption`](svbrdf_core::error::Error::UnusedOption).
+    fn check(_: &Self::Options, _: &LossOptions) -> Result<(), Error> {
+        Ok(())
+    }
 
     /// The answer.
     ///
     /// # Errors
     /// Where the materials cannot be compared; [`Cancelled`](Error::is_cancelled).
     fn run(input: &AnalysisInput<'_>, options: &Self::Options, progress: &Progress) -> Result<Self, Error>;
+
+    /// The answer in f64.
+    ///
+    /// # Errors
+    /// As [`Analysis::run`]; [`FilesError::Internal`] of an analysis without a precision.
+    fn run_double(_: &AnalysisInput<'_, f64>, _: &Self::Options, _: &Progress) -> Result<Self, Error> {
+        Err(FilesError::Internal(format!("{} has no precision", Self::NAME)).into())
+    }
 }
 
 /// No options.
 #[derive(Clone, Copy, Debug, Default, serde::Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NoOptions {}
 
-/// An option of an analysis itself, which is a number.
+/// An option of an analysis itself.
 #[derive(Clone, Copy, Debug)]
 pub struct AnalysisOption {
     /// The name of its field.
     pub name: &'static str,
     pub about: &'static str,
-    pub default: f64,
-    /// Whether it is a share, written as percent, and not a count.
-    pub is_share: bool,
+    pub value: OptionValue,
 }
 
-/// What has a JSON Schema where the feature `schema` is on: all reports and their options.
+/// The type of an option, with its default.
+#[derive(Clone, Copy, Debug)]
+pub enum OptionValue {
+    /// A whole number from the second to the third.
+    Count(u64, [u64; 2]),
+    /// On the command line in percent.
+    Share(f64),
+    Stops(f32),
+    Direction([f64; 3]),
+    /// One of these words, each with what it means; the first by default.
+    Choice(&'static [[&'static str; 2]]),
+    /// Words, of which these are offered; none by default.
+    Words(fn() -> Vec<&'static str>),
+}
+
+/// What has a JSON Schema where the feature `schema` is on: all reports.
 #[cfg(feature = "schema")]
 pub use schemars::JsonSchema as Schematic;
-/// All reports and their options.
+/// All reports.
 #[cfg(not(feature = "schema"))]
 pub trait Schematic {}
 #[cfg(not(feature = "schema"))]

@@ -3,13 +3,13 @@
 use serde::Serialize;
 
 use super::Report;
-use super::analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, SceneOptions};
+use super::analysis::{Analysis, AnalysisInput, NoOptions};
 use super::heading::{Compared, scenes_line};
 use super::missed::missed;
 use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
 use crate::why::{self, MapShare};
-use svbrdf_core::loss::{Estimate, Request};
+use svbrdf_core::loss::{Estimate, Question, Request};
 use svbrdf_core::progress::Progress;
 
 /// What a map adds to the loss of a prediction, or all maps do.
@@ -159,13 +159,15 @@ impl Analysis for BlameReport {
         become wrong; the four values add up to the loss. Beside them stands the loss where only this map is wrong, and where only \
         this map is right. A negative share: its error partly cancels the errors of others.";
     const DOING: &'static str = "rendering";
-    const SCENES: &'static [SceneOptions] =
-        &[SceneOptions::TargetError, SceneOptions::Seed, SceneOptions::List];
+    const SCENES: &'static [&'static str] = &["target_error", "seed", "scenes"];
+    const SCENES_HELP: &'static [(&'static str, &'static str)] = &[(
+        "target_error",
+        "Samples as many scenes as this relative error of the loss needs at 95% confidence, at most 49,152 [default: 1%]",
+    )];
     type Options = NoOptions;
-    const OPTIONS: &'static [AnalysisOption] = &[];
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, convention, request, .. } = input;
+        let AnalysisInput { ground_truth, convention, question: Question { request, .. }, .. } = input;
         let attributions = input.each(|prediction| {
             Ok(why::attribute(ground_truth, prediction, convention, request, progress)?)
         })?;

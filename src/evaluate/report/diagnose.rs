@@ -3,10 +3,13 @@
 use serde::Serialize;
 
 use super::Report;
+use super::analysis::{Analysis, AnalysisInput, NoOptions};
 use super::heading::{Compared, floor_line};
 use super::table::{Cell, Field, Reader, Table};
-use crate::diagnose::{self, Finding, Value, sentence};
+use crate::diagnose::{self, Finding, Value, diagnose, floor, sentence};
+use crate::error::Error;
 use svbrdf_core::loss::Estimate;
+use svbrdf_core::progress::Progress;
 
 /// The diagnosis of each prediction: docs/diagnose.md describes each line.
 #[derive(Clone, Debug, Serialize)]
@@ -52,7 +55,7 @@ struct ReportedFinding {
 
 impl DiagnoseReport {
     /// The report of `diagnoses` beside a `floor`.
-    pub fn new(compared: Compared, seed: u64, floor: Estimate, diagnoses: Vec<diagnose::Diagnosis>) -> Self {
+    fn new(compared: Compared, seed: u64, floor: Estimate, diagnoses: Vec<diagnose::Diagnosis>) -> Self {
         let predictions = diagnoses.into_iter().map(|one| Diagnosis::new(one, &compared, &floor)).collect();
         Self { compared, seed, floor, predictions }
     }
@@ -146,5 +149,36 @@ impl Report for DiagnoseReport {
     fn table(&self, reader: Reader) -> Table {
         let rows = self.predictions.iter().flat_map(Diagnosis::rows);
         Table::fields(&fields(), rows, reader)
+    }
+}
+
+impl Analysis for DiagnoseReport {
+    const NAME: &'static str = "diagnose";
+    const TITLE: &'static str = "Would something trivial explain it";
+    const ABOUT: &'static str = "Prints what an exposure, a shift, a symmetry or another reading of the files would lower the loss to";
+    const DETAILS: &'static str = "Each hypothesis is fitted in the scenes of a pilot and evaluated in 3,072 others. A star marks those \
+        that lower the loss significantly, and by at least 10% beside the other marked ones. The last column has the option that corrects \
+        the reading. Losses below the floor, which the ground truth cannot resolve, have no mark. docs/diagnose.md describes each line.";
+    const EXAMPLE: &'static str = "\
+        >>> import svbrdf
+        >>> ground_truth, _, _ = svbrdf.built_in()
+        >>> maps = {name: getattr(ground_truth, name) for name in (\"diffuse\", \"specular\", \"roughness\")}
+        >>> flipped = svbrdf.Material(normal=ground_truth.normal * [1, -1, 1], **maps)
+        >>> svbrdf.diagnose(ground_truth, flipped).predictions[0].findings[4].marked
+        True";
+    const DOING: &'static str = "diagnosing";
+    const SCENES: &'static [&'static str] = &["seed"];
+    type Options = NoOptions;
+
+    fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
+        let AnalysisInput { ground_truth, predictions, storages, convention, .. } = input;
+        let (of_truth, seed) = (storages[0], input.seed());
+        let floor = floor(ground_truth, of_truth, convention, seed, progress)?;
+        let one = |(prediction, storage): (&&_, &&_)| {
+            let (pair, storages) = ([*ground_truth, *prediction], [of_truth, *storage]);
+            Ok(diagnose(pair, storages, convention, floor.mean, seed, progress)?)
+        };
+        let diagnoses = predictions.iter().zip(&storages[1..]).map(one).collect::<Result<_, Error>>()?;
+        Ok(Self::new(input.compared(), seed, floor, diagnoses))
     }
 }

@@ -198,9 +198,8 @@ impl LossReport {
     }
 
     /// The same report of materials that were read from `paths`, the ground truth first.
-    #[must_use]
-    pub fn read_from(mut self, paths: Vec<Option<String>>) -> Self {
-        let mut paths = paths.into_iter();
+    pub(super) fn read_from(mut self, paths: &[Option<String>]) -> Self {
+        let mut paths = paths.iter().cloned();
         self.ground_truth_path = paths.next().flatten();
         for (result, path) in self.results.iter_mut().zip(paths) {
             result.path = path;

@@ -1,14 +1,14 @@
-//! Losses over texels, or over directions of the light or the view.
+//! The loss over texels, or over directions of the light or the view, as an analysis.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::Report;
+use super::analysis::{Analysis, AnalysisInput, AnalysisOption, OptionValue};
 use super::heading::{Compared, position};
-use super::table::{Cell, Field, Reader, Table};
+use crate::error::Error;
 use crate::why::{self, Hemisphere};
-use svbrdf_core::error::Error;
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::image::{Image, mean_of_channels};
-use svbrdf_core::loss::Comparison;
+use svbrdf_core::loss::{Comparison, LossOptions};
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
@@ -18,38 +18,38 @@ use svbrdf_core::progress::Progress;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MapReport {
     #[serde(flatten)]
-    pub compared: Compared,
+    pub(super) compared: Compared,
     /// The meaning of the numbers.
-    pub shows: String,
+    pub(super) shows: String,
     /// One per prediction.
-    results: Vec<MapSummary>,
+    pub(super) results: Vec<MapSummary>,
     /// The loss of each texel and channel, or of each direction in all channels: one image per prediction.
     #[serde(skip)]
-    pub images: Vec<Image<f32>>,
+    pub(super) images: Vec<Image<f32>>,
     /// The map over directions and what moves; `None` for a map over texels.
     #[serde(skip)]
-    pub directions: Option<(Endpoint, Hemisphere)>,
+    pub(super) directions: Option<(Endpoint, Hemisphere)>,
 }
 
 /// The map of a prediction in a few numbers.
 #[derive(Clone, Debug, Default, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct MapSummary {
-    prediction: String,
+pub(super) struct MapSummary {
+    pub prediction: String,
     /// The loss.
-    mean: f64,
-    largest: f64,
+    pub mean: f64,
+    pub largest: f64,
     /// Where a map over texels is largest.
     #[serde(skip_serializing_if = "Option::is_none")]
-    column: Option<usize>,
+    pub column: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    row: Option<usize>,
+    pub row: Option<usize>,
     /// The root mean square of the standard errors of a map over directions.
     #[serde(skip_serializing_if = "Option::is_none")]
-    standard_error: Option<f64>,
+    pub standard_error: Option<f64>,
     /// Where a map over directions is largest.
     #[serde(skip_serializing_if = "Option::is_none")]
-    direction: Option<[f64; 3]>,
+    pub direction: Option<[f64; 3]>,
 }
 
 impl MapReport {
@@ -57,11 +57,11 @@ impl MapReport {
     ///
     /// # Errors
     /// As [`why::error_maps`].
-    pub fn over_texels(
+    fn over_texels(
         comparison: &Comparison<'_, f32>,
         scenes: &[Scene],
         progress: &Progress,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, CoreError> {
         let images = why::error_maps(comparison, scenes, progress)?;
         let entry = |(name, image): (String, &Image<f32>)| {
             let all = image.pixels.iter().map(mean_of_channels).enumerate();
@@ -88,13 +88,13 @@ impl MapReport {
     ///
     /// # Errors
     /// As [`why::hemisphere`].
-    pub fn over_directions(
+    fn over_directions(
         comparison: &Comparison<'_, f32>,
         moved: Endpoint,
         fixed: [f64; 3],
         side: usize,
         progress: &Progress,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, CoreError> {
         let map = why::hemisphere(comparison, moved, fixed, side, progress)?;
         let entry = |(index, name): (usize, String)| {
             let (direction, largest) = map.worst(index)?;
@@ -124,83 +124,103 @@ fn names(comparison: &Comparison<'_, f32>) -> impl Iterator<Item = String> {
 }
 
 /// What moves, and what is fixed.
-fn roles(moved: Endpoint) -> [&'static str; 2] {
+pub(super) fn roles(moved: Endpoint) -> [&'static str; 2] {
     match moved {
         Endpoint::Light => ["light", "view"],
         Endpoint::View => ["view", "light"],
     }
 }
 
-/// A prediction, a direction, and the loss there with its standard error.
-type DirectionRow<'a> = (&'a str, [f64; 3], [f64; 2]);
-/// A prediction, the column and row of a texel, and its loss in each channel.
-type TexelRow<'a> = (&'a str, [usize; 2], [f32; 3]);
+svbrdf_core::choices! {
+    /// What a map is over.
+    #[derive(Default)]
+    Over, "axes of a map":
+    #[default]
+    Texels = "texels",
+    Lights = "lights",
+    Views = "views",
+}
 
-impl Report for MapReport {
-    fn heading(&self) -> String {
-        self.compared.heading(&self.shows)
-    }
+/// The options of a map.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(default)]
+pub struct MapOptions {
+    over: Over,
+    fixed: [f64; 3],
+    side: usize,
+}
 
-    /// For programs a row for each texel or direction of each prediction; for people a summary of each prediction.
-    fn table(&self, reader: Reader) -> Table {
-        match (reader, &self.directions) {
-            (Reader::Person, directions) => self.summary(directions.as_ref().map(|(moved, _)| *moved)),
-            (Reader::Program, Some((_, map))) => self.directions_table(map),
-            (Reader::Program, None) => self.texels_table(),
-        }
+impl Default for MapOptions {
+    fn default() -> Self {
+        Self { over: Over::Texels, fixed: [0.0, 0.0, 1.0], side: 64 }
     }
 }
 
-impl MapReport {
-    /// A row for each prediction; `moved` is what moves over the directions.
-    fn summary(&self, moved: Option<Endpoint>) -> Table {
-        let summary: [Field<MapSummary>; 3] = [
-            ("", "prediction", |summary| summary.prediction.as_str().into()),
-            ("", "mean", |summary| summary.mean.into()),
-            ("", "largest", |summary| summary.largest.into()),
-        ];
-        let place: [Field<MapSummary>; 2] = match moved {
-            Some(moved) => [
-                ("", "+- std. error", |summary| summary.standard_error.into()),
-                ("", roles(moved)[0], |summary| summary.direction.into()),
-            ],
-            None => {
-                [("", "column", |summary| summary.column.into()), ("", "row", |summary| summary.row.into())]
-            }
+impl Analysis for MapReport {
+    const NAME: &'static str = "map";
+    const TITLE: &'static str = "Where on the material";
+    const ABOUT: &'static str = "Writes the loss over texels, light directions or view directions to a file";
+    const DETAILS: &'static str = "Over texels: the mean log difference of each texel over all scenes, whose mean is the loss. Over lights or \
+        views: the loss in distant scenes over the directions that Algorithm 2 samples, seen from above (x to the right, y up), with a \
+        standard error. Predictions stand side by side.";
+    const EXAMPLE: &'static str = "\
+        >>> import svbrdf
+        >>> ground_truth, blurred, _ = svbrdf.built_in()
+        >>> svbrdf.map(ground_truth, blurred, near=4, distant=2).maps[0].shape
+        (256, 256, 3)
+        >>> svbrdf.map(ground_truth, blurred, over=\"lights\", side=16).maps[0].shape
+        (16, 16)";
+    const DOING: &'static str = "rendering";
+    const SCENES: &'static [&'static str] = &["near", "distant", "sampler", "seed", "scenes"];
+    const PICTURES: bool = true;
+    type Options = MapOptions;
+    const OPTIONS: &'static [AnalysisOption] = &[
+        AnalysisOption {
+            name: "over",
+            about: "What the map is over",
+            value: OptionValue::Choice(&[
+                ["texels", "The texels of the material"],
+                ["lights", "The directions of the light, with a fixed view"],
+                ["views", "The directions of the view, with a fixed light"],
+            ]),
+        },
+        AnalysisOption {
+            name: "fixed",
+            about: "Direction of the view of a map over lights, or of the light of a map over views",
+            value: OptionValue::Direction([0.0, 0.0, 1.0]),
+        },
+        AnalysisOption {
+            name: "side",
+            about: "Columns and rows of a map over lights or views",
+            value: OptionValue::Count(64, [1, 1024]),
+        },
+    ];
+
+    fn check(options: &MapOptions, scenes: &LossOptions) -> Result<(), Error> {
+        let usual = MapOptions::default();
+        let reason = match options.over {
+            Over::Texels => "a map over texels has no fixed direction and the size of its material",
+            Over::Lights | Over::Views => "a map over directions samples no scenes",
         };
-        Table::fields(&[&summary[..], &place].concat(), &self.results, Reader::Person)
+        let unused = match options.over {
+            Over::Texels if options.fixed != usual.fixed => Some("fixed"),
+            Over::Texels => (options.side != usual.side).then_some("side"),
+            Over::Lights | Over::Views => scenes.specified().next(),
+        };
+        unused.map_or(Ok(()), |option| Err(CoreError::UnusedOption { option, reason }.into()))
     }
 
-    fn directions_table(&self, map: &Hemisphere) -> Table {
-        let fields: [Field<DirectionRow<'_>>; 4] = [
-            ("prediction", "", |(prediction, ..)| (*prediction).into()),
-            ("x y z", "", |(_, direction, _)| (*direction).into()),
-            ("loss", "", |(.., [loss, _])| (*loss).into()),
-            ("standard_error", "", |(.., [_, error])| (*error).into()),
-        ];
-        let all = self.results.iter().zip(&map.losses).zip(&map.standard_errors);
-        let rows = all.flat_map(|((summary, losses), errors)| {
-            let cells = map.directions.iter().zip(losses).zip(errors);
-            cells.filter_map(|((direction, &loss), &error)| {
-                Some((summary.prediction.as_str(), (*direction)?, [loss, error]))
-            })
-        });
-        Table::fields(&fields, rows, Reader::Program)
-    }
-
-    fn texels_table(&self) -> Table {
-        let fields: [Field<TexelRow<'_>>; 6] = [
-            ("prediction", "", |(prediction, ..)| (*prediction).into()),
-            ("column", "", |(_, [column, _], _)| (*column).into()),
-            ("row", "", |(_, [_, row], _)| (*row).into()),
-            ("red", "", |(.., [red, _, _])| Cell::Single(*red)),
-            ("green", "", |(.., [_, green, _])| Cell::Single(*green)),
-            ("blue", "", |(.., [_, _, blue])| Cell::Single(*blue)),
-        ];
-        let rows = self.results.iter().zip(&self.images).flat_map(|(summary, image)| {
-            let all = image.pixels.iter().enumerate();
-            all.map(|(at, pixel)| (summary.prediction.as_str(), [at % image.width, at / image.width], *pixel))
-        });
-        Table::fields(&fields, rows, Reader::Program)
+    fn run(input: &AnalysisInput<'_>, options: &MapOptions, progress: &Progress) -> Result<Self, Error> {
+        let AnalysisInput { ground_truth, predictions, convention, question, .. } = input;
+        let comparison = Comparison::new(*ground_truth, predictions, *convention)?.without_pilot();
+        let over = |moved| Self::over_directions(&comparison, moved, options.fixed, options.side, progress);
+        Ok(match options.over {
+            Over::Texels => {
+                let scenes = question.request.scenes(convention)?.unwrap_or_default();
+                Self::over_texels(&comparison, &scenes, progress)
+            }
+            Over::Lights => over(Endpoint::Light),
+            Over::Views => over(Endpoint::View),
+        }?)
     }
 }

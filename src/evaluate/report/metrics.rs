@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::Report;
-use super::analysis::{Analysis, AnalysisInput, AnalysisOption, SceneOptions};
+use super::analysis::{Analysis, AnalysisInput, AnalysisOption, OptionValue};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Reader, Table};
 use crate::error::Error;
 use crate::metrics::{Metric, MetricSelection, RenderedScenes, of_maps, of_renderings};
-use svbrdf_core::loss::Sampling;
+use svbrdf_core::loss::{Question, Sampling};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
 
@@ -104,16 +104,11 @@ fn by_name<S: Serializer>(metrics: &[Metric], serializer: S) -> Result<S::Ok, S:
 }
 
 /// The options of the metrics.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default)]
 pub struct MetricsOptions {
-    /// Exposure of renderings in stops, before they are clipped
-    #[cfg_attr(feature = "schema", schemars(extend("format" = "stops")))]
-    pub exposure: f32,
-    /// The metrics to compute, by words of their names, such as psnr; empty: all
-    #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
-    pub metrics: MetricSelection,
+    exposure: f32,
+    metrics: MetricSelection,
 }
 
 impl Analysis for MetricsReport {
@@ -123,12 +118,29 @@ impl Analysis for MetricsReport {
     const DETAILS: &'static str = "Root mean square and mean absolute differences, PSNR and SSIM of the four maps and of renderings, \
         the same of base colour and metallic, angles between normals, and FLIP of renderings. docs/metrics.md defines each.";
     const DOING: &'static str = "rendering";
-    const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
+    const EXAMPLE: &'static str = "\
+        >>> import svbrdf
+        >>> ground_truth, blurred, _ = svbrdf.built_in()
+        >>> report = svbrdf.metrics(ground_truth, blurred, near=2, distant=1)
+        >>> report.results[0].metrics[\"rmse_roughness\"]
+        0.0";
+    const SCENES: &'static [&'static str] = &["near", "distant", "sampler", "seed", "scenes"];
     type Options = MetricsOptions;
-    const OPTIONS: &'static [AnalysisOption] = &[];
+    const OPTIONS: &'static [AnalysisOption] = &[
+        AnalysisOption {
+            name: "metrics",
+            about: "Metrics to compute, by words of their names: psnr, roughness, flip, ... [default: all]",
+            value: OptionValue::Words(MetricSelection::words),
+        },
+        AnalysisOption {
+            name: "exposure",
+            about: "Exposure of renderings in stops, before they are clipped",
+            value: OptionValue::Stops(0.0),
+        },
+    ];
 
     fn run(input: &AnalysisInput<'_>, options: &MetricsOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, convention, request, .. } = input;
+        let AnalysisInput { ground_truth, convention, question: Question { request, .. }, .. } = input;
         let (scenes, sampling) = (request.scenes(convention)?.unwrap_or_default(), request.sampling());
         let rendered = RenderedScenes {
             scenes: &scenes,

@@ -30,6 +30,7 @@ mod latex;
 mod loss;
 mod loss_table;
 mod map;
+mod map_table;
 mod metrics;
 mod missed;
 mod names;
@@ -40,7 +41,7 @@ mod scenes;
 mod table;
 mod worst;
 
-pub use analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, SceneOptions, Schematic};
+pub use analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, Schematic};
 pub use blame::{BlameReport, parts};
 pub use conform::ConformReport;
 pub use diagnose::DiagnoseReport;
@@ -61,6 +62,7 @@ pub use worst::WorstReport;
 
 use serde::Serialize;
 
+use svbrdf_core::image::Image;
 use svbrdf_files::Error as FilesError;
 
 use crate::error::Error;
@@ -82,6 +84,22 @@ impl<T: Serialize> Json for T {
     }
 }
 
+/// Numbers of a report, height x width x channels.
+#[derive(Clone, Debug)]
+pub struct ReportArray {
+    /// Width and height.
+    pub size: [usize; 2],
+    pub channels: usize,
+    pub values: ArrayValues,
+}
+
+/// The numbers of an array.
+#[derive(Clone, Debug)]
+pub enum ArrayValues {
+    F32(Vec<f32>),
+    F64(Vec<f64>),
+}
+
 /// A result with the settings that it depends on; its serialization is its JSON.
 pub trait Report: Json {
     /// The settings: lines above the table, each with its line break.
@@ -93,6 +111,16 @@ pub trait Report: Json {
     /// The table for people with the settings above it; ends with a line break.
     fn text(&self) -> String {
         format!("{}\n{}", self.heading(), self.table(Reader::Person).text())
+    }
+
+    /// Its pictures, linear RGB, and what they show.
+    fn pictures(&self) -> Option<(&[Image<f32>], &str)> {
+        None
+    }
+
+    /// Its pictures as arrays by name.
+    fn into_arrays(self: Box<Self>) -> Vec<(&'static str, Vec<ReportArray>)> {
+        Vec::new()
     }
 
     /// An [`Error::Inaccurate`] for each result that is known less well than requested.

@@ -3,14 +3,17 @@
 use serde::Serialize;
 
 use super::Report;
+use super::analysis::{Analysis, AnalysisInput, NoOptions};
 use super::heading::{Compared, floor_line, scenes_line};
 use super::latex::{bold, escaped, latex};
 use super::missed::missed_by_any;
 use super::repetition::Repetition;
 use super::table::{Cell, Field, Reader, Table};
+use crate::diagnose::floor;
 use crate::error::Error;
-use crate::rank::{Ranked, places};
-use svbrdf_core::loss::{Estimate, Outcome, Request};
+use crate::rank::{self, Ranked, places};
+use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
+use svbrdf_core::progress::Progress;
 
 /// The place of a prediction from 0, the prediction, and the requested accuracy.
 type Row<'a> = (usize, &'a RankedPrediction, Option<f64>);
@@ -94,7 +97,7 @@ pub struct MaterialReading {
 
 impl RankReport {
     /// The ranking of the predictions of the `outcome` of `request`.
-    pub fn new(compared: Compared, request: &Request, outcome: &Outcome) -> Self {
+    fn new(compared: Compared, request: &Request, outcome: &Outcome) -> Self {
         let target_error = match *request {
             Request::Accuracy { target, .. } => Some(target),
             _ => None,
@@ -130,8 +133,7 @@ impl RankReport {
     }
 
     /// The same report with the loss that the ground truth cannot resolve.
-    #[must_use]
-    pub fn with_floor(mut self, floor: &Estimate) -> Self {
+    fn with_floor(mut self, floor: &Estimate) -> Self {
         let is_above = |value: f64| value > floor.mean;
         for place in &mut self.ranking {
             place.resolvable = Some(is_above(place.loss.mean));
@@ -198,5 +200,35 @@ impl Report for RankReport {
     fn missed(&self) -> Vec<Error> {
         let losses = self.ranking.iter().map(|place| (place.prediction.as_str(), place.loss));
         self.target_error.and_then(|target| missed_by_any(target, losses, self.scenes)).into_iter().collect()
+    }
+}
+
+impl Analysis for RankReport {
+    const NAME: &'static str = "rank";
+    const TITLE: &'static str = "Which prediction is the best";
+    const ABOUT: &'static str = "Ranks predictions of one ground truth by their rendering loss";
+    const DETAILS: &'static str = "All predictions are rendered in the same scenes, at most 786,432 / (predictions + 1). Paired \
+        differences tell which are worse than the best; predictions of one group cannot be told from its best.";
+    const EXAMPLE: &'static str = "\
+        >>> import svbrdf
+        >>> ground_truth, *predictions = svbrdf.built_in()
+        >>> [(place.prediction, place.group) for place in svbrdf.rank(ground_truth, predictions).ranking]
+        [('wrong roughness', 1), ('blurred normals', 2)]";
+    const DOING: &'static str = "rendering";
+    const SCENES: &'static [&'static str] = &["target_error", "near", "distant", "sampler", "seed", "scenes"];
+    type Options = NoOptions;
+
+    fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
+        let AnalysisInput { ground_truth, predictions, storages, convention, question, .. } = input;
+        let comparison = Comparison::new(*ground_truth, predictions, *convention)?;
+        let comparison = comparison.at_most(rank::most_scenes(predictions.len()));
+        let outcome = comparison.run(&question.request, progress)?;
+        let report = Self::new(input.compared(), &question.request, &outcome);
+        match storages.first().filter(|storage| storage.has_steps()) {
+            Some(storage) => {
+                Ok(report.with_floor(&floor(ground_truth, storage, convention, input.seed(), progress)?))
+            }
+            None => Ok(report),
+        }
     }
 }

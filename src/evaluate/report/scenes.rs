@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Report;
-use super::analysis::{Analysis, AnalysisInput, AnalysisOption, SceneOptions};
+use super::analysis::{Analysis, AnalysisInput, AnalysisOption, OptionValue};
 use super::heading::{Compared, scenes_line};
 use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
@@ -105,11 +105,9 @@ impl Report for ScenesReport {
 }
 
 /// The options of the list.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(default)]
 pub struct ScenesOptions {
-    /// Number of scenes that are listed
     top: usize,
 }
 
@@ -126,18 +124,17 @@ impl Analysis for ScenesReport {
     const DETAILS: &'static str = "Scenes are sorted by the mean of the losses of all predictions in them, over all texels. The JSON \
         is a scene file, too.";
     const DOING: &'static str = "rendering";
-    const SCENES: &'static [SceneOptions] = &[SceneOptions::Sampled, SceneOptions::Seed, SceneOptions::List];
+    const SCENES: &'static [&'static str] = &["near", "distant", "sampler", "seed", "scenes"];
     type Options = ScenesOptions;
     const OPTIONS: &'static [AnalysisOption] = &[AnalysisOption {
         name: "top",
         about: "Number of scenes that are listed",
-        default: 10.0,
-        is_share: false,
+        value: OptionValue::Count(10, [0, u64::MAX]),
     }];
 
     fn run(input: &AnalysisInput<'_>, options: &ScenesOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, predictions, convention, request } = input;
+        let AnalysisInput { ground_truth, predictions, convention, question, .. } = input;
         let comparison = Comparison::new(*ground_truth, predictions, *convention)?.without_pilot();
-        Ok(Self::new(input.compared(), &comparison.run(request, progress)?, options.top))
+        Ok(Self::new(input.compared(), &comparison.run(&question.request, progress)?, options.top))
     }
 }

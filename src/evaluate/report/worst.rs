@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Report;
-use super::analysis::{Analysis, AnalysisInput, AnalysisOption, SceneOptions};
+use super::analysis::{Analysis, AnalysisInput, AnalysisOption, OptionValue};
 use super::heading::Compared;
 use super::missed::missed;
 use super::scenes::SCENE;
@@ -109,12 +109,9 @@ impl Report for WorstReport {
 }
 
 /// The options of the search.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(default)]
 pub struct WorstOptions {
-    /// Leaves out this share of the nearest distances, and as much of the farthest
-    #[cfg_attr(feature = "schema", schemars(extend("format" = "share")))]
     distance_tail: f64,
 }
 
@@ -133,13 +130,12 @@ impl Analysis for WorstReport {
         within the central 99% of their distributions, which the distance tail changes. The mean is the loss over all scenes, to +-1% \
         where 49,152 scenes are enough. The JSON is a scene file, too.";
     const DOING: &'static str = "searching";
-    const SCENES: &'static [SceneOptions] = &[SceneOptions::Seed];
+    const SCENES: &'static [&'static str] = &["seed"];
     type Options = WorstOptions;
     const OPTIONS: &'static [AnalysisOption] = &[AnalysisOption {
         name: "distance_tail",
         about: "Leaves out this share of the nearest distances, and as much of the farthest",
-        default: why::TAIL,
-        is_share: true,
+        value: OptionValue::Share(why::TAIL),
     }];
 
     fn run(input: &AnalysisInput<'_>, options: &WorstOptions, progress: &Progress) -> Result<Self, Error> {

@@ -21,8 +21,8 @@ use crate::widgets::names::shortened;
 use crate::widgets::paint::PanelTextures;
 use crate::widgets::{progress, report_table, theme};
 
-/// The analyses that have a section of their own.
-const OWN_SECTIONS: [&str; 3] = ["blame", "scenes", "worst"];
+/// The analyses that have a section or a tab of their own.
+const OWN_SECTIONS: [&str; 7] = ["loss", "rank", "blame", "scenes", "worst", "diagnose", "map"];
 /// Most predictions with high rows.
 const LONG: usize = 4;
 /// Characters of a name in a row.

@@ -9,7 +9,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_evaluate::analyses::AnyAnalysis;
 use svbrdf_evaluate::diagnose::{Diagnosis, diagnose, floor};
-use svbrdf_evaluate::report::{AnalysisInput, Reader, SceneOptions, Table};
+use svbrdf_evaluate::report::{AnalysisInput, Reader, Table};
 use svbrdf_evaluate::why::{Attribution, RankedScene, TAIL, Worst, attribute, worst, worst_first};
 
 use crate::model::material::loaded::LoadedMaterial;
@@ -213,12 +213,19 @@ impl Question for Analyse {
         let analysis = AnyAnalysis::named(self.analysis)
             .ok_or_else(|| Error::internal(format!("there is no analysis {}", self.analysis)))?;
         let [truth, prediction] = self.pair.read()?;
-        let request = match analysis.scenes.contains(&SceneOptions::Sampled) {
-            true => self.scenes.clone(),
-            false => analysis.request(&LossOptions { seed: self.scenes.seed(), ..LossOptions::default() })?,
+        let seed = LossOptions { seed: self.scenes.seed(), ..LossOptions::default() };
+        let question = match analysis.lists_scenes() {
+            true => self.scenes.clone().into(),
+            false => analysis.question(&seed, None)?,
         };
-        let (predictions, convention) = (vec![prediction.material()], self.pair.convention);
-        let input = AnalysisInput { ground_truth: truth.material(), predictions, convention, request };
+        let input = AnalysisInput {
+            ground_truth: truth.material(),
+            predictions: vec![prediction.material()],
+            storages: vec![&truth.storage, &prediction.storage],
+            paths: Vec::new(),
+            convention: self.pair.convention,
+            question,
+        };
         let report = analysis.run(&input, json!({}), work.progress())?;
         Ok(AnalysisTable { heading: report.heading(), table: report.table(Reader::Person) })
     }
