@@ -2,11 +2,11 @@
 
 use std::any::{Any, TypeId};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use svbrdf_core::progress::Progress;
 
-use super::{Answer, Answered, Question, Work};
+use super::question::{Answer, Answered, Question, Work};
 use crate::error::Error;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
@@ -100,9 +100,8 @@ impl<Q: Question> AnyEntry for Entry<Q> {
         if matches!(self.state, State::Waiting) {
             let question = self.question.clone();
             let job = Job::stream(waker, Progress::default(), move |worker| {
-                let work = Work { worker, start: Instant::now() };
-                let answer = question.answer(&work)?;
-                Ok(Arc::new(Answered { answer, elapsed: work.start.elapsed() }))
+                let work = Work::new(worker);
+                Ok(work.answered(question.answer(&work)?))
             });
             self.state = State::Running(job, None);
         }
