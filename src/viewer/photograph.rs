@@ -5,7 +5,7 @@ use eframe::egui::{self, RichText};
 use svbrdf_files::read::Transfer;
 
 use crate::jobs::displayed::Displayed;
-use crate::jobs::photograph::DisplayedPhotograph;
+use crate::jobs::panes::photograph::DisplayedPhotograph;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, opening};
 use crate::widgets::{bare, named};

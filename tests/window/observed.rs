@@ -9,7 +9,7 @@ use svbrdf_evaluate::photograph::PhotographComparison;
 use svbrdf_evaluate::why::{Attribution, RankedScene, Worst};
 use svbrdf_viewer::frame::App;
 use svbrdf_viewer::jobs::Jobs;
-use svbrdf_viewer::jobs::content::ComparedPair;
+use svbrdf_viewer::jobs::answers::content::ComparedPair;
 use svbrdf_viewer::jobs::why::MOST_THUMBNAILS;
 use svbrdf_viewer::jobs::why::questions::{
     Attribute, DrawScenes, FindWorst, RankScenes, SceneLosses, known_diagnosis,

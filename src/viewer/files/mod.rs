@@ -13,7 +13,7 @@ use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions, Sidecar};
 use svbrdf_files::source::Place;
 
 use crate::files::read_options::{is_offered, read_options, remedy_button};
-use crate::jobs::content::ComparedPair;
+use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::questions::known_diagnosis;
 use crate::model::effect::Effect;

@@ -35,7 +35,7 @@ use crate::error::Error;
 use crate::frame::layout::WindowUi;
 use crate::jobs::Jobs;
 use crate::jobs::answers::Answer;
-use crate::jobs::content::ComparedPair;
+use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::questions::FindWorst;
 use crate::jobs::work::waker::Waker;

@@ -4,7 +4,7 @@ use eframe::egui::{self, RichText};
 
 use crate::frame::keys::pin_here;
 use crate::jobs::displayed::Displayed;
-use crate::jobs::photograph::Photographs;
+use crate::jobs::panes::photograph::Photographs;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, display};
 use crate::pane::viewport::Viewport;

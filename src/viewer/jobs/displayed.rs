@@ -9,12 +9,12 @@ use svbrdf_core::picture::statistics::Distributions;
 
 use super::Jobs;
 use super::answers::Answered;
-use super::content::{Content, Given};
+use super::answers::content::{Content, Given};
 use super::panes::RangeKey;
 use super::panes::computed_maps::ComputedMaps;
 use super::panes::difference::{ComputedDifference, Differences};
 use super::panes::error_map::{ErrorMapSummary, ErrorMaps};
-use super::photograph::{ComparePhotograph, DisplayedPhotograph, Photographs};
+use super::panes::photograph::{ComparePhotograph, DisplayedPhotograph, Photographs};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::ViewState;

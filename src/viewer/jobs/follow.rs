@@ -6,8 +6,8 @@ use super::dataset::DisplayedCases;
 use super::displayed::Displayed;
 use super::panes::RangeKey;
 use super::panes::difference::Differences;
+use super::panes::photograph::{ComparePhotograph, ReadPhotograph};
 use super::panes::replacement::Replace;
-use super::photograph::{ComparePhotograph, ReadPhotograph};
 use crate::error::Error;
 use crate::model::Model;
 

@@ -8,8 +8,8 @@ use svbrdf_core::material::Material;
 use svbrdf_evaluate::report::LossReport;
 
 use crate::error::Error;
+use crate::jobs::answers::content::{Content, Given, read_all};
 use crate::jobs::answers::{Answer, Answered, Answers, Question, Work};
-use crate::jobs::content::{Content, Given, read_all};
 use crate::model::material::list::MaterialList;
 use crate::model::settings::LossQuery;
 

@@ -5,14 +5,12 @@
 
 pub mod answers;
 pub mod browse;
-pub mod content;
 pub mod dataset;
 pub mod displayed;
 pub mod follow;
 pub mod loss;
 pub mod order;
 pub mod panes;
-pub mod photograph;
 pub mod reading;
 pub mod report;
 pub mod saving;

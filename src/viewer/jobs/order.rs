@@ -8,8 +8,8 @@ use svbrdf_evaluate::dataset::{self, DatasetSettings};
 use svbrdf_evaluate::report::{Compared, RobustReport};
 use svbrdf_evaluate::robust::RobustInput;
 
+use super::answers::content::Content;
 use super::answers::{Question, Work};
-use super::content::Content;
 use super::work::priority;
 use crate::error::Error;
 use crate::model::dataset::OpenDataset;

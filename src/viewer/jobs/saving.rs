@@ -17,7 +17,7 @@ use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::scene_file;
 
-use super::content::ComparedPair;
+use super::answers::content::ComparedPair;
 use super::displayed::Displayed;
 use super::work::job::Job;
 use super::work::waker::Waker;

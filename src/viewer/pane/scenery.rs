@@ -7,7 +7,7 @@ use svbrdf_gpu::DisplayMode;
 
 use crate::jobs::displayed::Displayed;
 use crate::jobs::panes::computed_maps::ComputedMaps;
-use crate::jobs::photograph::DisplayedPhotograph;
+use crate::jobs::panes::photograph::DisplayedPhotograph;
 use crate::model::inspection::Inspection;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::{Layout, ViewState};

@@ -9,8 +9,8 @@ use svbrdf_core::loss::Estimate;
 use svbrdf_evaluate::diagnose::{Diagnosis, Finding, SCENES, sentence};
 
 use crate::files::read_options::{is_offered, remedy_button};
+use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::answers::{Answered, Answers};
-use crate::jobs::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::questions::diagnosis;
 use crate::model::Model;

@@ -8,8 +8,8 @@ use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_evaluate::why::{Attribution, MapShare};
 
+use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::answers::{Answer, Answered};
-use crate::jobs::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::questions::{ATTRIBUTION_TARGET, Attribute};
 use crate::model::Model;

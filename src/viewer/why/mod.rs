@@ -10,7 +10,7 @@ use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 use svbrdf_evaluate::analyses::ANALYSES;
 
 use crate::jobs::answers::Answer;
-use crate::jobs::content::ComparedPair;
+use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::questions::{Analyse, AnalysisTable, SceneLosses};
 use crate::model::material::loaded::LoadedMaterial;

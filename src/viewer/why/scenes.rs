@@ -5,7 +5,7 @@ use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke,
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_evaluate::why::{RankedScene, Worst};
 
-use crate::jobs::content::ComparedPair;
+use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::questions::{DrawScenes, FindWorst, RankScenes};
 use crate::jobs::why::{MOST_THUMBNAILS, Thumbnails};

@@ -4,7 +4,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 
 use crate::jobs::panes::computed_maps::ComputedMaps;
-use crate::jobs::photograph::Photographs;
+use crate::jobs::panes::photograph::Photographs;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::ViewState;
 

@@ -3,6 +3,7 @@
 //! A question that has no answer yet waits. One is answered at a time, on all processors: the first in the order of asking, which is that
 //! on the screen. What a frame does not ask for is cancelled; its answer stays for a while.
 
+pub mod content;
 mod entry;
 pub mod question;
 #[cfg(test)]

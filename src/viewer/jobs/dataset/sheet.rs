@@ -15,8 +15,8 @@ use svbrdf_core::progress::Progress;
 
 use super::cells::{Cell, CellJobs};
 use crate::error::Error;
+use crate::jobs::answers::content::Given;
 use crate::jobs::answers::{Question, Work};
-use crate::jobs::content::Given;
 use crate::jobs::work::picture::Picture;
 use crate::model::view::ViewState;
 

@@ -12,8 +12,8 @@ use svbrdf_gpu::Gpu;
 
 use super::computed_maps::ComputedMaps;
 use crate::error::Error;
+use crate::jobs::answers::content::{Content, Given, read_all};
 use crate::jobs::answers::{Question, Work};
-use crate::jobs::content::{Content, Given, read_all};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
 use crate::model::view::ViewState;

@@ -8,8 +8,8 @@ use svbrdf_gpu::Gpu;
 
 use super::computed_maps::ComputedMaps;
 use crate::error::Error;
+use crate::jobs::answers::content::{Content, Given, read_all};
 use crate::jobs::answers::{Question, Work};
-use crate::jobs::content::{Content, Given, read_all};
 
 /// The error map of each prediction. The ground truth is the first of the materials.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,20 +4,21 @@
 pub mod computed_maps;
 pub mod difference;
 pub mod error_map;
+pub mod photograph;
 pub mod replacement;
 
 use std::sync::Arc;
 
 use svbrdf_core::picture::quantity::Quantity;
 
-use super::answers::Answered;
-use super::content::Content;
-use super::photograph::{ComparePhotograph, Photographs, Samples};
+use crate::jobs::answers::Answered;
+use crate::jobs::answers::content::Content;
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use computed_maps::ComputedMaps;
 use difference::{ComputedDifference, Differences};
 use error_map::ErrorMaps;
+use photograph::{ComparePhotograph, Photographs, Samples};
 
 /// What the panes display in this frame. A number is of the question beside it, which may be that of an earlier frame.
 #[derive(Debug, Default)]

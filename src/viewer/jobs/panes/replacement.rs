@@ -8,8 +8,8 @@ use svbrdf_evaluate::diagnose::Change;
 use svbrdf_gpu::Gpu;
 
 use crate::error::Error;
+use crate::jobs::answers::content::{Content, Given, read_all};
 use crate::jobs::answers::{Answers, Question, Work};
-use crate::jobs::content::{Content, Given, read_all};
 use crate::jobs::reading::upload::{Uploaded, Uploads};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;

@@ -17,8 +17,8 @@ use crate::model::view::ViewState;
 
 use super::thumbnails::{self, Thumbnails};
 use crate::error::Error;
+use crate::jobs::answers::content::{ComparedPair, Content, read_all};
 use crate::jobs::answers::{Answer, Answered, Answers, Question, Work};
-use crate::jobs::content::{ComparedPair, Content, read_all};
 
 /// Half of the 95% interval of a loss that is attributed, as a share of the loss.
 pub const ATTRIBUTION_TARGET: f64 = 0.01;

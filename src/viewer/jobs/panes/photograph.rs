@@ -17,8 +17,8 @@ use svbrdf_files::read::{Photograph, Transfer, read_photograph};
 use svbrdf_gpu::{Gpu, Shaded};
 
 use crate::error::Error;
+use crate::jobs::answers::content::{Content, Given, read_all};
 use crate::jobs::answers::{Answered, Question, Work};
-use crate::jobs::content::{Content, Given, read_all};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::photograph::PhotographState;
 use crate::model::material::read::ReadMaterial;
