@@ -21,8 +21,8 @@ pub(crate) mod ratio {
     const DEFLATE: u64 = 1032;
     /// A byte of a palette is 8 texels of 4 bytes.
     pub(crate) const PNG: u64 = 32 * DEFLATE;
-    /// LZW of one value: 3838 bytes a code of 12 bits; chroma may be halved.
-    pub(crate) const TIFF: u64 = 8192;
+    /// Fax: a bit for a row of 65536 texels; LZW of one value has less.
+    pub(crate) const TIFF: u64 = 1 << 19;
     /// One bit a block, of which 4 x 4 are of luma. Arithmetic coding has no such limit.
     pub(crate) const JPEG: u64 = 1366;
     /// Runs of 62 texels of 4 bytes; two bytes for 128 texels.
