@@ -97,12 +97,16 @@ impl Answers {
         entries.iter_mut().for_each(|entry| entry.poll());
         let errors = entries.iter_mut().filter_map(|entry| entry.take_error()).collect();
         entries.sort_by_key(|entry| (u64::MAX - entry.turn().0, entry.turn()));
+        let is_asked = |entry: &dyn AnyEntry| entry.turn().0 == *frame;
+        let in_sight: Vec<TypeId> =
+            entries.iter().filter(|entry| is_asked(&***entry)).map(|entry| entry.kind()).collect();
         let mut kept: Vec<(TypeId, usize)> = Vec::new();
         entries.retain(|entry| {
-            let is_asked = entry.turn().0 == *frame;
             match entry.phase() {
-                _ if is_asked => true,
+                _ if is_asked(&**entry) => true,
                 Phase::Running => entry.is_short(),
+                // What it holds may be large.
+                Phase::Ready(_) if entry.is_short() && !in_sight.contains(&entry.kind()) => false,
                 Phase::Ready(most) => {
                     let kind = entry.kind();
                     let at = kept.iter().position(|(of, _)| *of == kind).unwrap_or_else(|| {

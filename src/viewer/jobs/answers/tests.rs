@@ -84,3 +84,33 @@ fn answers_out_of_sight_stay_as_many_as_their_kind_keeps_the_latest_first() {
     let (latest, answered) = answers.latest::<Double>(|one| one.0 < 8).unwrap();
     assert_eq!((latest, **answered), (Double(6), 12));
 }
+
+/// A short one.
+#[derive(Clone, Debug, PartialEq)]
+struct Moving(u32);
+
+impl Question for Moving {
+    type Answer = u32;
+    const IS_SHORT: bool = true;
+    const KEPT: usize = 1;
+
+    fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<u32, Error> {
+        Ok(self.0)
+    }
+}
+
+#[test]
+fn an_answer_that_moves_stays_while_another_one_of_its_kind_is_asked_for_and_no_longer() {
+    let mut answers = Answers::default();
+    while answers.get(&Moving(1)).ready().is_none() {
+        answers.end_frame();
+        std::thread::yield_now();
+    }
+    answers.end_frame();
+    answers.get(&Moving(2));
+    answers.end_frame();
+    assert!(answers.latest(|_: &Moving| true).is_some(), "it is drawn until the next one is there");
+    answers.get(&Double(100));
+    answers.end_frame();
+    assert!(answers.known(&Moving(1)).is_none(), "out of sight");
+}
