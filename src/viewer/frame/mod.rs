@@ -116,6 +116,8 @@ impl App {
         self.parts.model.settings.ui_scale = scale_in_range(&ctx);
         self.parts.model.time = ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
+        let errors = self.parts.jobs.answers.begin_frame();
+        self.parts.model.report(errors.into_iter().map(Message::Failed));
         events::take_results(&mut self.parts, &ctx);
         let before = self.parts.model.view.clone();
         self.parts.ui.input(&ctx, &mut self.parts.model, &self.parts.jobs);
@@ -129,8 +131,7 @@ impl App {
         self.name_window(&ctx);
         let before = std::mem::replace(&mut self.parts.model, next).view;
         self.settle(&ctx, &before);
-        let errors = self.parts.jobs.answers.end_frame();
-        self.parts.model.report(errors.into_iter().map(Message::Failed));
+        self.parts.jobs.answers.end_frame();
         let is_photograph_settled =
             self.parts.model.photograph.source().is_none() || self.parts.jobs.panes.photograph.is_some();
         undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);

@@ -60,8 +60,7 @@ impl<Q: Question> Entry<Q> {
         Self { question, turn, state: State::Waiting }
     }
 
-    pub fn state(&mut self) -> Answer<Q::Answer> {
-        self.poll();
+    pub fn state(&self) -> Answer<Q::Answer> {
         match &self.state {
             State::Waiting => Answer::Running(0.0, Duration::ZERO),
             State::Running(job, None) => Answer::Running(job.fraction(), job.elapsed()),

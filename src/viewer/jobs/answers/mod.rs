@@ -46,6 +46,14 @@ impl Answers {
         Self { waker, asked: RefCell::default() }
     }
 
+    /// Begins a frame, in which no answer changes: what depends on an answer is asked for in the frame that has it, and stands where it
+    /// stands before anything behind it is started. Returns what has failed since the last frame.
+    pub fn begin_frame(&mut self) -> Vec<Error> {
+        let entries = &mut self.asked.get_mut().entries;
+        entries.iter_mut().for_each(|entry| entry.poll());
+        entries.iter_mut().filter_map(|entry| entry.take_error()).collect()
+    }
+
     /// The answer to `question`, which is asked for by this.
     pub fn get<Q: Question>(&self, question: &Q) -> Answer<Q::Answer> {
         self.ask(question, false)
@@ -91,11 +99,9 @@ impl Answers {
         Answer::Running(0.0, Duration::ZERO)
     }
 
-    /// Ends a frame: starts what it has asked for, and cancels and drops what it has not. Returns what has failed since the last one.
-    pub fn end_frame(&mut self) -> Vec<Error> {
+    /// Ends a frame: starts what it has asked for, and cancels and drops what it has not.
+    pub fn end_frame(&mut self) {
         let Asked { entries, frame, count } = self.asked.get_mut();
-        entries.iter_mut().for_each(|entry| entry.poll());
-        let errors = entries.iter_mut().filter_map(|entry| entry.take_error()).collect();
         entries.sort_by_key(|entry| (u64::MAX - entry.turn().0, entry.turn()));
         let is_asked = |entry: &dyn AnyEntry| entry.turn().0 == *frame;
         let in_sight: Vec<TypeId> =
@@ -121,7 +127,6 @@ impl Answers {
         });
         start_next(entries, &self.waker);
         (*frame, *count) = (*frame + 1, 0);
-        errors
     }
 }
 

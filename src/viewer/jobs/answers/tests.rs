@@ -23,8 +23,10 @@ impl Question for Double {
 
 /// A frame that asks for these, and what it finds.
 fn frame(answers: &mut Answers, asked: &[u32]) -> (Vec<Answer<u32>>, usize) {
+    let errors = answers.begin_frame().len();
     let found = asked.iter().map(|number| answers.get(&Double(*number))).collect();
-    (found, answers.end_frame().len())
+    answers.end_frame();
+    (found, errors)
 }
 
 /// Frames until none of these waits; the errors that were told.
@@ -73,6 +75,36 @@ fn settle_one(answers: &mut Answers, asked: &[u32], number: u32) {
     }
 }
 
+/// What depends on an answer is before what stands behind it, whenever that answer comes.
+#[test]
+fn nothing_starts_between_an_answer_and_the_question_that_it_leads_to() {
+    for pause in (0..40).chain([20_000]) {
+        let mut answers = Answers::default();
+        loop {
+            answers.begin_frame();
+            let first = answers.get(&Double(2)).ready();
+            // Long enough for the first to end within the frame, or not.
+            std::thread::sleep(Duration::from_micros(5 * pause));
+            let again = answers.get(&Double(2)).ready();
+            assert_eq!(first.is_some(), again.is_some(), "one state a frame");
+            let second = first.and_then(|first| answers.get(&Double(**first)).ready());
+            answers.get(&Moving(1));
+            answers.get(&Double(100));
+            answers.end_frame();
+            if second.is_some() {
+                break;
+            }
+            assert!(
+                !answers
+                    .asked
+                    .borrow_mut()
+                    .entry(&Double(100))
+                    .is_some_and(|one| one.phase() == Phase::Running)
+            );
+        }
+    }
+}
+
 #[test]
 fn answers_out_of_sight_stay_as_many_as_their_kind_keeps_the_latest_first() {
     let mut answers = Answers::default();
@@ -105,6 +137,7 @@ fn an_answer_that_moves_stays_while_another_one_of_its_kind_is_asked_for_and_no_
     while answers.get(&Moving(1)).ready().is_none() {
         answers.end_frame();
         std::thread::yield_now();
+        answers.begin_frame();
     }
     answers.end_frame();
     answers.get(&Moving(2));
