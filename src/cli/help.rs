@@ -5,10 +5,12 @@ use std::path::Path;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, Args as _, Command};
 
+use svbrdf_evaluate::analyses::ANALYSES;
+
 use super::args::is_there;
 use super::args::reading::{PairReadingArgs, READING};
 
-/// The commands in groups, each with what it answers; below it stand its examples, without `svbrdf COMMAND`.
+/// The commands in groups, after those of analyses, each with what it answers; below it stand its examples, without `svbrdf COMMAND`.
 const COMMANDS: &str = "\
 Look
 view: opens materials, or methods over a data set, in the window
@@ -26,17 +28,6 @@ report: a page for any browser, which readers light themselves
   gt.png a.png b.png -o report.html
   gt.png a.png --figure -o figure.html
 Compare
-loss: which prediction is better, and by how much
-  gt.png a.png b.png
-  gt.png a.png --near 6 --distant 3 --seed 1
-  gt.png 'out/*.png' --format csv
-rank: many predictions, or methods over a data set
-  gt.png 'out/*.png'
-  --dataset gt/ ours/ theirs/ -o table.tex
-  --dataset gt/ ours/ theirs/ --metrics -o page.html
-metrics: RMSE, L1, angles, PSNR, SSIM and FLIP
-  gt.png a.png b.png --format csv
-  gt.png a.png --metrics psnr,ssim11
 photo: how renderings differ from photographs
   photo.png a.png b.png --view 0,0,2.4 --light 0,0,2.4
   card_blue/capture.json a.png b.png
@@ -46,18 +37,6 @@ conform: whose renderer yours is
 study: time against error of the loss on this machine
   gt.png a.png -o study.csv --plot study.svg
 Explain
-blame: which map the loss comes from
-  gt.png a.png
-diagnose: whether exposure, alignment or reading explain the loss
-  gt.png a.png
-scenes: in which scenes the loss is largest
-  gt.png a.png
-  gt.png a.png --top 5 --format json > worst.json
-worst: under which light the loss is largest
-  gt.png a.png
-map: where on the material, or from where, the loss comes
-  gt.png a.png -o error.png
-  gt.png a.png --over lights -o lights.png
 Prepare
 info: what files hold, and what is assumed in reading them
   gt.png
@@ -87,10 +66,16 @@ fn groups() -> Vec<(&'static str, Vec<Entry>)> {
                 entries.last_mut().into_iter().for_each(|one| one.2.push(example))
             }
             (Some(entries), None, Some((name, answer))) => entries.push((name, answer, Vec::new())),
-            _ => groups.push((line, Vec::new())),
+            _ => groups.push((line, analyses(line))),
         }
     }
     groups
+}
+
+/// The analyses of a group.
+fn analyses(group: &str) -> Vec<Entry> {
+    let of_group = ANALYSES.iter().filter(|analysis| analysis.group == group);
+    of_group.map(|one| (one.name, one.answers, one.examples.to_vec())).collect()
 }
 
 fn entries() -> impl Iterator<Item = Entry> {

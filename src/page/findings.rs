@@ -6,7 +6,8 @@ use svbrdf_core::loss::{Loss, Outcome};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::report::{Reader, Report as _, RobustReport, parts, scenes_line};
+use svbrdf_evaluate::analyses::parts;
+use svbrdf_evaluate::report::{Reader, Report as _, RobustReport, scenes_line};
 use svbrdf_evaluate::why::{Attribution, Hemisphere};
 use svbrdf_files::Error;
 

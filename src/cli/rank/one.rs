@@ -2,9 +2,9 @@
 
 use svbrdf_core::loss::Question;
 use svbrdf_core::material::Material;
+use svbrdf_evaluate::analyses::{MaterialReading, RankReport};
 use svbrdf_evaluate::report::{
-    Analysis as _, AnalysisInput, MaterialReading, NoOptions, RankReport, Repetition, Report as _,
-    RobustReport,
+    Analysis as _, AnalysisInput, NoOptions, Repetition, Report as _, RobustReport,
 };
 use svbrdf_evaluate::robust::RobustInput;
 

@@ -53,8 +53,14 @@ impl<T: Real> AnalysisInput<'_, T> {
 pub trait Analysis: Report + Schematic + Sized + 'static {
     /// Of its command, its function and its schema.
     const NAME: &'static str;
-    /// Its question in the window.
-    const TITLE: &'static str;
+    /// What it answers, in the list of commands.
+    const ANSWERS: &'static str;
+    /// The group of its command.
+    const GROUP: &'static str = "Explain";
+    /// Arguments of its command, as examples.
+    const EXAMPLES: &'static [&'static str] = &["gt.png a.png"];
+    /// The title of its table in the window; without one it has none, or a section of its own.
+    const TITLE: &'static str = "";
     /// What it does: one line.
     const ABOUT: &'static str;
     /// What its numbers mean.

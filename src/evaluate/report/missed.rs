@@ -12,7 +12,7 @@ pub fn missed(target: f64, prediction: &str, loss: &Estimate, scenes: usize) -> 
 }
 
 /// As [`missed`], of that of the losses, each beside its prediction, which is known least.
-pub(super) fn missed_by_any<'a>(
+pub fn missed_by_any<'a>(
     target: f64,
     losses: impl Iterator<Item = (&'a str, Estimate)>,
     scenes: usize,

@@ -8,7 +8,8 @@
 //! use svbrdf_core::model::brdf::Texel;
 //! use svbrdf_core::model::convention::Convention;
 //! use svbrdf_core::progress::Progress;
-//! use svbrdf_evaluate::report::{LossReport, Report};
+//! use svbrdf_evaluate::analyses::LossReport;
+//! use svbrdf_evaluate::report::Report;
 //!
 //! let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
 //! let truth = Material::uniform("truth", 64, 64, &texel(0.6))?;
@@ -21,44 +22,26 @@
 //! ```
 
 mod analysis;
-mod blame;
 mod conform;
-mod diagnose;
 mod heading;
 mod info;
 mod latex;
-mod loss;
-mod loss_table;
-mod map;
-mod map_table;
-mod metrics;
 mod missed;
 mod names;
-mod rank;
 mod repetition;
 mod robust;
-mod scenes;
 mod table;
-mod worst;
 
 pub use analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, Schematic};
-pub use blame::{BlameReport, parts};
 pub use conform::ConformReport;
-pub use diagnose::DiagnoseReport;
-pub use heading::{Compared, position, scenes_line};
+pub use heading::{Compared, floor_line, position, scenes_line};
 pub use info::InfoReport;
 pub use latex::{bold, escaped, latex};
-pub use loss::{LossReport, SampledScenes};
-pub use map::MapReport;
-pub use metrics::MetricsReport;
-pub use missed::missed;
+pub use missed::{missed, missed_by_any};
 pub use names::distinct_names;
-pub use rank::{MaterialReading, RankReport};
 pub use repetition::Repetition;
 pub use robust::RobustReport;
-pub use scenes::ScenesReport;
 pub use table::{Cell, Field, Reader, Table};
-pub use worst::WorstReport;
 
 use serde::Serialize;
 

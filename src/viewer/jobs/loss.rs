@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request};
 use svbrdf_core::material::Material;
-use svbrdf_evaluate::report::LossReport;
+use svbrdf_evaluate::analyses::LossReport;
 
 use crate::error::Error;
 use crate::jobs::answers::content::{Content, Given, read_all};

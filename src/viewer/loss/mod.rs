@@ -11,7 +11,8 @@ use eframe::egui::{self, RichText};
 use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_evaluate::report::{Report as _, SampledScenes};
+use svbrdf_evaluate::analyses::SampledScenes;
+use svbrdf_evaluate::report::Report as _;
 
 use crate::jobs::displayed::Displayed;
 use crate::jobs::loss::{ComputedLosses, LossJob};

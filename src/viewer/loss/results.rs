@@ -4,7 +4,7 @@ use eframe::egui::{self, Color32, RichText, Sense, Stroke, pos2, vec2};
 
 use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_evaluate::report::SampledScenes;
+use svbrdf_evaluate::analyses::SampledScenes;
 
 use crate::jobs::loss::ComputedLosses;
 use crate::model::{Model, display};

@@ -21,8 +21,6 @@ use crate::widgets::names::shortened;
 use crate::widgets::paint::PanelTextures;
 use crate::widgets::{progress, report_table, theme};
 
-/// The analyses that have a section or a tab of their own.
-const OWN_SECTIONS: [&str; 7] = ["loss", "rank", "blame", "scenes", "worst", "diagnose", "map"];
 /// Most predictions with high rows.
 const LONG: usize = 4;
 /// Characters of a name in a row.
@@ -48,7 +46,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
         rows(ui, shown, losses.as_ref().map(|(losses, _)| losses.as_slice()), next);
     });
     displayed_quantity(ui, &model.view, &mut next.view);
-    let tables = ANALYSES.iter().filter(|analysis| !OWN_SECTIONS.contains(&analysis.name));
+    let tables = ANALYSES.iter().filter(|analysis| !analysis.title.is_empty());
     let tables = tables.map(|one| (WhySection::Table(one.name), one.title, one.details));
     let own = [
         (

@@ -2,12 +2,10 @@
 
 use serde::Serialize;
 
-use super::Report;
-use super::analysis::{Analysis, AnalysisInput, NoOptions};
-use super::heading::{Compared, scenes_line};
-use super::missed::missed;
-use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
+use crate::report::{
+    Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Report, Table, missed, scenes_line,
+};
 use crate::why::{self, MapShare};
 use svbrdf_core::loss::{Estimate, Question, Request};
 use svbrdf_core::progress::Progress;
@@ -152,7 +150,7 @@ impl Report for BlameReport {
 
 impl Analysis for BlameReport {
     const NAME: &'static str = "blame";
-    const TITLE: &'static str = "Which map";
+    const ANSWERS: &'static str = "which map the loss comes from";
     const ABOUT: &'static str = "Prints how much of the rendering loss comes from each map";
     const DETAILS: &'static str = "Renders all 16 mixtures of the maps of the ground truth and of the prediction in the same scenes \
         on the same texels. The Shapley value of a map is the mean of what it adds to the loss over all orders in which the maps can \

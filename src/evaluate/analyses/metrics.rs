@@ -4,12 +4,11 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize, Serializer};
 
-use super::Report;
-use super::analysis::{Analysis, AnalysisInput, AnalysisOption, OptionValue};
-use super::heading::{Compared, scenes_line};
-use super::table::{Cell, Reader, Table};
 use crate::error::Error;
 use crate::metrics::{Metric, MetricSelection, RenderedScenes, of_maps, of_renderings};
+use crate::report::{
+    Analysis, AnalysisInput, AnalysisOption, Cell, Compared, OptionValue, Reader, Report, Table, scenes_line,
+};
 use svbrdf_core::loss::{Question, Sampling};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
@@ -113,6 +112,10 @@ pub struct MetricsOptions {
 
 impl Analysis for MetricsReport {
     const NAME: &'static str = "metrics";
+    const ANSWERS: &'static str = "RMSE, L1, angles, PSNR, SSIM and FLIP";
+    const GROUP: &'static str = "Compare";
+    const EXAMPLES: &'static [&'static str] =
+        &["gt.png a.png b.png --format csv", "gt.png a.png --metrics psnr,ssim11"];
     const TITLE: &'static str = "Other metrics";
     const ABOUT: &'static str = "Prints metrics of maps and renderings, each with its convention in its name";
     const DETAILS: &'static str = "Root mean square and mean absolute differences, PSNR and SSIM of the four maps and of renderings, \

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::analysis::{Analysis, AnalysisInput, AnalysisOption, OptionValue};
-use super::heading::{Compared, position};
 use crate::error::Error;
+use crate::report::{Analysis, AnalysisInput, AnalysisOption, Compared, OptionValue, position};
 use crate::why::{self, Hemisphere};
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::image::{Image, mean_of_channels};
@@ -158,7 +157,9 @@ impl Default for MapOptions {
 
 impl Analysis for MapReport {
     const NAME: &'static str = "map";
-    const TITLE: &'static str = "Where on the material";
+    const ANSWERS: &'static str = "where on the material, or from where, the loss comes";
+    const EXAMPLES: &'static [&'static str] =
+        &["gt.png a.png -o error.png", "gt.png a.png --over lights -o lights.png"];
     const ABOUT: &'static str = "Writes the loss over texels, light directions or view directions to a file";
     const DETAILS: &'static str = "Over texels: the mean log difference of each texel over all scenes, whose mean is the loss. Over lights or \
         views: the loss in distant scenes over the directions that Algorithm 2 samples, seen from above (x to the right, y up), with a \

@@ -1,12 +1,10 @@
 //! The loss as an analysis: its words, its rows, one per prediction, its text, and what it misses.
 
-use super::Report;
-use super::analysis::{Analysis, AnalysisInput, NoOptions};
-use super::heading::scenes_line;
 use super::loss::{Difference, FewScenes, LossReport, PredictionLoss};
-use super::missed::missed_by_any;
-use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
+use crate::report::{
+    Analysis, AnalysisInput, Cell, Field, NoOptions, Reader, Report, Table, missed_by_any, scenes_line,
+};
 use svbrdf_core::loss::{Comparison, Compute};
 use svbrdf_core::progress::Progress;
 
@@ -107,7 +105,13 @@ impl Report for LossReport {
 
 impl Analysis for LossReport {
     const NAME: &'static str = "loss";
-    const TITLE: &'static str = "Rendering loss";
+    const ANSWERS: &'static str = "which prediction is better, and by how much";
+    const GROUP: &'static str = "Compare";
+    const EXAMPLES: &'static [&'static str] = &[
+        "gt.png a.png b.png",
+        "gt.png a.png --near 6 --distant 3 --seed 1",
+        "gt.png 'out/*.png' --format csv",
+    ];
     const ABOUT: &'static str = "Prints the rendering loss of predictions against a ground truth";
     const DETAILS: &'static str = "Ground truth and predictions are rendered in the same sampled scenes (light and view). The loss is the \
         mean over scenes, texels and RGB of |ln(R_gt + epsilon) - ln(R_pred + epsilon)|. The standard error is due to the sampling of \

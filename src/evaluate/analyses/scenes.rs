@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Report;
-use super::analysis::{Analysis, AnalysisInput, AnalysisOption, OptionValue};
-use super::heading::{Compared, scenes_line};
-use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
+use crate::report::{
+    Analysis, AnalysisInput, AnalysisOption, Cell, Compared, Field, OptionValue, Reader, Report, Table,
+    scenes_line,
+};
 use crate::why::{Distribution, worst_first};
 use svbrdf_core::loss::{Comparison, Outcome};
 use svbrdf_core::model::scene::Scene;
@@ -119,7 +119,9 @@ impl Default for ScenesOptions {
 
 impl Analysis for ScenesReport {
     const NAME: &'static str = "scenes";
-    const TITLE: &'static str = "Which scenes";
+    const ANSWERS: &'static str = "in which scenes the loss is largest";
+    const EXAMPLES: &'static [&'static str] =
+        &["gt.png a.png", "gt.png a.png --top 5 --format json > worst.json"];
     const ABOUT: &'static str = "Prints the scenes with the largest losses, worst first";
     const DETAILS: &'static str = "Scenes are sorted by the mean of the losses of all predictions in them, over all texels. The JSON \
         is a scene file, too.";

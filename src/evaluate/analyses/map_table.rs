@@ -1,8 +1,7 @@
 //! A map as a report: its rows, a summary for people, and its arrays.
 
 use super::map::{MapReport, MapSummary, roles};
-use super::table::{Cell, Field, Reader, Table};
-use super::{ArrayValues, Report, ReportArray};
+use crate::report::{ArrayValues, Cell, Field, Reader, Report, ReportArray, Table};
 use crate::why::Hemisphere;
 use svbrdf_core::image::Image;
 use svbrdf_core::model::scene::Endpoint;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::table::Cell;
+use crate::report::Cell;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{
     Comparison, Compute, Estimate, IntervalSource, Loss, Outcome, Question, Request, Texels,

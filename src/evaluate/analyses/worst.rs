@@ -2,13 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Report;
-use super::analysis::{Analysis, AnalysisInput, AnalysisOption, OptionValue};
-use super::heading::Compared;
-use super::missed::missed;
 use super::scenes::SCENE;
-use super::table::{Cell, Field, Reader, Table};
 use crate::error::Error;
+use crate::report::{
+    Analysis, AnalysisInput, AnalysisOption, Cell, Compared, Field, OptionValue, Reader, Report, Table,
+    missed,
+};
 use crate::why;
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate};
 use svbrdf_core::model::scene::Scene;
@@ -123,7 +122,7 @@ impl Default for WorstOptions {
 
 impl Analysis for WorstReport {
     const NAME: &'static str = "worst";
-    const TITLE: &'static str = "Which scene is the worst";
+    const ANSWERS: &'static str = "under which light the loss is largest";
     const ABOUT: &'static str = "Searches for the scene with the largest loss of each prediction";
     const DETAILS: &'static str = "Evaluates 12,288 of the scenes that the loss is over, and distant ones with grazing light and view, \
         on 1,024 texels. Refines the worst of them, the best 4 on all texels. Distances have no largest value: the search is \

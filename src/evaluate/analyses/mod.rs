@@ -1,5 +1,25 @@
 //! All analyses, each declared beside its report: what has a command, a function of Python and a table in the window.
 
+mod blame;
+mod diagnose;
+mod loss;
+mod loss_table;
+mod map;
+mod map_table;
+mod metrics;
+mod rank;
+mod scenes;
+mod worst;
+
+pub use blame::{BlameReport, parts};
+pub use diagnose::DiagnoseReport;
+pub use loss::{LossReport, SampledScenes};
+pub use map::MapReport;
+pub use metrics::MetricsReport;
+pub use rank::{MaterialReading, RankReport};
+pub use scenes::ScenesReport;
+pub use worst::WorstReport;
+
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
@@ -9,30 +29,31 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::text::of_json;
 
 use crate::error::Error;
-use crate::report::{
-    Analysis, AnalysisInput, AnalysisOption, BlameReport, DiagnoseReport, LossReport, MapReport,
-    MetricsReport, OptionValue, RankReport, Report, ScenesReport, WorstReport,
-};
+use crate::report::{Analysis, AnalysisInput, AnalysisOption, OptionValue, Report};
 
 /// All of them, in the order of the commands.
-pub const ANALYSES: [AnyAnalysis; 8] = [
+pub const ANALYSES: &[AnyAnalysis] = &[
     AnyAnalysis::of::<LossReport>(),
     AnyAnalysis::of::<RankReport>(),
+    AnyAnalysis::of::<MetricsReport>(),
     AnyAnalysis::of::<BlameReport>(),
+    AnyAnalysis::of::<DiagnoseReport>(),
     AnyAnalysis::of::<ScenesReport>(),
     AnyAnalysis::of::<WorstReport>(),
-    AnyAnalysis::of::<DiagnoseReport>(),
     AnyAnalysis::of::<MapReport>(),
-    AnyAnalysis::of::<MetricsReport>(),
 ];
 
 /// Runs an analysis with its own options as a JSON object.
-pub type Answer<T> = fn(&AnalysisInput<'_, T>, Value, &Progress) -> Result<Box<dyn Report>, Error>;
+pub type RunAnalysis<T> = fn(&AnalysisInput<'_, T>, Value, &Progress) -> Result<Box<dyn Report>, Error>;
 
 /// One of the [`ANALYSES`].
 #[derive(Clone, Copy, Debug)]
 pub struct AnyAnalysis {
     pub name: &'static str,
+    pub answers: &'static str,
+    pub group: &'static str,
+    pub examples: &'static [&'static str],
+    /// Of its table in the window; empty where it has none.
     pub title: &'static str,
     pub about: &'static str,
     pub details: &'static str,
@@ -48,26 +69,26 @@ pub struct AnyAnalysis {
     /// The schema of its report.
     #[cfg(feature = "schema")]
     pub schema: fn() -> schemars::Schema,
-    answer: Answer<f32>,
-    answer_double: Answer<f64>,
+    run_single: RunAnalysis<f32>,
+    run_double: RunAnalysis<f64>,
     check: fn(Value, &LossOptions) -> Result<(), Error>,
 }
 
 /// A precision that analyses are run in.
 pub trait Precise: Compute {
     /// What runs `analysis` in it.
-    fn answer(analysis: &AnyAnalysis) -> Answer<Self>;
+    fn runs(analysis: &AnyAnalysis) -> RunAnalysis<Self>;
 }
 
 impl Precise for f32 {
-    fn answer(analysis: &AnyAnalysis) -> Answer<Self> {
-        analysis.answer
+    fn runs(analysis: &AnyAnalysis) -> RunAnalysis<Self> {
+        analysis.run_single
     }
 }
 
 impl Precise for f64 {
-    fn answer(analysis: &AnyAnalysis) -> Answer<Self> {
-        analysis.answer_double
+    fn runs(analysis: &AnyAnalysis) -> RunAnalysis<Self> {
+        analysis.run_double
     }
 }
 
@@ -76,6 +97,9 @@ impl AnyAnalysis {
     pub const fn of<A: Analysis>() -> Self {
         Self {
             name: A::NAME,
+            answers: A::ANSWERS,
+            group: A::GROUP,
+            examples: A::EXAMPLES,
             title: A::TITLE,
             about: A::ABOUT,
             details: A::DETAILS,
@@ -87,8 +111,10 @@ impl AnyAnalysis {
             options: A::OPTIONS,
             #[cfg(feature = "schema")]
             schema: crate::json_schema::schema_of::<A>,
-            answer: |input, options, progress| Ok(Box::new(A::run(input, &options_of(options)?, progress)?)),
-            answer_double: |input, options, progress| {
+            run_single: |input, options, progress| {
+                Ok(Box::new(A::run(input, &options_of(options)?, progress)?))
+            },
+            run_double: |input, options, progress| {
                 Ok(Box::new(A::run_double(input, &options_of(options)?, progress)?))
             },
             check: |options, scenes| A::check(&options_of(options)?, scenes),
@@ -153,7 +179,7 @@ impl AnyAnalysis {
         options: Value,
         progress: &Progress,
     ) -> Result<Box<dyn Report>, Error> {
-        T::answer(self)(input, options, progress)
+        T::runs(self)(input, options, progress)
     }
 }
 

@@ -2,16 +2,13 @@
 
 use serde::Serialize;
 
-use super::Report;
-use super::analysis::{Analysis, AnalysisInput, NoOptions};
-use super::heading::{Compared, floor_line, scenes_line};
-use super::latex::{bold, escaped, latex};
-use super::missed::missed_by_any;
-use super::repetition::Repetition;
-use super::table::{Cell, Field, Reader, Table};
 use crate::diagnose::floor;
 use crate::error::Error;
 use crate::rank::{self, Ranked, places};
+use crate::report::{
+    Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Repetition, Report, Table, bold,
+    escaped, floor_line, latex, missed_by_any, scenes_line,
+};
 use svbrdf_core::loss::{Comparison, Estimate, Outcome, Request};
 use svbrdf_core::progress::Progress;
 
@@ -205,7 +202,13 @@ impl Report for RankReport {
 
 impl Analysis for RankReport {
     const NAME: &'static str = "rank";
-    const TITLE: &'static str = "Which prediction is the best";
+    const ANSWERS: &'static str = "many predictions, or methods over a data set";
+    const GROUP: &'static str = "Compare";
+    const EXAMPLES: &'static [&'static str] = &[
+        "gt.png 'out/*.png'",
+        "--dataset gt/ ours/ theirs/ -o table.tex",
+        "--dataset gt/ ours/ theirs/ --metrics -o page.html",
+    ];
     const ABOUT: &'static str = "Ranks predictions of one ground truth by their rendering loss";
     const DETAILS: &'static str = "All predictions are rendered in the same scenes, at most 786,432 / (predictions + 1). Paired \
         differences tell which are worse than the best; predictions of one group cannot be told from its best.";

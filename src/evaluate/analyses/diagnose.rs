@@ -2,12 +2,11 @@
 
 use serde::Serialize;
 
-use super::Report;
-use super::analysis::{Analysis, AnalysisInput, NoOptions};
-use super::heading::{Compared, floor_line};
-use super::table::{Cell, Field, Reader, Table};
 use crate::diagnose::{self, Finding, Value, diagnose, floor, sentence};
 use crate::error::Error;
+use crate::report::{
+    Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Report, Table, floor_line,
+};
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::progress::Progress;
 
@@ -154,7 +153,7 @@ impl Report for DiagnoseReport {
 
 impl Analysis for DiagnoseReport {
     const NAME: &'static str = "diagnose";
-    const TITLE: &'static str = "Would something trivial explain it";
+    const ANSWERS: &'static str = "whether exposure, alignment or reading explain the loss";
     const ABOUT: &'static str = "Prints what an exposure, a shift, a symmetry or another reading of the files would lower the loss to";
     const DETAILS: &'static str = "Each hypothesis is fitted in the scenes of a pilot and evaluated in 3,072 others. A star marks those \
         that lower the loss significantly, and by at least 10% beside the other marked ones. The last column has the option that corrects \
