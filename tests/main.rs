@@ -5,7 +5,6 @@
 
 mod support;
 
-mod bad_input;
 mod cli;
 mod conform;
 mod conventions;

@@ -43,8 +43,11 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             decode_with(Box::new(decoder), "HDR", ratio::HDR, place)
         }
         Ok(ImageFormat::Bmp) => {
+            // Compression 1 and 2.
+            let is_in_runs = matches!(head.get(30), Some(1 | 2));
+            let most = if is_in_runs { ratio::NONE } else { ratio::BMP };
             let decoder = BmpDecoder::new(reader).map_err(|error| explain(&error, "BMP", place))?;
-            decode_with(Box::new(decoder), "BMP", ratio::NONE, place)
+            decode_with(Box::new(decoder), "BMP", most, place)
         }
         Ok(ImageFormat::Pnm) => pnm(reader, place),
         Ok(ImageFormat::Qoi) => {
@@ -52,9 +55,10 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             decode_with(Box::new(decoder), "QOI", ratio::QOI, place)
         }
         Ok(ImageFormat::WebP) => {
+            let most = if head.get(12..16) == Some(b"VP8 ") { ratio::LOSSY_WEBP } else { ratio::NONE };
             let decoder = WebPDecoder::new(reader).map_err(|error| explain(&error, "WebP", place))?;
             let is_animated = decoder.has_animation();
-            let mut decoded = decode_with(Box::new(decoder), "WebP", ratio::NONE, place)?;
+            let mut decoded = decode_with(Box::new(decoder), "WebP", most, place)?;
             decoded.notes.extend(is_animated.then_some(Note::FirstOnly(place.what)));
             Ok(decoded)
         }

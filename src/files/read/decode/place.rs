@@ -21,10 +21,14 @@ pub(crate) mod ratio {
     const DEFLATE: u64 = 1032;
     /// A byte of a palette is 8 texels of 4 bytes.
     pub(crate) const PNG: u64 = 32 * DEFLATE;
-    /// Fax: a bit for a row of 65536 texels; LZW of one value has less.
-    pub(crate) const TIFF: u64 = 1 << 19;
-    /// One bit a block, of which 4 x 4 are of luma. Arithmetic coding has no such limit.
+    /// LZW of one value: 3838 bytes a code of 12 bits; chroma may be halved. A fax takes less, and has bits, which are refused before.
+    pub(crate) const TIFF: u64 = 1 << 13;
+    /// One bit a block, of which 4 x 4 are of luma.
     pub(crate) const JPEG: u64 = 1366;
+    /// A bit of a palette is 3 bytes.
+    pub(crate) const BMP: u64 = 24;
+    /// The modes of a block of 16 x 16 texels of 3 bytes take 1.67 bits.
+    pub(crate) const LOSSY_WEBP: u64 = 1 << 12;
     /// Runs of 62 texels of 4 bytes; two bytes for 128 texels.
     pub(crate) const QOI: u64 = 248;
     pub(crate) const TGA: u64 = 256;
@@ -39,7 +43,7 @@ pub(crate) mod ratio {
     pub(crate) const EXR: u64 = 2 * 64 * DEFLATE;
     /// A value of a byte counts 8.
     pub(crate) const NUMPY: u64 = 8 * DEFLATE;
-    /// A plane of one colour takes nothing in WebP, in runs of BMP and in arithmetic coding.
+    /// A plane of one colour takes nothing in WebP without loss and in arithmetic coding, and BMP with runs may end before its picture.
     pub(crate) const NONE: u64 = u64::MAX;
 }
 
