@@ -39,7 +39,7 @@ def test_every_memory_layout_gives_the_same_material() -> None:
         "planes": lambda x: np.ascontiguousarray(np.moveaxis(x, -1, 0)).transpose(1, 2, 0) if x.ndim == 3 else x,
         "columns first": np.asfortranarray,
         "every second row": lambda x: np.repeat(x, 2, axis=0)[::2],
-        "mirrored twice": lambda x: x[::-1].copy()[::-1],
+        "mirrored twice": lambda x: np.flip(np.flip(x).copy()),
         "float64": lambda x: x.astype(np.float64),
         "read only": lambda x: np.broadcast_to(x, x.shape),
         "unaligned": unaligned,
@@ -75,6 +75,10 @@ REFUSED: list[tuple[dict[str, Any], type[Exception], str]] = [
     ({"roughness": np.zeros(4)}, ValueError, "roughness: expected height x width, found 4"),
     ({"specular": np.zeros((4, 4, 3))}, ValueError, "specular: expected the shape of roughness, 4 x 5, found 4 x 4"),
     ({"diffuse": np.zeros((4, 5, 3), np.uint8)}, TypeError, "diffuse: expected floating-point numbers, found uint8"),
+    *[
+        ({"roughness": np.zeros((4, 5), dtype)}, TypeError, "roughness: expected floating-point numbers, found")
+        for dtype in ("?", "O", "c8", "S8", "m8[s]", "f4,f4")
+    ],
     ({"normal": "gt.png"}, TypeError, "normal: expected floating-point numbers, found"),
     ({"roughness": 0.5}, ValueError, "roughness: expected height x width, found a number"),
     ({"diffuse": np.ma.masked_greater(GRAY, 0.5)}, ValueError, "diffuse: expected a value in every texel"),  # type: ignore[no-untyped-call]

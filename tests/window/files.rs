@@ -25,6 +25,43 @@ fn every_one_of_several_files_of_one_name_is_told() {
     }
 }
 
+/// Files whose names steer terminals, shells, spreadsheets, patterns or the direction of writing.
+#[cfg(unix)]
+#[needs(adapter)]
+fn hostile_names_of_dropped_files_are_lines_in_the_window_and_on_the_clipboard() {
+    use std::os::unix::ffi::OsStrExt as _;
+    const NAMES: [&[u8]; 7] = [
+        b"\x1b]0;x\x07.png",
+        b"a\nb.png",
+        b"\xe2\x80\xaegnp.png",
+        b"\xff\xfe.png",
+        b"=cmd|' !A0.png",
+        b"{}[a]*?.png",
+        b"-o.png",
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &[u8]| folder.path().join(std::ffi::OsStr::from_bytes(name));
+    for name in NAMES.iter().chain([&b"gt.png".as_slice()]) {
+        write_packed(&path(name), 8, |tile, _, _| {
+            [[128, 128, 255], [120; 3], [140; 3], [20; 3]][tile as usize]
+        });
+    }
+    std::fs::write(path(b"\x1b[2J.png"), "no picture").unwrap();
+    let mut window = window(options_of([path(b"gt.png")]));
+    drop_files(&mut window, NAMES.map(path).into_iter().chain([path(b"\x1b[2J.png")]));
+    wait(&mut window, "the materials", |app| app.names().len() == 8 && !app.messages().is_empty());
+    see(&mut window, r"\u{1b}[2J.png");
+    wait(&mut window, "the losses", |app| app.losses().is_some());
+    window.get_by_label("Copy losses").click();
+    let copied = commands(&mut window).into_iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text),
+        _ => None,
+    });
+    for text in window.names().into_iter().chain(copied.unwrap().lines().map(str::to_owned)) {
+        assert!(!text.contains(|c: char| c.is_control() || c == '\u{202e}'), "{text:?}");
+    }
+}
+
 #[needs(adapter)]
 fn a_file_that_is_not_there_is_an_error_in_the_dialog_and_keeps_what_was_open() {
     let mut window = built_in();

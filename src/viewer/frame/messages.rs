@@ -52,7 +52,7 @@ fn list(ui: &mut egui::Ui, messages: &[(usize, &Message)], next: &mut Model) {
         for &(number, message) in messages.iter().rev() {
             ui.horizontal_top(|ui| {
                 let close = ui.small_button("x").on_hover_text("Dismiss this message");
-                let name = format!("Dismiss: {message}");
+                let name = format!("Dismiss: {}", text_of(message));
                 close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
                 if close.clicked() {
                     next.messages.dismiss(number);
