@@ -11,6 +11,9 @@ use svbrdf_core::error::Error;
 pub(super) const NO_ADAPTER_REMEDY: &str = "install a Vulkan driver (on Debian and Ubuntu \
     `apt-get install mesa-vulkan-drivers`, which has a software one), unset WGPU_BACKEND, or use the CPU";
 
+/// The word for an adapter that does not compute on the CPU.
+pub const HARDWARE: &str = "hardware";
+
 /// What is used, and why.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdapterReport {
@@ -35,7 +38,7 @@ pub struct AdapterReport {
 impl fmt::Display for AdapterReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, backend, driver, reason, .. } = self;
-        let kind = if self.software { "software" } else { "hardware" };
+        let kind = if self.software { "software" } else { HARDWARE };
         write!(f, "{name} ({kind}, {backend}, driver {driver}): {reason}")?;
         match &self.limits_note {
             Some(note) => write!(f, "; {note}"),

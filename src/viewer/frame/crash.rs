@@ -21,10 +21,11 @@ pub struct CrashGuard {
     stopped: Arc<AtomicBool>,
 }
 
-/// A lost device.
+/// A lost device, or one in software that hardware replaces.
 #[derive(Clone, Debug)]
 pub struct DeviceLoss {
-    pub reason: String,
+    /// Why the device was lost; `None` where hardware is there again.
+    pub reason: Option<String>,
     /// `None` where materials were still being read.
     pub session: Option<Session>,
     /// The results folder of its data set, which is none of the session.
@@ -91,6 +92,20 @@ impl CrashGuard {
             (None, Err(panic)) => Err(panic),
         }
     }
+}
+
+/// The reason of a loss, where its driver tells one.
+pub fn told(reason: &str) -> String {
+    let reason = reason.trim();
+    if reason.is_empty() { "no reason was given" } else { reason }.to_owned()
+}
+
+/// The end of a window whose device was lost, where the program does not start anew.
+pub fn lost(reason: &str) -> Error {
+    let problem = format!("the graphics device was lost ({reason})");
+    let remedy = "start again, and reopen these materials with Ctrl+Shift+O; where it is lost again, update the graphics driver or \
+                  set WGPU_BACKEND to another one (vulkan, gl)";
+    CoreError::Gpu { problem, remedy }.into()
 }
 
 fn no_window(error: &eframe::Error) -> Error {

@@ -12,6 +12,7 @@ pub mod layout;
 pub mod light_and_view;
 pub mod menu;
 pub mod messages;
+pub mod monitor;
 pub mod restart;
 pub mod saving;
 pub mod side;
@@ -19,19 +20,18 @@ pub mod status;
 pub mod storage;
 pub mod top;
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use eframe::egui;
 
-use svbrdf_core::error::Error as CoreError;
-
-use crate::frame::crash::DeviceLoss;
+use crate::frame::crash::{DeviceLoss, lost, told};
 use crate::frame::layout::Parts;
-use crate::frame::restart::Restarts;
+use crate::frame::restart::{IDLE, Restarts, watch_for_hardware};
 use crate::frame::storage::{NAME, Storage};
 pub use crash::CrashGuard;
 
-use crate::error::Error;
 use crate::frame::layout::WindowUi;
 use crate::jobs::Jobs;
 use crate::jobs::answers::Answer;
@@ -41,7 +41,6 @@ use crate::jobs::why::questions::FindWorst;
 use crate::jobs::work::waker::Waker;
 use crate::model::Model;
 use crate::model::message::Message;
-use crate::model::ranges::UI_SCALE;
 use crate::model::session::ViewerOptions;
 use crate::model::view::ViewState;
 use crate::model::{exposure, undo};
@@ -58,6 +57,8 @@ pub struct App {
     title: String,
     /// Whether the scale of text and controls is to be chosen by the monitor: at the first start.
     unscaled: bool,
+    /// Whether hardware is there again, which a restart uses once the window is idle.
+    pub hardware: Arc<AtomicBool>,
 }
 
 impl App {
@@ -73,10 +74,18 @@ impl App {
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
         let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu };
         parts.model.start(options);
-        parts.model.report(Restarts::of_environment().map(|restarts| Message::Warning(restarts.message())));
+        let restarts = Restarts::of_environment();
+        let is_software = parts.gpu.as_ref().is_some_and(|gpu| gpu.gpu.report.software);
+        let hardware = Arc::new(AtomicBool::new(false));
+        if restarts.as_ref().is_some_and(|restarts| restarts.is_without_hardware(is_software)) {
+            let woken = cc.egui_ctx.clone();
+            watch_for_hardware(hardware.clone(), move || woken.request_repaint());
+        }
+        parts.model.report(restarts.map(|restarts| Message::Warning(restarts.message())));
         effects::carry_out(&mut parts, &cc.egui_ctx);
         let unscaled = storage.is_new();
-        Self { parts, storage, crash: CrashGuard::default(), title: String::new(), unscaled }
+        let (crash, title) = (CrashGuard::default(), String::new());
+        Self { parts, storage, crash, title, unscaled, hardware }
     }
 
     /// Reports failures of the frames to this guard.
@@ -112,8 +121,8 @@ impl App {
     fn frame(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.parts.model.settings.dark);
-        self.suit_monitor(&ctx);
-        self.parts.model.settings.ui_scale = scale_in_range(&ctx);
+        monitor::suit(&ctx, &mut self.unscaled);
+        self.parts.model.settings.ui_scale = monitor::scale_in_range(&ctx);
         self.parts.model.time = ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
         let errors = self.parts.jobs.answers.begin_frame();
@@ -135,16 +144,6 @@ impl App {
         let is_photograph_settled =
             self.parts.model.photograph.source().is_none() || self.parts.jobs.panes.photograph.is_some();
         undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
-    }
-
-    /// Chooses the scale of text and controls at the first start: systems without one of their own draw text of 2 mm on a 4K screen.
-    fn suit_monitor(&mut self, ctx: &egui::Context) {
-        let (monitor, native) =
-            ctx.input(|i| (i.viewport().monitor_size, i.viewport().native_pixels_per_point));
-        let Some(monitor) = monitor.filter(|_| std::mem::take(&mut self.unscaled)) else { return };
-        if native.is_none_or(|native| native <= 1.0) {
-            ctx.set_zoom_factor(scale_of_monitor(monitor.y * ctx.pixels_per_point()));
-        }
     }
 
     /// Gives the window the name of what is open.
@@ -200,25 +199,38 @@ impl App {
     fn loss(&self) -> Option<String> {
         self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss()).map(told)
     }
-}
 
-/// The reason of a loss, where its driver tells one.
-fn told(reason: &str) -> String {
-    let reason = reason.trim();
-    if reason.is_empty() { "no reason was given" } else { reason }.to_owned()
+    /// Whether hardware is to take the place of software now: it is there again, and before this frame, which nobody has asked for,
+    /// nothing was drawn for a while.
+    fn is_to_use_hardware(&self, ctx: &egui::Context) -> bool {
+        let (now, is_used) = ctx.input(|i| (i.time, !i.events.is_empty()));
+        let Parts { model, jobs, .. } = &self.parts;
+        let is_idle = now - model.time > IDLE && !is_used && !model.is_modal() && jobs.openings.is_empty();
+        is_idle && self.hardware.load(Ordering::Relaxed)
+    }
+
+    /// Keeps what a restart goes on with.
+    fn leave(&self, reason: Option<String>) {
+        let (model, is_read) = (&self.parts.model, self.parts.jobs.openings.is_empty());
+        let results = model.dataset.open.as_ref().and_then(|open| open.results.clone());
+        self.crash.lose(DeviceLoss { reason, session: is_read.then(|| model.session()), results });
+    }
 }
 
 impl eframe::App for App {
     /// The frame of a window, which closes where the device is lost or the frame panics.
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let crash = self.crash.clone();
+        if self.is_to_use_hardware(ui.ctx()) {
+            self.leave(None);
+        }
         let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui));
         if let Some(reason) = self.loss() {
             crash.fail(lost(&reason));
             // egui-wgpu 0.37 would panic.
             ui.ctx().graphics_mut(|graphics| *graphics = Default::default());
         }
-        if crash.has_crashed() || crash.is_stopped() {
+        if crash.has_crashed() || crash.is_stopped() || crash.loss().is_some() {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
         } else if is_drawn && !ui.input(|i| i.pointer.any_down()) {
             self.storage.store(&self.parts.model);
@@ -250,31 +262,9 @@ impl eframe::App for App {
 impl Drop for App {
     fn drop(&mut self) {
         if let Some(reason) = self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss_by_now()).map(told) {
-            let (model, is_read) = (&self.parts.model, self.parts.jobs.openings.is_empty());
-            let results = model.dataset.open.as_ref().and_then(|open| open.results.clone());
-            self.crash.lose(DeviceLoss { reason, session: is_read.then(|| model.session()), results });
+            self.leave(Some(reason));
         }
     }
-}
-
-/// The end of a window whose device was lost, where the program does not start anew.
-fn lost(reason: &str) -> Error {
-    let problem = format!("the graphics device was lost ({reason})");
-    let remedy = "start again, and reopen these materials with Ctrl+Shift+O; where it is lost again, update the graphics driver or \
-                  set WGPU_BACKEND to another one (vulkan, gl)";
-    CoreError::Gpu { problem, remedy }.into()
-}
-
-/// The scale of text and controls for a monitor of this height in pixels, in quarters: 1 up to 1080.
-fn scale_of_monitor(height: f32) -> f32 {
-    ((height / 1080.0 * 4.0).floor() / 4.0).clamp(1.0, 3.0)
-}
-
-/// The scale of text and controls, which Ctrl with plus, minus or 0 changes, too.
-fn scale_in_range(ctx: &egui::Context) -> f32 {
-    let scale = ctx.zoom_factor().clamp(*UI_SCALE.start(), *UI_SCALE.end());
-    ctx.set_zoom_factor(scale);
-    scale
 }
 
 /// The adapter of a window, and its limits for the user interface; a message where its driver fails.
@@ -290,15 +280,4 @@ fn adapter(cc: &eframe::CreationContext<'_>, model: &mut Model) -> Option<GpuVie
     let context = cc.egui_ctx.clone();
     gpu.gpu.at_loss(move || context.request_repaint());
     Some(gpu)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_large_monitor_has_larger_text_at_the_first_start() {
-        let scales = [600.0, 1080.0, 1200.0, 1440.0, 2160.0, 4320.0].map(scale_of_monitor);
-        assert_eq!(scales, [1.0, 1.0, 1.0, 1.25, 2.0, 3.0]);
-    }
 }
