@@ -1,4 +1,4 @@
-//! Files that the program embeds. `cargo xtask bless assets` makes them; `pictures/` has those of the documents.
+//! Files that the program embeds. `cargo xtask bless assets` makes the icons; `pictures/` has those of the documents.
 
 /// The built-in materials as PNG, each with its name: normal, diffuse, roughness and specular side by side, linear, 256 x 256
 /// texels. The ground truth is the first.

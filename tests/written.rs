@@ -11,7 +11,6 @@ use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 use svbrdf_files::read::{Binding, Preset, Read, ReadOptions, Sidecar, read, read_bytes};
-use svbrdf_files::samples::generate;
 use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
 use svbrdf_needs::needs;
 
@@ -403,20 +402,4 @@ fn reading_reports_progress_stops_when_asked_and_takes_pictures_in_memory() {
     let found = read_bytes::<f32>("some name", &bytes, &ReadOptions::AUTO).unwrap();
     assert!(found.material.name() == "some name" && found.files.is_empty());
     assert_eq!(found.material.planes(), open(&strip).material.planes());
-}
-
-#[test]
-fn the_samples_are_what_their_generator_makes() {
-    let truth = generate::ground_truth();
-    let made = [
-        ("worn_tiles", generate::pack(&truth)),
-        ("blurred_normals", generate::pack(&generate::blurred_normals(&truth))),
-        ("wrong_roughness", generate::pack(&generate::wrong_roughness(&truth))),
-    ];
-    for (name, pixels) in made {
-        let path =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/samples").join(name).with_extension("png");
-        let committed = image::open(path).unwrap().into_rgb8().into_raw();
-        assert!(committed == pixels, "{name} differs; run the example make_assets if that is meant");
-    }
 }

@@ -1,36 +1,23 @@
-//! Makes the built-in materials and the icons anew: `cargo xtask bless assets` writes them into `assets/`.
+//! Makes the icons anew: `cargo xtask bless assets` writes them into `assets/`.
 //!
 //! The icon has the ground truth above its diagonal, and below it the log difference of a prediction.
 
 use std::error::Error;
-use std::fs::File;
 use std::path::Path;
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder, Rgba, RgbaImage, imageops};
+use image::{Rgba, RgbaImage, imageops};
 use svbrdf::{Convention, Kind, Progress, Scene, render};
 use svbrdf_core::picture::colour_map::difference_to_display;
 use svbrdf_core::picture::difference::{Difference, DifferenceParams};
 use svbrdf_core::picture::tone::to_display;
-use svbrdf_files::samples::generate::{SIDE, blurred_normals, ground_truth, pack, wrong_roughness};
 
+/// Width and height of the largest icon, in pixels.
+const SIDE: u32 = 256;
 /// Radius of the rounded corners of the icon, in pixels of the largest one.
 const RADIUS: f32 = 48.0;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-    let (truth, side) = (ground_truth(), u32::try_from(SIDE)?);
-    let blurred = blurred_normals(&truth);
-    let samples = [
-        ("worn_tiles", &truth),
-        ("blurred_normals", &blurred),
-        ("wrong_roughness", &wrong_roughness(&truth)),
-    ];
-    for (name, planes) in samples {
-        let file = File::create(assets.join(format!("samples/{name}.png")))?;
-        let encoder = PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive);
-        encoder.write_image(&pack(planes), 4 * side, side, ExtendedColorType::Rgb8)?;
-    }
     let scene = Scene { kind: Kind::Near, view: [0.0, 0.0, 2.5], light: [0.5, 0.6, 1.0] };
     let convention = Convention::default();
     let rendered =
@@ -39,9 +26,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [truth, prediction] = [rendered(&materials.ground_truth)?, rendered(&materials.predictions[0])?];
     let params = DifferenceParams { epsilon: convention.epsilon, exposure_ev: 0.0 };
     let differences = Difference::Log.of_images(&truth, &prediction, params);
-    let icon = RgbaImage::from_fn(side, side, |x, y| {
-        let at = (y * side + x) as usize;
-        let [r, g, b] = match x + y < side {
+    let icon = RgbaImage::from_fn(SIDE, SIDE, |x, y| {
+        let at = (y * SIDE + x) as usize;
+        let [r, g, b] = match x + y < SIDE {
             true => to_display(truth.pixels[at], 1.0),
             false => difference_to_display(differences[at], 1.5, false),
         };

@@ -9,7 +9,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::{Convention, PRINTED};
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::samples::{self, generate};
+use svbrdf_files::samples;
 
 /// The built-in materials, the ground truth first.
 pub fn materials() -> Vec<Material<f32>> {
@@ -36,11 +36,18 @@ pub fn loss_in(scene: Scene, prediction: usize) -> f64 {
 }
 
 /// Width and height of the tiles of [`strip`].
-pub const SIDE: u32 = generate::SIDE as u32;
+pub const SIDE: u32 = 256;
+
+/// The built-in material of this number as a strip of normals, diffuse, roughness and specular.
+pub fn sample(number: usize) -> RgbImage {
+    let name = ["worn_tiles", "blurred_normals", "wrong_roughness"][number];
+    let samples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/samples");
+    image::open(samples.join(name).with_extension("png")).unwrap().into_rgb8()
+}
 
 /// The built-in ground truth as a strip of normals, diffuse, roughness and specular.
 pub fn strip() -> RgbImage {
-    RgbImage::from_raw(4 * SIDE, SIDE, generate::pack(&generate::ground_truth())).unwrap()
+    sample(0)
 }
 
 /// Writes that strip under these names.

@@ -2,10 +2,9 @@
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf_files::samples::generate;
 use svbrdf_viewer::jobs::dataset::summary::Summarize;
 
-use super::materials::SIDE;
+use super::materials::{SIDE, sample};
 use super::*;
 
 /// Size of a picture, in pixels.
@@ -89,13 +88,9 @@ fn the_picture_of_a_diagnosis() {
 #[ignore = "writes a picture in assets/pictures"]
 fn the_picture_of_a_data_set() {
     let folder = tempfile::tempdir().unwrap();
-    let truth = generate::ground_truth();
-    let sets = [
-        ("gt", generate::pack(&truth)),
-        ("blurred normals", generate::pack(&generate::blurred_normals(&truth))),
-        ("wrong roughness", generate::pack(&generate::wrong_roughness(&truth))),
-    ];
-    for (name, pixels) in &sets {
+    let sets = [("gt", 0), ("blurred normals", 1), ("wrong roughness", 2)];
+    for (name, number) in &sets {
+        let pixels = sample(*number).into_raw();
         std::fs::create_dir(folder.path().join(name)).unwrap();
         for index in 0..9_u32 {
             // Moved, and in other colours.

@@ -25,7 +25,7 @@ const GENERATED: [Generated; 10] = [
     },
     Generated {
         name: "assets",
-        files: "assets/{samples,icons}/*.png",
+        files: "assets/icons/*.png",
         script: "cargo run --example make_assets",
     },
     Generated {

@@ -1,6 +1,6 @@
 //! The built-in materials: a ground truth and two predictions, 256 x 256 texels each.
 //!
-//! `tests/examples/make_assets.rs` generates them; they are free to use like the rest of this project.
+//! Worn glazed tiles, inlaid with metal, and predictions as networks make them. They are free to use like the rest of this project.
 //!
 //! ```
 //! let built_in = svbrdf_files::samples::load::<f32>()?;
@@ -8,10 +8,6 @@
 //! assert_eq!(built_in.predictions.len(), 2);
 //! # Ok::<(), svbrdf_files::Error>(())
 //! ```
-
-pub mod generate;
-mod noise;
-mod tiles;
 
 use svbrdf_assets::SAMPLES;
 use svbrdf_core::math::real::Real;
