@@ -11,12 +11,10 @@ use serde_json::{Value, json};
 use svbrdf_core::material::{DIELECTRIC, Material, Planes, base_and_metallic};
 use svbrdf_core::progress::Progress;
 
-use super::curve::Curve;
-use super::maps::{MapEncoding, WrittenMap};
-use super::png::{self, FolderPicture, picture};
+use super::png::{self, FolderPicture, MapEncoding, WrittenMap, code, picture};
 use crate::disk::atomic::SOFTWARE;
 use crate::read::Albedo;
-use crate::read::options::transfer::linear;
+use crate::read::options::transfer::{encoded, linear};
 
 /// The index of refraction of the reflectance [`DIELECTRIC`].
 const USUAL_IOR: f64 = 1.5;
@@ -43,16 +41,17 @@ pub(super) fn ior(material: &Material<f32>, sixteen: bool) -> Option<f64> {
 fn is_metallic(material: &Material<f32>, sixteen: bool) -> bool {
     const STEP: u16 = 257;
     let top = if sixteen { u16::MAX } else { 255 };
-    let (fine, stored) = (Curve::encoding(u16::MAX, Albedo::Srgb), Curve::encoding(top, Albedo::Srgb));
+    let stored = |value: f64, top: u16| code(encoded(value, Albedo::Srgb), top);
     let decoded: Vec<f64> =
         (0..=top).map(|code| linear(f64::from(code) / f64::from(top), Albedo::Srgb)).collect();
     let Planes { diffuse, specular, .. } = material.planes();
     (0..material.width() * material.height()).into_par_iter().all(|index| {
         let [d, s] = [diffuse, specular].map(|map| map.each_ref().map(|plane| f64::from(plane[index])));
         let (base, metallic) = base_and_metallic(d, s);
-        let base = base.map(|b| decoded[usize::from(stored.code(b))]);
+        let base = base.map(|b| decoded[usize::from(stored(b, top))]);
         let m = (f64::from(top) * metallic).round() / f64::from(top);
-        let is_kept = |value: f64, of: f64| fine.code(value.min(1.0)).abs_diff(fine.code(of)) <= STEP;
+        let fine = |value: f64| stored(value.min(1.0), u16::MAX);
+        let is_kept = |value: f64, of: f64| fine(value).abs_diff(fine(of)) <= STEP;
         (0..3).all(|c| {
             is_kept(base[c] * (1.0 - m), d[c]) && is_kept(DIELECTRIC * (1.0 - m) + base[c] * m, s[c])
         })

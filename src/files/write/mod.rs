@@ -1,9 +1,7 @@
 //! Materials as files: one layered EXR, a packed PNG, a folder of PNG files, binary glTF.
 
-mod curve;
 mod exr;
 mod glb;
-mod maps;
 mod png;
 
 use std::path::Path;

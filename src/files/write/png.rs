@@ -6,13 +6,13 @@ use std::path::Path;
 use png::{BitDepth, ColorType, Encoder};
 use rayon::prelude::*;
 
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Material, Planes, base_and_metallic};
 use svbrdf_core::progress::Progress;
 
-use super::maps::{Curves, MapEncoding, WrittenMap};
-use crate::disk::atomic::{self, SOFTWARE};
-use crate::disk::new_folder;
-use crate::read::{Order, Preset};
+use crate::disk::atomic::SOFTWARE;
+use crate::disk::{atomic, new_folder};
+use crate::read::options::transfer::{encoded, encoded_roughness};
+use crate::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
 
 /// About how many bytes of a picture are computed before they are compressed.
 const BAND_BYTES: usize = 1 << 20;
@@ -58,8 +58,7 @@ pub(super) fn packed(
         _ => WrittenMap::Specular,
     };
     let maps: Vec<WrittenMap> = tiles.chars().map(map).collect();
-    let rows =
-        TileRows { material, tiles: &maps, encoding, curves: encoding.curves(sixteen), sixteen, progress };
+    let rows = TileRows { material, tiles: &maps, encoding, sixteen, progress };
     let meaning = format!("packed {order}, {}", encoding.text());
     // One picture: the other cores compute its rows.
     rows.write(file, &meaning, |first, band| {
@@ -93,8 +92,7 @@ pub(super) fn one(
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    let (tiles, curves) = (&[*map][..], encoding.curves(sixteen));
-    let rows = TileRows { material, tiles, encoding: *encoding, curves, sixteen, progress };
+    let rows = TileRows { material, tiles: &[*map], encoding: *encoding, sixteen, progress };
     rows.write(file, &encoding.text(), |first, band| {
         band.chunks_mut(rows.row_bytes())
             .enumerate()
@@ -107,7 +105,6 @@ struct TileRows<'a> {
     material: &'a Material<f32>,
     tiles: &'a [WrittenMap],
     encoding: MapEncoding,
-    curves: Curves,
     sixteen: bool,
     progress: &'a Progress,
 }
@@ -127,7 +124,7 @@ impl TileRows<'_> {
         let (width, pixel) = (self.material.width(), self.pixel_bytes());
         for (map, tile) in self.tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
             for (index, out) in (row * width..).zip(tile.chunks_exact_mut(pixel)) {
-                put(self.encoding.codes(self.material, *map, index, &self.curves), out);
+                put(self.encoding.values(self.material, *map, index), out);
             }
         }
         Ok(())
@@ -163,12 +160,107 @@ impl TileRows<'_> {
 }
 
 /// The samples of a pixel into 3 bytes, or into 6.
-fn put(rgb: [u16; 3], out: &mut [u8]) {
+fn put(rgb: [f64; 3], out: &mut [u8]) {
     if out.len() == 6 {
-        rgb.into_iter()
-            .zip(out.chunks_exact_mut(2))
-            .for_each(|(code, out)| out.copy_from_slice(&code.to_be_bytes()));
+        out.copy_from_slice(rgb.map(|value| code(value, u16::MAX).to_be_bytes()).as_flattened());
     } else {
-        rgb.into_iter().zip(out).for_each(|(code, out)| *out = code as u8);
+        out.copy_from_slice(&rgb.map(|value| code(value, 255) as u8));
     }
+}
+
+/// The map in a picture.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum WrittenMap {
+    Normal,
+    Diffuse,
+    Specular,
+    Roughness,
+    Base,
+    /// Occlusion (none), roughness, metallic.
+    Orm,
+    /// Specular as a part of this reflectance.
+    SpecularTint(f64),
+}
+
+/// The encoding of colours and roughness.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MapEncoding {
+    diffuse: Albedo,
+    specular: Albedo,
+    roughness: Roughness,
+    normal_y: NormalY,
+    energy: Energy,
+}
+
+impl From<Preset> for MapEncoding {
+    fn from(preset: Preset) -> Self {
+        let ReadOptions { albedo, specular, roughness, normal_y, energy, .. } = preset.options();
+        let diffuse = albedo.unwrap_or(Albedo::Linear);
+        Self {
+            diffuse,
+            specular: specular.unwrap_or(diffuse),
+            roughness: roughness.unwrap_or(Roughness::R),
+            normal_y: normal_y.unwrap_or(NormalY::Up),
+            energy: energy.unwrap_or(Energy::Scaled),
+        }
+    }
+}
+
+impl MapEncoding {
+    pub(super) const SRGB: Self = Self {
+        diffuse: Albedo::Srgb,
+        specular: Albedo::Srgb,
+        roughness: Roughness::R,
+        normal_y: NormalY::Up,
+        energy: Energy::Scaled,
+    };
+    pub(super) const MATERIAL_GAN: Self = Self {
+        diffuse: Albedo::Gamma22,
+        specular: Albedo::Gamma22,
+        roughness: Roughness::Gamma22,
+        ..Self::SRGB
+    };
+
+    /// For the metadata of a picture.
+    pub(super) fn text(&self) -> String {
+        let Self { diffuse, specular, roughness, normal_y, energy } = self;
+        format!(
+            "diffuse {diffuse}, specular {specular}, roughness {roughness}, normal y {normal_y}, energy {energy}"
+        )
+    }
+
+    /// (red, green, blue) of the texel at `index` as they are stored, in [0, 1].
+    pub(super) fn values(&self, material: &Material<f32>, map: WrittenMap, index: usize) -> [f64; 3] {
+        let Planes { normal, diffuse, specular, roughness } = material.planes();
+        let at = |planes: &[Vec<f32>; 3]| planes.each_ref().map(|plane| f64::from(plane[index]));
+        let rough = || encoded_roughness(roughness[index].into(), self.roughness);
+        let base_and_metallic = || base_and_metallic(at(diffuse), at(specular));
+        let diffuse_code = |value| encoded(value, self.diffuse);
+        let specular_code = |value| encoded(value, self.specular);
+        match map {
+            WrittenMap::Normal => {
+                let [x, y, z] = at(normal);
+                let y = if self.normal_y == NormalY::Up { y } else { -y };
+                [x, y, z].map(|n| (0.5 * n + 0.5).clamp(0.0, 1.0))
+            }
+            WrittenMap::Diffuse if self.energy == Energy::Unscaled => {
+                let [d, s] = [at(diffuse), at(specular)];
+                [0, 1, 2].map(|c| diffuse_code(d[c] * (1.0 - s[c])))
+            }
+            WrittenMap::Diffuse => at(diffuse).map(diffuse_code),
+            WrittenMap::Specular => at(specular).map(specular_code),
+            WrittenMap::Roughness => [rough(); 3],
+            WrittenMap::Base => base_and_metallic().0.map(diffuse_code),
+            WrittenMap::Orm => [1.0, rough(), base_and_metallic().1],
+            WrittenMap::SpecularTint(reflectance) => {
+                at(specular).map(|s| specular_code((s / reflectance).min(1.0)))
+            }
+        }
+    }
+}
+
+/// The integer that stands for `value` of [0, 1]; `top` stands for 1.
+pub(super) fn code(value: f64, top: u16) -> u16 {
+    // By truncation, since rounding is a call on many processors.
+    (f64::from(top) * value + 0.5) as u16
 }
