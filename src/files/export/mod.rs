@@ -1,15 +1,13 @@
 //! Renderings as files: floats into EXR, display values into PNG, both with their provenance.
 
-mod exr;
+mod encode;
 pub mod figure;
-mod png;
-mod provenance;
 pub mod strip;
 
 use std::path::Path;
 
 pub use crate::disk::atomic::{Destination, check_place, write_text};
-pub use provenance::{Entries, Provenance};
+pub use encode::{Entries, Provenance};
 
 use svbrdf_core::image::Image;
 use svbrdf_core::picture::colour_map::heat;
@@ -116,12 +114,12 @@ impl Destination<PictureFormat> {
         match self.format {
             PictureFormat::Exr => {
                 let picture = arranged(panes, [0.0; 3]);
-                self.replace(progress, |file| exr::write(file, picture, entries))
+                self.replace(progress, |file| encode::exr(file, picture, entries))
             }
             PictureFormat::Png => {
                 let pictures: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
                 let picture = arranged(&pictures, MID_GRAY);
-                self.replace(progress, |file| png::write(file, &picture, entries))
+                self.replace(progress, |file| encode::png(file, &picture, entries))
             }
         }
     }
@@ -148,7 +146,7 @@ impl PngDestination {
     /// # Errors
     /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
     pub fn write(&self, picture: &Image<u8>, entries: &Entries, progress: &Progress) -> Result<(), Error> {
-        self.0.replace(progress, |file| png::write(file, picture, entries))
+        self.0.replace(progress, |file| encode::png(file, picture, entries))
     }
 }
 

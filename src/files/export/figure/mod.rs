@@ -15,11 +15,10 @@ use svbrdf_core::progress::Progress;
 pub(super) use layout::MILLIMETRE;
 pub use layout::{Anchor, Figure, TextStyle};
 
-use super::provenance::Entries;
+use super::encode::{self, Entries};
 use crate::disk::atomic::Destination;
 use crate::disk::memory;
 use crate::error::Error;
-use crate::export::png;
 
 impl Figure {
     /// The figure in pixels.
@@ -80,7 +79,7 @@ impl FigureDestination {
             }
             FigureFormat::Png => {
                 let image = figure.image()?;
-                self.0.replace(progress, |file| png::write(file, &image, entries))
+                self.0.replace(progress, |file| encode::png(file, &image, entries))
             }
         }
     }
@@ -188,8 +187,8 @@ mod tests {
         // A subset of the font, and the compressed data of a PNG.
         assert!(bytes.len() < 40_000, "{} bytes", bytes.len());
         let mut file = Vec::new();
-        png::write(&mut file, &picture(), &[]).unwrap();
-        let data: String = png::compressed(&file).into_iter().map(char::from).collect();
+        encode::png(&mut file, &picture(), &[]).unwrap();
+        let data: String = encode::compressed(&file).into_iter().map(char::from).collect();
         assert!(data.len() > 20 && pdf.contains(&data) && pdf.contains("/Predictor 15"));
         let wrong = pdf.replacen("> <0064>", "> <0065>", 1);
         assert_ne!(texts_of(&wrong), TEXTS, "a planted fault: d is called e");

@@ -11,8 +11,7 @@ use svbrdf_core::image::Image;
 
 use super::font::{self, FILE, FONT, Placed};
 use super::layout::{Figure, Stroke};
-use crate::export::png;
-use crate::export::provenance::{Entries, Provenance};
+use crate::export::encode::{self, Entries, Provenance};
 
 /// Largest side of a page, in points: other programs open no larger one.
 pub(super) const LARGEST: f64 = 14_400.0;
@@ -173,8 +172,8 @@ impl Used {
 /// Writes a picture with the compressed data of its PNG, which PDF reads as they are.
 fn write_picture(pdf: &mut Pdf, reference: Ref, image: &Image<u8>) -> io::Result<()> {
     let mut file = Vec::new();
-    png::write(&mut file, image, &[])?;
-    let data = png::compressed(&file);
+    encode::png(&mut file, image, &[])?;
+    let data = encode::compressed(&file);
     let [width, height] = [image.width, image.height].map(|side| side as i32);
     let mut object = pdf.image_xobject(reference, &data);
     object.width(width).height(height).bits_per_component(8).filter(Filter::FlateDecode);

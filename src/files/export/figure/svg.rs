@@ -7,8 +7,7 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 
 use super::layout::{Anchor, Figure, MILLIMETRE, Picture, Stroke, Text};
-use crate::export::png;
-use crate::export::provenance::Entries;
+use crate::export::encode::{self, Entries};
 
 /// The figure with its metadata as a description.
 pub(super) fn text(figure: &Figure, entries: &Entries) -> io::Result<String> {
@@ -24,7 +23,7 @@ pub(super) fn text(figure: &Figure, entries: &Entries) -> io::Result<String> {
     for picture in &figure.pictures {
         let Picture { at: [x, y], size: [width, height], .. } = picture;
         let mut file = Vec::new();
-        png::write(&mut file, &picture.printed(), &[])?;
+        encode::png(&mut file, &picture.printed(), &[])?;
         let data = BASE64_STANDARD.encode(file);
         let _ = writeln!(
             svg,
