@@ -23,11 +23,7 @@ const GENERATED: [Generated; 10] = [
         files: "packaging/THIRD-PARTY",
         script: "made=$(packaging/third_party.py) && printf '%s\\n' \"$made\" >packaging/THIRD-PARTY",
     },
-    Generated {
-        name: "assets",
-        files: "assets/icons/*.png",
-        script: "cargo run --example make_assets",
-    },
+    Generated { name: "assets", files: "assets/icons/*.png", script: "cargo run --example make_assets" },
     Generated {
         name: "shaders",
         files: "shaders/page.json",

@@ -2,13 +2,10 @@
 
 mod change;
 mod reading;
-mod remedy;
 mod storage;
 mod symmetry;
 
-pub use change::shifted;
-pub use change::{Change, displacement};
-pub use reading::Reading;
-pub use remedy::Remedy;
+pub use change::{Change, displacement, shifted};
+pub use reading::{Reading, Remedy};
 pub use storage::{Storage, StoredEncoding};
 pub use symmetry::Symmetry;

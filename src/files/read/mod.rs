@@ -3,8 +3,7 @@
 //! | stage | from | to |
 //! |---|---|---|
 //! | `formats` | a path | maps by role as stored (`stored`): a file or folder for each format, which locates, decodes and recognizes |
-//! | `gather` | stored maps | evidence of pixels, also of neighbouring materials |
-//! | `interpret` | stored maps and evidence | the planes of a [`Material`], with the [record](Read) of its reading |
+//! | `interpret` | stored maps | evidence of pixels, also of neighbouring materials, and the planes of a [`Material`](svbrdf_core::material::Material), with the [record](Read) of its reading |
 //!
 //! A path enters as a [`MaterialPath`]: its sidecar file completes what is specified, and what is used of both goes with it through
 //! all stages. [`read()`] is the short form; [`read_bytes`] begins with a picture in memory; a photograph, which is no
@@ -15,9 +14,8 @@
 
 pub(crate) mod decode;
 mod formats;
-mod gather;
 mod interpret;
-mod measure;
+mod map_report;
 mod names;
 pub(crate) mod options;
 mod photograph;
@@ -30,9 +28,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use formats::{Binding, Sidecar, is_prefix};
-pub use gather::Neighbours;
-pub use gather::map_report::MapContent;
-pub use options::extensions::EXTENSIONS;
+pub use interpret::Neighbours;
+pub use map_report::MapContent;
+pub use names::EXTENSIONS;
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
     Roughness, TileGrid, Workflow,
@@ -46,7 +44,6 @@ pub use result::Read;
 
 use sha2::{Digest as _, Sha256};
 
-use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
@@ -56,7 +53,6 @@ use crate::error::Error;
 
 use decode::reader::Reader;
 use formats::{Located, WholePicture};
-use gather::map_report;
 use stored::StoredMaterial;
 
 /// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them; its sidecar file
@@ -154,7 +150,7 @@ impl<'a> MaterialPath<'a> {
     fn located(&self) -> Result<LocatedPath, Error> {
         let saved = Sidecar::load(self.path)?;
         let used = self.used(&saved);
-        let located = formats::locate(self.path, &saved, &used)?;
+        let located = formats::locate(self.path, &used)?;
         Ok(LocatedPath { saved, used, located })
     }
 }
@@ -196,11 +192,9 @@ fn finish<T: Real>(mut stored: StoredMaterial, options: &ReadOptions) -> Result<
     let bytes = (width as u64).saturating_mul(height as u64).saturating_mul(10 * size_of::<T>() as u64);
     let memory = memory::reserve(bytes, || format!("the material {}", stored.name))?;
     let maps = map_report::reports(&stored);
-    let evidence = gather::evidences(&stored, options);
-    let neighbours = evidence.neighbours().cloned();
-    let ([width, height], planes) = interpret::interpret(&mut stored, evidence, options)?;
+    let (material, neighbours) = interpret::interpret(&mut stored, options)?;
     Ok(Read {
-        material: Material::new(stored.name, width, height, planes)?,
+        material,
         assumptions: stored.assumptions,
         notes: stored.notes,
         files: stored.files,

@@ -8,8 +8,8 @@ use svbrdf_core::material::Material;
 use crate::changes::{Storage, StoredEncoding};
 use crate::disk::memory::Reserved;
 use crate::error::{Error, Guess};
-use crate::read::gather::Neighbours;
-use crate::read::gather::map_report::MapContent;
+use crate::read::interpret::Neighbours;
+use crate::read::map_report::MapContent;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
 use crate::read::record::{Assumption, Certainty, Note, What};
 

@@ -7,7 +7,7 @@ use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision}
 
 use super::place::{DecodedFile, ratio};
 use super::reader::Reader;
-use crate::disk::panics::caught;
+use crate::disk::caught;
 use crate::error::Error;
 use crate::read::options::Role;
 use crate::read::raster::{Buffer, Raster, Samples};

@@ -12,11 +12,11 @@ use glam::DMat3;
 use super::dwa;
 use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE, ratio};
 use super::reader::Reader;
-use crate::disk::panics::caught;
+use crate::disk::caught;
 use crate::error::Error;
 use crate::read::names::Label;
 use crate::read::options::Role;
-use crate::read::options::colour_space::to_rec709;
+use crate::read::options::transfer::to_rec709;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject, Unused};
 

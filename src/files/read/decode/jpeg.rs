@@ -7,7 +7,7 @@ use libjpeg_turbo_rs::{ColorSpace, DecodeLimits, Decoder, JpegError, PixelFormat
 
 use super::place::{Decoded, DecodedFile, alone, ratio};
 use super::reader::Reader;
-use crate::disk::panics::caught;
+use crate::disk::caught;
 use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
 

@@ -21,8 +21,8 @@ mod tiff_jpeg;
 use std::io::BufRead as _;
 use std::path::Path;
 
-use crate::disk::lfs;
 use crate::disk::open::NamedFile;
+use crate::disk::refuse_pointer;
 use crate::error::Error;
 use crate::read::names::Label;
 use crate::read::raster::Raster;
@@ -48,7 +48,7 @@ pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) ->
     let unreadable = |source| Error::unreadable(path, source);
     let place = DecodedFile { length: reader.length().map_err(unreadable)?, ..DecodedFile::of(path, what) };
     let head = reader.fill_buf().map_err(unreadable)?;
-    lfs::refuse_pointer(path, head)?;
+    refuse_pointer(path, head)?;
     let begins = |magic: &[u8]| head.starts_with(magic);
     if begins(&[0x76, 0x2f, 0x31, 0x01]) {
         exr::decode(reader, place)
@@ -83,7 +83,11 @@ pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>),
         _ => {
             let names: Vec<_> = layers.iter().map(|layer| layer.name.as_str()).collect();
             let problem = format!("expected one picture, found the layers {}", names.join(", "));
-            return Err(DecodedFile::of(file.path(), what).bad(problem, "open the file itself"));
+            let remedy = match what {
+                Subject::Photograph => "save the layer of the photograph alone",
+                _ => "open the file itself",
+            };
+            return Err(DecodedFile::of(file.path(), what).bad(problem, remedy));
         }
     };
     let chosen = layers.swap_remove(chosen);
@@ -92,23 +96,17 @@ pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>),
     Ok((chosen, notes))
 }
 
-/// The picture of a photograph, of one or three channels: the only one of a file, or its layer without a name.
+/// The picture of a photograph, of one or three channels.
 ///
 /// # Errors
-/// As [`whole`]; [`Error::BadImage`] where no layer or several could be meant.
+/// As [`one`]; [`Error::BadImage`] where it has other channels.
 pub(super) fn photograph(file: &NamedFile) -> Result<(Raster, Vec<Note>), Error> {
-    let place = DecodedFile::of(file.path(), Subject::Photograph);
-    let Decoded { mut layers, notes, .. } = whole(file, place.what)?;
-    let unnamed = layers.iter().position(|layer| layer.name.is_empty());
-    let chosen = if layers.len() == 1 { Some(0) } else { unnamed };
-    let Some(chosen) = chosen else {
-        let names: Vec<_> = layers.iter().map(|layer| layer.name.as_str()).collect();
-        let problem = format!("expected one picture, found the layers {}", names.join(", "));
-        return Err(place.bad(problem, "save the layer of the photograph alone"));
-    };
-    let raster = layers.swap_remove(chosen).raster;
+    let (Layer { raster, .. }, notes) = one(file, Subject::Photograph)?;
     match raster.channels.len() {
         1 | 3 => Ok((raster, notes)),
-        count => Err(place.bad(format!("expected gray or RGB, found {count} channels"), "convert it to RGB")),
+        count => {
+            let place = DecodedFile::of(file.path(), Subject::Photograph);
+            Err(place.bad(format!("expected gray or RGB, found {count} channels"), "convert it to RGB"))
+        }
     }
 }

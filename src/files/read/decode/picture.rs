@@ -18,7 +18,7 @@ use super::jpeg;
 use super::known;
 use super::place::{Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone, ratio};
 use super::reader::Reader;
-use crate::disk::panics::caught;
+use crate::disk::caught;
 use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::Note;

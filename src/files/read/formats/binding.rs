@@ -1,6 +1,6 @@
 //! Bindings: maps that are specified one by one.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::str::FromStr;
 
 use svbrdf_core::error::Error as CoreError;
@@ -15,62 +15,19 @@ use crate::read::options::Role;
 use crate::read::record::Subject;
 use crate::read::stored::StoredMap;
 
-/// A binding, and its file as it was named; `None` of a constant.
-#[derive(Debug)]
-pub(in crate::read) struct LocatedBinding {
-    binding: Binding,
-    pub file: Option<NamedFile>,
-}
-
-impl LocatedBinding {
-    pub(super) fn role(&self) -> Role {
-        self.binding.role
-    }
-
-    /// Reads its map.
-    ///
-    /// # Errors
-    /// [`Error::BadImage`] where the file has no such part; [`Error::Unreadable`].
-    pub(super) fn read(&self) -> Result<(Role, StoredMap), Error> {
-        let Binding { role, part, constant, .. } = &self.binding;
-        let what = Subject::Map(*role);
-        let Some(named) = &self.file else {
-            return Ok((*role, StoredMap::specified(constant.as_deref().unwrap_or_default())));
-        };
-        let file = named.path().to_owned();
-        let Some(part) = part.clone() else {
-            let raster = decode::one(named, what)?.0.raster;
-            return Ok((*role, StoredMap { raster, file, part: String::new() }));
-        };
-        let mut all = decode::whole(named, what)?.layers;
-        let channel = ["r", "g", "b", "a"].iter().position(|letter| *letter == part);
-        let raster = match (all.iter().position(|layer| layer.name == part), channel, all.as_slice()) {
-            (Some(place), ..) => Some(all.swap_remove(place).raster),
-            (None, Some(3), [Layer { raster, .. }]) => raster.alpha.clone().map(|alpha| raster.of(alpha)),
-            (None, Some(channel), [Layer { raster, .. }]) => {
-                raster.channels.get(channel).map(|plane| raster.of(plane.clone()))
-            }
-            _ => None,
-        };
-        let names: Vec<_> = all.iter().map(picture::name).collect();
-        let raster = raster.ok_or_else(|| Error::BadImage {
-            path: file.clone(),
-            problem: format!("{what}: expected the part {part}, found {}", listing(&names)),
-            remedy: "name a channel (r, g, b, a) that it has, or one of its layers".to_owned(),
-        })?;
-        Ok((*role, StoredMap { raster, file, part }))
-    }
-}
-
 /// `normal=FILE`, `roughness=FILE:g` for one channel or layer of the file, or `roughness=0.5` for a constant.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Binding {
     role: Role,
-    file: PathBuf,
-    /// r, g, b, a, or the name of a layer.
-    part: Option<String>,
-    /// The value, or red, green and blue; then there is no file.
-    constant: Option<Vec<f32>>,
+    source: Source,
+}
+
+#[derive(Clone, Debug)]
+enum Source {
+    /// The part is r, g, b, a, or the name of a layer.
+    File { file: NamedFile, part: Option<String> },
+    /// The value, or red, green and blue.
+    Constant(Vec<f32>),
 }
 
 /// The maps that can be specified.
@@ -100,7 +57,7 @@ impl FromStr for Binding {
             ));
         };
         if let Some(values) = constant(file).filter(|values| values.len() == 1 || is_colour(role)) {
-            return Ok(Self { role, file: PathBuf::new(), part: None, constant: Some(values) });
+            return Ok(Self { role, source: Source::Constant(values) });
         }
         if file.split(',').all(|number| number.trim().parse::<f32>().is_ok()) && !Path::new(file).exists() {
             let known = "a number from 0 to 1; diffuse, base and specular also three: 0.2,0.1,0.1";
@@ -112,7 +69,8 @@ impl FromStr for Binding {
             }
             _ => (file, None),
         };
-        Ok(Self { role, file: file.into(), part: part.filter(|part| part != "rgb"), constant: None })
+        let (file, part) = (NamedFile::by_user(file), part.filter(|part| part != "rgb"));
+        Ok(Self { role, source: Source::File { file, part } })
     }
 }
 
@@ -127,43 +85,82 @@ fn is_colour(role: Role) -> bool {
     matches!(role, Role::Diffuse | Role::Base | Role::Specular)
 }
 
+impl PartialEq for Binding {
+    /// Whoever names the file.
+    fn eq(&self, other: &Self) -> bool {
+        self.relative_to(Path::new("")) == other.relative_to(Path::new(""))
+    }
+}
+
 impl Binding {
     pub(crate) fn role(&self) -> Role {
         self.role
     }
 
     /// The file; `None` of a constant.
-    pub(crate) fn file(&self) -> Option<&Path> {
-        self.constant.is_none().then_some(&self.file)
+    pub(crate) fn file(&self) -> Option<&NamedFile> {
+        match &self.source {
+            Source::File { file, .. } => Some(file),
+            Source::Constant(_) => None,
+        }
     }
 
-    /// The binding, its file opened as `named` has it.
-    pub(super) fn located(&self, named: impl Fn(&Path) -> NamedFile) -> LocatedBinding {
-        LocatedBinding { file: self.file().map(named), binding: self.clone() }
+    /// Reads its map.
+    ///
+    /// # Errors
+    /// [`Error::BadImage`] where the file has no such part; [`Error::Unreadable`].
+    pub(super) fn read(&self) -> Result<(Role, StoredMap), Error> {
+        let (role, what) = (self.role, Subject::Map(self.role));
+        let (named, part) = match &self.source {
+            Source::File { file, part } => (file, part.clone()),
+            Source::Constant(values) => return Ok((role, StoredMap::specified(values))),
+        };
+        let file = named.path().to_owned();
+        let Some(part) = part else {
+            let raster = decode::one(named, what)?.0.raster;
+            return Ok((role, StoredMap { raster, file, part: String::new() }));
+        };
+        let mut all = decode::whole(named, what)?.layers;
+        let channel = ["r", "g", "b", "a"].iter().position(|letter| *letter == part);
+        let raster = match (all.iter().position(|layer| layer.name == part), channel, all.as_slice()) {
+            (Some(place), ..) => Some(all.swap_remove(place).raster),
+            (None, Some(3), [Layer { raster, .. }]) => raster.alpha.clone().map(|alpha| raster.of(alpha)),
+            (None, Some(channel), [Layer { raster, .. }]) => {
+                raster.channels.get(channel).map(|plane| raster.of(plane.clone()))
+            }
+            _ => None,
+        };
+        let names: Vec<_> = all.iter().map(picture::name).collect();
+        let raster = raster.ok_or_else(|| Error::BadImage {
+            path: file.clone(),
+            problem: format!("{what}: expected the part {part}, found {}", listing(&names)),
+            remedy: "name a channel (r, g, b, a) that it has, or one of its layers".to_owned(),
+        })?;
+        Ok((role, StoredMap { raster, file, part }))
     }
 
     /// The same as the sidecar file `sidecar` has it: the path of the file is relative to its folder.
     ///
     /// # Errors
     /// [`Error::Outside`].
-    pub(crate) fn named_by(self, sidecar: &Path) -> Result<Self, Error> {
-        if self.constant.is_some() {
-            return Ok(self);
+    pub(crate) fn named_by(mut self, sidecar: &Path) -> Result<Self, Error> {
+        if let Source::File { file, .. } = &mut self.source {
+            *file = NamedFile::within(file.path(), sidecar);
+            file.check()?;
         }
-        let file = NamedFile::within(&self.file, sidecar);
-        file.check()?;
-        Ok(Self { file: file.path().to_owned(), ..self })
+        Ok(self)
     }
 
     /// The name of the map, and `FILE` or `FILE:PART` relative to `folder`, or the constant.
     pub(crate) fn relative_to(&self, folder: &Path) -> (&'static str, String) {
         let name = ROLES.iter().find(|(_, role)| *role == self.role).map_or("", |(name, _)| name);
-        if let Some(values) = &self.constant {
-            return (name, values.iter().map(f32::to_string).collect::<Vec<_>>().join(","));
-        }
-        let file = relative(&absolute(&self.file), &absolute(folder));
-        let file = file.display();
-        let part = self.part.as_ref().map(|part| format!(":{part}")).unwrap_or_default();
-        (name, format!("{file}{part}"))
+        let text = match &self.source {
+            Source::Constant(values) => values.iter().map(f32::to_string).collect::<Vec<_>>().join(","),
+            Source::File { file, part } => {
+                let part = part.as_ref().map(|part| format!(":{part}")).unwrap_or_default();
+                format!("{}{part}", relative(&absolute(file.path()), &absolute(folder)).display())
+            }
+        };
+        (name, text)
     }
 }

@@ -2,7 +2,7 @@
 
 use svbrdf_core::progress::Progress;
 
-use super::binding::LocatedBinding;
+use super::binding::Binding;
 use super::gltf::Gltf;
 use super::mtl::Mtl;
 use super::mtlx::Mtlx;
@@ -18,7 +18,7 @@ use crate::read::stored::{StoredMap, StoredMaterial};
 #[derive(Debug)]
 pub(crate) struct Located {
     /// Maps that are specified one by one.
-    pub bound: Vec<LocatedBinding>,
+    pub bound: Vec<Binding>,
     /// The most likely first: where pixels refuse one, the next is tried.
     pub candidates: Vec<Candidate>,
     /// The folders that were entered because each was the only one in another without pictures, the outermost first.
@@ -41,7 +41,7 @@ impl Located {
     /// [`Error::NotPacked`], [`Error::BadImage`], [`Error::Unreadable`], [`Error::NoSuchExemplar`],
     /// [`Cancelled`](Error::is_cancelled).
     pub(crate) fn read(self, options: &ReadOptions, progress: &Progress) -> Result<StoredMaterial, Error> {
-        let bound = self.bound.iter().map(LocatedBinding::read).collect::<Result<Vec<_>, _>>()?;
+        let bound = self.bound.iter().map(Binding::read).collect::<Result<Vec<_>, _>>()?;
         let mut refusal = None;
         let mut candidates = self.candidates.into_iter().peekable();
         while let Some(candidate) = candidates.next() {
@@ -69,7 +69,7 @@ impl Located {
 
     /// Every file that may be decoded, neighbours excepted.
     pub(crate) fn files(&self) -> impl Iterator<Item = NamedFile> + '_ {
-        let bound = self.bound.iter().filter_map(|binding| binding.file.clone());
+        let bound = self.bound.iter().filter_map(|binding| binding.file().cloned());
         bound.chain(self.candidates.iter().flat_map(Candidate::files))
     }
 }

@@ -16,8 +16,7 @@ use std::path::Path;
 
 use crate::disk::open::NamedFile;
 use crate::error::Error;
-use crate::read::names::{Label, folder_of, list};
-use crate::read::options::extensions::{self, LISTING};
+use crate::read::names::{LISTING, Label, extension, folder_of, list};
 use crate::read::options::{ReadOptions, Role};
 
 pub use binding::Binding;
@@ -30,23 +29,16 @@ use gltf::Gltf;
 use mtl::Mtl;
 use mtlx::Mtlx;
 
-/// Locates the material at `path` with the options and bindings `used`, of which `saved` are those of its sidecar file.
+/// Locates the material at `path` with the options and bindings `used`.
 ///
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`] where a document is broken, [`Error::NotAMaterial`] where maps are missing
 /// or claimed twice by their names, [`Error::NoSuchExemplar`], [`Error::BadSidecar`].
-pub(super) fn locate(path: &Path, saved: &Sidecar, used: &Sidecar) -> Result<Located, Error> {
-    let (of_sidecar, of_caller): (Vec<_>, Vec<_>) =
-        used.bindings.iter().cloned().partition(|binding| saved.bindings.contains(binding));
-    Sidecar { bindings: of_sidecar, ..Sidecar::default() }.check_maps(path)?;
-    let bound = |binding: &Binding| match of_caller.contains(binding) {
-        true => binding.located(|file| NamedFile::by_user(file)),
-        false => binding.located(|file| NamedFile::by_file(file, &Sidecar::path_for(path))),
-    };
-    let bound: Vec<_> = used.bindings.iter().map(bound).collect();
-    let roles: Vec<_> = bound.iter().map(|binding| binding.role()).collect();
+pub(super) fn locate(path: &Path, used: &Sidecar) -> Result<Located, Error> {
+    used.check_maps(path)?;
+    let roles: Vec<_> = used.bindings.iter().map(Binding::role).collect();
     let mut found = candidates(&sidecar::material_of(path)?, &roles, &used.options.with_preset())?;
-    found.bound = bound;
+    found.bound.clone_from(&used.bindings);
     Ok(found)
 }
 
@@ -79,7 +71,7 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
     {
         return folder::locate(path, &folder_of(path), &prefix.to_string_lossy(), bound);
     }
-    let extension = extensions::of_name(path);
+    let extension = extension(path);
     let first = match extension.as_str() {
         "gltf" | "glb" => Candidate::Gltf(Gltf::locate(path, options)?.into()),
         "mtl" => Candidate::Mtl(Mtl::locate(path, options)?),
@@ -109,83 +101,18 @@ mod tests {
     use super::*;
     use crate::disk::open::NamedBy;
 
-    /// A folder of files without any content: no picture could be decoded.
-    fn folder(files: &[&str]) -> tempfile::TempDir {
-        let folder = tempfile::tempdir().unwrap();
-        for file in files {
-            let path = folder.path().join(file);
-            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-            std::fs::write(path, "").unwrap();
-        }
-        folder
-    }
-
-    fn located(path: &Path, bindings: &[&str]) -> Located {
-        let bindings = bindings.iter().map(|text| text.parse().unwrap()).collect();
-        let used = Sidecar { bindings, ..Sidecar::default() };
-        locate(path, &Sidecar::default(), &used).unwrap()
-    }
-
-    /// The files of each candidate.
-    fn files(located: &Located) -> Vec<Vec<String>> {
-        let of = |candidate: &Candidate| match candidate {
-            Candidate::Picture(picture) => {
-                vec![picture.file.path().file_name().unwrap().to_string_lossy().into()]
-            }
-            Candidate::Set(set) => {
-                let mut files: Vec<_> = set.files.files.iter().map(|file| file.file.clone()).collect();
-                files.sort();
-                files
-            }
-            other => panic!("{other:?}"),
-        };
-        located.candidates.iter().map(of).collect()
-    }
-
-    const MAPS: [&str; 3] = ["a_diffuse.png", "a_normal.png", "a_roughness.png"];
-
-    #[test]
-    fn maps_are_located_by_their_names_alone() {
-        let folder = folder(&["a_normal.png", "a_diffuse.png", "a_roughness.png", "notes.txt", "photo.jpg"]);
-        let found = located(folder.path(), &[]);
-        assert_eq!(files(&found), [MAPS]);
-        assert_eq!(files(&located(&folder.path().join("a"), &[])), [MAPS]);
-        let Candidate::Set(set) = &found.candidates[0] else { panic!("{found:?}") };
-        assert_eq!(set.files.unlabelled, ["photo.jpg"]);
-    }
-
-    #[test]
-    fn a_file_that_is_named_after_a_map_is_a_material_or_else_a_map_of_its_set() {
-        let folder = folder(&MAPS);
-        let found = located(&folder.path().join("a_normal.png"), &[]);
-        assert_eq!(files(&found), [vec!["a_normal.png"], MAPS.to_vec()]);
-        let other = located(&folder.path().join("a_normal.png"), &["normal=x.png"]);
-        assert_eq!(files(&other), [vec!["a_normal.png"], vec!["a_diffuse.png", "a_roughness.png"]]);
-    }
-
-    #[test]
-    fn the_only_folder_in_a_folder_without_pictures_is_entered() {
-        let folder = folder(&["one/two/a_normal.png", "one/two/a_diffuse.png", "one/two/a_roughness.png"]);
-        let found = located(folder.path(), &[]);
-        assert_eq!(
-            (files(&found), found.folders),
-            (vec![MAPS.map(str::to_owned).to_vec()], vec!["one".to_owned(), "two".to_owned()])
-        );
-    }
-
     #[test]
     fn a_located_file_knows_who_named_it() {
-        let folder = folder(&["a_diffuse.png", "a_roughness.png", "n.png", "m.png"]);
+        let folder = tempfile::tempdir().unwrap();
         let path = folder.path();
-        let saved = Sidecar {
-            bindings: vec![format!("normal={}", path.join("n.png").display()).parse().unwrap()],
-            ..Sidecar::default()
-        };
+        for name in ["a_diffuse.png", "a_roughness.png", "n.png", "m.png"] {
+            std::fs::write(path.join(name), "").unwrap();
+        }
+        std::fs::write(path.join("svbrdf.json"), r#"{"maps": {"normal": "n.png"}}"#).unwrap();
         let caller: Binding = "metallic=m.png".parse().unwrap();
-        let used = Sidecar { bindings: vec![saved.bindings[0].clone(), caller], ..Sidecar::default() };
-        let found = locate(path, &saved, &used).unwrap();
-        let by: Vec<_> =
-            found.bound.iter().map(|bound| bound.file.as_ref().unwrap().named_by().clone()).collect();
+        let used = Sidecar::load(path).unwrap().overridden_by(&ReadOptions::AUTO, &[caller]);
+        let found = locate(path, &used).unwrap();
+        let by: Vec<_> = found.bound.iter().map(|bound| bound.file().unwrap().named_by().clone()).collect();
         assert_eq!(by, [NamedBy::File(path.join("svbrdf.json")), NamedBy::User]);
         let Candidate::Set(set) = &found.candidates[0] else { panic!("{found:?}") };
         assert_eq!(set.file("a_diffuse.png").named_by(), &NamedBy::File(path.to_owned()));

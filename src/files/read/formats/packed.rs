@@ -4,9 +4,9 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::read::measure::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
 use crate::read::options::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Role, Roughness, TileGrid};
 use crate::read::raster::Raster;
+use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
 use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, What};
 use crate::read::stored::{Inferred, MapsByRole, StoredMap, StoredMaterial};
 

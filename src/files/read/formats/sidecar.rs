@@ -11,12 +11,11 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::text::of_json;
 
 use super::binding::Binding;
-use crate::disk::open::NamedFile;
+use crate::disk::open::{NamedBy, NamedFile};
 use crate::disk::{atomic, own};
 use crate::error::Error;
-use crate::read::names::Label;
+use crate::read::names::{EXTENSIONS, Label};
 use crate::read::options::ReadOptions;
-use crate::read::options::extensions::EXTENSIONS;
 use crate::read::record::{Assumption, Certainty, Note, SpecifiedBy, What};
 
 /// The name of the file in a folder.
@@ -92,16 +91,16 @@ impl Sidecar {
         Ok(sidecar)
     }
 
-    /// Checks that every file of its bindings exists.
+    /// Checks that every file exists that the sidecar file of `path` names.
     ///
     /// # Errors
     /// [`Error::BadSidecar`].
     pub(crate) fn check_maps(&self, path: &Path) -> Result<(), Error> {
-        let files = self.bindings.iter().filter_map(|binding| Some((binding.role(), binding.file()?)));
-        match files.into_iter().find(|(_, file)| !file.exists()) {
+        let mut files = self.bindings.iter().filter_map(|binding| Some((binding.role(), binding.file()?)));
+        match files.find(|(_, file)| *file.named_by() != NamedBy::User && !file.exists()) {
             Some((role, file)) => Err(Error::BadSidecar {
                 path: Self::path_for(path),
-                problem: format!("the {} map {} does not exist", role.name(), file.display()),
+                problem: format!("the {} map {} does not exist", role.name(), file.path().display()),
                 keys: keys().join(", "),
             }),
             None => Ok(()),
@@ -155,7 +154,7 @@ impl Sidecar {
         let is_saved =
             |key: &str| saved.get(key).is_some_and(|value| !value.is_null() && used.get(key) == Some(value));
         let is_any_saved = |what: What| {
-            let mut keys = keys_of(what).iter();
+            let mut keys = what.keys().iter();
             keys.find(|key| used.get(**key).is_some_and(|v| !v.is_null())).is_some_and(|key| is_saved(key))
         };
         for assumption in assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
@@ -165,9 +164,10 @@ impl Sidecar {
         }
         for note in notes.iter_mut() {
             let is_saved = match note {
-                Note::MapSpecified { map, file, .. } => {
-                    self.bindings.iter().any(|b| b.role() == *map && b.file().is_none_or(|own| own == file))
-                }
+                Note::MapSpecified { map, file, .. } => self
+                    .bindings
+                    .iter()
+                    .any(|b| b.role() == *map && b.file().is_none_or(|own| own.path() == file)),
                 Note::RowsFlipped { .. } => is_saved("flip-v"),
                 Note::SpecularMedian { .. } => is_any_saved(What::Specular),
                 _ => false,
@@ -203,22 +203,6 @@ fn common_place(path: &Path) -> Option<PathBuf> {
 fn is_named_after_map(path: &Path) -> bool {
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     path.is_file() && Label::of(&name).is_some_and(|label| label.stem.is_empty() && !label.is_short())
-}
-
-/// The keys that specify an assumption, the most specific first.
-fn keys_of(what: What) -> &'static [&'static str] {
-    match what {
-        What::Layout => &["order", "grid"],
-        What::Workflow => &["workflow"],
-        What::Albedo => &["albedo"],
-        What::Specular => &["specular-albedo", "albedo"],
-        What::NormalY => &["normal-y", "preset"],
-        What::NormalEncoding => &["normal-encoding"],
-        What::Roughness => &["roughness"],
-        What::Energy => &["energy"],
-        What::Missing => &["dielectric-f0"],
-        What::Size | What::Values => &[],
-    }
 }
 
 fn keys() -> Vec<String> {

@@ -1,23 +1,23 @@
-//! Encodings of colours: as specified, as the files tell, or as the gathered evidence suggests.
+//! Encodings of colours: as specified, as the files tell, or as the evidence of pixels suggests.
 
+use super::evidence::{self, PRIOR, SURE};
+use super::neighbours::Neighbours;
 use super::values::decide;
-use crate::read::gather::{ColourEvidence, PRIOR, SURE};
-use crate::read::measure;
-use crate::read::options::{Albedo, ReadOptions};
+use crate::read::options::{Albedo, ReadOptions, Roughness};
+use crate::read::raster::measure;
 use crate::read::record::{
     Assumption, Certainty, Evidence, Note, Reason, SpecifiedBy, StorageConvention, What,
 };
-use crate::read::stored::{Inferred, StoredMaterial};
+use crate::read::stored::{Inferences, Inferred, StoredMap, StoredMaterial};
 
-/// How diffuse (or a base colour) and specular are stored, recorded.
+/// How diffuse (or a base colour) and specular are stored, recorded; with the neighbours that were looked at.
 pub(super) fn encodings(
     found: &mut StoredMaterial,
-    evidence: ColourEvidence,
     options: &ReadOptions,
-) -> [Albedo; 2] {
-    let [diffuse, specular] = detected(evidence);
+) -> ([Albedo; 2], Option<Neighbours>) {
+    let ([diffuse, specular], neighbours) = detected(found, options);
     let inferred = found.inferred.albedo.take();
-    // Without evidence the encoding is specified or inferred: then this is never asked.
+    // Nothing is detected where the encoding is specified or inferred: then this is never asked.
     let detected = || diffuse.unwrap_or_else(|| alone(None));
     let albedo = decide(&mut found.assumptions, What::Albedo, options.albedo, inferred, detected);
     let is_other = options.albedo.is_none() && found.notes.contains(&Note::Primaries);
@@ -26,16 +26,45 @@ pub(super) fn encodings(
         assumption.why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::OtherPrimaries));
         assumption.certainty = Certainty::Unsure;
     }
-    [albedo, specular_encoding(found, options, specular)]
+    ([albedo, specular_encoding(found, options, specular)], neighbours)
 }
 
-/// The encodings that the evidence supports, of diffuse (or a base colour) and of specular.
-fn detected(evidence: ColourEvidence) -> [Inferred<Albedo>; 2] {
-    match evidence {
-        ColourEvidence::Specified => [None, None],
-        ColourEvidence::Alone(dark) => [Some(alone(dark)), None],
-        ColourEvidence::Pair { diffuse, specular, .. } => [diffuse, specular].map(verdict).map(Some),
+/// The encodings that the pixels of diffuse (or a base colour) and of specular suggest, where options and files leave them open.
+fn detected(found: &StoredMaterial, options: &ReadOptions) -> ([Inferred<Albedo>; 2], Option<Neighbours>) {
+    let Inferences { albedo, specular: known, roughness, .. } = &found.inferred;
+    match &found.specular {
+        _ if options.albedo.is_some() || (albedo.is_some() && known.is_some()) => ([None, None], None),
+        Some(specular) => {
+            let roughness = options.roughness.or(roughness.as_ref().map(|known| known.0));
+            pair(&found.colour, specular, roughness)
+        }
+        None if albedo.is_some() => ([None, None], None),
+        None => ([Some(alone(evidence::alone(&found.colour.raster))), None], None),
     }
+}
+
+/// The encodings of diffuse and specular, with the evidence of neighbours where their own leaves them open.
+///
+/// The two differ only where evidence about diffuse alone does. `roughness` is what the names declare it: glossiness is
+/// how artists name it.
+fn pair(
+    diffuse: &StoredMap,
+    specular: &StoredMap,
+    roughness: Option<Roughness>,
+) -> ([Inferred<Albedo>; 2], Option<Neighbours>) {
+    let prior = if roughness == Some(Roughness::Gloss) { Evidence::Prior } else { Evidence::Research };
+    let mut common = vec![prior];
+    if evidence::is_jpeg(&diffuse.file) && evidence::is_jpeg(&specular.file) {
+        common.push(Evidence::Jpeg);
+    }
+    common.extend(evidence::measured(&diffuse.raster, &specular.raster));
+    let total: f64 = common.iter().map(|one| one.log_odds()).sum();
+    let pictures = || [diffuse.file.clone(), specular.file.clone()];
+    let neighbours = (total.abs() < SURE).then(|| Neighbours::of(pictures()));
+    common.extend(neighbours.as_ref().and_then(Neighbours::evidence));
+    let bright = evidence::too_bright(&diffuse.raster, &specular.raster);
+    let diffuse = common.iter().copied().chain(bright).collect();
+    ([diffuse, common].map(verdict).map(Some), neighbours)
 }
 
 /// The encoding of a colour without specular, by convention.
@@ -110,34 +139,4 @@ fn specular_encoding(
     };
     found.assumptions.push(assumption);
     chosen
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_verdict_rests_on_the_evidence_that_was_gathered() {
-        let albedo = |evidence: &[Evidence]| {
-            let (diffuse, specular) = (evidence.to_vec(), evidence.to_vec());
-            let [diffuse, specular] = detected(ColourEvidence::Pair { diffuse, specular, neighbours: None });
-            assert_eq!(diffuse, specular);
-            diffuse.map(|(albedo, _, certainty)| (albedo, certainty)).unwrap()
-        };
-        assert_eq!(albedo(&[Evidence::Prior]), (Albedo::Srgb, Certainty::Likely));
-        assert_eq!(albedo(&[Evidence::Research]), (Albedo::Srgb, Certainty::Unsure));
-        let linear = Evidence::LinearDielectrics(1.0);
-        assert_eq!(albedo(&[Evidence::Research, linear]), (Albedo::Linear, Certainty::Likely));
-        let neighbours = |log_odds| Evidence::Neighbours { count: 4, log_odds };
-        assert_eq!(albedo(&[Evidence::Research, neighbours(3.0)]), (Albedo::Linear, Certainty::Unsure));
-        assert_eq!(albedo(&[Evidence::Research, neighbours(-3.0)]), (Albedo::Srgb, Certainty::Likely));
-    }
-
-    #[test]
-    fn a_colour_by_itself_is_encoded_and_unsure_where_it_is_dark() {
-        let of = |dark| detected(ColourEvidence::Alone(dark)).map(|one| one.map(|(a, _, c)| (a, c)));
-        assert_eq!(of(None), [Some((Albedo::Srgb, Certainty::Likely)), None]);
-        assert_eq!(of(Some(Evidence::Dark(0.03))), [Some((Albedo::Srgb, Certainty::Unsure)), None]);
-        assert_eq!(detected(ColourEvidence::Specified), [None, None]);
-    }
 }

@@ -5,14 +5,14 @@ use rayon::prelude::*;
 use svbrdf_core::material::resize::{self, Filter};
 use svbrdf_core::math::real::Real;
 
+use super::heights::{self, HeightEvidence, is_contradicted};
 use super::values::decide;
 use crate::error::Error;
-use crate::read::gather::HeightEvidence;
-use crate::read::measure::{self, NORMAL_AT_LEAST};
 use crate::read::options::{NormalEncoding, NormalY, ReadOptions};
+use crate::read::raster::measure::{self, NORMAL_AT_LEAST};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Assumption, Certainty, Reason, StorageConvention, What};
-use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+use crate::read::stored::{Inferred, StoredMaterial};
 
 /// Shorter vectors have no direction: the gray of 127 or 128 is one of length 0.007.
 const SHORTEST: f64 = 0.02;
@@ -21,8 +21,6 @@ const BLACK: f64 = -2.9;
 /// Below this correlation of the curl test an unlabelled map is taken to be y down: of 20 maps of known direction
 /// none with y up lies below it.
 const DOWN: f64 = -0.05;
-/// Beyond this correlation the curl test contradicts a name or a convention.
-const CONTRADICTS: f64 = 0.3;
 /// Heights whose slopes correlate better with the normals outweigh the curl test.
 const CLEAR: f64 = 0.5;
 /// Above this correlation it is taken to be y up.
@@ -34,17 +32,17 @@ const OVERSHOOT: f64 = 0.1;
 /// Squared sine of the slope above which z is visibly below 1.
 const STEEP: f64 = 0.05;
 
-/// The components of the normals in `source`, not yet of unit length, y up.
+/// The components of the normals, not yet of unit length, y up.
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where the map is gray.
-pub(crate) fn planes<T: Real>(
-    source: StoredMap,
+pub(super) fn planes<T: Real>(
     found: &mut StoredMaterial,
-    heights: Option<HeightEvidence>,
     options: &ReadOptions,
     size: [usize; 2],
 ) -> Result<[Vec<T>; 3], Error> {
+    let heights = heights::evidence(found, options);
+    let Some(source) = found.normal.take() else { return Ok(flat(found, size)) };
     let raster = &source.raster;
     if raster.channels.len() < 2 {
         return Err(Error::NotAMaterial {
@@ -86,7 +84,7 @@ pub(crate) fn planes<T: Real>(
 }
 
 /// Normals of a material without a normal map.
-pub(crate) fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
+fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
     let is_listed = |one: &Assumption| one.why == StorageConvention::ListedTextures.into();
     // A file that lists its textures has no other ones.
     let (why, certainty) = match found.assumptions.iter().any(is_listed) {
@@ -211,9 +209,8 @@ fn normal_y(
 
 /// A direction that a name or a specification states, unsure where the curl test contradicts it.
 fn contradicted(hint: Inferred<NormalY>, curl: Option<f64>) -> Inferred<NormalY> {
-    let opposes = |y, curl| if y == NormalY::Up { curl < -CONTRADICTS } else { curl > CONTRADICTS };
     hint.map(|(y, why, certainty)| match curl {
-        Some(curl) if opposes(y, curl) => {
+        Some(curl) if is_contradicted(y, curl) => {
             let why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::Curl(Some(curl))));
             (y, why, Certainty::Unsure)
         }
@@ -229,7 +226,6 @@ fn by_heights(
     found: &mut StoredMaterial,
 ) -> (NormalY, Reason, Certainty) {
     let (y, weakest) = (heights.y(), heights.correlations.map(f64::abs).into_iter().fold(1.0, f64::min));
-    let opposes = |curl: f64| if y == NormalY::Up { curl < -CONTRADICTS } else { curl > CONTRADICTS };
     found.use_heights(&heights.file);
     let why = Reason::Heights { file: heights.file, correlations: heights.correlations };
     match hint {
@@ -237,7 +233,7 @@ fn by_heights(
         Some((named, reason, Certainty::Sure)) => {
             (named, Reason::ContradictedBy(Box::new(reason), Box::new(why)), Certainty::Unsure)
         }
-        _ if weakest < CLEAR && curl.is_some_and(opposes) => {
+        _ if weakest < CLEAR && curl.is_some_and(|curl| is_contradicted(y, curl)) => {
             (y, Reason::ContradictedBy(Box::new(why), Box::new(Reason::Curl(curl))), Certainty::Unsure)
         }
         _ => (y, why, Certainty::Likely),
@@ -307,17 +303,6 @@ mod tests {
     fn map(texels: &[[u8; 3]]) -> Raster {
         let samples = Samples::interleaved(texels.concat(), 3);
         Raster::with_alpha(texels.len(), 1, "8-bit", samples)
-    }
-
-    #[test]
-    fn black_and_gray_texels_have_no_direction_and_dark_ones_have() {
-        let raster = map(&[[0; 3], [127; 3], [128; 3], [3, 4, 2], [128, 128, 255], [20, 128, 60]]);
-        let (planes, missing) = decoded::<f64>(&raster, NormalEncoding::Unsigned, NormalY::Up);
-        assert_eq!(missing, 4);
-        for texel in 0..4 {
-            assert_eq!(planes.each_ref().map(|plane| plane[texel]), [0.0, 0.0, 1.0], "{texel}");
-        }
-        assert!(planes[2][5] < 0.0, "a vector below the surface is one");
     }
 
     #[test]

@@ -1,9 +1,6 @@
 //! Options of reading: how stored values are to be read. Options that are not specified are inferred, and reported.
 
 mod choices;
-pub(crate) mod colour_space;
-pub(super) mod extensions;
-mod preset;
 mod role;
 mod tiles;
 pub(crate) mod transfer;
@@ -16,41 +13,63 @@ use serde::{Deserialize, Serialize};
 use crate::changes::Remedy;
 use crate::error::Error;
 
-pub use choices::{Albedo, Energy, NonFinite, NormalEncoding, NormalY, Reflectance, Roughness, Workflow};
-pub use preset::Preset;
+pub use choices::{
+    Albedo, Energy, NonFinite, NormalEncoding, NormalY, Preset, Reflectance, Roughness, Workflow,
+};
 pub use role::Role;
 pub use tiles::Order;
 pub use tiles::TileGrid;
 
-/// How the files of a material are to be read. `None`: inferred from the files and reported; where the files do not
-/// tell, the default.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, rename_all = "kebab-case")]
-pub struct ReadOptions {
+/// The options with what is the same of each.
+macro_rules! options {
+    ($($(#[$about:meta])* $field:ident: $kind:ty,)+) => {
+        /// How the files of a material are to be read. `None`: inferred from the files and reported; where the files do not
+        /// tell, the default.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[serde(default, rename_all = "kebab-case")]
+        pub struct ReadOptions {
+            $($(#[$about])* pub $field: Option<$kind>,)+
+        }
+
+        impl ReadOptions {
+            /// Everything is inferred.
+            pub const AUTO: Self = Self { $($field: None,)+ };
+
+            /// These options, and those of `saved` where neither they nor their preset specify anything.
+            #[must_use]
+            pub fn over(self, saved: Self) -> Self {
+                let preset = self.preset.map(Preset::options).unwrap_or_default();
+                Self { $($field: self.$field.or(if preset.$field.is_some() { None } else { saved.$field }),)+ }
+            }
+        }
+    };
+}
+
+options! {
     /// The conventions of a source of materials, for every option that is not specified.
-    pub preset: Option<Preset>,
+    preset: Preset,
     /// Colour space of diffuse, base colour and, unless `specular` is specified, specular.
-    pub albedo: Option<Albedo>,
+    albedo: Albedo,
     /// Colour space of specular where it is another one.
     #[serde(rename = "specular-albedo")]
-    pub specular: Option<Albedo>,
-    pub normal_y: Option<NormalY>,
-    pub normal_encoding: Option<NormalEncoding>,
-    pub roughness: Option<Roughness>,
-    pub workflow: Option<Workflow>,
+    specular: Albedo,
+    normal_y: NormalY,
+    normal_encoding: NormalEncoding,
+    roughness: Roughness,
+    workflow: Workflow,
     /// Reflectance of dielectrics at normal incidence, where no map holds it.
     #[serde(rename = "dielectric-f0")]
-    pub dielectric: Option<Reflectance>,
-    pub energy: Option<Energy>,
+    dielectric: Reflectance,
+    energy: Energy,
     /// Order of the tiles of a packed image.
-    pub order: Option<Order>,
+    order: Order,
     /// How a packed image is divided; needed where its tiles are not square.
-    pub grid: Option<TileGrid>,
+    grid: TileGrid,
     /// Which of several materials, or rows of a packed image, from 0.
-    pub exemplar: Option<usize>,
+    exemplar: usize,
     /// Whether row 0 is the lowest: then the material is mirrored, normals with it.
-    pub flip_v: Option<bool>,
-    pub non_finite: Option<NonFinite>,
+    flip_v: bool,
+    non_finite: NonFinite,
 }
 
 impl ReadOptions {
@@ -66,24 +85,6 @@ impl ReadOptions {
             exemplar => Err(Error::NoSuchExemplar { path: path.to_owned(), count, exemplar }),
         }
     }
-
-    /// Everything is inferred.
-    pub const AUTO: Self = Self {
-        preset: None,
-        albedo: None,
-        specular: None,
-        normal_y: None,
-        normal_encoding: None,
-        roughness: None,
-        workflow: None,
-        dielectric: None,
-        energy: None,
-        order: None,
-        grid: None,
-        exemplar: None,
-        flip_v: None,
-        non_finite: None,
-    };
 }
 
 impl Preset {
@@ -126,33 +127,6 @@ impl Preset {
 }
 
 impl ReadOptions {
-    /// These options, and those of `saved` where neither they nor their preset specify anything.
-    #[must_use]
-    pub fn over(self, saved: Self) -> Self {
-        let preset = self.preset.map(Preset::options).unwrap_or_default();
-        macro_rules! either {
-            ($($field:ident),+) => {
-                Self { $($field: self.$field.or(if preset.$field.is_some() { None } else { saved.$field })),+ }
-            };
-        }
-        either!(
-            preset,
-            albedo,
-            specular,
-            normal_y,
-            normal_encoding,
-            roughness,
-            workflow,
-            dielectric,
-            energy,
-            order,
-            grid,
-            exemplar,
-            flip_v,
-            non_finite
-        )
-    }
-
     /// These options, and those of their preset where they specify nothing; except y of normals, which names tell better.
     pub(crate) fn with_preset(self) -> Self {
         let Some(preset) = self.preset else { return self };

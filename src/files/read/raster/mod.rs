@@ -1,6 +1,7 @@
 //! Pictures as stored, before their values are interpreted.
 
 mod buffer;
+pub(super) mod measure;
 mod samples;
 
 use glam::DMat3;

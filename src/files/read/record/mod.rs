@@ -63,19 +63,25 @@ impl What {
 }
 
 impl What {
-    /// The key of the option of reading that specifies it.
-    pub fn key(self) -> Option<&'static str> {
+    /// The keys of the options of reading that specify it, the most specific first.
+    pub fn keys(self) -> &'static [&'static str] {
         match self {
-            Self::Layout => Some("order"),
-            Self::Workflow => Some("workflow"),
-            Self::Albedo => Some("albedo"),
-            Self::Specular => Some("specular-albedo"),
-            Self::NormalY => Some("normal-y"),
-            Self::NormalEncoding => Some("normal-encoding"),
-            Self::Roughness => Some("roughness"),
-            Self::Energy => Some("energy"),
-            Self::Missing | Self::Size | Self::Values => None,
+            Self::Layout => &["order", "grid"],
+            Self::Workflow => &["workflow"],
+            Self::Albedo => &["albedo"],
+            Self::Specular => &["specular-albedo", "albedo"],
+            Self::NormalY => &["normal-y", "preset"],
+            Self::NormalEncoding => &["normal-encoding"],
+            Self::Roughness => &["roughness"],
+            Self::Energy => &["energy"],
+            Self::Missing => &["dielectric-f0"],
+            Self::Size | Self::Values => &[],
         }
+    }
+
+    /// The key of the option that specifies it, where a value of it is refused as a guess.
+    pub fn key(self) -> Option<&'static str> {
+        self.keys().first().copied().filter(|_| self != Self::Missing)
     }
 }
 

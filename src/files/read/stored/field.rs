@@ -8,9 +8,9 @@ use rayon::prelude::*;
 
 use svbrdf_core::material::resize::{self, Filter};
 
-use super::map::StoredMap;
+use super::material::StoredMap;
 use crate::read::options::Albedo;
-use crate::read::options::colour_space::ColourSpace;
+use crate::read::options::transfer::ColourSpace;
 use crate::read::options::transfer::linear;
 use crate::read::raster::{Raster, Samples};
 
@@ -156,46 +156,4 @@ pub(crate) fn separated(base: Field, metallic: Field, dielectric: Field) -> [Fie
         Field { size, planes: (0..3).map(plane).collect() }
     };
     [of(&|b, m, _| b * (1.0 - m)), of(&|b, m, f| f * (1.0 - m) + b * m)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_usual_glass_reflects_four_percent() {
-        assert!((reflectance(1.5) - 0.04).abs() < 1e-7);
-        assert_eq!(reflectance(0.0), 1.0);
-    }
-
-    #[test]
-    fn metals_reflect_their_base_colour_and_dielectrics_their_reflectance() {
-        let parts = |metallic: f32| {
-            let base = Field::constant(&[0.5, 0.4, 0.3]);
-            separated(base, Field::constant(&[metallic]), Field::constant(&[0.02, 0.04, 0.08]))
-        };
-        let values = |field: &Field| [0, 1, 2].map(|c| field.planes[c][0]);
-        let [[diffuse, specular], [none, metal]] = [parts(0.0), parts(1.0)];
-        assert_eq!(values(&diffuse), [0.5, 0.4, 0.3]);
-        assert_eq!(values(&specular), [0.02, 0.04, 0.08]);
-        assert_eq!((values(&none), values(&metal)), ([0.0; 3], [0.5, 0.4, 0.3]));
-    }
-
-    #[test]
-    fn maps_of_all_sizes_and_shapes_are_brought_to_the_largest() {
-        let field = |size: [usize; 2]| Field { size, planes: vec![vec![0.5; size[0] * size[1]]] };
-        for small in [[2, 2], [2, 4], [1, 8]] {
-            let product = field(small).times(field([4, 4]));
-            assert_eq!((product.size, product.planes[0][15]), ([4, 4], 0.25));
-        }
-    }
-
-    #[test]
-    fn an_affine_function_of_a_gray_field_has_as_many_channels_as_its_factors() {
-        let mask = || Field::constant(&[0.25]);
-        assert_eq!(mask().affine([2.0; 3], [0.1; 3]).planes, [[0.6]]);
-        let colours = mask().affine([0.4, 0.0, -1.0], [0.1, 0.2, 0.5]);
-        assert_eq!(colours.planes, [[0.2], [0.2], [0.25]]);
-        assert_eq!(mask().complement().plus(Field::constant(&[0.5])).planes, [[1.0]]);
-    }
 }

@@ -1,13 +1,11 @@
 //! Stored maps: what files hold of a material, by the roles of its maps.
 
 mod field;
-mod map;
 mod material;
 mod picture;
 mod roles;
 
 pub(super) use field::{Field, reflectance, separated};
-pub(super) use map::{StoredHeight, StoredMap};
-pub(super) use material::{Inferences, Inferred, StoredMaterial};
+pub(super) use material::{Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial};
 pub(super) use picture::{DecodedPicture, Picture, PictureSource, decoded, notice};
 pub(super) use roles::{CHANNELS, MapsByRole};

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use svbrdf_core::progress::Progress;
 
-use super::map::StoredMap;
+use super::material::StoredMap;
 use super::material::StoredMaterial;
 use crate::disk::open::NamedFile;
 use crate::error::Error;

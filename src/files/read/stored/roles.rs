@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::map::StoredMap;
+use super::material::StoredMap;
 use super::material::{Inferences, StoredMaterial};
 use crate::error::Error;
 use crate::read::names::{Label, word_beside};

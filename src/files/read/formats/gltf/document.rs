@@ -11,9 +11,9 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use super::material::Material;
-use crate::disk::lfs;
 use crate::disk::memory::{self, Reserved};
 use crate::disk::open::NamedFile;
+use crate::disk::refuse_pointer;
 use crate::error::Error;
 use crate::read::record::Subject;
 use crate::read::stored::PictureSource;
@@ -78,7 +78,7 @@ impl Document {
     /// # Errors
     /// [`Error::BadImage`]; [`Error::Memory`].
     pub(super) fn of(path: &Path, bytes: &[u8]) -> Result<Self, Error> {
-        lfs::refuse_pointer(path, bytes)?;
+        refuse_pointer(path, bytes)?;
         let invalid = |found: &str| bad(path, format!("expected valid glTF, found: {found}"));
         let (json, blob) = match bytes.starts_with(b"glTF") {
             true => parts(bytes).ok_or_else(|| invalid("a contradiction in its lengths"))?,

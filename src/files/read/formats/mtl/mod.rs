@@ -8,15 +8,15 @@ use std::path::Path;
 use svbrdf_core::progress::Progress;
 
 use crate::error::Error;
-use crate::read::measure::{NORMAL_AT_LEAST, normal_score};
 use crate::read::names::Label;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
 use crate::read::raster::channel_spread;
+use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score};
 use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
 use crate::read::stored::{DecodedPicture, Inferred, MapsByRole, StoredMap, StoredMaterial, decoded, notice};
 
 pub(in crate::read) use statement::Mtl;
-use statement::{BUMPS, MtlTexture, NORMALS, names_picture};
+use statement::{BUMPS, NORMALS, NamedTexture, names_picture};
 
 /// Channels of a gray picture differ by no more: compression and rounding.
 const GRAY: f64 = 12.0 / 255.0;
@@ -232,15 +232,16 @@ impl<'a> MtlMaps<'a> {
     fn picture(&mut self, keys: &[&str], map: Role) -> Option<StoredMap> {
         let key = self.used(keys)?.0.as_str();
         let place = self.mtl.textures.iter().position(|texture| texture.key == key)?;
-        let MtlTexture { named, file, channel, unused_options, .. } = &self.mtl.textures[place];
-        if *file != self.mtl.path.with_file_name(named) {
+        let NamedTexture { file: named, channel, unused } = &self.mtl.textures[place].named;
+        let DecodedPicture { map: StoredMap { mut raster, file, .. }, notes, .. } =
+            self.pictures[place].clone();
+        if file != self.mtl.path.with_file_name(named) {
             self.notes.push(Note::Substituted { file: named.clone(), by: file.clone() });
         }
-        let DecodedPicture { map: StoredMap { mut raster, .. }, notes, .. } = self.pictures[place].clone();
         self.notes.push(Note::MapFile { map, file: file.display().to_string() });
         self.notes.extend(notes);
-        if !unused_options.is_empty() {
-            self.notes.push(Note::OptionsUnused { map, options: unused_options.clone() });
+        if !unused.is_empty() {
+            self.notes.push(Note::OptionsUnused { map, options: unused.clone() });
         }
         match *channel {
             Some(3) => {
@@ -249,7 +250,7 @@ impl<'a> MtlMaps<'a> {
             Some(channel) => raster = raster.channel(channel),
             None => {}
         }
-        Some(StoredMap { raster, file: file.clone(), part: String::new() })
+        Some(StoredMap { raster, file, part: String::new() })
     }
 
     fn note_unused(&mut self) {

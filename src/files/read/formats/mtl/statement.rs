@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::disk::open::NamedFile;
-use crate::disk::{lfs, memory};
+use crate::disk::{memory, refuse_pointer};
 use crate::error::Error;
 use crate::read::names::Label;
 use crate::read::options::{ReadOptions, Role};
@@ -34,7 +34,7 @@ impl Mtl {
     /// [`Error::Unreadable`], [`Error::Memory`], [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
     pub(in crate::read) fn locate(path: &Path, options: &ReadOptions) -> Result<Self, Error> {
         let bytes = NamedFile::by_user(path).bytes()?;
-        lfs::refuse_pointer(path, &bytes)?;
+        refuse_pointer(path, &bytes)?;
         let _reserved =
             memory::reserve(bytes_of(&bytes), || format!("the statements of {}", path.display()))?;
         let text = String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes));
@@ -92,15 +92,9 @@ pub(super) struct MtlEntry {
 pub(super) struct MtlTexture {
     /// The keyword of the statement.
     pub key: &'static str,
-    /// The file as the statement names it.
-    pub named: String,
+    pub named: NamedTexture,
     /// The file that is there: beside the `.mtl`, or as named.
-    pub file: PathBuf,
     pub picture: Picture,
-    /// The one channel that is taken; 3 is alpha.
-    pub channel: Option<usize>,
-    /// Options that change the look, and are not used.
-    pub unused_options: Vec<String>,
 }
 
 /// Whether a statement of this keyword names a picture.
@@ -130,7 +124,7 @@ fn entries(text: &str) -> Vec<MtlEntry> {
 
 /// A picture as a statement names it.
 #[derive(Debug, Default, PartialEq)]
-struct Texture {
+pub(super) struct NamedTexture {
     pub file: String,
     /// The one channel that is wanted; 3 is alpha.
     pub channel: Option<usize>,
@@ -138,7 +132,7 @@ struct Texture {
     pub unused: Vec<String>,
 }
 
-impl Texture {
+impl NamedTexture {
     /// Options with their values come first; the rest is the name, which may have spaces.
     fn of(mut rest: &str) -> Self {
         let mut texture = Self::default();
@@ -213,7 +207,7 @@ fn packed(entry: &MtlEntry) -> Option<(&'static str, Role)> {
     let own = [("map_orm", orm), ("map_rma", Role::RoughnessMetallicOcclusion)];
     let specular = entry.lines.iter().find(|(key, _)| key == "map_ks");
     let named = |rest: &str| {
-        let file = Texture::of(rest).file;
+        let file = NamedTexture::of(rest).file;
         let stem = Path::new(&file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
         Label::of(&stem).is_some_and(|label| label.role == Role::OcclusionRoughnessMetallic)
     };
@@ -237,11 +231,9 @@ fn textures(path: &Path, entry: &MtlEntry, packed: Option<(&'static str, Role)>)
     ];
     let texture = |(key, role): (Option<&'static str>, Role)| {
         let key = key?;
-        let texture = Texture::of(line(key)?);
-        let file = texture.named_file(path);
-        let Texture { file: named, channel, unused: unused_options } = texture;
-        let (path, picture) = (file.path().to_owned(), Picture::of_file(file, role));
-        Some(MtlTexture { key, named, file: path, picture, channel, unused_options })
+        let named = NamedTexture::of(line(key)?);
+        let picture = Picture::of_file(named.named_file(path), role);
+        Some(MtlTexture { key, named, picture })
     };
     keys.into_iter().filter_map(texture).collect()
 }
@@ -252,14 +244,14 @@ mod tests {
 
     #[test]
     fn options_come_before_a_name_that_may_have_spaces() {
-        let file = |text| Texture::of(text).file;
+        let file = |text| NamedTexture::of(text).file;
         assert_eq!(file("old wall.png"), "old wall.png");
         assert_eq!(file(" -bm 1.0 -clamp on  old wall.png "), "old wall.png");
         assert_eq!(file("-s 2 2 1001.png"), "1001.png");
         assert_eq!(file("-o 0.5 -imfchan g 2k.png"), "2k.png");
         assert_eq!(file("-wall.png"), "-wall.png");
         assert_eq!(file("-bm"), "-bm");
-        let texture = Texture::of("-S 2 1 -mm 0 1 -bm 0.5 -imfchan g a.png");
+        let texture = NamedTexture::of("-S 2 1 -mm 0 1 -bm 0.5 -imfchan g a.png");
         assert_eq!(
             (texture.channel, texture.unused),
             (Some(1), vec!["-s 2 1".to_owned(), "-bm 0.5".to_owned()])

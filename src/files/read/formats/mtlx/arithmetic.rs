@@ -1,6 +1,6 @@
 //! What an input of MaterialX is bound to, and its arithmetic: sums and products of constants and of one picture, which stay affine in it.
 
-use crate::read::options::colour_space::ColourSpace;
+use crate::read::options::transfer::ColourSpace;
 
 /// Most operands of a node.
 pub(super) const OPERANDS: usize = 3;

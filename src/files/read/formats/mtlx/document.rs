@@ -7,10 +7,10 @@ use roxmltree::{Document, Node};
 use super::arithmetic::{Bound, Obstacle};
 use super::graph::{bound, input};
 use super::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
-use super::tiles;
-use crate::disk::lfs;
 use crate::disk::open::NamedFile;
+use crate::disk::refuse_pointer;
 use crate::error::Error;
+use crate::read::names::listing;
 use crate::read::options::{ReadOptions, Role};
 use crate::read::stored::Picture;
 
@@ -42,13 +42,13 @@ impl Mtlx {
     /// [`Error::NoSuchExemplar`].
     pub(in crate::read) fn locate(path: &Path, options: &ReadOptions) -> Result<Self, Error> {
         let text = NamedFile::by_user(path).text()?;
-        lfs::refuse_pointer(path, text.as_bytes())?;
+        refuse_pointer(path, text.as_bytes())?;
         let bad = |problem: String| Error::BadImage {
             path: path.to_owned(),
             problem,
             remedy: "export it again".to_owned(),
         };
-        let text = tiles::escaped(&text);
+        let text = escaped(&text);
         if has_many_attributes(&text) {
             return Err(bad(format!(
                 "expected at most {MOST_ATTRIBUTES} attributes in an element, found more"
@@ -78,7 +78,7 @@ impl Mtlx {
         };
         for (_, bound) in &mut located.inputs {
             if let Ok(Bound::Picture(picture)) = bound {
-                picture.file = tiles::only(&picture.file, path)?;
+                picture.file = only_tile(&picture.file, path)?;
             }
         }
         located.pictures = located.pictures(&wanted);
@@ -145,4 +145,93 @@ fn not_modelled(model: &SurfaceModel, surface: Node<'_, '_>) -> Vec<String> {
         values.is_none_or(|mut values| values.any(|value| value.is_ok_and(|value| value != *off)))
     };
     model.not_modelled.iter().filter(is_on).map(|(name, _)| (*name).to_owned()).collect()
+}
+
+/// The token of the number of a tile, of UDIM and by column and row.
+const TOKENS: [&str; 2] = ["<UDIM>", "<UVTILE>"];
+/// Tiles that are looked for: ten rows of ten.
+const MOST_TILES: usize = 100;
+
+/// A document in which `<` is escaped in attributes: exporters write tokens such as `<UDIM>` as they are, where XML allows none.
+fn escaped(document: &str) -> String {
+    let mut text = String::with_capacity(document.len());
+    let mut rest = document;
+    while let Some(start) = rest.find('<') {
+        let (before, markup) = rest.split_at(start);
+        text += before;
+        let (end, escapes) = match markup {
+            comment if comment.starts_with("<!--") => (comment.find("-->"), false),
+            instruction if instruction.starts_with("<?") => (instruction.find("?>"), false),
+            data if data.starts_with("<![CDATA[") => (data.find("]]>"), false),
+            tag => (end_of_tag(tag), true),
+        };
+        let (markup, after) = markup.split_at(end.unwrap_or(markup.len()));
+        match (markup.strip_prefix('<'), escapes) {
+            (Some(inside), true) => text.extend(["<", &inside.replace('<', "&lt;")]),
+            _ => text += markup,
+        }
+        rest = after;
+    }
+    text + rest
+}
+
+/// Where a tag ends: at the first `>` outside of quotes.
+fn end_of_tag(tag: &str) -> Option<usize> {
+    let mut quote = None;
+    tag.bytes().position(|byte| match (quote, byte) {
+        (None, b'"' | b'\'') => {
+            quote = Some(byte);
+            false
+        }
+        (None, b'>') => true,
+        (Some(open), _) if open == byte => {
+            quote = None;
+            false
+        }
+        _ => false,
+    })
+}
+
+/// The file `name` that the document `by` names, of the only tile that is there.
+///
+/// # Errors
+/// [`Error::NotAMaterial`] of several tiles.
+fn only_tile(name: &str, by: &Path) -> Result<String, Error> {
+    if !TOKENS.iter().any(|token| name.contains(token)) {
+        return Ok(name.to_owned());
+    }
+    let tile = |number: usize| {
+        let place = format!("u{}_v{}", number % 10 + 1, number / 10 + 1);
+        name.replace(TOKENS[0], &(1001 + number).to_string()).replace(TOKENS[1], &place)
+    };
+    let mut there: Vec<_> =
+        (0..MOST_TILES).map(tile).filter(|file| NamedFile::within(file, by).exists()).collect();
+    if there.len() > 1 {
+        return Err(Error::NotAMaterial {
+            path: by.to_owned(),
+            expected: format!("one tile of {name}"),
+            found: listing(&there),
+            remedy: "write the name of one of them into the document".to_owned(),
+        });
+    }
+    Ok(there.pop().unwrap_or_else(|| tile(0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_attributes_are_escaped() {
+        for (stored, expected) in [
+            (r#"<a b="x<UDIM>.png" c='<f>"<g>'/>"#, r#"<a b="x&lt;UDIM>.png" c='&lt;f>"&lt;g>'/>"#),
+            ("<?it's <x>?><a b='<'/>", "<?it's <x>?><a b='&lt;'/>"),
+            ("<!-- don't <x> --><a b='<'>t</a>", "<!-- don't <x> --><a b='&lt;'>t</a>"),
+            ("<a><![CDATA[it's <b>]]></a>", "<a><![CDATA[it's <b>]]></a>"),
+            ("<a b='<", "<a b='&lt;"),
+            ("no markup", "no markup"),
+        ] {
+            assert_eq!(escaped(stored), expected);
+        }
+    }
 }

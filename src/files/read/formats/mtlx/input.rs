@@ -4,7 +4,7 @@ use super::arithmetic::{Affine, Bound, BoundPicture, Obstacle};
 use super::document::Mtlx;
 use super::surface_model::SurfaceInput;
 use crate::error::Error;
-use crate::read::options::colour_space::ColourSpace;
+use crate::read::options::transfer::ColourSpace;
 use crate::read::options::{Albedo, Role};
 use crate::read::raster::Raster;
 use crate::read::record::{Certainty, Reason, SpaceKnown, StorageConvention, Subject};
@@ -13,10 +13,12 @@ use crate::read::stored::{DecodedPicture, Field, Inferred, Picture, StoredMap};
 /// Stored normals as nodes decode them: 2 n - 1.
 const DECODED_NORMALS: Affine = Affine { scale: [2.0; 3], offset: [-1.0; 3] };
 
-/// The surface and its decoded pictures.
-pub(super) struct MtlxInputs<'a> {
+/// A surface and its decoded pictures, while its maps are recognized.
+pub(super) struct MtlxSurface<'a> {
     pub located: &'a Mtlx,
     pub pictures: &'a [DecodedPicture],
+    /// Its colours that have been read.
+    pub colours: Vec<LoadedInput>,
 }
 
 /// An input that has been read.
@@ -62,7 +64,7 @@ impl LoadedInput {
     }
 }
 
-impl MtlxInputs<'_> {
+impl MtlxSurface<'_> {
     pub(super) fn refused(&self, name: &str, expected: &str, found: String) -> Error {
         Error::NotAMaterial {
             path: self.located.path.clone(),

@@ -6,7 +6,6 @@ mod document;
 mod graph;
 mod input;
 mod surface_model;
-mod tiles;
 
 use svbrdf_core::progress::Progress;
 
@@ -19,7 +18,7 @@ use crate::read::stored::{
 
 use arithmetic::Bound;
 pub(in crate::read) use document::Mtlx;
-use input::{LoadedInput, MtlxInputs};
+use input::MtlxSurface;
 use surface_model::{SurfaceModel, USD_SPECULAR, USE_SPECULAR};
 
 /// The reflectance of a dielectric of the default refractive index 1.5.
@@ -37,8 +36,7 @@ impl Mtlx {
     ) -> Result<StoredMaterial, Error> {
         let pictures = decoded(&self.pictures, progress)?;
         let mut maps = MapsByRole::default();
-        let inputs = MtlxInputs { located: &self, pictures: &pictures };
-        let mut surface = MtlxSurface { inputs, colours: Vec::new() };
+        let mut surface = MtlxSurface { located: &self, pictures: &pictures, colours: Vec::new() };
         let albedo = surface.add_to(&mut maps)?;
         let mut found = maps.material(&self.path, self.name.clone(), "", options)?;
         found.add_file(self.path.clone());
@@ -59,27 +57,20 @@ impl Mtlx {
     }
 }
 
-/// A surface while its maps are recognized.
-struct MtlxSurface<'a> {
-    inputs: MtlxInputs<'a>,
-    /// Its colours that have been read.
-    colours: Vec<LoadedInput>,
-}
-
 impl MtlxSurface<'_> {
     /// Adds the maps of the inputs to `maps`; returns the encoding of their colours, where the document declares it.
     fn add_to(&mut self, maps: &mut MapsByRole) -> Result<Inferred<Albedo>, Error> {
-        let model = self.inputs.located.model;
+        let model = self.located.model;
         let SurfaceModel { base, metallic, roughness, normal, .. } = *model;
-        if let Some(normal) = self.inputs.load(normal, Role::Normal)? {
+        if let Some(normal) = self.load(normal, Role::Normal)? {
             maps.add(Role::Normal, normal.source);
         }
-        maps.add(Role::Roughness, self.inputs.input_or_default(roughness, Role::Roughness)?.source);
-        let metallic = self.inputs.input_or_default(metallic, Role::Metallic)?;
-        let base = self.inputs.input_or_default(base, Role::Base)?;
-        self.inputs.bound(USE_SPECULAR)?;
-        if self.inputs.located.is_specular_usd() {
-            let specular = self.inputs.input_or_default(USD_SPECULAR, Role::Specular)?;
+        maps.add(Role::Roughness, self.input_or_default(roughness, Role::Roughness)?.source);
+        let metallic = self.input_or_default(metallic, Role::Metallic)?;
+        let base = self.input_or_default(base, Role::Base)?;
+        self.bound(USE_SPECULAR)?;
+        if self.located.is_specular_usd() {
+            let specular = self.input_or_default(USD_SPECULAR, Role::Specular)?;
             maps.add(Role::Diffuse, self.computed(base.colours(), "diffuseColor"));
             maps.add(Role::Specular, self.computed(specular.colours(), "specularColor"));
             self.colours.extend([base, specular]);
@@ -109,22 +100,22 @@ impl MtlxSurface<'_> {
     /// A number of the surface; `usual` of a model without it.
     fn weight(&self, input: Option<(&'static str, f32)>, usual: f32) -> Result<Field, Error> {
         let Some(input) = input else { return Ok(Field::constant(&[usual])) };
-        Ok(self.inputs.input_or_default(input, Role::Base)?.numbers())
+        Ok(self.input_or_default(input, Role::Base)?.numbers())
     }
 
     /// Diffuse with the share `weight` of it replaced by the colour of subsurface scattering.
     fn with_subsurface(&mut self, diffuse: Field, weight: Field, dielectric: Field) -> Result<Field, Error> {
-        let Some([_, colour]) = self.inputs.located.model.subsurface.filter(|_| !weight.is(0.0)) else {
+        let Some([_, colour]) = self.located.model.subsurface.filter(|_| !weight.is(0.0)) else {
             return Ok(diffuse);
         };
-        let colour = self.inputs.input_or_default(colour, Role::Base)?;
+        let colour = self.input_or_default(colour, Role::Base)?;
         let scattered = colour.colours().times(dielectric).times(weight.clone());
         self.colours.push(colour);
         Ok(diffuse.times(weight.complement()).plus(scattered))
     }
 
     fn computed(&self, field: Field, part: &str) -> StoredMap {
-        field.into_map(&self.inputs.located.path, part)
+        field.into_map(&self.located.path, part)
     }
 
     /// The encoding of colours that are computed; unsure where that of one of them is.
@@ -144,17 +135,17 @@ impl MtlxSurface<'_> {
 
     /// The reflectance of the dielectric at normal incidence.
     fn dielectric(&mut self) -> Result<Field, Error> {
-        let (name, usual) = self.inputs.located.model.ior;
-        let ior = match self.inputs.bound(name)? {
+        let (name, usual) = self.located.model.ior;
+        let ior = match self.bound(name)? {
             Some(Bound::Values { values, .. }) => values.first().copied().unwrap_or(usual),
             Some(Bound::Picture(_)) => {
-                return Err(self.inputs.refused(name, "a value", "a picture".to_owned()));
+                return Err(self.refused(name, "a value", "a picture".to_owned()));
             }
             None => usual,
         };
         let mut product = Field::constant(&[reflectance(ior)]);
-        for &factor in self.inputs.located.model.specular {
-            let factor = self.inputs.input_or_default(factor, Role::Specular)?;
+        for &factor in self.located.model.specular {
+            let factor = self.input_or_default(factor, Role::Specular)?;
             product = product.times(factor.factor());
             self.colours.push(factor);
         }

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::disk::open::NamedFile;
-use crate::read::names::{Label, is_named_within, size};
-use crate::read::options::{NormalY, Role, extensions};
+use crate::read::names::{Label, PICTURES, extension, is_named_within, size};
+use crate::read::options::{NormalY, Role};
 use crate::read::record::{Note, Unused};
 use crate::read::stored::Picture;
 
@@ -22,8 +22,8 @@ pub(crate) struct LabelledFile {
 impl LabelledFile {
     /// The higher, the better a source for its map.
     pub(crate) fn rank(&self) -> (u8, Option<usize>) {
-        let extension = extensions::of_name(&self.file);
-        (self.label.rank(), extensions::PICTURES.iter().position(|e| *e == extension))
+        let extension = extension(&self.file);
+        (self.label.rank(), PICTURES.iter().position(|e| *e == extension))
     }
 }
 
@@ -121,7 +121,7 @@ const LONGEST: u64 = 4 << 20;
 /// The documents among the files `names` of `folder` that name a file of the set.
 pub(crate) fn documents_beside(folder: &Path, names: &[String], set: &SetFiles) -> Vec<ListingDocument> {
     let listing = |name: &String| {
-        let normal_y = match extensions::of_name(name).as_str() {
+        let normal_y = match extension(name).as_str() {
             "gltf" | "mtlx" => Some(NormalY::Up),
             "mtl" => None,
             _ => return None,

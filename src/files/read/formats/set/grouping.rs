@@ -5,9 +5,10 @@ use std::path::Path;
 
 use super::files::{LabelledFile, NUMBERED, SetFiles, add_layers, of_one_size};
 use crate::error::Error;
-use crate::read::names::{Label, is_junk, is_named_as, listing, set_labels, words};
+use crate::read::names::{
+    EXTENSIONS, Label, PICTURES, extension, is_junk, is_named_as, listing, set_labels, words,
+};
 use crate::read::options::Role;
-use crate::read::options::extensions::{self, EXTENSIONS, PICTURES};
 use crate::read::record::{Note, Unused};
 
 /// Extensions of pictures that cannot be read. Where nothing else is that map, opening one fails and names it: a map
@@ -129,22 +130,22 @@ fn stem_of(file: &str, groups: &Groups, lone: &Groups) -> Vec<String> {
 
 /// Whether a file of this name counts as a picture.
 pub(crate) fn is_picture(name: &str) -> bool {
-    PICTURES.contains(&extensions::of_name(name).as_str())
+    PICTURES.contains(&extension(name).as_str())
 }
 
 /// Whether a file of this name is a picture that cannot be read.
 fn is_unread(name: &str) -> bool {
-    UNREAD.contains(&extensions::of_name(name).as_str())
+    UNREAD.contains(&extension(name).as_str())
 }
 
 /// Whether a file of this name is none that holds maps, but a text or what programs leave beside pictures.
 pub(crate) fn is_beside(name: &str) -> bool {
-    TEXTS.contains(&extensions::of_name(name).as_str()) || is_junk(name)
+    TEXTS.contains(&extension(name).as_str()) || is_junk(name)
 }
 
 /// Whether a file of this name is no picture that is known, and none of the files that go with pictures.
 fn is_foreign(name: &str) -> bool {
-    let is_known = EXTENSIONS.contains(&extensions::of_name(name).as_str());
+    let is_known = EXTENSIONS.contains(&extension(name).as_str());
     !is_picture(name) && !is_unread(name) && !is_beside(name) && !is_known
 }
 

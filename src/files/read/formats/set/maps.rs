@@ -3,10 +3,10 @@
 use super::files::{LabelledFile, Set};
 use crate::error::Error;
 use crate::read::decode;
-use crate::read::measure::{Channels, is_flat, normal_score};
 use crate::read::names::{Label, is_named_as};
 use crate::read::options::{Albedo, Reflectance, Role};
 use crate::read::raster::Raster;
+use crate::read::raster::measure::{Channels, is_flat, normal_score};
 use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Subject, Unused, What};
 use crate::read::stored::{CHANNELS, Field, MapsByRole, StoredHeight, StoredMap};
 

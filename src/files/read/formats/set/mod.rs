@@ -8,8 +8,8 @@ mod maps;
 use svbrdf_core::progress::Progress;
 
 use crate::error::Error;
-use crate::read::measure::{NORMAL_AT_LEAST, dark_metal, normal_score};
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness, Workflow};
+use crate::read::raster::measure::{NORMAL_AT_LEAST, dark_metal, normal_score};
 use crate::read::record::{
     Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, Unused, What,
 };

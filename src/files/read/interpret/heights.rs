@@ -1,7 +1,19 @@
-//! Measurements of heights beside normals: whether both have the same slopes.
+//! Heights beside normals, whose slopes tell the direction of y.
 
+use std::path::PathBuf;
+
+use crate::read::decode;
+use crate::read::options::{NormalY, ReadOptions};
 use crate::read::raster::Raster;
+use crate::read::raster::measure::{self, Correlation};
+use crate::read::record::{Certainty, Subject};
+use crate::read::stored::{StoredHeight, StoredMaterial};
 
+/// Least correlation of both slopes that tells a direction: of the sets of libraries that were measured 10 of 11 lie
+/// above it, and all of them are right.
+const TELLING: f64 = 0.15;
+/// Beyond this correlation the curl test contradicts a direction.
+const CONTRADICTS: f64 = 0.3;
 /// Most cells in each direction whose means are compared.
 const MOST: usize = 256;
 /// Least cells in each direction from which a correlation is measured.
@@ -9,12 +21,57 @@ const LEAST: usize = 32;
 /// Samples in each direction of a cell, at most.
 const WITHIN: usize = 4;
 
+/// The direction of y that the heights of a material show.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct HeightEvidence {
+    pub file: PathBuf,
+    /// Correlations of the slopes with x and with y of the normals.
+    pub correlations: [f64; 2],
+}
+
+impl HeightEvidence {
+    pub(super) fn y(&self) -> NormalY {
+        let [x, y] = self.correlations;
+        if x * y > 0.0 { NormalY::Up } else { NormalY::Down }
+    }
+}
+
+/// The evidence of the heights of a material that is to be read with `options`.
+pub(super) fn evidence(found: &StoredMaterial, options: &ReadOptions) -> Option<HeightEvidence> {
+    let (normal, height) = (&found.normal.as_ref()?.raster, found.height.as_ref()?);
+    let is_specified = options.normal_y.or(options.preset.and_then(|p| p.options().normal_y)).is_some();
+    if is_specified || is_named(found, normal) {
+        return None;
+    }
+    let (raster, file) = match height {
+        StoredHeight::File(file) => {
+            (decode::one(file, Subject::Picture).ok()?.0.raster, file.path().to_owned())
+        }
+        StoredHeight::Picture { raster, file } => (raster.clone(), file.clone()),
+    };
+    let correlations = slope_correlations(normal, &raster)?;
+    let is_telling = correlations.iter().all(|one| one.abs() >= TELLING);
+    is_telling.then_some(HeightEvidence { file, correlations })
+}
+
+/// Whether a name or a specification states the direction, and the normals do not contradict it.
+fn is_named(found: &StoredMaterial, normal: &Raster) -> bool {
+    let Some((y, _, Certainty::Sure)) = &found.inferred.normal_y else { return false };
+    let curl = measure::curl(normal.width, normal.height, |index| normal.rgb(index).map(|c| 2.0 * c - 1.0));
+    !curl.is_some_and(|curl| is_contradicted(*y, curl))
+}
+
+/// Whether the curl test contradicts the direction `y`.
+pub(super) fn is_contradicted(y: NormalY, curl: f64) -> bool {
+    if y == NormalY::Up { curl < -CONTRADICTS } else { curl > CONTRADICTS }
+}
+
 /// Correlations of the slopes of `heights`, to the right and upwards, with those that x and y of `normals` stand for.
 ///
 /// Both have one sign where y points up, and differ where it points down, also of heights stored as depths. Heights of 8
 /// bits have steps that hide gentle slopes, so that slopes are compared in cells of growing size; those of the cells in
 /// which both correlations are the clearest are returned. `None` where the shapes differ, or one of the slopes is constant.
-pub(crate) fn slope_correlations(normals: &Raster, heights: &Raster) -> Option<[f64; 2]> {
+fn slope_correlations(normals: &Raster, heights: &Raster) -> Option<[f64; 2]> {
     let ([width, height], [across, down]) = (normals.size(), heights.size());
     if width * down != height * across || normals.channels.len() < 2 {
         return None;
@@ -98,28 +155,6 @@ impl CellMeans {
             [0, 1, self.size[0], self.size[0] + 1].map(|by| self.means[first + by]).iter().sum::<f64>() / 4.0
         };
         Self { size, means: (0..size[0] * size[1]).map(mean).collect() }
-    }
-}
-
-/// The sums of a correlation.
-#[derive(Clone, Copy, Debug, Default)]
-struct Correlation {
-    sums: [f64; 6],
-}
-
-impl Correlation {
-    fn add(&mut self, a: f64, b: f64) {
-        if a.is_finite() && b.is_finite() {
-            self.sums.iter_mut().zip([1.0, a, b, a * a, b * b, a * b]).for_each(|(sum, term)| *sum += term);
-        }
-    }
-
-    /// `None` where one of the two is constant.
-    fn value(&self) -> Option<f64> {
-        let [n, a, b, aa, bb, ab] = self.sums;
-        let variances = (n * aa - a * a) * (n * bb - b * b);
-        let correlation = (n * ab - a * b) / variances.sqrt();
-        (variances > 1e-12 && correlation.is_finite()).then_some(correlation)
     }
 }
 

@@ -1,7 +1,5 @@
 //! Measurements of stored pixels.
 
-mod heights;
-
 use rayon::prelude::*;
 
 use svbrdf_core::math::srgb;
@@ -10,8 +8,6 @@ use svbrdf_core::statistics::median;
 use crate::read::options::Albedo;
 use crate::read::options::transfer::linear;
 use crate::read::raster::Raster;
-
-pub(super) use heights::slope_correlations;
 
 /// How far the length of a normal may be from 1 for a pixel to count as one.
 const LENGTH: f64 = 0.12;
@@ -61,22 +57,38 @@ pub(crate) fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 
     let all: Vec<_> =
         if steps == [1, 1] { (0..width * height).into_par_iter().map(&slopes).collect() } else { Vec::new() };
     let slopes = |index: usize| all.get(index).copied().unwrap_or_else(|| slopes(index));
-    let mut sums = [0.0; 6];
+    let mut correlation = Correlation::default();
     for row in (1..height.saturating_sub(1)).step_by(steps[1]) {
         for column in (1..width.saturating_sub(1)).step_by(steps[0]) {
             let index = row * width + column;
             let around = [index + width, index - width, index + 1, index - 1].map(slopes);
             let [Some(below), Some(above), Some(right), Some(left)] = around else { continue };
-            let (a, b) = (below[0] - above[0], right[1] - left[1]);
-            for (sum, term) in sums.iter_mut().zip([1.0, a, b, a * a, b * b, a * b]) {
-                *sum += term;
-            }
+            correlation.add(below[0] - above[0], right[1] - left[1]);
         }
     }
-    let [n, a, b, aa, bb, ab] = sums;
-    let variances = (n * aa - a * a) * (n * bb - b * b);
-    let correlation = (n * ab - a * b) / variances.sqrt();
-    (variances > 1e-12 && correlation.is_finite()).then_some(correlation)
+    correlation.value()
+}
+
+/// The sums of a correlation.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Correlation {
+    sums: [f64; 6],
+}
+
+impl Correlation {
+    pub(crate) fn add(&mut self, a: f64, b: f64) {
+        if a.is_finite() && b.is_finite() {
+            self.sums.iter_mut().zip([1.0, a, b, a * a, b * b, a * b]).for_each(|(sum, term)| *sum += term);
+        }
+    }
+
+    /// `None` where one of the two is constant.
+    pub(crate) fn value(&self) -> Option<f64> {
+        let [n, a, b, aa, bb, ab] = self.sums;
+        let variances = (n * aa - a * a) * (n * bb - b * b);
+        let correlation = (n * ab - a * b) / variances.sqrt();
+        (variances > 1e-12 && correlation.is_finite()).then_some(correlation)
+    }
 }
 
 /// Metals reflect more than this: 0.5 to 0.97.

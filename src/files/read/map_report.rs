@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use serde::Serialize;
 
-use crate::read::measure;
 use crate::read::options::Role;
+use crate::read::raster::measure;
 use crate::read::raster::{Raster, Samples};
 use crate::read::stored::{StoredMap, StoredMaterial};
 
@@ -78,7 +78,7 @@ impl fmt::Display for MapContent {
     }
 }
 
-pub(in crate::read) fn reports(found: &StoredMaterial) -> Vec<MapContent> {
+pub(super) fn reports(found: &StoredMaterial) -> Vec<MapContent> {
     found.sources().into_iter().map(|(map, source)| report(map, source)).collect()
 }
 

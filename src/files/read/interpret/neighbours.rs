@@ -8,8 +8,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use sha2::{Digest as _, Sha256};
 
-use super::colours::MOST_OF_NEIGHBOURS;
-use super::colours::measured;
+use super::evidence::{MOST_OF_NEIGHBOURS, measured};
 use crate::disk::open::{NamedFile, hexadecimal};
 use crate::disk::stamp::Stamp;
 use crate::error::Error;

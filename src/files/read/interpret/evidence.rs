@@ -6,8 +6,9 @@ use std::path::Path;
 
 use svbrdf_core::statistics::median;
 
+use crate::read::names::extension;
+use crate::read::options::Albedo;
 use crate::read::options::transfer::linear;
-use crate::read::options::{Albedo, extensions};
 use crate::read::raster::Raster;
 use crate::read::record::Evidence;
 
@@ -35,7 +36,7 @@ pub(super) fn measured(diffuse: &Raster, specular: &Raster) -> Vec<Evidence> {
 }
 
 pub(super) fn is_jpeg(file: &Path) -> bool {
-    matches!(extensions::of_name(file).as_str(), "jpg" | "jpeg" | "jfif" | "jpe")
+    matches!(extension(file).as_str(), "jpg" | "jpeg" | "jfif" | "jpe")
 }
 
 /// The evidence of texels with the specular of dielectrics, 0.04, as it is or encoded.
@@ -102,7 +103,7 @@ pub(super) fn too_bright(diffuse: &Raster, specular: &Raster) -> Option<Evidence
 }
 
 /// Of colours of integers in files of their own, as artists name them: 1 in 20 is linear.
-pub(in crate::read) const PRIOR: f64 = -3.0;
+pub(super) const PRIOR: f64 = -3.0;
 /// Of a set of diffuse, specular and roughness: of the sources in docs/formats.md, 1 in 4 stores them linear.
 const RESEARCH: f64 = -1.1;
 /// JPEG holds data less often than PNG.
@@ -116,7 +117,7 @@ const TOO_BRIGHT: f64 = -20.0;
 /// Shares of texels with too bright a sum that tell nothing.
 pub(super) const BRIGHT_CHANCE: f64 = 0.02;
 /// Odds below 7 to 1 are unsure, and so is what evidence of such odds contradicts.
-pub(in crate::read) const SURE: f64 = 2.0;
+pub(super) const SURE: f64 = 2.0;
 /// Logarithm of a usual albedo, 0.2, and the standard deviation of its logarithm over materials.
 pub(super) const ALBEDO: [f64; 2] = [-1.61, 1.1];
 /// The same of what metals reflect: 0.65.
@@ -128,7 +129,7 @@ pub(super) const MOST_OF_NEIGHBOURS: f64 = 3.0;
 
 impl Evidence {
     /// Its part of the log odds of linear.
-    pub(in crate::read) fn log_odds(self) -> f64 {
+    pub(super) fn log_odds(self) -> f64 {
         match self {
             Self::Prior => PRIOR,
             Self::Research => RESEARCH,
