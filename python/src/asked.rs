@@ -1,7 +1,5 @@
 //! The arguments that the comparisons have in common.
 
-use std::time::Duration;
-
 use pyo3::prelude::*;
 use serde_json::{Map, Value};
 use svbrdf_core::loss::{LossOptions, Request};
@@ -14,9 +12,6 @@ use svbrdf_files::convention;
 
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
-
-/// The longest time budget.
-const DAY: Duration = Duration::from_secs(86_400);
 
 /// A question, which is JSON.
 ///
@@ -31,17 +26,7 @@ pub fn question(text: &str) -> PyResult<Map<String, Value>> {
 /// # Errors
 /// By its name, where one is unknown, or has a wrong type or makes no sense.
 pub fn options(given: Map<String, Value>) -> PyResult<LossOptions> {
-    let options: LossOptions = options_of(given.into()).map_err(exception)?;
-    let wrong = |problem: String| Err(Error::new_err(problem));
-    if let Some(target) = options.target_error.filter(|target| !(*target > 0.0 && *target <= 0.1)) {
-        return wrong(format!(
-            "target_error: expected a share above 0, at most 0.1, such as 0.01 for 1%, found {target}"
-        ));
-    }
-    if options.time_budget.is_some_and(|budget| budget.is_zero() || budget > DAY) {
-        return wrong("time_budget: expected seconds above 0, at most a day".to_owned());
-    }
-    Ok(options)
+    options_of(given.into()).map_err(exception)
 }
 
 /// Materials, names, convention and question.

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use svbrdf_core::loss::ALL_SCENES_TARGET;
 use svbrdf_evaluate::dataset::{
     self, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, Method, Pick, Source,
 };
@@ -66,7 +65,7 @@ pub fn rank_dataset(
     let options = options(question(&asked.question)?)?;
     let request = options.question().map_err(exception)?.request;
     let scenes = FixedScenes::new(request, asked.scenes).map_err(exception)?;
-    let (target_error, seed) = (options.target_error.unwrap_or(ALL_SCENES_TARGET), options.seed.unwrap_or(0));
+    let (target_error, seed) = options.accuracy();
     let settings = DatasetSettings {
         metrics: asked.metrics,
         diagnose: asked.diagnose,

@@ -8,7 +8,7 @@ use svbrdf_core::loss::{Precision, Question};
 use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis, Precise};
 use svbrdf_evaluate::report::{AnalysisOption, OptionValue};
 
-use super::args::scenes::AnalysisSceneArgs;
+use super::args::scenes;
 use super::args::values::{count, percent, stops, triple};
 use super::args::{ComparisonArgs, Given, offered};
 use super::job::{self, ComparisonJob, Job, NewJob};
@@ -55,7 +55,7 @@ fn command(analysis: &AnyAnalysis) -> Command {
     let command = if analysis.pictures { PictureArgs::augment_args(command) } else { command };
     let command = command
         .args(analysis.options.iter().map(own_option))
-        .args(AnalysisSceneArgs::arguments(analysis.scenes).into_iter().map(with_help));
+        .args(scenes::arguments(analysis.scenes).into_iter().map(with_help));
     let session = if analysis.takes_settings() { " A session has settings of its own." } else { "" };
     let command = if analysis.pictures { command } else { FormatArgs::augment_args(command) };
     // What is flattened into it would bring its own words.
@@ -136,7 +136,8 @@ impl AnalysisArgs {
     pub fn job(self, given: &Given) -> NewJob {
         let Self { analysis, matches, output, comparison } = self;
         let comparison = ComparisonJob::with_predictions(&comparison, given)?;
-        let (scenes, precision) = AnalysisSceneArgs::options(&matches)?;
+        let precision = scenes::value(&matches, "precision").unwrap_or_default();
+        let scenes = scenes::options(&matches)?;
         let own = |AnalysisOption { name, value, .. }: &AnalysisOption| {
             let mut found = matches.get_many(name)?.cloned();
             let is_list = matches!(value, OptionValue::Words(_));

@@ -12,7 +12,7 @@ use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::session::window::{Layout, SessionDisplay};
 use svbrdf_page::{Findings, Page, Repetition, Report, View, check_destination, exposure};
 
-use super::args::scenes::{AccuracyArgs, RenderingArgs};
+use super::args::scenes::{Accuracy, RenderingArgs, SceneArgs};
 use super::args::{ComparisonArgs, Given, refuse, values};
 use super::job::{ComparisonJob, Job, NewJob, SessionSettings};
 use super::output::{CommandError, command_line, exit, stoppable, warn_of, watched};
@@ -50,7 +50,7 @@ pub struct ReportArgs {
     layout: Option<Layout>,
 
     #[command(flatten)]
-    accuracy: AccuracyArgs,
+    accuracy: SceneArgs<Accuracy>,
 
     #[command(flatten)]
     rendering: RenderingArgs,
@@ -88,21 +88,22 @@ impl ReportArgs {
         let comparison = ComparisonJob::new(&comparison, given)?;
         let (session, is_alone) = (comparison.session.as_ref(), comparison.materials.predictions() == 0);
         if figure {
-            given.refuse::<AccuracyArgs>("the figure alone has no loss")?;
+            given.refuse::<SceneArgs<Accuracy>>("the figure alone has no loss")?;
         }
         if is_alone {
             let reason = "there is no prediction, and no loss";
-            given.refuse::<AccuracyArgs>(reason)?;
+            given.refuse::<SceneArgs<Accuracy>>(reason)?;
             refuse(layout.is_some(), "layout", reason)?;
             refuse(robust, "robust", reason)?;
         }
-        let question = || SessionSettings::question(session, &accuracy.options());
+        let options = accuracy.options()?;
+        let question = || SessionSettings::question(session, &options);
         let request = (!is_alone && !figure).then(question).transpose()?.map(|question| question.request);
         let mut display = session.map(|session| session.display().clone()).unwrap_or_default();
         display.layout = layout.unwrap_or(display.layout);
         let scene = rendering.scene.scene(session.map(|session| session.scene))?;
         let exposure_ev = rendering.exposure.or(session.map(|session| session.exposure_ev));
-        let robust = robust.then(|| accuracy.target_and_seed());
+        let robust = robust.then(|| options.accuracy());
         let whole = (!figure).then_some(WholePage { request, robust });
         Ok(Box::new(ReportJob { comparison, output, max_size, scene, exposure_ev, display, whole }))
     }

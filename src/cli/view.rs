@@ -12,7 +12,7 @@ use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 
-use super::args::scenes::AccuracyArgs;
+use super::args::scenes::{Accuracy, SceneArgs};
 use super::args::{Given, MaterialArgs, refuse};
 use super::job::{Job, NewJob};
 use super::output::CommandError;
@@ -72,7 +72,7 @@ pub struct DatasetLossArgs {
     diagnose: bool,
 
     #[command(flatten)]
-    accuracy: AccuracyArgs,
+    accuracy: SceneArgs<Accuracy>,
 }
 
 const ONLY_OF_DATASET: &str =
@@ -175,7 +175,7 @@ impl ViewArgs {
 fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
     let DatasetArgs { pairs, losses, results, .. } = &args.dataset;
     let source = cases::source(&args.materials, *pairs)?;
-    let accuracy = losses.accuracy.target_and_seed();
+    let accuracy = losses.accuracy.options()?.accuracy();
     let mut dataset = svbrdf::OpenDataset::new(source, DatasetReading::default(), accuracy, results.clone())?;
     dataset.settings.diagnose = losses.diagnose;
     dataset.reading = cases::reading(&args.materials.reading, dataset.methods())?;

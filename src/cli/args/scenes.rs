@@ -1,14 +1,17 @@
-//! The question of a command, as arguments: the scenes of the loss, or what decides their number.
+//! Arguments about scenes: of the loss, or what decides their number; of a picture.
 
+use std::marker::PhantomData;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use clap::{Arg, ArgMatches, Args as _, Command, ValueEnum as _};
+use clap::{Arg, ArgMatches, Args as _, Command, FromArgMatches};
 
-use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes, LossOptions, Precision, Texels};
+use svbrdf_core::loss::{FileScenes, LossOptions, Precision, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_evaluate::analyses::RankReport;
+use svbrdf_evaluate::report::Analysis as _;
 use svbrdf_files::scene_file;
 
 use super::given::refuse;
@@ -16,10 +19,14 @@ use super::offered;
 use super::values::{degrees, duration, percent, stops, triple, whole};
 use crate::cli::output::CommandError;
 
-/// How many scenes are sampled, and how.
+/// All options that decide scenes, texels and precision; a command has some of them.
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Scenes")]
-pub struct SampledArgs {
+struct AllSceneArgs {
+    /// Samples as many scenes as this relative error of every loss needs at 95% confidence [default: 1%]
+    #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true)]
+    target_error: Option<f64>,
+
     /// Number of near-field scenes [default: 128; with --distant two for each distant one]
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     near: Option<usize>,
@@ -32,56 +39,22 @@ pub struct SampledArgs {
     #[arg(long, value_name = "random|sobol")]
     #[arg(value_parser = offered(str::parse::<Sampler>, ["random", "sobol"]), hide_possible_values = true)]
     sampler: Option<Sampler>,
-}
 
-/// The seed of a command that samples its scenes.
-#[derive(Debug, clap::Args)]
-pub struct SeedArgs {
     /// Seed of the sampled scenes [default: 0]
-    #[arg(help_heading = "Scenes", long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
-}
-
-/// A loss to an accuracy.
-#[derive(Debug, clap::Args)]
-pub struct AccuracyArgs {
-    #[command(flatten)]
-    target_error: TargetErrorArgs,
-
-    #[command(flatten)]
-    seed: SeedArgs,
-}
-
-/// The scenes of losses, or an accuracy that decides their number.
-#[derive(Debug, clap::Args)]
-pub struct QuestionArgs {
-    #[command(flatten)]
-    target_error: TargetErrorArgs,
-
-    #[command(flatten)]
-    sampled: SampledArgs,
-
-    #[command(flatten)]
-    seed: SeedArgs,
 
     #[command(flatten)]
     list: ListArgs,
-}
-
-/// All options of the analyses that decide scenes, texels and precision; each analysis has some of them.
-#[derive(Debug, clap::Args)]
-pub struct AnalysisSceneArgs {
-    #[command(flatten)]
-    question: QuestionArgs,
 
     /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
     /// [default: 32; with --near or --distant all]
-    #[arg(help_heading = "Scenes", long, value_name = "all|N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "all|N", allow_negative_numbers = true)]
     #[arg(value_parser = offered(str::parse::<Texels>, ["all"]), hide_possible_values = true)]
     texels: Option<Texels>,
 
     /// Samples as many scenes as fit into this time, such as 500ms or 2s
-    #[arg(help_heading = "Scenes", long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
     time_budget: Option<Duration>,
 
     /// Floating-point precision
@@ -90,49 +63,109 @@ pub struct AnalysisSceneArgs {
     precision: Precision,
 }
 
-impl AnalysisSceneArgs {
-    /// The arguments of these options, in their order; `scenes` has those of named scenes, too.
-    pub fn arguments(options: &[&str]) -> Vec<Arg> {
-        fn option(arg: &Arg) -> &str {
-            let id = arg.get_id().as_str();
-            if ["lights", "fov"].contains(&id) { "scenes" } else { id }
-        }
-        let all = Self::augment_args(Command::new("all"));
-        let named = |name| all.get_arguments().filter(move |arg| option(arg) == name).cloned();
-        let all = options.iter().flat_map(|name| named(*name)).enumerate();
-        all.map(|(order, arg)| arg.display_order(order)).collect()
+/// The arguments of options by name, in this order; `scenes` has those of named scenes, too.
+pub fn arguments(options: &[&str]) -> Vec<Arg> {
+    fn option(arg: &Arg) -> &str {
+        let id = arg.get_id().as_str();
+        if ["lights", "fov"].contains(&id) { "scenes" } else { id }
+    }
+    let all = AllSceneArgs::augment_args(Command::new("all"));
+    let named = |name| all.get_arguments().filter(move |arg| option(arg) == name).cloned();
+    let all = options.iter().flat_map(|name| named(*name)).enumerate();
+    all.map(|(order, arg)| arg.display_order(order)).collect()
+}
+
+/// The options of `matches`, which may lack some arguments.
+pub fn options(matches: &ArgMatches) -> Result<LossOptions, CommandError> {
+    let list = ListArgs {
+        scenes: value(matches, "scenes"),
+        lights: value(matches, "lights"),
+        fov: value(matches, "fov"),
+    };
+    Ok(LossOptions {
+        near: value(matches, "near"),
+        distant: value(matches, "distant"),
+        seed: value(matches, "seed"),
+        sampler: value(matches, "sampler"),
+        texels: value(matches, "texels"),
+        target_error: value(matches, "target_error"),
+        time_budget: value(matches, "time_budget"),
+        file: list.file()?,
+    })
+}
+
+/// The value of an argument that there may not be.
+pub fn value<T: Clone + Send + Sync + 'static>(matches: &ArgMatches, id: &str) -> Option<T> {
+    matches.try_get_one(id).ok().flatten().cloned()
+}
+
+/// The names of the options of scenes that a command has.
+pub trait SceneOptions {
+    const NAMES: &'static [&'static str];
+}
+
+/// An accuracy, and the seed of its scenes.
+#[derive(Debug)]
+pub struct Accuracy;
+
+impl SceneOptions for Accuracy {
+    const NAMES: &'static [&'static str] = &["target_error", "seed"];
+}
+
+/// The numbers of scenes, or a list of them.
+#[derive(Debug)]
+pub struct FixedNumber;
+
+impl SceneOptions for FixedNumber {
+    const NAMES: &'static [&'static str] = &["near", "distant", "sampler", "scenes"];
+}
+
+impl SceneOptions for RankReport {
+    const NAMES: &'static [&'static str] = Self::SCENES;
+}
+
+/// The options `K` of scenes, as they are typed.
+#[derive(Debug)]
+pub struct SceneArgs<K>(ArgMatches, PhantomData<K>);
+
+impl<K: SceneOptions> clap::Args for SceneArgs<K> {
+    fn augment_args(command: Command) -> Command {
+        command.args(arguments(K::NAMES))
     }
 
-    /// The options and the precision of `matches`, which may lack some arguments.
-    pub fn options(matches: &ArgMatches) -> Result<(LossOptions, Precision), CommandError> {
-        fn value<T: Clone + Send + Sync + 'static>(matches: &ArgMatches, id: &str) -> Option<T> {
-            matches.try_get_one(id).ok().flatten().cloned()
-        }
-        let list = ListArgs {
-            scenes: value(matches, "scenes"),
-            lights: value(matches, "lights"),
-            fov: value(matches, "fov"),
-        };
-        let options = LossOptions {
-            near: value(matches, "near"),
-            distant: value(matches, "distant"),
-            seed: value(matches, "seed"),
-            sampler: value(matches, "sampler"),
-            texels: value(matches, "texels"),
-            target_error: value(matches, "target_error"),
-            time_budget: value(matches, "time_budget"),
-            file: list.file()?,
-        };
-        Ok((options, value(matches, "precision").unwrap_or_default()))
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
     }
 }
 
-/// The accuracy of a loss.
-#[derive(Debug, clap::Args)]
-pub struct TargetErrorArgs {
-    /// Samples as many scenes as this relative error of every loss needs at 95% confidence [default: 1%]
-    #[arg(help_heading = "Scenes", long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true)]
-    target_error: Option<f64>,
+impl<K> FromArgMatches for SceneArgs<K> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        Ok(Self(matches.clone(), PhantomData))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl<K> SceneArgs<K> {
+    pub fn options(&self) -> Result<LossOptions, CommandError> {
+        options(&self.0)
+    }
+
+    /// The numbers or the list of scenes as they are typed.
+    pub fn words(&self) -> Vec<String> {
+        let typed = |id: &str| {
+            let value = self.0.try_get_raw(id).ok()??.next()?;
+            Some([format!("--{id}"), value.to_string_lossy().into_owned()])
+        };
+        ["near", "distant", "sampler", "scenes", "lights", "fov"]
+            .into_iter()
+            .filter_map(typed)
+            .flatten()
+            .collect()
+    }
 }
 
 /// The scenes of a file, or those of a publication.
@@ -165,53 +198,6 @@ pub enum Lights {
     Flash9,
     /// 128 lights on the hemisphere, the camera above the centre (Sartor and Peers 2023)
     Hemisphere,
-}
-
-impl AccuracyArgs {
-    /// The target error, 1% where it is not specified, and the seed.
-    pub fn target_and_seed(&self) -> (f64, u64) {
-        (self.target_error.target_error.unwrap_or(ALL_SCENES_TARGET), self.seed.seed.unwrap_or(0))
-    }
-
-    pub fn options(&self) -> LossOptions {
-        let (target_error, seed) = (self.target_error.target_error, self.seed.seed);
-        LossOptions { target_error, seed, ..LossOptions::default() }
-    }
-}
-
-impl QuestionArgs {
-    pub fn options(&self) -> Result<LossOptions, CommandError> {
-        let Self { target_error, sampled: SampledArgs { near, distant, sampler }, seed, list } = self;
-        Ok(LossOptions {
-            near: *near,
-            distant: *distant,
-            sampler: *sampler,
-            seed: seed.seed,
-            target_error: target_error.target_error,
-            file: list.file()?,
-            ..LossOptions::default()
-        })
-    }
-
-    /// The target error, 1% where it is not specified, and the seed.
-    pub fn target_and_seed(&self) -> (f64, u64) {
-        (self.target_error.target_error.unwrap_or(ALL_SCENES_TARGET), self.seed.seed.unwrap_or(0))
-    }
-
-    /// The options of the scenes as they are typed, but for the seed.
-    pub fn words(&self) -> Vec<String> {
-        let Self { sampled: SampledArgs { near, distant, sampler }, list, .. } = self;
-        let options = [
-            ("--near", near.map(|count| count.to_string())),
-            ("--distant", distant.map(|count| count.to_string())),
-            ("--sampler", sampler.map(|sampler| sampler.to_string())),
-            ("--scenes", list.scenes.as_ref().map(|path| path.display().to_string())),
-            ("--lights", list.lights.and_then(|one| Some(one.to_possible_value()?.get_name().to_owned()))),
-            ("--fov", list.fov.map(|angle| angle.to_string())),
-        ];
-        let given = options.into_iter().filter_map(|(option, value)| Some([option.to_owned(), value?]));
-        given.flatten().collect()
-    }
 }
 
 impl ListArgs {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::text::printable;
+use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::dataset::{Pick, Shard};
 use svbrdf_evaluate::report::Report;
 use svbrdf_files::Error;
@@ -10,7 +11,7 @@ use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::{check_place, write_text};
 use svbrdf_page::Figures;
 
-use crate::cli::args::scenes::{ListArgs, QuestionArgs, SampledArgs};
+use crate::cli::args::scenes::{FixedNumber, SceneArgs};
 use crate::cli::args::{ComparisonArgs, Given, offered, values};
 use crate::cli::output::{CommandError, exit, stoppable};
 
@@ -41,7 +42,7 @@ pub struct RankArgs {
     pub fail_above: Option<f64>,
 
     #[command(flatten)]
-    pub scenes: QuestionArgs,
+    pub scenes: SceneArgs<RankReport>,
 
     #[command(flatten)]
     pub output: OutputArgs,
@@ -164,7 +165,5 @@ pub fn check_limit(
 
 /// Refuses scenes beside `--robust`.
 pub fn refuse_scenes(given: &Given) -> Result<(), CommandError> {
-    let reason = "--robust asks about other scenes itself";
-    given.refuse::<SampledArgs>(reason)?;
-    given.refuse::<ListArgs>(reason)
+    given.refuse::<SceneArgs<FixedNumber>>("--robust asks about other scenes itself")
 }

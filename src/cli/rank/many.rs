@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::loss::Question;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
@@ -51,8 +50,9 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     let cases = source.cases()?;
     let output = output(&args, given, &cases)?;
     let convention = args.comparison.convention.clone().unwrap_or_default();
-    let (target_error, seed) = args.scenes.target_and_seed();
-    let scenes = fixed_scenes(&args)?;
+    let options = args.scenes.options()?;
+    let (target_error, seed) = options.accuracy();
+    let scenes = FixedScenes::new(options.question()?.request, args.scenes.words())?;
     let DataSetArgs { results, shard, pick, metrics, diagnose } = args.of_data_set;
     let settings = DatasetSettings {
         metrics,
@@ -64,12 +64,6 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
     let (verbose, fail_above, robust) = (given.both.verbose, args.fail_above, args.robust);
     let job = ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output };
     Ok(Box::new(job))
-}
-
-/// The scenes of all materials, where their number or a list is specified.
-fn fixed_scenes(args: &RankArgs) -> Result<Option<FixedScenes>, CommandError> {
-    let Question { request, .. } = args.scenes.options()?.question()?;
-    Ok(FixedScenes::new(request, args.scenes.words())?)
 }
 
 /// Where the ranking goes, before anything is computed: to a file that replaces no material and no list, or to stdout.

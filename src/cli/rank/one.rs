@@ -40,8 +40,9 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
         refuse(fail_above.is_some(), "fail-above", "the order under other questions has no limit")?;
         refuse_scenes(given)?;
     }
-    let robust = robust.then(|| scenes.target_and_seed());
-    let question = SessionSettings::question(comparison.session.as_ref(), &scenes.options()?)?;
+    let options = scenes.options()?;
+    let robust = robust.then(|| options.accuracy());
+    let question = SessionSettings::question(comparison.session.as_ref(), &options)?;
     Ok(Box::new(OneJob { comparison, question, robust, fail_above, output }))
 }
 

@@ -34,9 +34,10 @@ pub struct LossOptions {
     pub sampler: Option<Sampler>,
     #[serde(deserialize_with = "by_name")]
     pub texels: Option<Texels>,
-    /// Half of the 95% interval, as a share of the loss.
+    /// Half of the 95% interval, as a share of the loss; in JSON at most 0.1, since more may be meant in percent.
+    #[serde(deserialize_with = "share")]
     pub target_error: Option<f64>,
-    /// In JSON seconds.
+    /// In JSON seconds, at most a day.
     #[serde(deserialize_with = "seconds")]
     pub time_budget: Option<Duration>,
     /// The scenes themselves.
@@ -51,8 +52,26 @@ fn by_name<'de, D: Deserializer<'de>, T: FromStr<Err = Error>>(
 }
 
 fn seconds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Duration>, D::Error> {
-    let seconds: Option<f64> = Option::deserialize(deserializer)?;
-    seconds.map(Duration::try_from_secs_f64).transpose().map_err(D::Error::custom)
+    let seconds = among(deserializer, 86_400.0, "expected seconds above 0, at most a day")?;
+    Ok(seconds.map(Duration::from_secs_f64))
+}
+
+fn share<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
+    among(deserializer, 0.1, "expected a share above 0, at most 0.1, such as 0.01 for 1%")
+}
+
+/// A number above 0 and at most `most`.
+fn among<'de, D: Deserializer<'de>>(
+    deserializer: D,
+    most: f64,
+    expected: &str,
+) -> Result<Option<f64>, D::Error> {
+    match Option::<f64>::deserialize(deserializer)? {
+        Some(found) if !(found > 0.0 && found <= most) => {
+            Err(D::Error::custom(format!("{expected}, found {found}")))
+        }
+        number => Ok(number),
+    }
 }
 
 impl LossOptions {
@@ -111,6 +130,11 @@ impl LossOptions {
             Request::Accuracy { .. } | Request::Time { .. } => self.check_open().map(|()| request)?,
         }
         .into())
+    }
+
+    /// The target error, 1% where it is left open, and the seed.
+    pub fn accuracy(&self) -> (f64, u64) {
+        (self.target_error.unwrap_or(super::ALL_SCENES_TARGET), self.seed.unwrap_or(0))
     }
 
     /// Sampled scenes, where left open as of `usual`.
