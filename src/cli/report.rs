@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::loss::Request;
+use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_evaluate::report::{Report as _, RobustReport};
-use svbrdf_evaluate::robust::RobustInput;
+use svbrdf_evaluate::report::Report as _;
+use svbrdf_evaluate::robust::RobustReport;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::session::window::{Layout, SessionDisplay};
@@ -119,15 +119,13 @@ impl Job for ReportJob {
         let ground_truth = &opened.ground_truth;
         let exposure_ev = exposure_ev.unwrap_or_else(|| exposure(ground_truth, &scene, &convention));
         let predictions: Vec<_> = opened.predictions.iter().collect();
-        let robust = whole.as_ref().and_then(|page| page.robust).map(|(target_error, seed)| {
-            let predictions = predictions.clone();
-            RobustInput { ground_truth, predictions, convention, target_error, seed }
-        });
+        let robust = whole.as_ref().and_then(|page| page.robust);
         let findings = |request: &Request| -> Result<Findings, CommandError> {
             let found =
                 watched("rendering", |p| Findings::new(ground_truth, &predictions, convention, request, p))?;
-            let asked = robust.as_ref().map(|input| watched("rendering", |p| RobustReport::new(input, p)));
-            Ok(Findings { robust: asked.transpose()?, ..found })
+            let comparison = Comparison::new(ground_truth, &predictions, convention)?;
+            let ask = |accuracy| watched("rendering", |p| RobustReport::new(&comparison, accuracy, p));
+            Ok(Findings { robust: robust.map(ask).transpose()?, ..found })
         };
         let request = whole.as_ref().and_then(|page| page.request.as_ref());
         let findings = request.map(findings).transpose()?;

@@ -1,7 +1,8 @@
 //! Robustness of the order of predictions to other conventions, epsilons and scenes: a ranking, asked several times.
 
+use serde::Serialize;
+
 use svbrdf_core::loss::{Comparison, Outcome, Request, Sampling, Texels};
-use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::named_scenes::NamedScenes;
@@ -10,6 +11,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::statistics::order;
 
 use crate::error::Error;
+use crate::report::{Cell, Compared, Field, Reader, Report, Table, escaped, latex};
 
 /// Scenes of the questions about one kind of them, and texels of each.
 const SCENES: usize = 2048;
@@ -17,9 +19,9 @@ const TEXELS: usize = 32;
 /// Most scenes of a question: a squared error of sharp highlights would take hundreds of thousands, whose interval tells instead.
 const MOST: usize = 24_576;
 
-/// The answer to a question: how far each prediction is from the ground truth.
+/// The scores of predictions under a question: how far each is from the ground truth.
 #[derive(Clone, Debug)]
-pub struct Answered {
+pub struct Scores {
     pub question: String,
     /// Smaller is better.
     pub scores: Vec<f64>,
@@ -27,8 +29,8 @@ pub struct Answered {
     pub differences: Vec<Vec<Option<[f64; 2]>>>,
 }
 
-impl Answered {
-    /// An answer with the interval of each pair of predictions.
+impl Scores {
+    /// Scores with the interval of each pair of predictions.
     pub fn new(
         question: String,
         scores: Vec<f64>,
@@ -48,25 +50,17 @@ impl Answered {
         }
     }
 
-    /// The predictions, the best first.
-    pub fn order(&self) -> Vec<usize> {
-        order(&self.scores)
-    }
-
     /// Kendall's tau to another order, where differences that are not significant in both are no changes.
     pub fn tau(&self, other: &Self) -> f64 {
-        let count = self.pairs().count().max(1) as f64;
-        1.0 - 2.0 * self.changes(other).count() as f64 / count
+        let pairs = (1..self.scores.len()).sum::<usize>().max(1) as f64;
+        1.0 - 2.0 * self.changes(other).count() as f64 / pairs
     }
 
     /// The pairs of predictions that change sides in another order, where both differences are significant.
     pub fn changes(&self, other: &Self) -> impl Iterator<Item = (usize, usize)> {
-        self.pairs().filter(|&(a, b)| self.sign(a, b) * other.sign(a, b) < 0)
-    }
-
-    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
         let count = self.scores.len();
-        (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)))
+        let pairs = (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)));
+        pairs.filter(|&(a, b)| self.sign(a, b) * other.sign(a, b) < 0)
     }
 
     fn of_outcome(question: String, outcome: &Outcome) -> Self {
@@ -80,52 +74,226 @@ impl Answered {
     }
 }
 
-/// The predictions of a ground truth, and the question that is asked by default.
-#[derive(Clone, Debug)]
-pub struct RobustInput<'a> {
-    pub ground_truth: &'a Material<f32>,
-    pub predictions: Vec<&'a Material<f32>>,
-    pub convention: Convention,
-    pub target_error: f64,
-    pub seed: u64,
+/// The answers to all questions, the default one, to an accuracy in the scenes of a seed, first. A question is one step of `progress`.
+///
+/// # Errors
+/// As [`Comparison::new`]; [`Cancelled`](Error::is_cancelled).
+pub fn answers(
+    comparison: &Comparison<'_, f32>,
+    accuracy: (f64, u64),
+    progress: &Progress,
+) -> Result<Vec<Scores>, Error> {
+    let questions = questions(*comparison.convention(), accuracy)?;
+    progress.begin(questions.len() as u64);
+    let answer = |(name, convention, request): Question| {
+        let comparison = Comparison::new(comparison.ground_truth(), comparison.predictions(), convention)?;
+        let outcome = comparison.at_most(MOST).run(&request, &progress.part())?;
+        progress.step()?;
+        Ok(Scores::of_outcome(name, &outcome))
+    };
+    questions.into_iter().map(answer).collect()
 }
 
-impl RobustInput<'_> {
-    /// The answers to all questions, the default one first. A question is one step of `progress`.
+/// A name, a convention and scenes.
+type Question = (String, Convention, Request);
+
+fn questions(own: Convention, (target, seed): (f64, u64)) -> Result<Vec<Question>, Error> {
+    let usual = Request::Accuracy { target, seed };
+    let mut all = vec![(own.name.to_owned(), own, usual.clone())];
+    for described in named::all().iter().filter(|described| described.name != own.name) {
+        all.push((described.name.clone(), Convention::try_from(described)?, usual.clone()));
+    }
+    for epsilon in [0.01, 0.1].into_iter().filter(|epsilon| *epsilon != own.epsilon) {
+        all.push((format!("epsilon {epsilon}"), Convention { epsilon, ..own }, usual.clone()));
+    }
+    for (name, near, distant) in [("near-field scenes", SCENES, 0), ("distant scenes", 0, SCENES)] {
+        let texels = Texels::Sampled(TEXELS);
+        let sampling = Sampling { near, distant, seed, sampler: Sampler::Sobol, texels };
+        all.push((name.to_owned(), own, Request::Scenes(sampling)));
+    }
+    for lights in NamedScenes::ALL {
+        all.push((format!("lights {}", lights.name()), own, Request::Listed(lights.scenes()?)));
+    }
+    Ok(all)
+}
+
+/// Whether the order of predictions survives other conventions, epsilons and scenes.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct RobustReport {
+    #[serde(flatten)]
+    compared: Compared,
+    /// The materials that scores are means over, with paired intervals over them; none where one ground truth is asked about.
+    materials: Vec<String>,
+    /// The answer in a sentence.
+    pub sentence: String,
+    /// The default one first.
+    questions: Vec<AskedQuestion>,
+    /// Pairs of predictions that change sides, where both differences are significant.
+    changes: Vec<Change>,
+}
+
+/// A question, and the order that it gives.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct AskedQuestion {
+    question: String,
+    /// Kendall's tau to the order by default: 1 where no pair changes sides.
+    tau: f64,
+    /// The predictions, the best first.
+    order: Vec<String>,
+}
+
+/// A pair of predictions that changes sides.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct Change {
+    question: String,
+    first: String,
+    second: String,
+    /// 95% interval of the score of the first - that of the second, by default.
+    default_interval95: [f64; 2],
+    /// The same under the question.
+    interval95: [f64; 2],
+}
+
+impl RobustReport {
+    /// Asks all questions.
     ///
     /// # Errors
-    /// Where the materials cannot be compared; [`Error`] of a cancelled computation.
-    pub fn answers(&self, progress: &Progress) -> Result<Vec<Answered>, Error> {
-        let questions = self.questions()?;
-        progress.begin(questions.len() as u64);
-        let answer = |(name, convention, request): (String, Convention, Request)| {
-            let comparison = Comparison::new(self.ground_truth, &self.predictions, convention)?;
-            let outcome = comparison.at_most(MOST).run(&request, &progress.part())?;
-            progress.step()?;
-            Ok(Answered::of_outcome(name, &outcome))
-        };
-        questions.into_iter().map(answer).collect()
+    /// As [`answers`].
+    pub fn new(
+        comparison: &Comparison<'_, f32>,
+        accuracy: (f64, u64),
+        progress: &Progress,
+    ) -> Result<Self, Error> {
+        let answers = answers(comparison, accuracy, progress)?;
+        let names: Vec<_> = comparison.predictions().iter().map(|one| one.name().to_owned()).collect();
+        let compared = Compared::new(comparison.ground_truth(), comparison.convention());
+        Ok(Self::of_answers(compared, Vec::new(), &names, &answers))
     }
 
-    /// Each with its name, its convention and its scenes.
-    fn questions(&self) -> Result<Vec<(String, Convention, Request)>, Error> {
-        let own = self.convention;
-        let usual = Request::Accuracy { target: self.target_error, seed: self.seed };
-        let mut all = vec![(own.name.to_owned(), own, usual.clone())];
-        for described in named::all().iter().filter(|described| described.name != own.name) {
-            all.push((described.name.clone(), Convention::try_from(described)?, usual.clone()));
+    /// The report of answers, the default one first, about the predictions `names`; `materials`: those that they are means over.
+    pub fn of_answers(
+        compared: Compared,
+        materials: Vec<String>,
+        names: &[String],
+        answers: &[Scores],
+    ) -> Self {
+        let (default, name) = (&answers[0], |index: usize| names[index].clone());
+        let change = |answer: &Scores, (a, b): (usize, usize)| {
+            Some(Change {
+                question: answer.question.clone(),
+                first: name(a),
+                second: name(b),
+                default_interval95: default.differences[a][b]?,
+                interval95: answer.differences[a][b]?,
+            })
+        };
+        let of_answer = |answer| default.changes(answer).filter_map(move |pair| change(answer, pair));
+        let changes: Vec<Change> = answers[1..].iter().flat_map(of_answer).collect();
+        let question = |answer: &Scores| AskedQuestion {
+            question: answer.question.clone(),
+            tau: default.tau(answer),
+            order: order(&answer.scores).into_iter().map(name).collect(),
+        };
+        let questions = answers.iter().map(question).collect();
+        Self { compared, materials, sentence: sentence(names, answers, &changes), questions, changes }
+    }
+
+    /// Each pair of predictions that changes sides, with both intervals.
+    pub fn changes(&self) -> impl Iterator<Item = String> {
+        self.changes.iter().map(|change| {
+            let Change { question, first, second, default_interval95: [a, b], interval95: [c, d] } = change;
+            format!("{first} - {second}: {a:.4} to {b:.4} by default, {c:.4} to {d:.4} under {question}")
+        })
+    }
+
+    /// A table for a paper.
+    pub fn latex(&self) -> String {
+        let row = |asked: &AskedQuestion| format!("{} & {:.2} \\\\\n", escaped(&asked.question), asked.tau);
+        latex("lr", "Question & $\\tau$", &self.questions.iter().map(row).collect::<String>())
+    }
+}
+
+/// The answer in a sentence.
+fn sentence(names: &[String], answers: &[Scores], changes: &[Change]) -> String {
+    if let Some(Change { first, second, .. }) = changes.first() {
+        let of_pair = changes.iter().filter(|other| (&other.first, &other.second) == (first, second));
+        let on = of_pair.map(|change| change.question.as_str()).collect::<Vec<_>>().join(", ");
+        return format!("The order of {first} and {second} depends on the question: it changes under {on}.");
+    }
+    let (questions, order) = (answers.len(), order(&answers[0].scores));
+    let beats = |answer: &&Scores| order.len() > 1 && answer.sign(order[0], order[1]) < 0;
+    let under = match answers.iter().filter(beats).count() {
+        0 => return format!("No pair changes sides under any of {questions} questions."),
+        all if all == questions => format!("all {questions} questions."),
+        some => format!("{some} of {questions} questions, and no pair changes sides."),
+    };
+    format!("{} beats {} under {under}", names[order[0]], names[order[1]])
+}
+
+const FIELDS: [Field<AskedQuestion>; 3] = [
+    ("question", "question", |row| row.question.as_str().into()),
+    ("tau", "tau", |row| Cell::Digits(2, row.tau)),
+    ("order", "order", |row| row.order.join(" < ").into()),
+];
+
+impl Report for RobustReport {
+    fn heading(&self) -> String {
+        let changes = self.changes().map(|change| change + "\n");
+        let Compared { ground_truth, convention, epsilon, .. } = &self.compared;
+        let heading = match self.materials.len() {
+            0 => self.compared.heading("order by the rendering loss"),
+            count => format!(
+                "order by the rendering loss over {count} materials of {ground_truth}\nconvention {convention}, epsilon {epsilon}\n"
+            ),
+        };
+        heading + &format!("{}\n", self.sentence) + &changes.collect::<String>()
+    }
+
+    fn table(&self, reader: Reader) -> Table {
+        Table::fields(&FIELDS, &self.questions, reader)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn report(scores: &[[f64; 3]], half: f64) -> RobustReport {
+        let answer = |of: &[f64; 3]| {
+            let interval = |a: usize, b: usize| Some([of[a] - of[b] - half, of[a] - of[b] + half]);
+            Scores::new("of".to_owned(), of.to_vec(), interval)
+        };
+        let compared = Compared { ground_truth: "gt".into(), size: [4; 2], convention: "", epsilon: 0.0 };
+        let answers: Vec<_> = scores.iter().map(answer).collect();
+        RobustReport::of_answers(compared, Vec::new(), &["a", "b", "c"].map(str::to_owned), &answers)
+    }
+
+    #[test]
+    fn a_pair_changes_sides_where_both_differences_are_significant() {
+        let usual = [0.1, 0.2, 0.4];
+        let (changed, close) = ([usual, [0.3, 0.1, 0.4]], [usual, [0.12, 0.1, 0.4]]);
+        for (scores, half, sentence, taus) in [
+            (
+                &changed[..],
+                0.05,
+                "The order of a and b depends on the question: it changes under of.",
+                [1.0, 1.0 / 3.0],
+            ),
+            (&close, 0.05, "a beats b under 1 of 2 questions, and no pair changes sides.", [1.0; 2]),
+            (&[usual; 2], 0.05, "a beats b under all 2 questions.", [1.0; 2]),
+            (&[usual; 2], 0.5, "No pair changes sides under any of 2 questions.", [1.0; 2]),
+        ] {
+            let found = report(scores, half);
+            assert_eq!(
+                (found.sentence.as_str(), found.changes().count()),
+                (sentence, usize::from(taus[1] < 1.0))
+            );
+            let off = found.questions.iter().zip(taus).map(|(asked, tau)| (asked.tau - tau).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-12, "{sentence}");
         }
-        for epsilon in [0.01, 0.1].into_iter().filter(|epsilon| *epsilon != own.epsilon) {
-            all.push((format!("epsilon {epsilon}"), Convention { epsilon, ..own }, usual.clone()));
-        }
-        for (name, near, distant) in [("near-field scenes", SCENES, 0), ("distant scenes", 0, SCENES)] {
-            let texels = Texels::Sampled(TEXELS);
-            let sampling = Sampling { near, distant, seed: self.seed, sampler: Sampler::Sobol, texels };
-            all.push((name.to_owned(), own, Request::Scenes(sampling)));
-        }
-        for lights in NamedScenes::ALL {
-            all.push((format!("lights {}", lights.name()), own, Request::Listed(lights.scenes()?)));
-        }
-        Ok(all)
+        assert_eq!(report(&changed, 0.05).questions[1].order.join(""), "bac");
     }
 }

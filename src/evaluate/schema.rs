@@ -1,12 +1,13 @@
 //! JSON Schemas of the reports: the keys of their JSON with their types and meanings.
 
-use crate::report::{ConformReport, InfoReport, RobustReport};
+use crate::report::{ConformReport, InfoReport};
 use schemars::Schema;
 
 use crate::analyses::ANALYSES;
 use crate::dataset::DatasetReport;
 use crate::json_schema::schema_of;
 use crate::photograph::PhotoReport;
+use crate::robust::RobustReport;
 
 /// The name of a report, and its schema.
 type ReportSchema = (&'static str, fn() -> Schema);

@@ -6,7 +6,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Endpoint, Scene};
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::analyses::LossReport;
-use svbrdf_evaluate::report::RobustReport;
+use svbrdf_evaluate::robust::RobustReport;
 use svbrdf_evaluate::why::{
     Attribution, Hemisphere, RankedScene, attribute, hemisphere, worst_on_all_texels,
 };

@@ -7,7 +7,8 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::scene::Kind;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::analyses::parts;
-use svbrdf_evaluate::report::{Reader, Report as _, RobustReport, scenes_line};
+use svbrdf_evaluate::report::{Reader, Report as _, scenes_line};
+use svbrdf_evaluate::robust::RobustReport;
 use svbrdf_evaluate::why::{Attribution, Hemisphere};
 use svbrdf_files::Error;
 
@@ -91,7 +92,7 @@ pub(super) fn robust(report: &RobustReport) -> String {
         if changes.is_empty() { changes } else { format!(r#"<ul class="conditions">{changes}</ul>"#) };
     format!(
         r#"<section aria-labelledby="robust"><h2 id="robust">Does the order survive?</h2><p>{}</p>{changes}{}<p class="weak">Tau: Kendall's tau to the order by default, 1 where no pair changes sides; differences that are not significant are no changes.</p></section>"#,
-        escaped(report.sentence()),
+        escaped(&report.sentence),
         HtmlTable::of(report.table(Reader::Person), "", false).titled().html(),
     )
 }

@@ -9,7 +9,8 @@ use svbrdf_evaluate::dataset::{
     DatasetReport, FEWEST, MaterialResult, MethodSummary, Pick, best_by_metric, counted_loss,
     is_better_larger, marks_table,
 };
-use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
+use svbrdf_evaluate::report::{Reader, Report as _};
+use svbrdf_evaluate::robust::RobustReport;
 
 const PAGE: &str = include_str!("ranking.html");
 const STYLE: &str = concat!(include_str!("page.css"), include_str!("ranking.css"));

@@ -9,8 +9,8 @@ use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, Pick,
     PredictionResult, Remark, Source,
 };
-use svbrdf_evaluate::report::{Compared, RobustReport};
-use svbrdf_evaluate::robust::Answered;
+use svbrdf_evaluate::report::Compared;
+use svbrdf_evaluate::robust::{RobustReport, Scores};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_needs::needs;
 use svbrdf_page::ranking;
@@ -82,7 +82,7 @@ fn robust() -> RobustReport {
     let answered = |question: &str, scores: [f64; 2]| {
         let interval =
             |a: usize, b: usize| Some([scores[a] - scores[b] - 0.01, scores[a] - scores[b] + 0.01]);
-        Answered::new(question.to_owned(), scores.into(), interval)
+        Scores::new(question.to_owned(), scores.into(), interval)
     };
     let answers = [answered("printed", [0.1, 0.3]), answered("epsilon 0.1", [0.3, 0.1])];
     let compared = Compared::new(&noise(1), &PRINTED);

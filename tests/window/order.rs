@@ -1,7 +1,8 @@
 //! Whether the order survives: the fold has what `svbrdf rank --robust` prints, of what is in the window now.
 
-use svbrdf_evaluate::report::{Report as _, RobustReport};
-use svbrdf_evaluate::robust::RobustInput;
+use svbrdf_core::loss::Comparison;
+use svbrdf_evaluate::report::Report as _;
+use svbrdf_evaluate::robust::RobustReport;
 use svbrdf_viewer::jobs::order::PredictionOrder;
 
 use super::*;
@@ -40,16 +41,11 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
         let all = window.model().materials.all.iter();
         let materials: Vec<_> =
             all.map(|one| one.read.material().clone().renamed(one.name().to_owned())).collect();
-        let input = RobustInput {
-            ground_truth: &materials[0],
-            predictions: materials[1..].iter().collect(),
-            convention: convention.parse().unwrap(),
-            target_error: 0.1,
-            seed: 0,
-        };
-        let expected = RobustReport::new(&input, &Progress::default()).unwrap();
+        let predictions: Vec<_> = materials[1..].iter().collect();
+        let of = Comparison::new(&materials[0], &predictions, convention.parse().unwrap()).unwrap();
+        let expected = RobustReport::new(&of, (0.1, 0), &Progress::default()).unwrap();
         assert_eq!(found.text(), expected.text());
-        see(&mut window, found.sentence());
+        see(&mut window, &found.sentence);
         assert!(found.text().contains(&format!("convention {convention}")), "{}", found.text());
     }
     // Folded, nothing is asked.

@@ -7,7 +7,8 @@ use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
     Pick, Shard,
 };
-use svbrdf_evaluate::report::{Report as _, RobustReport};
+use svbrdf_evaluate::report::Report as _;
+use svbrdf_evaluate::robust::RobustReport;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_page::{Figures, check_destination, material_views, ranking};
 

@@ -1,12 +1,10 @@
 //! Many predictions of one ground truth.
 
-use svbrdf_core::loss::Question;
+use svbrdf_core::loss::{Comparison, Question};
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::analyses::{MaterialReading, RankReport};
-use svbrdf_evaluate::report::{
-    Analysis as _, AnalysisInput, NoOptions, Repetition, Report as _, RobustReport,
-};
-use svbrdf_evaluate::robust::RobustInput;
+use svbrdf_evaluate::report::{Analysis as _, NoOptions, Repetition, Report as _};
+use svbrdf_evaluate::robust::RobustReport;
 
 use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use crate::cli::args::{Given, refuse};
@@ -53,10 +51,9 @@ impl Job for OneJob {
         let ComparisonJob { convention, materials, .. } = comparison;
         let opened = materials.open::<f32>()?;
         let input = job::input(&opened, &materials, convention, question);
-        if let Some((target_error, seed)) = robust {
-            let AnalysisInput { ground_truth, predictions, convention, .. } = input;
-            let input = RobustInput { ground_truth, predictions, convention, target_error, seed };
-            let report = watched("rendering", |progress| RobustReport::new(&input, progress))?;
+        if let Some(accuracy) = robust {
+            let comparison = Comparison::new(input.ground_truth, &input.predictions, convention)?;
+            let report = watched("rendering", |progress| RobustReport::new(&comparison, accuracy, progress))?;
             return Ok(output.put(&report, RobustReport::latex)?);
         }
         let mut report =

@@ -1,6 +1,6 @@
 //! Robustness of the order of methods over a data set.
 
-use svbrdf_core::loss::ALL_SCENES_TARGET;
+use svbrdf_core::loss::{ALL_SCENES_TARGET, Comparison};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
@@ -10,14 +10,14 @@ use super::bootstrap::{FEWEST, interval_of_mean};
 use super::evaluate::{Evaluation, open};
 use super::record::{Case, DatasetReading, DatasetSettings};
 use crate::error::Error;
-use crate::report::{Compared, RobustReport};
-use crate::robust::{Answered, RobustInput};
+use crate::report::Compared;
+use crate::robust::{RobustReport, Scores, answers};
 
-/// Asks the questions of [`RobustInput`] about the first prediction of every method for each of `cases`, in parallel, and reports the
+/// Asks the questions of [`answers`] about the first prediction of every method for each of `cases`, in parallel, and reports the
 /// means over the materials that all methods have. `tell` has a line for each other material. A material is one step of `progress`.
 ///
 /// # Errors
-/// [`FilesError::NotADataSet`] for fewer than [`FEWEST`] materials; as [`RobustInput::answers`].
+/// [`FilesError::NotADataSet`] for fewer than [`FEWEST`] materials; as [`answers`].
 pub fn robust(
     cases: &[Case],
     settings: &DatasetSettings,
@@ -31,7 +31,7 @@ pub fn robust(
     let evaluation = Evaluation::new(settings, reading, None, progress)?;
     progress.begin(cases.len() as u64);
     let of_case = |index: usize| {
-        let answers = answers(&cases[index], &evaluation)?;
+        let answers = of_material(&cases[index], &evaluation)?;
         progress.step()?;
         Ok::<_, Error>(answers)
     };
@@ -67,19 +67,19 @@ fn enough(count: usize, settings: &DatasetSettings) -> Result<(), FilesError> {
 }
 
 /// The answers to each question as means over the materials, with paired intervals over them.
-fn over_materials(all: &[Vec<Answered>]) -> Vec<Answered> {
-    let over = |(place, first): (usize, &Answered)| {
+fn over_materials(all: &[Vec<Scores>]) -> Vec<Scores> {
+    let over = |(place, first): (usize, &Scores)| {
         let scores = || all.iter().map(|material| &material[place].scores);
         let mean = |a: usize| scores().map(|one| one[a]).sum::<f64>() / all.len() as f64;
         let paired = |a: usize, b: usize| scores().map(|one| one[a] - one[b]).collect::<Vec<_>>();
         let interval = |a, b| interval_of_mean(&paired(a, b));
-        Answered::new(first.question.clone(), (0..first.scores.len()).map(mean).collect(), interval)
+        Scores::new(first.question.clone(), (0..first.scores.len()).map(mean).collect(), interval)
     };
     all.first().into_iter().flatten().enumerate().map(over).collect()
 }
 
 /// The answers about a material, or why it cannot be asked about.
-fn answers(case: &Case, evaluation: &Evaluation<'_>) -> Result<Result<Vec<Answered>, String>, Error> {
+fn of_material(case: &Case, evaluation: &Evaluation<'_>) -> Result<Result<Vec<Scores>, String>, Error> {
     let Evaluation { settings, reading, progress, .. } = evaluation;
     let truth = open(&case.ground_truth, &reading.ground_truths, reading.strict);
     let of_method = |method: &String| {
@@ -98,12 +98,8 @@ fn answers(case: &Case, evaluation: &Evaluation<'_>) -> Result<Result<Vec<Answer
         Ok(opened) => opened,
         Err(problem) => return Ok(Err(problem)),
     };
-    let input = RobustInput {
-        ground_truth: &truth.material,
-        predictions: predictions.iter().map(|one| &one.material).collect(),
-        convention: settings.convention.convention,
-        target_error: settings.target_error.unwrap_or(ALL_SCENES_TARGET),
-        seed: evaluation.seed(case),
-    };
-    Ok(Ok(input.answers(&progress.part())?))
+    let predictions: Vec<_> = predictions.iter().map(|one| &one.material).collect();
+    let comparison = Comparison::new(&truth.material, &predictions, settings.convention.convention)?;
+    let target = settings.target_error.unwrap_or(ALL_SCENES_TARGET);
+    Ok(Ok(answers(&comparison, (target, evaluation.seed(case)), &progress.part())?))
 }

@@ -29,7 +29,6 @@ mod latex;
 mod missed;
 mod names;
 mod repetition;
-mod robust;
 mod table;
 
 pub use analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, Schematic};
@@ -40,7 +39,6 @@ pub use latex::{bold, escaped, latex};
 pub use missed::{missed, missed_by_any};
 pub use names::distinct_names;
 pub use repetition::Repetition;
-pub use robust::RobustReport;
 pub use table::{Cell, Field, Reader, Table};
 
 use serde::Serialize;

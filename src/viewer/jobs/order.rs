@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::loss::LossSettings;
+use svbrdf_core::loss::{Comparison, LossSettings};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::dataset::{self, DatasetSettings};
-use svbrdf_evaluate::report::{Compared, RobustReport};
-use svbrdf_evaluate::robust::RobustInput;
+use svbrdf_evaluate::report::Compared;
+use svbrdf_evaluate::robust::{RobustReport, answers};
 
 use super::answers::content::Content;
 use super::answers::{Question, Work};
@@ -47,16 +47,13 @@ impl Question for PredictionOrder {
         let [ground_truth, predictions @ ..] = read.as_slice() else {
             return Err(Error::internal("there is no ground truth"));
         };
-        let input = RobustInput {
-            ground_truth: ground_truth.material(),
-            predictions: predictions.iter().map(|one| one.material()).collect(),
-            convention: self.convention,
-            target_error: self.target_percent / 100.0,
-            seed: self.seed,
-        };
+        let predictions: Vec<_> = predictions.iter().map(|one| one.material()).collect();
+        let found = Comparison::new(ground_truth.material(), &predictions, self.convention)
+            .map_err(svbrdf_evaluate::Error::from)
+            .and_then(|one| answers(&one, (self.target_percent / 100.0, self.seed), work.progress()));
         let compared = Compared::new(ground_truth.material(), &self.convention);
         let compared = Compared { ground_truth: names[0].clone(), ..compared };
-        told(input.answers(work.progress()).map_err(Error::from)).map(|answers| {
+        told(found.map_err(Error::from)).map(|answers| {
             answers.map(|answers| RobustReport::of_answers(compared, Vec::new(), &names[1..], &answers))
         })
     }

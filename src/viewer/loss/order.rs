@@ -2,7 +2,8 @@
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_evaluate::report::{Reader, Report as _, RobustReport};
+use svbrdf_evaluate::report::{Reader, Report as _};
+use svbrdf_evaluate::robust::RobustReport;
 
 use crate::jobs::answers::Answer;
 use crate::jobs::order::OrderAnswer;
@@ -32,7 +33,7 @@ pub fn fold(ui: &mut egui::Ui, asks: &mut bool, ask: impl FnOnce() -> Answer<Ord
 
 /// The sentence, the pairs that change sides, and the order under every question.
 fn answer(ui: &mut egui::Ui, report: &RobustReport) {
-    ui.label(drawable(report.sentence()));
+    ui.label(drawable(&report.sentence));
     for change in report.changes() {
         ui.label(RichText::new(drawable(&change)).small().weak());
     }
