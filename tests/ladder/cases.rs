@@ -9,13 +9,13 @@ use svbrdf_core::model::convention::{self, Convention};
 
 use crate::support::points::Generator;
 
-pub const ROUGHNESS: [f64; 9] = [0.0, 1e-5, 1e-4, 1e-3, 1.0 / 255.0, 0.01, 0.1, 0.5, 1.0];
+const ROUGHNESS: [f64; 9] = [0.0, 1e-5, 1e-4, 1e-3, 1.0 / 255.0, 0.01, 0.1, 0.5, 1.0];
 /// NoH, before the normal is rounded to its format.
-pub const N_DOT_H: [f64; 4] = [1.0, 1.0 - 1.0 / (1 << 24) as f64, 1.0 - 1.0 / (1 << 12) as f64, 0.0];
+const N_DOT_H: [f64; 4] = [1.0, 1.0 - 1.0 / (1 << 24) as f64, 1.0 - 1.0 / (1 << 12) as f64, 0.0];
 /// Heights of the unit vector to the light above the plane; the last is below it.
-pub const LIGHT_Z: [f64; 6] = [1.0, 0.5, 0.1, 1e-3, 1e-6, -0.5];
+const LIGHT_Z: [f64; 6] = [1.0, 0.5, 0.1, 1e-3, 1e-6, -0.5];
 /// Views: at a height above the plane, or relative to the light.
-pub const VIEWS: [View; 9] = [
+const VIEWS: [View; 9] = [
     View::Height(1.0),
     View::Height(0.5),
     View::Height(1e-3),
@@ -27,14 +27,14 @@ pub const VIEWS: [View; 9] = [
     View::Opposite,
 ];
 /// Specular and diffuse albedo.
-pub const ALBEDO: [f64; 4] = [0.0, 1.0 / (1 << 24) as f64, 0.5, 1.0];
+const ALBEDO: [f64; 4] = [0.0, 1.0 / (1 << 24) as f64, 0.5, 1.0];
 /// Distances of light and view from the texel.
-pub const DISTANCE: [f64; 5] = [1e-4, 1e-2, 1.0, 1e3, 1e6];
+const DISTANCE: [f64; 5] = [1e-4, 1e-2, 1.0, 1e3, 1e6];
 /// Storage formats of the maps.
-pub const FORMATS: [Format; 3] = [Format::Bits8, Format::Half, Format::Float];
+const FORMATS: [Format; 3] = [Format::Bits8, Format::Half, Format::Float];
 
 #[derive(Clone, Copy, Debug)]
-pub enum View {
+enum View {
     Height(f64),
     /// The mirror direction of the light about the normal of the plane.
     Mirror,
@@ -47,7 +47,7 @@ pub enum View {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub enum Format {
+enum Format {
     Bits8,
     Half,
     Float,
@@ -118,39 +118,21 @@ fn half_way(l: DVec3, v: DVec3) -> DVec3 {
     if sum.length() > 1e-9 { sum.normalize() } else { DVec3::Z }
 }
 
-/// The values of a case, as indices into the axes, in this order: roughness, NoH, light, view, diffuse, specular,
-/// distance of the light, distance of the view, format, convention.
-pub type Indices = [usize; 10];
-/// How many values each axis has.
-pub const SIZES: Indices = [
-    ROUGHNESS.len(),
-    N_DOT_H.len(),
-    LIGHT_Z.len(),
-    VIEWS.len(),
-    ALBEDO.len(),
-    ALBEDO.len(),
-    DISTANCE.len(),
-    DISTANCE.len(),
-    FORMATS.len(),
-    convention::ALL.len(),
-];
-
 /// The table: for each light and view a batch with every roughness, NoH and pair of albedos. Distances, formats and
 /// the azimuths of the normals alternate.
-pub fn table() -> impl Iterator<Item = (Batch, Vec<[Indices; 3]>)> {
+pub fn table() -> impl Iterator<Item = Batch> {
     let rounds = LIGHT_Z.len() * VIEWS.len() * DISTANCE.len();
     (0..rounds * convention::ALL.len()).map(move |i| batch_of_table(i / rounds, i % rounds))
 }
 
-fn batch_of_table(convention: usize, i: usize) -> (Batch, Vec<[Indices; 3]>) {
+fn batch_of_table(convention: usize, i: usize) -> Batch {
     /// Three pairs of albedos fit a texel: six texels hold the 16 pairs, two of them twice.
     const ALBEDO_TEXELS: usize = 6;
     let (light, view, round) = (i % 6, i / 6 % 9, i / 54);
     let (light_distance, view_distance) = (round, (2 * round + light + view + convention) % 5);
     let (l, v) = directions(LIGHT_Z[light], VIEWS[view], 0.7 * i as f64);
     let h = half_way(l, v);
-    let (mut texels, mut places) = (Vec::new(), Vec::new());
-    for j in 0..ROUGHNESS.len() * N_DOT_H.len() * ALBEDO_TEXELS {
+    let texel = |j: usize| {
         let (r, n_dot_h, albedo) = (j % 9, j / 9 % 4, j / 36);
         let pairs = [0, 1, 2].map(|c| (3 * albedo + c) % 16);
         let format = (r + n_dot_h + albedo + light + view + round + convention) % 3;
@@ -158,20 +140,17 @@ fn batch_of_table(convention: usize, i: usize) -> (Batch, Vec<[Indices; 3]>) {
         let cosine = N_DOT_H[n_dot_h];
         let angle = ((1.0 - cosine) * (1.0 + cosine)).sqrt().atan2(cosine);
         let n = turned(h, angle, 0.1 + std::f64::consts::TAU / 3.0 * side as f64);
-        texels.push(Texel {
+        Texel {
             normal: FORMATS[format].normal(n),
             diffuse: pairs.map(|pair| FORMATS[format].value(ALBEDO[pair / 4])),
             specular: pairs.map(|pair| FORMATS[format].value(ALBEDO[pair % 4])),
             roughness: FORMATS[format].value(ROUGHNESS[r]),
-        });
-        places.push(pairs.map(|pair| {
-            let (diffuse, specular) = (pair / 4, pair % 4);
-            [r, n_dot_h, light, view, diffuse, specular, light_distance, view_distance, format, convention]
-        }));
-    }
+        }
+    };
+    let texels: Vec<_> = (0..ROUGHNESS.len() * N_DOT_H.len() * ALBEDO_TEXELS).map(texel).collect();
     let [w_l, w_v] = [l * DISTANCE[light_distance], v * DISTANCE[view_distance]].map(|w| w.as_vec3());
     let near = (light + view + round).is_multiple_of(4);
-    (Batch { convention: convention::ALL[convention], near, material: row(&texels), w_l, w_v }, places)
+    Batch { convention: convention::ALL[convention], near, material: row(&texels), w_l, w_v }
 }
 
 /// Unit vectors to a light at height `z` on the side `azimuth`, and to the view.

@@ -47,32 +47,6 @@ pub struct Truth {
     pub f64_bound: [f64; 3],
 }
 
-/// Where a case lies.
-struct Place {
-    /// The roughness, at least its floor.
-    rough: f64,
-    /// Sine of the angle between n and h.
-    sine: f64,
-    n_dot_l: f64,
-    /// n.l, n.v, l.z and v.z.
-    cosines: [f64; 4],
-    /// |l + v|.
-    sum: f64,
-}
-
-impl Place {
-    fn of(model: &Model<f64>, texel: &Texel<f64>, l: DVec3, v: DVec3) -> Self {
-        let n = texel.normal;
-        Self {
-            rough: texel.roughness.max(model.roughness_floor),
-            sine: n.cross(brdf::half_vector(n, l, v)).length(),
-            n_dot_l: n.dot(l),
-            cosines: [n.dot(l), n.dot(v), l.z, v.z],
-            sum: (l + v).length(),
-        }
-    }
-}
-
 /// The texel in f64, its normal brought to length 1.
 fn in_f64(texel: &Texel<f32>) -> Texel<f64> {
     Texel {
@@ -139,9 +113,8 @@ impl Truth {
         /// An operation of f64 is off by this share of what one of f32 is off by.
         const F64_BY_F32: f64 = f64::EPSILON / f32::EPSILON as f64;
         let expected = brdf::render(model, texel, l, v);
-        let place = Place::of(model, texel, l, v);
         let mut one_ulp = one_ulp(model, texel, l, v);
-        if place.sum < OPPOSITE {
+        if (l + v).length() < OPPOSITE {
             /// One ulp of f32 in the unit of `error_bound`.
             const ONE_ULP: f64 = 2.0;
             let reach = error_bound(model, texel, l, v, ONE_ULP);
@@ -149,7 +122,7 @@ impl Truth {
                 one_ulp[c] = one_ulp[c].max(reach[c] / expected[c]);
             }
         }
-        let region = [0, 1, 2].map(|c| place.region(expected[c], one_ulp[c]));
+        let region = [0, 1, 2].map(|c| region(model, texel, [l, v], expected[c], one_ulp[c]));
         let bound = |ulps| error_bound(model, texel, l, v, ulps).map(|b| b + f64::from(f32::MIN_POSITIVE));
         let (bound, simd_bound) = (bound(POINT_ULPS), bound(SIMD_ULPS));
         let exactly_opposite = (l + v).length() < 4.0 * f64::EPSILON;
@@ -162,36 +135,35 @@ impl Truth {
     }
 }
 
-impl Place {
-    /// The region of a channel that should give `expected`.
-    fn region(&self, expected: f64, one_ulp: f64) -> Region {
-        /// Sine of the angle, 5.7 degrees, within which of a horizon a light or a view is grazing.
-        const GRAZING: f64 = 0.1;
-        /// A highlight reaches this many GGX widths from the mirror direction: there D is 1/4000 of its peak.
-        const WIDTHS: f64 = 8.0;
-        let in_highlight = self.sine < WIDTHS * self.rough * self.rough;
-        let opposite = self.sum < OPPOSITE;
-        if expected == 0.0 && one_ulp == 0.0 {
-            Region::Dark
-        } else if one_ulp > ILL_CONDITIONED {
-            match opposite {
-                true => Region::IllOpposite,
-                false if self.n_dot_l.abs() < 1e-3 => Region::IllHorizon,
-                false => Region::IllHighlight,
-            }
-        } else if opposite {
-            Region::Opposite
-        } else if self.cosines.iter().any(|c| c.abs() < GRAZING) {
-            Region::Grazing
-        } else {
-            match (self.rough, in_highlight) {
-                (0.5.., _) => Region::Rough,
-                (0.1.., _) => Region::Satin,
-                (0.01.., false) => Region::GlossyBeside,
-                (0.01.., true) => Region::GlossyHighlight,
-                (_, false) => Region::MirrorBeside,
-                (_, true) => Region::MirrorHighlight,
-            }
+/// The region of a channel that should give `expected`.
+fn region(model: &Model<f64>, texel: &Texel<f64>, [l, v]: [DVec3; 2], expected: f64, one_ulp: f64) -> Region {
+    /// Sine of the angle, 5.7 degrees, within which of a horizon a light or a view is grazing.
+    const GRAZING: f64 = 0.1;
+    /// A highlight reaches this many GGX widths from the mirror direction: there D is 1/4000 of its peak.
+    const WIDTHS: f64 = 8.0;
+    let (n, rough) = (texel.normal, texel.roughness.max(model.roughness_floor));
+    let in_highlight = n.cross(brdf::half_vector(n, l, v)).length() < WIDTHS * rough * rough;
+    let opposite = (l + v).length() < OPPOSITE;
+    if expected == 0.0 && one_ulp == 0.0 {
+        Region::Dark
+    } else if one_ulp > ILL_CONDITIONED {
+        match opposite {
+            true => Region::IllOpposite,
+            false if n.dot(l).abs() < 1e-3 => Region::IllHorizon,
+            false => Region::IllHighlight,
+        }
+    } else if opposite {
+        Region::Opposite
+    } else if [n.dot(l), n.dot(v), l.z, v.z].iter().any(|cosine| cosine.abs() < GRAZING) {
+        Region::Grazing
+    } else {
+        match (rough, in_highlight) {
+            (0.5.., _) => Region::Rough,
+            (0.1.., _) => Region::Satin,
+            (0.01.., false) => Region::GlossyBeside,
+            (0.01.., true) => Region::GlossyHighlight,
+            (_, false) => Region::MirrorBeside,
+            (_, true) => Region::MirrorHighlight,
         }
     }
 }
