@@ -73,7 +73,7 @@ fn every_peer_is_found_and_no_other_renderer_has_a_name() {
         let text = std::fs::read_to_string(format!("{PEERS}/conventions/{convention}.toml")).unwrap();
         let verdict = verdict(&found, &text.parse().unwrap());
         let terms = verdict.differences.iter().map(|difference| &difference.term);
-        let wrong: Vec<_> = terms.filter(|term| !OF_THE_PROBES.contains(&term.key.as_str())).collect();
+        let wrong: Vec<_> = terms.filter(|term| !OF_THE_PROBES.contains(&term.as_str())).collect();
         assert_ne!(verdict.kind, VerdictKind::Unknown, "{name}: {:?}", verdict.residual);
         assert!(wrong.is_empty(), "{name}: {wrong:?}");
     }

@@ -85,7 +85,7 @@ fn random_members_are_found_in_float64_and_float32() {
         for stored in [|rgb| rgb, single] {
             let radiance = points.iter().map(|point| stored(terms.radiance(point, true))).collect();
             let verdict = judged(&points, radiance, Some(metallic), &terms);
-            let is_wrong = |one: &&TermGap| STRUCTURE.contains(&one.term.key.as_str());
+            let is_wrong = |one: &&TermGap| STRUCTURE.contains(&one.term.as_str());
             let wrong: Vec<_> = verdict.differences.iter().filter(is_wrong).collect();
             assert_ne!(verdict.kind, VerdictKind::Unknown, "seed {seed}");
             assert!(wrong.is_empty(), "seed {seed}: {wrong:?}");
@@ -103,6 +103,6 @@ fn a_member_is_not_taken_for_another() {
     let metallic = terms.material.material == Maps::Metallic;
     let verdict = judged(&points, exact, Some(metallic), &other);
     assert_eq!(verdict.kind, VerdictKind::Differs);
-    let differing: Vec<_> = verdict.differences.iter().map(|one| one.term.key.as_str()).collect();
+    let differing: Vec<_> = verdict.differences.iter().map(|one| one.term.as_str()).collect();
     assert_eq!(differing, ["F"]);
 }

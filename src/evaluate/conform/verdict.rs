@@ -9,23 +9,29 @@ use super::Identified;
 use super::fit::{Fit, Problem};
 use super::search::WORTH;
 
-/// Whether a renderer is the one that was asked for.
+/// Whether a renderer is that of the expected convention.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum VerdictKind {
     Conforms,
     Differs,
-    /// It is no member of the grammar, or cannot be told.
+    /// It is no member of the grammar, or the points do not decide.
     Unknown,
 }
 
-/// A term in which a renderer differs from the convention.
-#[derive(Clone, Debug, PartialEq)]
+/// A term in which a renderer differs from a convention.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TermGap {
-    pub term: TermDifference,
-    /// Largest relative change of a radiance where this term alone is that of the convention.
-    pub gap: f64,
+    /// Its key in the TOML of a convention.
+    pub term: String,
+    /// Its value in the renderer.
+    pub found: String,
+    /// Its value in the convention.
+    pub expected: String,
+    /// Largest relative change of a radiance where this term alone is that of the convention; `None` where it changes no radiance.
+    pub gap: Option<f64>,
 }
 
 /// What was found.
@@ -47,7 +53,12 @@ pub fn verdict(found: &Identified, asked: &Description) -> Verdict {
     let differences: Vec<TermGap> = terms
         .differences(&asked.terms)
         .into_iter()
-        .map(|term| TermGap { gap: gap(problem, fit, &term, &asked.terms), term })
+        .map(|term| TermGap {
+            gap: Some(gap(problem, fit, &term, &asked.terms)).filter(|gap| gap.is_finite()),
+            term: term.key,
+            found: term.own,
+            expected: term.other,
+        })
         .collect();
     let kind = match (explained, differences.is_empty()) {
         (false, _) => VerdictKind::Unknown,

@@ -10,9 +10,9 @@ use svbrdf_core::text::percent;
 
 use super::Report;
 use super::table::{Cell, Field, Reader, Table};
-use crate::conform::{self, Answer, VerdictKind};
+use crate::conform::{self, Answer, TermGap, VerdictKind};
 
-/// The terms of a renderer by their sections: those of the TOML of a convention that are not at their defaults.
+/// The terms of a renderer that are not at their defaults, by section and key as in the TOML of a convention.
 pub type TermsByKey = BTreeMap<String, BTreeMap<String, TermValue>>;
 
 /// The value of a term.
@@ -30,39 +30,27 @@ pub enum TermValue {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ConformReport {
-    /// `conforms`, `differs`, or `unknown`: it is no member of the grammar of conventions, or cannot be told.
+    /// `conforms`; `differs`; or `unknown`: it is no member of the grammar of conventions, or the points do not decide.
     verdict: VerdictKind,
-    /// The convention that it is compared with.
+    /// The convention that the renderer is compared with.
     convention: String,
-    /// The named conventions that render as it does.
+    /// The named conventions with the same renderer.
     same_as: Vec<String>,
-    /// The renderer; `None` where the verdict is unknown.
+    /// The terms of the renderer; `None` where the verdict is unknown.
     renderer: Option<TermsByKey>,
-    /// The member of the grammar that is nearest, which is not the renderer; `None` where the renderer is known.
+    /// The terms of the nearest member of the grammar, where the verdict is unknown; otherwise `None`.
     nearest: Option<TermsByKey>,
-    /// From the convention; of the nearest member where the verdict is unknown.
-    differences: Vec<TermDifference>,
-    /// Root mean square of what remains, relative to the radiances.
+    /// Differences from the convention; of the nearest member, where the verdict is unknown.
+    differences: Vec<TermGap>,
+    /// Root mean square of the differences of radiances that remain, relative to the radiances.
     residual: f64,
-    /// How precisely the radiances are stored.
+    /// The precision of the given radiances: float32 or float64.
     storage: &'static str,
     /// The number of points.
     points: usize,
-    /// The whole convention that was found.
+    /// The renderer as a convention, with the loss and the scenes of the expected one.
     #[serde(skip)]
     found: Description,
-}
-
-/// A term in which a renderer differs from a convention.
-#[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-struct TermDifference {
-    /// Its key in the TOML of a convention.
-    term: String,
-    found: String,
-    expected: String,
-    /// Largest relative change of a radiance where this term alone is that of the convention; `None` where it is not one of radiance.
-    gap: Option<f64>,
 }
 
 impl ConformReport {
@@ -91,7 +79,7 @@ impl ConformReport {
             same_as: same,
             renderer: is_known.then(|| terms.clone()),
             nearest: (!is_known).then_some(terms),
-            differences: verdict.differences.into_iter().map(TermDifference::from).collect(),
+            differences: verdict.differences,
             residual: verdict.residual,
             storage: if identified.is_single { "float32" } else { "float64" },
             points: answer.points.len(),
@@ -111,7 +99,8 @@ impl ConformReport {
 
     fn sentence(&self) -> String {
         let convention = &self.convention;
-        let differences: Vec<String> = self.differences.iter().map(TermDifference::sentence).collect();
+        let sentence = |one: &TermGap| format!("{} is {}, not {}", one.term, one.found, one.expected);
+        let differences: Vec<String> = self.differences.iter().map(sentence).collect();
         match self.verdict {
             VerdictKind::Conforms => format!("The renderer conforms to `{convention}`."),
             VerdictKind::Differs => format!("As `{convention}`, but {}.", listed(&differences)),
@@ -125,18 +114,6 @@ impl ConformReport {
     }
 }
 
-impl From<conform::TermGap> for TermDifference {
-    fn from(conform::TermGap { term, gap }: conform::TermGap) -> Self {
-        Self { term: term.key, found: term.own, expected: term.other, gap: gap.is_finite().then_some(gap) }
-    }
-}
-
-impl TermDifference {
-    fn sentence(&self) -> String {
-        format!("{} is {}, not {}", self.term, self.found, self.expected)
-    }
-}
-
 /// Words in a sentence.
 fn listed(words: &[String]) -> String {
     match words {
@@ -146,7 +123,7 @@ fn listed(words: &[String]) -> String {
     }
 }
 
-/// The terms that are not at their defaults, and those that are always printed.
+/// The terms that the TOML of a convention has, without its loss.
 fn by_key(terms: &RendererTerms) -> TermsByKey {
     let text = Description { terms: *terms, ..Description::default() }.to_string();
     let mut sections: TermsByKey = toml::from_str::<BTreeMap<String, toml::Value>>(&text)
@@ -158,7 +135,7 @@ fn by_key(terms: &RendererTerms) -> TermsByKey {
     sections
 }
 
-const FIELDS: [Field<TermDifference>; 4] = [
+const FIELDS: [Field<TermGap>; 4] = [
     ("term", "term", |row| row.term.clone().into()),
     ("found", "found", |row| row.found.clone().into()),
     ("expected", "expected", |row| row.expected.clone().into()),
