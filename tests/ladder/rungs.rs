@@ -12,21 +12,16 @@ use svbrdf_core::render::simd::{Level, render_at};
 use super::cases::{Batch, row};
 use super::exact;
 
-/// A column of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rung {
-    /// f64, against 256 bits.
-    F64,
-    /// f32 as it is written. This and all that follow: against f64.
-    F32,
+svbrdf_core::choices! {
+    /// A column of the table; f64 is held against 256 bits, all others against f64.
+    Rung, "rung":
+    F64 = "f64",
+    /// As it is written.
+    F32 = "f32",
     /// The kernel, at the instruction set where it is worst.
-    Simd,
+    Simd = "SIMD",
     /// The shader of the window.
-    Wgsl,
-}
-
-impl Rung {
-    pub const ALL: [Self; 4] = [Self::F64, Self::F32, Self::Simd, Self::Wgsl];
+    Wgsl = "WGSL",
 }
 
 pub type Rgb = [f64; 3];
