@@ -5,13 +5,13 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::Error;
-use svbrdf_evaluate::study::{self, Family, Pair, Point, Study};
+use svbrdf_evaluate::study::{self, Family, Point, Study};
 use svbrdf_files::samples;
 
 use crate::support::tolerance::{STUDY_ERROR, STUDY_REFERENCE};
 
 fn run([ground_truth, prediction]: &[Material<f32>; 2], progress: &Progress) -> Result<Study, Error> {
-    study::run(&Pair { ground_truth, prediction, convention: PRINTED }, progress)
+    study::run(&Comparison::new(ground_truth, &[prediction], PRINTED)?, progress)
 }
 
 /// The loss over the scenes of a point for a seed, by the plain f64 kernel.

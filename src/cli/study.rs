@@ -3,13 +3,13 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use svbrdf_core::loss::check_same_size;
-use svbrdf_evaluate::study::{self, Pair};
+use svbrdf_core::loss::Comparison;
+use svbrdf_evaluate::study;
 use svbrdf_files::disk::atomic::Destination;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::figure::FigureDestination;
 
-use super::args::{ComparisonArgs, Given};
+use super::args::{ComparisonArgs, Specified};
 use super::job::materials::Opened;
 use super::job::{ComparisonJob, Job, MaterialJob, NewJob};
 use super::output::{CommandError, exit, stoppable, watched};
@@ -40,7 +40,7 @@ struct StudyJob {
 }
 
 impl StudyArgs {
-    pub fn job(self, given: &Given) -> NewJob {
+    pub fn job(self, given: &Specified) -> NewJob {
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         check_predictions(&comparison.materials)?;
         Ok(Box::new(StudyJob { comparison, output: self.output, plot: self.plot }))
@@ -58,9 +58,9 @@ impl Job for StudyJob {
         let table = table.transpose()?;
         let Opened { ground_truth, predictions, .. } = &materials.open::<f32>()?;
         output.iter().chain(&plot).try_for_each(|output| check_output(output))?;
-        check_same_size(ground_truth, &predictions[0])?;
-        let pair = Pair { ground_truth, prediction: &predictions[0], convention };
-        let study = watched("measuring", |progress| study::run(&pair, progress))?;
+        let predictions: Vec<_> = predictions.iter().take(1).collect();
+        let comparison = Comparison::new(ground_truth, &predictions, convention)?;
+        let study = watched("measuring", |progress| study::run(&comparison, progress))?;
         let rows = study.table().csv()?;
         stoppable(|progress| {
             table.map_or(Ok(()), |table| table.replace(progress, |file| file.write_all(rows.as_bytes())))?;

@@ -2,14 +2,12 @@
 
 use std::time::Instant;
 
-use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::{Comparison, Compute, Estimate, Outcome, Request, Sampling, Texels};
+use svbrdf_core::loss::{Comparison, Estimate, Request, Sampling, Texels};
 use svbrdf_core::material::Material;
-use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::time;
 
-use super::{Family, Pair, Point, Reference, Study};
+use super::{Family, Point, Reference, Study};
 use crate::error::Error;
 
 /// Scenes of the reference, 24 x 2^n for the Sobol sequence. It samples 1024 texels of each: more add little.
@@ -31,18 +29,22 @@ const LEAST_TEXELS: usize = 1 << 11;
 /// Longest loss of a setting, in seconds; settings above it are not measured.
 const LONGEST: f64 = 3.0;
 
-/// Measures every setting for `pair`, except those whose loss would take too long.
+/// Measures every setting for the first prediction of `comparison`, except those whose loss would take too long.
 ///
 /// # Errors
-/// Those of the loss; [`Error::NothingToStudy`] where the two materials look the same, so that no error is relative to
-/// anything; [`Cancelled`](Error::is_cancelled).
-pub fn run(pair: &Pair<'_>, progress: &Progress) -> Result<Study, Error> {
-    let reference = reference(pair, progress)?;
-    progress.begin(Family::ALL.into_iter().flat_map(Family::settings).map(|one| work(pair, &one)).sum());
+/// Those of the loss; [`Error::NoPrediction`]; [`Error::NothingToStudy`] where the two materials look the same, so that no error is
+/// relative to anything; [`Cancelled`](Error::is_cancelled).
+pub fn run(comparison: &Comparison<'_, f32>, progress: &Progress) -> Result<Study, Error> {
+    let (truth, convention) = (comparison.ground_truth(), *comparison.convention());
+    let prediction = *comparison.predictions().first().ok_or(Error::NoPrediction)?;
+    let pair = &Comparison::new(truth, &[prediction], convention)?.without_pilot();
+    let reference = reference(pair, prediction, progress)?;
+    let size = truth.size();
+    progress.begin(Family::ALL.into_iter().flat_map(Family::settings).map(|one| work(size, &one)).sum());
     let mut study = Study {
-        names: [pair.ground_truth, pair.prediction].map(|material| material.name().to_owned()),
-        size: pair.ground_truth.size(),
-        convention: pair.convention,
+        names: [truth, prediction].map(|material| material.name().to_owned()),
+        size,
+        convention,
         threads: rayon::current_num_threads(),
         reference,
         points: Vec::new(),
@@ -55,26 +57,19 @@ pub fn run(pair: &Pair<'_>, progress: &Progress) -> Result<Study, Error> {
     Ok(study)
 }
 
-/// The loss of a prediction over sampled scenes.
-fn outcome<T: Compute>(
-    [ground_truth, prediction]: [&Material<T>; 2],
-    convention: Convention,
-    sampling: Sampling,
+fn reference(
+    pair: &Comparison<'_, f32>,
+    prediction: &Material<f32>,
     progress: &Progress,
-) -> Result<Outcome, CoreError> {
-    let comparison = Comparison::new(ground_truth, &[prediction], convention)?.without_pilot();
-    comparison.run(&Request::Scenes(sampling), progress)
-}
-
-fn reference(pair: &Pair<'_>, progress: &Progress) -> Result<Reference, Error> {
-    let Pair { ground_truth, prediction, convention } = *pair;
-    let fast = |sampling, progress: &_| outcome([ground_truth, prediction], convention, sampling, progress);
+) -> Result<Reference, Error> {
+    let fast = |sampling, progress: &_| pair.run(&Request::Scenes(sampling), progress);
     let many = Sampling { seed: REFERENCE_SEED, ..Family::MoreTexels.setting(REFERENCE_SCENES) };
     let texels = Texels::Sampled(CORRECTION_TEXELS);
     let few = Sampling { seed: REFERENCE_SEED, texels, ..Family::Sobol.setting(CORRECTION_SCENES) };
     let estimate = fast(many, progress)?.losses[0].estimate;
-    let doubles = [ground_truth.cast::<f64>(), prediction.cast()];
-    let exact = outcome(doubles.each_ref(), convention, few, &progress.part())?;
+    let [truth, prediction] = [pair.ground_truth().cast::<f64>(), prediction.cast()];
+    let exact = Comparison::new(&truth, &[&prediction], *pair.convention())?.without_pilot();
+    let exact = exact.run(&Request::Scenes(few), &progress.part())?;
     let rounded = fast(few, &progress.part())?;
     let [of, from] = [&exact, &rounded].map(|outcome| outcome.losses[0].per_scene.as_slice());
     let correction = Estimate::of_difference(few.sampler, &rounded.scenes, of, from);
@@ -89,15 +84,20 @@ fn reference(pair: &Pair<'_>, progress: &Progress) -> Result<Reference, Error> {
 
 /// Measures the settings of a family until one would take too long. A family that samples no fewer texels than the maps have
 /// equals that on all of them.
-fn measure(pair: &Pair<'_>, family: Family, study: &mut Study, progress: &Progress) -> Result<(), Error> {
-    let Pair { ground_truth, prediction, convention } = *pair;
-    if family.texels() != Texels::All && family.texels().sampled(ground_truth.size()).is_none() {
-        return Ok(progress.advance(family.settings().map(|setting| work(pair, &setting)).sum())?);
+fn measure(
+    pair: &Comparison<'_, f32>,
+    family: Family,
+    study: &mut Study,
+    progress: &Progress,
+) -> Result<(), Error> {
+    let size = study.size;
+    if family.texels() != Texels::All && family.texels().sampled(size).is_none() {
+        return Ok(progress.advance(family.settings().map(|setting| work(size, &setting)).sum())?);
     }
     // The loss, and the seconds that sampling and rendering its scenes took.
     let timed = |sampling| -> Result<(f64, f64), Error> {
         let start = Instant::now();
-        let outcome = outcome([ground_truth, prediction], convention, sampling, &progress.part())?;
+        let outcome = pair.run(&Request::Scenes(sampling), &progress.part())?;
         Ok((outcome.losses[0].estimate.mean, start.elapsed().as_secs_f64()))
     };
     // The first run does everything that happens once.
@@ -108,7 +108,7 @@ fn measure(pair: &Pair<'_>, family: Family, study: &mut Study, progress: &Progre
         let scenes = sampling.near + sampling.distant;
         let seconds = rate * scenes as f64;
         if seconds <= LONGEST {
-            let seeds = seeds(pair, &sampling);
+            let seeds = seeds(size, &sampling);
             let runs = (0..seeds as u64).map(|seed| timed(Sampling { seed, ..sampling }));
             let (losses, mut times): (Vec<f64>, Vec<f64>) =
                 runs.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
@@ -119,26 +119,25 @@ fn measure(pair: &Pair<'_>, family: Family, study: &mut Study, progress: &Progre
             let (name, least) = (family.name(), time(seconds));
             study.left_out.push(format!("{name} from {scenes} scenes on, {least} or more each"));
         }
-        progress.advance(work(pair, &sampling))?;
+        progress.advance(work(size, &sampling))?;
     }
     Ok(())
 }
 
 /// Texels of all scenes of a setting, of each at least [`LEAST_TEXELS`].
-fn texels(pair: &Pair<'_>, sampling: &Sampling) -> usize {
-    let [width, height] = pair.ground_truth.size();
+fn texels([width, height]: [usize; 2], sampling: &Sampling) -> usize {
     let compared = sampling.texels.sampled([width, height]).unwrap_or(width * height);
     (sampling.near + sampling.distant) * compared.max(LEAST_TEXELS)
 }
 
-fn seeds(pair: &Pair<'_>, sampling: &Sampling) -> usize {
+fn seeds(size: [usize; 2], sampling: &Sampling) -> usize {
     let [least, most] = SEEDS;
-    (SEEDS_WORK / texels(pair, sampling)).clamp(least, most)
+    (SEEDS_WORK / texels(size, sampling)).clamp(least, most)
 }
 
 /// Progress of a setting.
-fn work(pair: &Pair<'_>, sampling: &Sampling) -> u64 {
-    (seeds(pair, sampling) * texels(pair, sampling) / LEAST_TEXELS) as u64
+fn work(size: [usize; 2], sampling: &Sampling) -> u64 {
+    (seeds(size, sampling) * texels(size, sampling) / LEAST_TEXELS) as u64
 }
 
 /// The root mean square of the relative distances of `losses` from `reference`.

@@ -1,6 +1,7 @@
 //! Speed against accuracy: the time and the error of settings of the loss, for one pair on this machine.
 //!
 //! ```no_run
+//! use svbrdf_core::loss::Comparison;
 //! use svbrdf_core::material::Material;
 //! use svbrdf_core::model::brdf::Texel;
 //! use svbrdf_core::model::convention::Convention;
@@ -8,12 +9,10 @@
 //! use svbrdf_evaluate::study;
 //!
 //! let texel = |roughness: f32| Texel { normal: glam::Vec3::Z, diffuse: [0.5; 3], specular: [0.04; 3], roughness };
-//! let pair = study::Pair {
-//!     ground_truth: &Material::uniform("truth", 64, 64, &texel(0.6))?,
-//!     prediction: &Material::uniform("too rough", 64, 64, &texel(0.7))?,
-//!     convention: Convention::default(),
-//! };
-//! let study = study::run(&pair, &Progress::default())?;
+//! let truth = Material::uniform("truth", 64, 64, &texel(0.6))?;
+//! let prediction = Material::uniform("too rough", 64, 64, &texel(0.7))?;
+//! let comparison = Comparison::new(&truth, &[&prediction], Convention::default())?;
+//! let study = study::run(&comparison, &Progress::default())?;
 //! if let Some(point) = study.cheapest(0.01) {
 //!     println!("1% takes {:.4} s: {}", point.seconds, point.command());
 //! }
@@ -31,7 +30,6 @@ mod plot;
 pub use measure::run;
 
 use svbrdf_core::loss::{Sampling, Texels};
-use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::statistics::sort_by_number;
@@ -43,14 +41,6 @@ use crate::report::{Field, Reader, Table};
 const RESOLVED: f64 = 3.0;
 /// Target errors of the summary, as shares of the loss.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
-
-/// A ground truth, a prediction and a convention.
-#[derive(Clone, Copy, Debug)]
-pub struct Pair<'a> {
-    pub ground_truth: &'a Material<f32>,
-    pub prediction: &'a Material<f32>,
-    pub convention: Convention,
-}
 
 svbrdf_core::choices! {
     /// Settings that differ in their numbers of scenes only: one colour in a plot. In the order of measurement.
