@@ -279,7 +279,10 @@ mod tests {
             r#""near": -1"#,
             r#""sampler": "halton""#,
             r#""texels": "0""#,
+            r#""target_error": 0.11"#,
+            r#""target_error": 0"#,
             r#""time_budget": -1"#,
+            r#""time_budget": 86401"#,
             r#""what": 1"#,
         ] {
             assert!(serde_json::from_str::<LossOptions>(&format!("{{{wrong}}}")).is_err(), "{wrong}");
