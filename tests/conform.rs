@@ -9,7 +9,7 @@ use std::path::Path;
 use svbrdf_core::model::grammar::{Description, Point, RendererTerms};
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::conform::{Answer, Verdict, identify, probes, verdict};
+use svbrdf_evaluate::conform::{RenderedPoints, Verdict, identify, probes, verdict};
 use svbrdf_files::arrays::{self, Array, Arrays};
 
 /// A radiance with the rounding of float32.
@@ -20,7 +20,7 @@ pub fn single(radiance: [f64; 3]) -> [f64; 3] {
 /// The probe points.
 pub fn points() -> Vec<Point> {
     let count = probes().unwrap()["normal"].shape[0];
-    Answer::new(&arrays_of(&vec![[1.0; 3]; count]), None).unwrap().points
+    RenderedPoints::new(&arrays_of(&vec![[1.0; 3]; count]), None).unwrap().points
 }
 
 /// The arrays of points and radiances.
@@ -45,6 +45,6 @@ pub fn judged(
     metallic: Option<bool>,
     asked: &RendererTerms,
 ) -> Verdict {
-    let answer = Answer { points: points.to_vec(), radiance, metallic };
+    let answer = RenderedPoints { points: points.to_vec(), radiance, metallic };
     verdict(&identify(&answer), &Description { terms: *asked, ..Description::default() })
 }

@@ -20,7 +20,7 @@ use crate::work;
 
 /// A report.
 #[derive(Debug, IntoPyObject)]
-pub struct Answer<'py> {
+pub struct AnalysisItems<'py> {
     views: Views,
     /// Its pictures by name.
     arrays: HashMap<&'static str, Vec<Bound<'py, PyAny>>>,
@@ -33,7 +33,7 @@ pub fn analysis<'py>(
     asked: Asked<'_>,
     name: &str,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Answer<'py>> {
+) -> PyResult<AnalysisItems<'py>> {
     let analysis = AnyAnalysis::named(name).ok_or_else(|| Error::new_err(format!("no analysis {name}")))?;
     match Precision::from_str(&asked.precision).map_err(exception)? {
         Precision::F32 => report(py, analysis, &asked, &asked.singles(), progress),
@@ -48,7 +48,7 @@ fn report<'py, T: Precise>(
     asked: &Asked<'_>,
     materials: &[Material<T>],
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Answer<'py>> {
+) -> PyResult<AnalysisItems<'py>> {
     let is_own = |name: &String| analysis.options.iter().any(|option| option.name == name);
     let (own, scenes) = asked.question()?.into_iter().partition(|(name, _)| is_own(name));
     let (own, scenes) = (Value::Object(own), options(scenes)?);
@@ -74,5 +74,5 @@ fn report<'py, T: Precise>(
     let named = |(name, all): (&'static str, Vec<ReportArray>)| {
         Ok((name, all.into_iter().map(array).collect::<PyResult<_>>()?))
     };
-    Ok(Answer { views: views?, arrays: arrays.into_iter().map(named).collect::<PyResult<_>>()? })
+    Ok(AnalysisItems { views: views?, arrays: arrays.into_iter().map(named).collect::<PyResult<_>>()? })
 }

@@ -1,7 +1,7 @@
 //! Whose renderer gave out radiances.
 
 use pyo3::prelude::*;
-use svbrdf_evaluate::conform::{self as identification, Answer};
+use svbrdf_evaluate::conform::{self as identification, RenderedPoints};
 use svbrdf_evaluate::report::ConformReport;
 use svbrdf_files::arrays::{Array, Arrays};
 use svbrdf_files::convention;
@@ -25,6 +25,6 @@ pub fn conform(py: Python<'_>, arrays: Named, convention: &str, metallic: Option
     let asked = convention::read(convention).map_err(exception)?;
     let array = |(name, shape, values): (String, Vec<usize>, Vec<f64>)| (name, Array::new(&shape, values));
     let arrays: Arrays = arrays.into_iter().map(array).collect();
-    let answer = Answer::new(&arrays, metallic).map_err(Error::new_err)?;
+    let answer = RenderedPoints::new(&arrays, metallic).map_err(Error::new_err)?;
     Views::new(&py.detach(|| ConformReport::new(&answer, &asked)))
 }

@@ -145,7 +145,7 @@ def test_a_report_is_read_only_and_an_unknown_attribute_names_the_known_ones(mat
     assert {*report.to_dict(), "text", "to_dict", "to_pandas"} <= set(dir(report))
     assert report.results[0]["loss"] == report["results"][0].loss == report.results[0].loss
     assert report.results[0].few_scenes_loss is None
-    assert repr(report.differences[0]).startswith("Difference(prediction='flat', to='rough', difference=")
+    assert repr(report.differences[0]).startswith("LossDifference(prediction='flat', to='rough', difference=")
 
 
 def test_without_pandas_the_error_says_what_to_install(materials: Materials, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ use svbrdf_evaluate::report::{AnalysisOption, OptionValue};
 
 use super::args::scenes;
 use super::args::values::{count, percent, stops, triple};
-use super::args::{ComparisonArgs, Given, offered};
+use super::args::{ComparisonArgs, Specified, offered};
 use super::job::{self, ComparisonJob, Job, NewJob};
 use super::output::{CommandError, ReportFormat, exit, warn_of, watched};
 use super::picture_file::{PictureArgs, PictureFile};
@@ -133,7 +133,7 @@ impl FromArgMatches for AnalysisArgs {
 }
 
 impl AnalysisArgs {
-    pub fn job(self, given: &Given) -> NewJob {
+    pub fn job(self, given: &Specified) -> NewJob {
         let Self { analysis, matches, output, comparison } = self;
         let comparison = ComparisonJob::with_predictions(&comparison, given)?;
         let precision = scenes::value(&matches, "precision").unwrap_or_default();

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::model::grammar::Description;
-use svbrdf_evaluate::conform::{Answer, probes};
+use svbrdf_evaluate::conform::{RenderedPoints, probes};
 use svbrdf_evaluate::report::ConformReport;
 use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::{Error, arrays, convention};
@@ -108,28 +108,22 @@ impl Job for ConformJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
         let Self { answer, convention, metallic, written, format } = *self;
         let problem = |problem| Error::BadArrays { path: answer.clone(), problem };
-        let answer = Answer::new(&arrays::read(&answer)?, metallic).map_err(problem)?;
+        let answer = RenderedPoints::new(&arrays::read(&answer)?, metallic).map_err(problem)?;
         let report = watched("searching renderers", |_| ConformReport::new(&answer, &convention));
         exit::put(&format.write(&report)?)?;
-        if let Some(path) = written {
-            write(&path, &report)?;
+        match (written, report.found()) {
+            (Some(path), Some(found)) => {
+                stoppable(|progress| atomic::write_text(&path, &found.to_string(), progress))?;
+            }
+            (Some(path), None) => exit::tell(&format!(
+                "note: {} is not written: the renderer is none of the grammar",
+                path.display()
+            )),
+            (None, _) => {}
         }
         match report.conforms() {
             true => Ok(()),
             false => Err(CommandError::DoesNotConform { convention: convention.name }),
-        }
-    }
-}
-
-fn write(path: &Path, report: &ConformReport) -> Result<(), CommandError> {
-    match report.found() {
-        Some(found) => Ok(stoppable(|progress| atomic::write_text(path, &found.to_string(), progress))?),
-        None => {
-            exit::tell(&format!(
-                "note: {} is not written: the renderer is none of the grammar",
-                path.display()
-            ));
-            Ok(())
         }
     }
 }

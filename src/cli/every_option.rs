@@ -8,7 +8,7 @@ use clap::error::ErrorKind;
 use clap::{ArgAction, CommandFactory as _, FromArgMatches as _};
 use tempfile::TempDir;
 
-use super::args::Given;
+use super::args::Specified;
 use super::output::CommandError;
 use super::{Cli, Subcommands};
 
@@ -143,7 +143,7 @@ fn job(folder: &Path, line: &str) -> Result<String, CommandError> {
         other => panic!("{line}: {other}: {problem}"),
     })?;
     let command: Subcommands = Cli::from_arg_matches(&matches).unwrap().command.unwrap();
-    match command.job(&Given::of(&matches)) {
+    match command.job(&Specified::of(&matches)) {
         Ok(job) => Ok(format!("{job:?}")),
         Err(problem) => Err(problem),
     }

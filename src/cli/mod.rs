@@ -30,7 +30,7 @@ use clap::{ArgAction, CommandFactory as _, FromArgMatches as _, Parser, Subcomma
 
 use svbrdf_files::Error;
 
-use args::{Given, TrustArgs};
+use args::{Specified, TrustArgs};
 use job::NewJob;
 use output::CommandError;
 use output::exit::{exit_code, explain, put};
@@ -96,7 +96,7 @@ pub fn main() -> ExitCode {
         .try_get_matches()
         .and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches)))
     {
-        Ok((cli, matches)) => exit_code(cli.run(&Given::of(&matches))),
+        Ok((cli, matches)) => exit_code(cli.run(&Specified::of(&matches))),
         Err(version) if version.kind() == ErrorKind::DisplayVersion => exit_code(print_version()),
         Err(unusual) => explain(unusual),
     }
@@ -120,7 +120,7 @@ fn print_version() -> Result<(), CommandError> {
 
 impl Cli {
     /// Prints what is asked of the program itself, or runs a command.
-    fn run(self, given: &Given) -> Result<(), CommandError> {
+    fn run(self, given: &Specified) -> Result<(), CommandError> {
         if self.licenses {
             return Ok(put(THIRD_PARTY)?);
         }
@@ -140,7 +140,7 @@ impl Cli {
 
 impl Subcommands {
     /// What a command does.
-    fn job(self, given: &Given) -> NewJob {
+    fn job(self, given: &Specified) -> NewJob {
         match self {
             Self::View(args) => args.job(given),
             Self::Render(args) => args.job(given),

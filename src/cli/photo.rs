@@ -12,7 +12,7 @@ use svbrdf_files::photograph::{Capture, SessionPhotograph};
 use svbrdf_files::read::Transfer;
 
 use super::args::scenes::OneSceneArgs;
-use super::args::{ComparisonArgs, Given, offered, refuse};
+use super::args::{ComparisonArgs, Specified, offered, refuse};
 use super::job::{ComparisonJob, Job, NewJob, check_heights};
 use super::output::exit::{put, tell};
 use super::output::{CommandError, ReportFormat, stoppable, watched};
@@ -69,7 +69,7 @@ struct PhotoJob {
 }
 
 impl PhotoArgs {
-    pub fn job(self, given: &Given) -> NewJob {
+    pub fn job(self, given: &Specified) -> NewJob {
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         let Self { photo: path, scene, transfer, falloff, output, format, .. } = self;
         let capture = if Capture::is_named(&path) {

@@ -12,7 +12,7 @@ use svbrdf_files::export::{Destination, PictureFormat, Provenance};
 
 use super::args::scenes::RenderingArgs;
 use super::args::values::Range;
-use super::args::{ComparisonArgs, Given, offered, refuse};
+use super::args::{ComparisonArgs, Specified, offered, refuse};
 use super::job::{ComparisonJob, Job, NewJob, SessionSettings, check_heights};
 use super::output::{CommandError, stoppable, watched};
 
@@ -63,7 +63,7 @@ struct RenderJob {
 }
 
 impl RenderArgs {
-    pub fn job(self, given: &Given) -> NewJob {
+    pub fn job(self, given: &Specified) -> NewJob {
         let destination = Destination::new(&self.output)?;
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         let session = comparison.session.as_ref();
@@ -91,7 +91,7 @@ impl RenderArgs {
     }
 
     /// Refuses the options that maps do not use.
-    fn refuse_of_renderings(&self, given: &Given, reason: &str) -> Result<(), CommandError> {
+    fn refuse_of_renderings(&self, given: &Specified, reason: &str) -> Result<(), CommandError> {
         given.refuse::<RenderingArgs>(reason)?;
         refuse(self.comparison.convention.is_some(), "convention", reason)
     }

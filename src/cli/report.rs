@@ -13,7 +13,7 @@ use svbrdf_files::session::window::{Layout, SessionDisplay};
 use svbrdf_page::{Findings, Page, Repetition, Report, View, check_destination, exposure};
 
 use super::args::scenes::{Accuracy, RenderingArgs, SceneArgs};
-use super::args::{ComparisonArgs, Given, refuse, values};
+use super::args::{ComparisonArgs, Specified, refuse, values};
 use super::job::{ComparisonJob, Job, NewJob, SessionSettings};
 use super::output::{CommandError, command_line, exit, stoppable, warn_of, watched};
 
@@ -82,7 +82,7 @@ struct WholePage {
 }
 
 impl ReportArgs {
-    pub fn job(self, given: &Given) -> NewJob {
+    pub fn job(self, given: &Specified) -> NewJob {
         let Self { output, max_size, figure, robust, layout, accuracy, rendering, comparison } = self;
         check_destination(&output)?;
         let comparison = ComparisonJob::new(&comparison, given)?;

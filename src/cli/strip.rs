@@ -12,7 +12,7 @@ use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 
 use crate::cli::args::scenes::{Lights, ListArgs, RenderingArgs};
 use crate::cli::args::values::{self, Range};
-use crate::cli::args::{ComparisonArgs, Given, refuse};
+use crate::cli::args::{ComparisonArgs, Specified, refuse};
 use crate::cli::job::{ComparisonJob, Job, MaterialJob, NewJob, SessionSettings};
 use crate::cli::output::{CommandError, stoppable, watched};
 use crate::cli::render::difference_of;
@@ -106,7 +106,7 @@ struct StripJob {
 }
 
 impl StripArgs {
-    pub fn job(mut self, given: &Given) -> NewJob {
+    pub fn job(mut self, given: &Specified) -> NewJob {
         let destination = FigureDestination::new(&self.output)?;
         let paper = Paper { width_mm: self.paper.width_mm, text_pt: self.paper.text_pt };
         let is_data_set = self.dataset || self.pairs;
@@ -135,7 +135,7 @@ impl StripArgs {
     }
 
     /// Refuses what none of the columns uses.
-    fn refuse_unused(&self, columns: &[Column], given: &Given) -> Result<(), CommandError> {
+    fn refuse_unused(&self, columns: &[Column], given: &Specified) -> Result<(), CommandError> {
         if columns.iter().all(|column| column.content.quantity != Quantity::Rendering) {
             let reason =
                 "maps have no light, no view, no exposure and no convention, and no column is a rendering";

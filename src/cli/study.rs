@@ -10,7 +10,7 @@ use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::figure::FigureDestination;
 
 use super::args::{ComparisonArgs, Specified};
-use super::job::materials::Opened;
+use super::job::materials::OpenedMaterials;
 use super::job::{ComparisonJob, Job, MaterialJob, NewJob};
 use super::output::{CommandError, exit, stoppable, watched};
 
@@ -56,7 +56,7 @@ impl Job for StudyJob {
         let table =
             output.as_deref().map(|path| Destination::among(path, format, "extension of a table", ".csv"));
         let table = table.transpose()?;
-        let Opened { ground_truth, predictions, .. } = &materials.open::<f32>()?;
+        let OpenedMaterials { ground_truth, predictions, .. } = &materials.open::<f32>()?;
         output.iter().chain(&plot).try_for_each(|output| check_output(output))?;
         let predictions: Vec<_> = predictions.iter().take(1).collect();
         let comparison = Comparison::new(ground_truth, &predictions, convention)?;

@@ -13,7 +13,7 @@ use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 
 use super::args::scenes::{Accuracy, SceneArgs};
-use super::args::{Given, MaterialArgs, refuse};
+use super::args::{MaterialArgs, Specified, refuse};
 use super::job::{Job, NewJob};
 use super::output::CommandError;
 use super::output::exit::tell;
@@ -80,7 +80,7 @@ const ONLY_OF_DATASET: &str =
 
 impl ViewArgs {
     #[cfg_attr(not(feature = "viewer"), allow(unused_mut, reason = "there is no window to open"))]
-    pub fn job(mut self, given: &Given) -> NewJob {
+    pub fn job(mut self, given: &Specified) -> NewJob {
         let materials = &self.materials;
         let is_dataset = self.dataset.dataset || self.dataset.pairs;
         if !is_dataset {

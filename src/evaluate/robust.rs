@@ -13,7 +13,7 @@ use svbrdf_core::statistics::order;
 use crate::error::Error;
 use crate::report::{Cell, Compared, Field, Reader, Report, Table, escaped, latex};
 
-/// Scenes of the questions about one kind of them, and texels of each.
+/// Scenes of a question about one kind of them, and texels of each.
 const SCENES: usize = 2048;
 const TEXELS: usize = 32;
 /// Most scenes of a question: a squared error of sharp highlights would take hundreds of thousands, whose interval tells instead.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use svbrdf_core::model::grammar::{Description, Point};
-use svbrdf_evaluate::conform::{Answer, VerdictKind, identify, verdict};
+use svbrdf_evaluate::conform::{RenderedPoints, VerdictKind, identify, verdict};
 use svbrdf_files::arrays::{self, Array, Arrays};
 use svbrdf_needs::needs;
 
@@ -64,7 +64,7 @@ fn every_peer_is_found_and_no_other_renderer_has_a_name() {
     let points = points();
     for (name, array, convention) in ALL {
         let radiance = triples(&file(&format!("probes/{name}"))[array]);
-        let found = identify(&Answer { points: points.clone(), radiance, metallic: None });
+        let found = identify(&RenderedPoints { points: points.clone(), radiance, metallic: None });
         let Some(convention) = convention else {
             let verdict = verdict(&found, &Description::default());
             assert_eq!(verdict.kind, VerdictKind::Unknown, "{name} {array}: {:?}", verdict.differences);

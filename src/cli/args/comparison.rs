@@ -11,7 +11,7 @@ use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::source::MaterialSource;
 
 use super::reading::{PairReadingArgs, Side, StatementArgs};
-use super::{Given, NamedPath, offered, refuse, wildcards};
+use super::{NamedPath, Specified, offered, refuse, wildcards};
 use crate::cli::output::CommandError;
 
 #[derive(Debug, clap::Args)]
@@ -94,20 +94,20 @@ impl MaterialArgs {
     }
 
     /// Refuses what is specified of files that are not read in this way.
-    fn refuse(&self, given: &Given, reason: &str) -> Result<(), CommandError> {
+    fn refuse(&self, given: &Specified, reason: &str) -> Result<(), CommandError> {
         given.refuse::<StatementArgs>(reason)?;
         refuse(self.reading.resize_to.is_some(), "resize-to", reason)
     }
 
     /// Refuses what is specified of files where the built-in materials are taken.
-    pub fn refuse_of_built_in(&self, given: &Given) -> Result<(), CommandError> {
+    pub fn refuse_of_built_in(&self, given: &Specified) -> Result<(), CommandError> {
         let reason = "the built-in materials are not read from files";
         self.refuse(given, reason)?;
         refuse(self.reading.both.strict, "strict", reason)
     }
 
     /// Refuses what is specified of files where a session names them.
-    pub fn refuse_of_session(&self, given: &Given) -> Result<(), CommandError> {
+    pub fn refuse_of_session(&self, given: &Specified) -> Result<(), CommandError> {
         self.refuse(given, "a session specifies how its materials are read")
     }
 

@@ -14,8 +14,8 @@ use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::report::Analysis as _;
 use svbrdf_files::scene_file;
 
-use super::given::refuse;
 use super::offered;
+use super::specified::refuse;
 use super::values::{degrees, duration, percent, stops, triple, whole};
 use crate::cli::output::CommandError;
 

@@ -7,9 +7,9 @@ use crate::cli::output::CommandError;
 
 /// The names of the specified arguments of a subcommand.
 #[derive(Debug)]
-pub struct Given(Vec<String>);
+pub struct Specified(Vec<String>);
 
-impl Given {
+impl Specified {
     /// Those of the subcommand of `matches`, or of `matches` itself where there is none.
     pub fn of(matches: &ArgMatches) -> Self {
         let matches = matches.subcommand().map_or(matches, |(_, matches)| matches);

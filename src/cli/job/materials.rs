@@ -20,7 +20,7 @@ use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
 
 use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
-use crate::cli::args::{Given, MaterialArgs, NamedPath};
+use crate::cli::args::{MaterialArgs, NamedPath, Specified};
 use crate::cli::output::{CommandError, advice, exit, watched};
 
 /// Longest side of a material that is resized, as of one that is read.
@@ -43,7 +43,11 @@ pub struct MaterialJob {
 
 impl MaterialJob {
     /// The materials of `session`, or those that the command line names, or the built-in ones where it names none.
-    pub fn new(args: &MaterialArgs, session: Option<&Session>, given: &Given) -> Result<Self, CommandError> {
+    pub fn new(
+        args: &MaterialArgs,
+        session: Option<&Session>,
+        given: &Specified,
+    ) -> Result<Self, CommandError> {
         let sources = match (session, &args.ground_truth) {
             (Some(session), _) => {
                 args.refuse_of_session(given)?;
@@ -80,7 +84,7 @@ impl MaterialJob {
 
     /// Opens the materials under distinct names, reports what is unsure, changed or left out in their files, and brings them to
     /// one size where that is asked for.
-    pub fn open<T: Real>(&self) -> Result<Opened<T>, CommandError> {
+    pub fn open<T: Real>(&self) -> Result<OpenedMaterials<T>, CommandError> {
         let read = self.sources.iter().map(|source| self.read(source)).collect::<Result<Vec<Read<T>>, _>>();
         let read = read.inspect_err(|_| note_paths(&self.paths))?;
         let named: Vec<_> = read
@@ -108,7 +112,13 @@ impl MaterialJob {
         let Some(ground_truth) = materials.next() else {
             return Err(Error::Internal("there is no ground truth".to_owned()).into());
         };
-        Ok(Opened { ground_truth, predictions: materials.collect(), storages, readings, _memory: memory })
+        Ok(OpenedMaterials {
+            ground_truth,
+            predictions: materials.collect(),
+            storages,
+            readings,
+            _memory: memory,
+        })
     }
 
     fn read<T: Real>(&self, source: &MaterialSource) -> Result<Read<T>, Error> {
@@ -123,7 +133,7 @@ impl MaterialJob {
 
 /// The ground truth and its predictions.
 #[derive(Debug)]
-pub struct Opened<T> {
+pub struct OpenedMaterials<T> {
     pub ground_truth: Material<T>,
     pub predictions: Vec<Material<T>>,
     /// How each is stored, the ground truth first.
@@ -134,7 +144,7 @@ pub struct Opened<T> {
     _memory: Vec<Arc<Reserved>>,
 }
 
-impl<T> Opened<T> {
+impl<T> OpenedMaterials<T> {
     /// The ground truth, then the predictions.
     pub fn into_all(self) -> Vec<Material<T>> {
         std::iter::once(self.ground_truth).chain(self.predictions).collect()

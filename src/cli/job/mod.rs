@@ -11,9 +11,9 @@ use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::report::AnalysisInput;
 
-use super::args::{ComparisonArgs, Given};
+use super::args::{ComparisonArgs, Specified};
 use super::output::CommandError;
-pub use materials::{MaterialJob, Opened, check_heights};
+pub use materials::{MaterialJob, OpenedMaterials, check_heights};
 pub use session::SessionSettings;
 
 /// What a command does: its arguments, resolved. Each argument that the mode of the command uses is in it, and no other.
@@ -37,13 +37,13 @@ pub struct ComparisonJob {
 
 impl ComparisonJob {
     /// As [`ComparisonJob::new`], of a ground truth with predictions.
-    pub fn with_predictions(args: &ComparisonArgs, given: &Given) -> Result<Self, CommandError> {
+    pub fn with_predictions(args: &ComparisonArgs, given: &Specified) -> Result<Self, CommandError> {
         let job = Self::new(args, given)?;
         job.materials.check_predictions()?;
         Ok(job)
     }
 
-    pub fn new(args: &ComparisonArgs, given: &Given) -> Result<Self, CommandError> {
+    pub fn new(args: &ComparisonArgs, given: &Specified) -> Result<Self, CommandError> {
         let file = session::given(&args.materials)?;
         let settings = |(file, path): (_, &PathBuf)| SessionSettings::new(file, path);
         let session = file.as_ref().zip(args.materials.paths().next()).map(settings).transpose()?;
@@ -63,7 +63,7 @@ impl ComparisonJob {
 
 /// What an analysis of the `opened` materials takes.
 pub fn input<'a, T: Real>(
-    opened: &'a Opened<T>,
+    opened: &'a OpenedMaterials<T>,
     materials: &MaterialJob,
     convention: Convention,
     question: Question,

@@ -12,7 +12,7 @@ use svbrdf_files::export::{check_place, write_text};
 use svbrdf_page::Figures;
 
 use crate::cli::args::scenes::{FixedNumber, SceneArgs};
-use crate::cli::args::{ComparisonArgs, Given, offered, values};
+use crate::cli::args::{ComparisonArgs, Specified, offered, values};
 use crate::cli::output::{CommandError, exit, stoppable};
 
 /// Ranks predictions of one ground truth, or methods over a data set, by their rendering loss
@@ -164,6 +164,6 @@ pub fn check_limit(
 }
 
 /// Refuses scenes beside `--robust`.
-pub fn refuse_scenes(given: &Given) -> Result<(), CommandError> {
+pub fn refuse_scenes(given: &Specified) -> Result<(), CommandError> {
     given.refuse::<SceneArgs<FixedNumber>>("--robust asks about other scenes itself")
 }

@@ -14,7 +14,7 @@ use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
 use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use super::cases::{reading, source};
-use crate::cli::args::{Given, refuse};
+use crate::cli::args::{Specified, refuse};
 use crate::cli::job::{Job, NewJob};
 use crate::cli::output::{CommandError, exit, stoppable, warn_of, watched_on};
 
@@ -41,7 +41,7 @@ enum Output {
     Page { path: PathBuf, figures: Option<Figures> },
 }
 
-pub fn job(args: RankArgs, given: &Given) -> NewJob {
+pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let reason = "materials of a data set are not resized";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", reason)?;
     if args.robust {
@@ -68,7 +68,7 @@ pub fn job(args: RankArgs, given: &Given) -> NewJob {
 }
 
 /// Where the ranking goes, before anything is computed: to a file that replaces no material and no list, or to stdout.
-fn output(args: &RankArgs, given: &Given, cases: &[Case]) -> Result<Output, CommandError> {
+fn output(args: &RankArgs, given: &Specified, cases: &[Case]) -> Result<Output, CommandError> {
     let output = &args.output;
     let predictions = cases.iter().flat_map(|case| case.candidates.iter().map(|one| &one.path));
     let materials = cases.iter().map(|case| &case.ground_truth).chain(predictions);

@@ -7,11 +7,11 @@ mod one;
 
 pub use args::RankArgs;
 
-use super::args::Given;
+use super::args::Specified;
 use super::job::NewJob;
 
 impl RankArgs {
-    pub fn job(self, given: &Given) -> NewJob {
+    pub fn job(self, given: &Specified) -> NewJob {
         if self.dataset || self.pairs { many::job(self, given) } else { one::job(self, given) }
     }
 }

@@ -7,8 +7,8 @@ use svbrdf_evaluate::report::{Analysis as _, NoOptions, Repetition, Report as _}
 use svbrdf_evaluate::robust::RobustReport;
 
 use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
-use crate::cli::args::{Given, refuse};
-use crate::cli::job::{self, ComparisonJob, Job, NewJob, Opened, SessionSettings};
+use crate::cli::args::{Specified, refuse};
+use crate::cli::job::{self, ComparisonJob, Job, NewJob, OpenedMaterials, SessionSettings};
 use crate::cli::output::{CommandError, command_line, warn_of, watched};
 
 /// A ranking of the predictions of one ground truth.
@@ -22,7 +22,7 @@ struct OneJob {
     output: OutputArgs,
 }
 
-pub fn job(args: RankArgs, given: &Given) -> NewJob {
+pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let reason = "only a data set (--dataset, --pairs) has kept results, parts, samples, metrics and marks here; `svbrdf metrics` and \
         `svbrdf diagnose` print those of one material";
     given.refuse::<DataSetArgs>(reason)?;
@@ -68,7 +68,7 @@ impl Job for OneJob {
 }
 
 /// How the materials were read.
-fn readings(opened: &Opened<f32>) -> Vec<MaterialReading> {
+fn readings(opened: &OpenedMaterials<f32>) -> Vec<MaterialReading> {
     let materials = std::iter::once(&opened.ground_truth).chain(&opened.predictions);
     let reading = |(material, remarks): (&Material<f32>, &Vec<String>)| MaterialReading {
         material: material.name().to_owned(),

@@ -39,7 +39,7 @@ pub struct LossReport {
     /// One per prediction, in their order.
     pub(super) results: Vec<PredictionLoss>,
     /// One per prediction but the first.
-    pub(super) differences: Vec<Difference>,
+    pub(super) differences: Vec<LossDifference>,
     /// `None` where a goal decides how many there are, which are far too many to read: their numbers, sampler, texels and seed ask for
     /// the same ones.
     scenes: Option<Vec<Scene>>,
@@ -89,14 +89,14 @@ pub(super) struct FewScenes {
     pub sampled: SampledScenes,
     interval95_from: IntervalSource,
     /// One per prediction but the first, in these scenes.
-    differences: Vec<Difference>,
+    differences: Vec<LossDifference>,
     scenes: Vec<Scene>,
 }
 
 /// The loss of a prediction - the loss of the first one, over the same scenes.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct Difference {
+pub(super) struct LossDifference {
     pub prediction: String,
     /// The name of the first prediction.
     pub to: String,
@@ -159,7 +159,7 @@ impl LossReport {
             target_reached: target_error.map(|target| outcome.relative_error95() <= target),
             few_scenes: None,
             results: outcome.losses.iter().map(|loss| PredictionLoss::of(loss, lists_scenes)).collect(),
-            differences: (1..outcome.losses.len()).map(|index| Difference::of(&outcome, index)).collect(),
+            differences: (1..outcome.losses.len()).map(|index| LossDifference::of(&outcome, index)).collect(),
             scenes: lists_scenes.then(|| outcome.scenes.clone()),
             outcome,
         }
@@ -241,7 +241,7 @@ impl PredictionLoss {
     }
 }
 
-impl Difference {
+impl LossDifference {
     /// Of the prediction with this index.
     fn of(outcome: &Outcome, index: usize) -> Self {
         let Estimate { mean, standard_error, interval95 } = outcome.difference(index, 0);

@@ -1,6 +1,6 @@
 //! The loss as an analysis: its words, its rows, one per prediction, its text, and what it misses.
 
-use super::loss::{Difference, FewScenes, LossReport, PredictionLoss};
+use super::loss::{FewScenes, LossDifference, LossReport, PredictionLoss};
 use crate::error::Error;
 use crate::report::{
     Analysis, AnalysisInput, Cell, Field, NoOptions, Reader, Report, Table, missed_by_any, scenes_line,
@@ -62,9 +62,9 @@ impl LossReport {
 
     /// Paired differences: variance that the scenes have in common cancels, so the errors of the losses do not add up.
     fn difference_lines(&self) -> String {
-        let line = |difference: &Difference| {
+        let line = |difference: &LossDifference| {
             let [mean, error, interval] = difference.estimate().texts();
-            let Difference { prediction, to, .. } = difference;
+            let LossDifference { prediction, to, .. } = difference;
             format!("\n{prediction} - {to}, same scenes: {mean} +- {error}, 95% {interval}")
         };
         let text: String = self.differences.iter().map(line).collect();

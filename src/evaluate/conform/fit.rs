@@ -5,7 +5,7 @@ use glam::DVec3;
 use svbrdf_core::model::grammar::words::{Alpha, NormalY, Normals, Transfer};
 use svbrdf_core::model::grammar::{Point, RendererTerms};
 
-use super::answer::Answer;
+use super::points::RenderedPoints;
 
 /// Largest residual that counts in full, in limits.
 const FARTHEST: f64 = 1e6;
@@ -55,7 +55,7 @@ pub struct Fit {
 }
 
 impl Problem {
-    pub fn new(answer: &Answer, metallic: bool, transfer: Transfer, roundoff: f64) -> Self {
+    pub fn new(answer: &RenderedPoints, metallic: bool, transfer: Transfer, roundoff: f64) -> Self {
         let base = |point: &Point| if metallic { point.base_color } else { point.diffuse };
         let points = answer.points.iter().map(|point| Point { base_color: base(point), ..*point }).collect();
         let finite = || answer.radiance.as_flattened().iter().copied().filter(|x| x.is_finite());

@@ -4,8 +4,8 @@
 //! condition number of a point. What does not fit within these limits has no name.
 
 mod alternatives;
-mod answer;
 mod fit;
+mod points;
 mod search;
 mod verdict;
 
@@ -13,9 +13,9 @@ use svbrdf_core::model::grammar::RendererTerms;
 use svbrdf_core::model::grammar::words::Transfer;
 use svbrdf_core::statistics::sort_by_number;
 
-pub use answer::{Answer, probes};
 pub use fit::Fit;
 use fit::Problem;
+pub use points::{RenderedPoints, probes};
 pub use verdict::{TermGap, Verdict, VerdictKind, verdict};
 
 /// Unit roundoffs of the levels of the search, the coarsest first: the last two are those of float32 and float64.
@@ -23,7 +23,7 @@ const LEVELS: [f64; 4] = [1e-4, 2e-6, f32::EPSILON as f64 / 2.0, f64::EPSILON];
 /// Most structures that are searched in full.
 const STRUCTURES: usize = 4;
 
-/// The best renderer of the grammar for an answer.
+/// The best renderer of the grammar for points with radiances.
 #[derive(Clone, Debug)]
 pub struct Identified {
     pub problem: Problem,
@@ -35,7 +35,7 @@ pub struct Identified {
 }
 
 /// Searches the grammar.
-pub fn identify(answer: &Answer) -> Identified {
+pub fn identify(answer: &RenderedPoints) -> Identified {
     let is_single = answer.radiance.as_flattened().iter().all(|x| f64::from(*x as f32) == *x || x.is_nan());
     let workflows = answer.metallic.map_or(vec![false, true], |metallic| vec![metallic]);
     let problems: Vec<Problem> = workflows

@@ -1,11 +1,11 @@
-//! Probe points and answers: arrays by name.
+//! Probe points, and points with the radiances of a renderer: arrays by name.
 
 use svbrdf_core::model::grammar::Point;
 use svbrdf_files::arrays::{self, Arrays};
 
 /// Points chosen so that all members of the grammar differ where float32 can see it; the last 20 are repeated.
 const POINTS: &[u8] = include_bytes!("data/probes.npz");
-/// Most points of an answer.
+/// Most points with radiances.
 const MOST: usize = 100_000;
 /// The fewest values that a renderer is named by.
 const FEWEST: usize = 60;
@@ -20,15 +20,15 @@ pub fn probes() -> Result<Arrays, String> {
 
 /// Radiances at points, as a renderer gave them out.
 #[derive(Clone, Debug)]
-pub struct Answer {
+pub struct RenderedPoints {
     pub points: Vec<Point>,
     pub radiance: Vec<[f64; 3]>,
     /// Whether base colour and metallic were read; `None` where that is unknown.
     pub metallic: Option<bool>,
 }
 
-impl Answer {
-    /// The answer in arrays: those of [`probes`] with `radiance`.
+impl RenderedPoints {
+    /// The points in arrays: those of [`probes`] with `radiance`.
     ///
     /// # Errors
     /// Which array is missing, or has another shape.

@@ -274,7 +274,7 @@ impl<'a> Evaluation<'a> {
         })
     }
 
-    fn loss(&self, (truth, prediction): Pair<'_>, seed: u64) -> Result<KnownLoss, Error> {
+    fn loss(&self, (truth, prediction): OpenedPair<'_>, seed: u64) -> Result<KnownLoss, Error> {
         let comparison = Comparison::new(&truth.material, &[&prediction.material], self.convention)?;
         let request = self.settings.request(seed);
         let outcome = comparison.at_most(most_scenes(1)).run(&request, &self.progress.part())?;
@@ -301,7 +301,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// The marks of the diagnosis of a prediction; none where its loss is below `floor`.
-    fn marks(&self, (truth, prediction): Pair<'_>, floor: f64, seed: u64) -> Result<Vec<Mark>, Error> {
+    fn marks(&self, (truth, prediction): OpenedPair<'_>, floor: f64, seed: u64) -> Result<Vec<Mark>, Error> {
         let pair = [&truth.material, &prediction.material];
         let storages = [&truth.storage, &prediction.storage];
         let found = diagnose(pair, storages, &self.convention, floor, seed, &self.progress.part())?;
@@ -318,7 +318,7 @@ fn without_loss(candidate: &CandidateFile, problem: String) -> PredictionResult 
 }
 
 /// A ground truth and a prediction of one size.
-type Pair<'a> = (&'a OpenedMaterial, &'a OpenedMaterial);
+type OpenedPair<'a> = (&'a OpenedMaterial, &'a OpenedMaterial);
 
 /// A material that was opened, or why it cannot be used.
 pub(super) struct Opened {
@@ -352,7 +352,7 @@ pub(super) fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
 }
 
 /// The metrics of the maps.
-fn metrics((truth, prediction): Pair<'_>) -> BTreeMap<String, f64> {
+fn metrics((truth, prediction): OpenedPair<'_>) -> BTreeMap<String, f64> {
     let metrics = of_maps(&truth.material, &prediction.material).unwrap_or_default();
     metrics.into_iter().map(|metric| (metric.name.to_owned(), metric.value)).collect()
 }

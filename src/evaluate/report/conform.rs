@@ -10,7 +10,7 @@ use svbrdf_core::text::percent;
 
 use super::Report;
 use super::table::{Cell, Field, Reader, Table};
-use crate::conform::{self, Answer, TermGap, VerdictKind};
+use crate::conform::{self, RenderedPoints, TermGap, VerdictKind};
 
 /// The terms of a renderer that are not at their defaults, by section and key as in the TOML of a convention.
 pub type TermsByKey = BTreeMap<String, BTreeMap<String, TermValue>>;
@@ -55,7 +55,7 @@ pub struct ConformReport {
 
 impl ConformReport {
     /// The report on an answer, compared with the convention `asked`.
-    pub fn new(answer: &Answer, asked: &Description) -> Self {
+    pub fn new(answer: &RenderedPoints, asked: &Description) -> Self {
         let identified = conform::identify(answer);
         let verdict = conform::verdict(&identified, asked);
         let is_known = verdict.kind != VerdictKind::Unknown;
