@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -88,3 +89,11 @@ def test_a_forked_process_computes_the_same_loss() -> None:
     expected = [of_child(seed) for seed in (1, 2)]
     with multiprocessing.get_context("fork").Pool(2) as pool:
         assert pool.map_async(of_child, (1, 2)).get(timeout=120) == expected
+
+
+def test_reports_are_pickled_and_materials_are_refused() -> None:
+    ground_truth, prediction, _ = svbrdf.built_in()
+    report = svbrdf.loss(ground_truth, prediction, near=2, distant=2)
+    assert pickle.loads(pickle.dumps(report)) == report
+    with pytest.raises(TypeError, match="cannot pickle"):
+        pickle.dumps(ground_truth)

@@ -78,6 +78,16 @@ fn lose_device(window: &mut Window<'_>) {
 }
 
 #[needs(adapter)]
+fn nothing_is_drawn_where_the_device_is_lost_within_the_frame() {
+    let guard = CrashGuard::default();
+    let mut window = guarded_window(ViewerOptions::default(), guard.clone(), 1.0);
+    let gpu = window.state().parts.gpu.as_ref().unwrap().gpu.clone();
+    window.input_mut().dropped_files.push(Arc::new(Dropped::LostDevice(gpu)));
+    window.step();
+    assert!(guard.has_crashed() && window.output().shapes.is_empty());
+}
+
+#[needs(adapter)]
 fn hardware_that_is_there_again_is_used_once_the_window_is_idle() {
     let guard = CrashGuard::default();
     let mut window = guarded_window(ViewerOptions::default(), guard.clone(), 1.0);
@@ -100,7 +110,7 @@ fn hardware_that_is_there_again_is_used_once_the_window_is_idle() {
 fn a_panic_or_a_lost_device_closes_the_window_with_its_reason_and_no_frame_is_drawn_after_it() {
     type End = fn(&mut Window<'_>);
     let ends: [(End, &str); 2] = [
-        (|window| window.input_mut().dropped_files.push(Arc::new(Dropped(None))), "a planted fault"),
+        (|window| window.input_mut().dropped_files.push(Arc::new(Dropped::Panic)), "a planted fault"),
         (lose_device, "the graphics device was lost (no reason was given)"),
     ];
     for (end, reason) in ends {

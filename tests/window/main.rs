@@ -295,7 +295,7 @@ fn set_range(model: &mut Model, range: Option<f64>) {
 /// Drops files on the window.
 fn drop_files(window: &mut Window<'_>, paths: impl IntoIterator<Item = PathBuf>) {
     window.input_mut().dropped_files =
-        paths.into_iter().map(|path| Arc::new(Dropped(Some(path))) as _).collect();
+        paths.into_iter().map(|path| Arc::new(Dropped::File(path)) as _).collect();
 }
 
 /// The statistics of the displayed differences, once they are there.
@@ -455,13 +455,24 @@ fn opaque(window: &Window<'_>, pixels: image::RgbaImage) -> image::RgbImage {
     image::RgbImage::from_fn(pixels.width(), pixels.height(), pixel)
 }
 
-/// A file as a window system drops it; without a path, a planted fault.
+/// A file as a window system drops it, or a planted fault of the frame that looks at it.
 #[derive(Debug)]
-struct Dropped(Option<PathBuf>);
+enum Dropped {
+    File(PathBuf),
+    Panic,
+    LostDevice(svbrdf_gpu::Gpu),
+}
 
 impl egui::DroppedFile for Dropped {
     fn path(&self) -> &Path {
-        self.0.as_deref().expect("a planted fault")
+        match self {
+            Self::File(path) => path,
+            Self::Panic => panic!("a planted fault"),
+            Self::LostDevice(gpu) => {
+                gpu.lose();
+                Path::new(gpu.loss_by_now().unwrap())
+            }
+        }
     }
 
     fn bytes(&self) -> Result<Vec<u8>, String> {

@@ -191,7 +191,7 @@ mod tests {
         });
         // Again and again, until the window is idle.
         for _ in 0..3 {
-            wakes.recv().unwrap();
+            wakes.recv_timeout(Duration::from_secs(60)).unwrap();
             assert!(found.load(Ordering::Relaxed));
         }
         drop(found);
