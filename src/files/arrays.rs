@@ -1,7 +1,7 @@
 //! Arrays of numbers by name: npz files that are no pictures.
 
 use std::collections::BTreeMap;
-use std::io::{self, Cursor, Read, Write as _};
+use std::io::{self, Cursor, ErrorKind, Read, Write as _};
 use std::path::Path;
 
 use exr::prelude::f16;
@@ -87,38 +87,22 @@ fn array(mut file: impl Read) -> Result<Option<Array>, String> {
 }
 
 fn values(file: impl Read, header: &Header, count: usize) -> Result<Vec<f64>, String> {
-    let size = match header.kind.as_str() {
-        "b1" | "u1" => 1,
-        "f2" | "u2" => 2,
-        "f4" | "i4" => 4,
-        "f8" | "i8" => 8,
-        kind => return Err(format!("expected numbers (f2, f4, f8, u1, u2, i4, i8 or b1), found {kind}")),
-    };
     let _reserved =
         memory::reserve(16 * count as u64, || "reading an array".to_owned()).map_err(|e| e.to_string())?;
-    let mut bytes = Vec::new();
-    file.take((size * count) as u64).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
-    if bytes.len() < size * count {
-        return Err(format!("expected {} bytes, found {}: the file is truncated", size * count, bytes.len()));
-    }
-    let value = |chunk: &[u8]| {
-        let mut low_first = [0; 8];
-        low_first[..size].copy_from_slice(chunk);
-        if header.is_big_endian {
-            low_first[..size].reverse();
-        }
-        let [a, b, c, d, ..] = low_first;
-        match header.kind.as_str() {
-            "f2" => f16::from_le_bytes([a, b]).to_f64(),
-            "u2" => u16::from_le_bytes([a, b]).into(),
-            "f4" => f32::from_le_bytes([a, b, c, d]).into(),
-            "i4" => i32::from_le_bytes([a, b, c, d]).into(),
-            "f8" => f64::from_le_bytes(low_first),
-            "i8" => i64::from_le_bytes(low_first) as f64,
-            _ => a.into(),
-        }
+    let values = match header.kind.as_str() {
+        "b1" | "u1" => header.values(file, |[byte]| byte.into()),
+        "f2" => header.values(file, |bytes| f16::from_le_bytes(bytes).to_f64()),
+        "u2" => header.values(file, |bytes| u16::from_le_bytes(bytes).into()),
+        "f4" => header.values(file, |bytes| f32::from_le_bytes(bytes).into()),
+        "i4" => header.values(file, |bytes| i32::from_le_bytes(bytes).into()),
+        "f8" => header.values(file, f64::from_le_bytes),
+        "i8" => header.values(file, |bytes| i64::from_le_bytes(bytes) as f64),
+        kind => return Err(format!("expected numbers (f2, f4, f8, u1, u2, i4, i8 or b1), found {kind}")),
     };
-    Ok(bytes.chunks_exact(size).map(value).collect())
+    values.map_err(|error| match error.kind() {
+        ErrorKind::UnexpectedEof => format!("expected {count} values, found fewer: the file is truncated"),
+        _ => error.to_string(),
+    })
 }
 
 /// Values whose first index is fastest, with the last index fastest.

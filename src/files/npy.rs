@@ -1,4 +1,4 @@
-//! Arrays of NumPy: the header of a `.npy` file, read and written.
+//! Arrays of NumPy: the header of a `.npy` file, read and written, and its values.
 //!
 //! The format is that of `numpy.lib.format`, versions 1 to 3: a magic word, the length of the header, and the text of a Python
 //! dictionary with the keys `descr`, `fortran_order` and `shape`.
@@ -8,6 +8,8 @@ use std::io::{self, Read};
 const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// Longest header that is read, in bytes. That of a plain array has about 120.
 const LONGEST: usize = 1 << 16;
+/// Values that are read at a time: memory grows with what is there, not with what a header claims.
+const VALUES_AT_A_TIME: usize = 1 << 13;
 /// The values of a file begin at a multiple of this.
 const ALIGNMENT: usize = 64;
 
@@ -72,6 +74,30 @@ impl Header {
     /// The number of values; `None` where it is too large for a number.
     pub fn count(&self) -> Option<u64> {
         self.shape.iter().try_fold(1_u64, |product, &side| product.checked_mul(side))
+    }
+
+    /// The values, each of `N` bytes, of which `of` takes the low one first.
+    ///
+    /// # Errors
+    /// `UnexpectedEof` where the file ends.
+    pub fn values<T, const N: usize>(
+        &self,
+        mut reader: impl Read,
+        of: impl Fn([u8; N]) -> T,
+    ) -> io::Result<Vec<T>> {
+        let count = self.count().and_then(|count| usize::try_from(count).ok());
+        let count = count.ok_or(io::ErrorKind::UnexpectedEof)?;
+        let mut values = Vec::new();
+        let mut bytes = vec![[0; N]; VALUES_AT_A_TIME.min(count)];
+        while values.len() < count {
+            let next = &mut bytes[..VALUES_AT_A_TIME.min(count - values.len())];
+            reader.read_exact(next.as_flattened_mut())?;
+            if self.is_big_endian {
+                next.iter_mut().for_each(|bytes| bytes.reverse());
+            }
+            values.extend(next.iter().map(|&bytes| of(bytes)));
+        }
+        Ok(values)
     }
 
     /// The first bytes of a file of 64-bit floats, low byte first, with the last index fastest.

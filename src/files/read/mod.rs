@@ -15,7 +15,6 @@
 pub(crate) mod decode;
 mod formats;
 mod interpret;
-mod map_report;
 mod names;
 pub(crate) mod options;
 mod photograph;
@@ -29,7 +28,6 @@ use std::sync::Arc;
 
 pub use formats::{Binding, Sidecar, is_prefix};
 pub use interpret::Neighbours;
-pub use map_report::MapContent;
 pub use names::EXTENSIONS;
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
@@ -40,7 +38,7 @@ pub use record::{
     Assumption, Certainty, Evidence, Gray, Note, Reason, SpecifiedBy, StorageConvention, Subject, Unused,
     What,
 };
-pub use result::Read;
+pub use result::{MapContent, Read};
 
 use sha2::{Digest as _, Sha256};
 
@@ -100,7 +98,7 @@ impl<'a> MaterialPath<'a> {
     /// shape, [`Error::NotFinite`] at NaN and infinity, [`Error::NoSuchExemplar`], [`Error::BadSidecar`],
     /// [`Cancelled`](Error::is_cancelled).
     pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
-        let LocatedPath { saved, used, located } = self.located()?;
+        let (saved, used, located) = self.located()?;
         let options = &used.options.with_preset();
         let mut read = finish(located.read(options, progress)?, options)?;
         (read.options, read.saved) = (used.options, saved.options);
@@ -118,7 +116,7 @@ impl<'a> MaterialPath<'a> {
     /// # Errors
     /// Where the material cannot be located, or one of the files not be read.
     pub fn dependencies(&self) -> Result<Dependencies, Error> {
-        let LocatedPath { saved, used, located } = self.located()?;
+        let (saved, used, located) = self.located()?;
         let sidecar = Sidecar::path_for(self.path);
         let mut hash = Sha256::new();
         hash.update(format!("{sidecar:?} {saved:?} {used:?} {located:?}"));
@@ -147,21 +145,13 @@ impl<'a> MaterialPath<'a> {
         if self.is_alone { Sidecar { options: self.options, ..used } } else { used }
     }
 
-    fn located(&self) -> Result<LocatedPath, Error> {
+    /// The content of the sidecar file, what is used of it and what is specified, and what is at the path.
+    fn located(&self) -> Result<(Sidecar, Sidecar, Located), Error> {
         let saved = Sidecar::load(self.path)?;
         let used = self.used(&saved);
         let located = formats::locate(self.path, &used)?;
-        Ok(LocatedPath { saved, used, located })
+        Ok((saved, used, located))
     }
-}
-
-/// A [`MaterialPath`], located.
-struct LocatedPath {
-    /// The content of the sidecar file.
-    saved: Sidecar,
-    /// What is specified, and saved where nothing is specified.
-    used: Sidecar,
-    located: Located,
 }
 
 /// What the reading of a material depends on, but for [`Neighbours`]: only the pixels tell whether these count.
@@ -191,7 +181,7 @@ fn finish<T: Real>(mut stored: StoredMaterial, options: &ReadOptions) -> Result<
     // Three planes each of normals, diffuse and specular, one of roughness.
     let bytes = (width as u64).saturating_mul(height as u64).saturating_mul(10 * size_of::<T>() as u64);
     let memory = memory::reserve(bytes, || format!("the material {}", stored.name))?;
-    let maps = map_report::reports(&stored);
+    let maps = result::reports(&stored);
     let (material, neighbours) = interpret::interpret(&mut stored, options)?;
     Ok(Read {
         material,

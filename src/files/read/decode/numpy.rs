@@ -15,9 +15,6 @@ use crate::read::record::{Note, Unused};
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
 
-/// Values that are read at a time: memory grows with what is there, not with what a header claims.
-const VALUES_AT_A_TIME: usize = 1 << 13;
-
 /// Every array of an archive, by its name.
 pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |e: zip::result::ZipError| place.invalid("npz", e);
@@ -144,17 +141,17 @@ fn decode(
 /// The values of an array and the name of their type; `None` of a type that is no sample of a picture.
 fn values(reader: impl Read, header: &Header) -> io::Result<Option<(Buffer, &'static str)>> {
     Ok(Some(match header.kind.as_str() {
-        "f2" => (numbers(reader, header, |bytes| f16::from_le_bytes(bytes).to_f32())?.into(), "half"),
-        "f4" => (numbers(reader, header, f32::from_le_bytes)?.into(), "float"),
-        "f8" => (numbers(reader, header, |bytes| f64::from_le_bytes(bytes) as f32)?.into(), "double"),
-        "b1" => (numbers(reader, header, |[byte]| if byte == 0 { 0_u8 } else { 255 })?.into(), "8-bit"),
-        "u1" => (numbers(reader, header, u8::from_le_bytes)?.into(), "8-bit"),
-        "u2" => (numbers(reader, header, u16::from_le_bytes)?.into(), "16-bit"),
-        "i1" => return Ok(codes(numbers(reader, header, |bytes| i64::from(i8::from_le_bytes(bytes)))?)),
-        "i2" => return Ok(codes(numbers(reader, header, |bytes| i64::from(i16::from_le_bytes(bytes)))?)),
-        "i4" => return Ok(codes(numbers(reader, header, |bytes| i64::from(i32::from_le_bytes(bytes)))?)),
-        "u4" => return Ok(codes(numbers(reader, header, |bytes| i64::from(u32::from_le_bytes(bytes)))?)),
-        "i8" | "u8" => return Ok(codes(numbers(reader, header, i64::from_le_bytes)?)),
+        "f2" => (header.values(reader, |bytes| f16::from_le_bytes(bytes).to_f32())?.into(), "half"),
+        "f4" => (header.values(reader, f32::from_le_bytes)?.into(), "float"),
+        "f8" => (header.values(reader, |bytes| f64::from_le_bytes(bytes) as f32)?.into(), "double"),
+        "b1" => (header.values(reader, |[byte]| if byte == 0 { 0_u8 } else { 255 })?.into(), "8-bit"),
+        "u1" => (header.values(reader, u8::from_le_bytes)?.into(), "8-bit"),
+        "u2" => (header.values(reader, u16::from_le_bytes)?.into(), "16-bit"),
+        "i1" => return Ok(codes(header.values(reader, |bytes| i64::from(i8::from_le_bytes(bytes)))?)),
+        "i2" => return Ok(codes(header.values(reader, |bytes| i64::from(i16::from_le_bytes(bytes)))?)),
+        "i4" => return Ok(codes(header.values(reader, |bytes| i64::from(i32::from_le_bytes(bytes)))?)),
+        "u4" => return Ok(codes(header.values(reader, |bytes| i64::from(u32::from_le_bytes(bytes)))?)),
+        "i8" | "u8" => return Ok(codes(header.values(reader, i64::from_le_bytes)?)),
         _ => return Ok(None),
     }))
 }
@@ -170,25 +167,4 @@ fn codes(values: Vec<i64>) -> Option<(Buffer, &'static str)> {
         256..=65_535 => Some((values.iter().map(|value| *value as u16).collect::<Vec<_>>().into(), "16-bit")),
         _ => None,
     }
-}
-
-/// The values of an array, each of `N` bytes, of which `of` takes the low one first.
-fn numbers<T, const N: usize>(
-    mut reader: impl Read,
-    header: &Header,
-    of: impl Fn([u8; N]) -> T,
-) -> io::Result<Vec<T>> {
-    let count = header.count().and_then(|count| usize::try_from(count).ok());
-    let count = count.ok_or(ErrorKind::UnexpectedEof)?;
-    let mut numbers = Vec::new();
-    let mut bytes = vec![[0; N]; VALUES_AT_A_TIME.min(count)];
-    while numbers.len() < count {
-        let next = &mut bytes[..VALUES_AT_A_TIME.min(count - numbers.len())];
-        reader.read_exact(next.as_flattened_mut())?;
-        if header.is_big_endian {
-            next.iter_mut().for_each(|bytes| bytes.reverse());
-        }
-        numbers.extend(next.iter().map(|&bytes| of(bytes)));
-    }
-    Ok(numbers)
 }

@@ -56,7 +56,7 @@ impl FromStr for Binding {
                 ),
             ));
         };
-        if let Some(values) = constant(file).filter(|values| values.len() == 1 || is_colour(role)) {
+        if let Some(values) = constant(file).filter(|values| values.len() == 1 || role.is_colour()) {
             return Ok(Self { role, source: Source::Constant(values) });
         }
         if file.split(',').all(|number| number.trim().parse::<f32>().is_ok()) && !Path::new(file).exists() {
@@ -79,10 +79,6 @@ fn constant(text: &str) -> Option<Vec<f32>> {
     let number = |text: &str| text.trim().parse().ok().filter(|value| (0.0..=1.0).contains(value));
     let values: Vec<f32> = text.split(',').map(number).collect::<Option<_>>()?;
     matches!(values.len(), 1 | 3).then_some(values)
-}
-
-fn is_colour(role: Role) -> bool {
-    matches!(role, Role::Diffuse | Role::Base | Role::Specular)
 }
 
 impl PartialEq for Binding {

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use super::candidate::{Candidate, Located};
 use super::picture::WholePicture;
-use super::set::{self, Set, SetFiles, Wanted, documents_beside};
+use super::set::{self, Set, Wanted};
+use crate::disk::atomic::folder_of;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
-use crate::read::names::{Label, folder_of, folders, list, listing, material_name};
+use crate::read::names::{Label, folders, list, listing, material_name};
 use crate::read::options::Role;
 use crate::read::record::{Note, Unused};
 
@@ -43,14 +44,16 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
         names.dedup();
     }
     let wanted = if prefix.is_empty() { Wanted::All } else { Wanted::Named(prefix) };
-    let (mut files, _) = set::choose(path, &names, wanted, bound)?;
-    files.documents = documents_beside(folder, &names, &files);
-    if prefix.is_empty() && files.files.is_empty() && bound.is_empty() && !files.unlabelled.is_empty() {
-        let picture = lone_picture(path, folder, &names, &files.unlabelled)?;
+    let found = set::choose(path, folder, &names, wanted, bound)?;
+    if prefix.is_empty()
+        && found.files.files.is_empty()
+        && bound.is_empty()
+        && !found.files.unlabelled.is_empty()
+    {
+        let picture = lone_picture(path, folder, &names, &found.files.unlabelled)?;
         return Ok(Located::new([Candidate::Picture(picture)]));
     }
-    let name = material_name(path, prefix);
-    Ok(Located::new([Candidate::Set(set_of(path, folder, name, files, &names))]))
+    Ok(Located::new([Candidate::Set(found)]))
 }
 
 /// The only file of a folder without pictures and folders, as an archive or a glTF may be.
@@ -64,17 +67,6 @@ pub(super) fn only_file(folder: &Path) -> Result<Option<PathBuf>, Error> {
     let only = names.pop().filter(|_| is_alone).map(|name| folder.join(name));
     // A pipe would be waited for.
     Ok(only.filter(|only| only.is_file()))
-}
-
-fn set_of(path: &Path, folder: &Path, name: String, files: SetFiles, names: &[String]) -> Set {
-    Set {
-        path: path.to_owned(),
-        folder: folder.to_owned(),
-        name,
-        files,
-        listing: listing(names),
-        has_renderings: folder.join("render").is_dir(),
-    }
 }
 
 /// The only one of `pictures`, whose names name no map: it may be packed.
@@ -165,9 +157,7 @@ fn beside_previews(path: &Path, folder: &Path, names: &[String]) -> Result<Optio
 /// The set of the folder, where its names are those of a whole one.
 fn set_within(folder: &Path) -> Option<Set> {
     let names = list(folder, folder, "").ok()?;
-    let (mut files, _) = set::choose(folder, &names, Wanted::All, &[]).ok()?;
-    files.documents = documents_beside(folder, &names, &files);
-    let found = set_of(folder, folder, material_name(folder, ""), files, &names);
+    let found = set::choose(folder, folder, &names, Wanted::All, &[]).ok()?;
     set::is_complete(&found.files.files, &[]).then_some(found)
 }
 
@@ -176,11 +166,8 @@ fn set_within(folder: &Path) -> Option<Set> {
 /// # Errors
 /// As [`locate`].
 pub(super) fn around(path: &Path, bound: &[Role]) -> Result<Set, Error> {
-    let folder = &folder_of(path);
+    let folder = folder_of(path);
     let names = list(path, folder, "")?;
     let file = path.file_name().unwrap_or_default().to_string_lossy();
-    let (mut files, stem) = set::choose(path, &names, Wanted::SetOf(&file), bound)?;
-    files.documents = documents_beside(folder, &names, &files);
-    let name = if stem.is_empty() { material_name(folder, "") } else { stem.join(" ") };
-    Ok(set_of(path, folder, name, files, &names))
+    set::choose(path, folder, &names, Wanted::SetOf(&file), bound)
 }

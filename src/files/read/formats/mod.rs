@@ -14,9 +14,10 @@ mod sidecar;
 
 use std::path::Path;
 
+use crate::disk::atomic::folder_of;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
-use crate::read::names::{LISTING, Label, extension, folder_of, list};
+use crate::read::names::{LISTING, Label, extension, list};
 use crate::read::options::{ReadOptions, Role};
 
 pub use binding::Binding;
@@ -54,7 +55,7 @@ pub(super) fn names(path: &Path, options: &ReadOptions) -> Result<Vec<String>, E
 /// Whether `path` is no file and no folder, but the beginning of the names of files.
 pub fn is_prefix(path: &Path) -> bool {
     let prefix = path.file_name().unwrap_or_default().to_string_lossy();
-    let files = || list(path, &folder_of(path), &prefix);
+    let files = || list(path, folder_of(path), &prefix);
     !path.exists() && !prefix.is_empty() && files().is_ok_and(|files| !files.is_empty())
 }
 
@@ -69,7 +70,7 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
     if !path.exists()
         && let Some(prefix) = path.file_name()
     {
-        return folder::locate(path, &folder_of(path), &prefix.to_string_lossy(), bound);
+        return folder::locate(path, folder_of(path), &prefix.to_string_lossy(), bound);
     }
     let extension = extension(path);
     let first = match extension.as_str() {

@@ -11,8 +11,9 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::text::of_json;
 
 use super::binding::Binding;
+use crate::disk::atomic::{self, folder_of};
 use crate::disk::open::{NamedBy, NamedFile};
-use crate::disk::{atomic, own};
+use crate::disk::own;
 use crate::error::Error;
 use crate::read::names::{EXTENSIONS, Label};
 use crate::read::options::ReadOptions;
@@ -43,7 +44,8 @@ impl Sidecar {
 
     /// Whether `path` is named like a sidecar file.
     pub fn is_named(path: &Path) -> bool {
-        is_sidecar(path)
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name == IN_FOLDER || name.ends_with(BESIDE)
     }
 
     /// Reads the sidecar file of the material `path`; the default where there is none.
@@ -182,7 +184,7 @@ impl Sidecar {
 
 /// The place of the sidecar file of the material `path` alone.
 fn own_place(path: &Path) -> PathBuf {
-    if is_sidecar(path) {
+    if Sidecar::is_named(path) {
         return path.to_owned();
     }
     if path.is_dir() {
@@ -196,7 +198,7 @@ fn own_place(path: &Path) -> PathBuf {
 
 /// The place of the sidecar file of the folder that the file or prefix `path` is in.
 fn common_place(path: &Path) -> Option<PathBuf> {
-    (!is_sidecar(path) && !path.is_dir()).then(|| path.with_file_name(IN_FOLDER))
+    (!Sidecar::is_named(path) && !path.is_dir()).then(|| path.with_file_name(IN_FOLDER))
 }
 
 /// Whether the file `path` is named after a map alone: its folder is then a material.
@@ -209,21 +211,15 @@ fn keys() -> Vec<String> {
     ReadOptions::keys().into_iter().chain([MAPS.to_owned()]).collect()
 }
 
-/// Whether `path` is named like a sidecar file.
-fn is_sidecar(path: &Path) -> bool {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    name == IN_FOLDER || name.ends_with(BESIDE)
-}
-
 /// The material that `path` stands for: for a sidecar file the file beside it, its prefix or its folder.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without its folder, [`Error::NotAMaterial`] where several files could be meant.
 pub(super) fn material_of(path: &Path) -> Result<PathBuf, Error> {
-    if !is_sidecar(path) {
+    if !Sidecar::is_named(path) {
         return Ok(path.to_owned());
     }
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder_of(path);
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let Some(name) = file.strip_suffix(BESIDE) else { return Ok(folder.to_owned()) };
     let mut beside = Vec::new();

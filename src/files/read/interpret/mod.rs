@@ -81,21 +81,17 @@ fn note_alpha(found: &mut StoredMaterial) {
     for (map, is_float) in maps {
         found.notes.push(Note::AlphaIgnored { map });
         // Colours of EXR are multiplied by their alpha.
-        if is_float && is_colour(map) {
+        if is_float && map.is_colour() {
             let why = Reason::Premultiplied { map };
             found.assumptions.push(Assumption::new(What::Values, "as stored", why, Certainty::Unsure));
         }
     }
 }
 
-fn is_colour(map: Role) -> bool {
-    matches!(map, Role::Base | Role::Diffuse | Role::Specular)
-}
-
 /// Refuses colours of two channels, such as an EXR without B: nothing tells the third.
 fn refuse_two_channels(found: &StoredMaterial) -> Result<(), Error> {
     let sources = found.sources();
-    match sources.iter().find(|(role, source)| is_colour(*role) && source.raster.channels.len() == 2) {
+    match sources.iter().find(|(role, source)| role.is_colour() && source.raster.channels.len() == 2) {
         None => Ok(()),
         Some((role, source)) => Err(Error::NotAMaterial {
             path: source.file.clone(),

@@ -87,11 +87,6 @@ pub(crate) fn material_name(path: &Path, prefix: &str) -> String {
     resolved.parent().filter(|_| is_of_maps).and_then(name).unwrap_or(own)
 }
 
-/// The folder of a file that may be named without one.
-pub(crate) fn folder_of(path: &Path) -> PathBuf {
-    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned()
-}
-
 /// Extensions of the files that open as a material or as a map of one.
 pub const EXTENSIONS: [&str; 28] = [
     "png", "tif", "tiff", "tx", "jpg", "jpeg", "jfif", "jpe", "tga", "bmp", "webp", "dds", "hdr", "exr",

@@ -7,9 +7,7 @@ mod words;
 
 pub(crate) use label::Label;
 pub use listing::EXTENSIONS;
-pub(crate) use listing::{
-    LISTING, PICTURES, extension, folder_of, folders, is_junk, list, listing, material_name,
-};
+pub(crate) use listing::{LISTING, PICTURES, extension, folders, is_junk, list, listing, material_name};
 pub(crate) use set_labels::set_labels;
 pub(crate) use set_labels::word_beside;
 pub(crate) use words::{is_named_as, is_named_within, size, words};

@@ -232,6 +232,11 @@ impl Role {
         }
     }
 
+    /// Whether it holds colours.
+    pub(crate) fn is_colour(self) -> bool {
+        matches!(self, Self::Base | Self::Diffuse | Self::Specular | Self::SpecularGlossiness)
+    }
+
     /// Whether its picture holds roughness or glossiness.
     pub(crate) fn has_roughness(self) -> bool {
         matches!(self, Self::Roughness | Self::SpecularGlossiness | Self::NormalRoughness)

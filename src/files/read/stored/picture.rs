@@ -49,6 +49,7 @@ impl fmt::Debug for PictureSource {
 #[derive(Clone, Debug)]
 pub(crate) struct DecodedPicture {
     pub map: StoredMap,
+    pub subject: Subject,
     /// All that is stored, where the picture is another part of the plane.
     uncropped: Option<Raster>,
     pub notes: Vec<Note>,
@@ -73,7 +74,7 @@ impl Picture {
             PictureSource::File(file) => {
                 let (Layer { raster, uncropped, .. }, notes) = one(file, self.subject)?;
                 let map = StoredMap { raster, file: file.path().to_owned(), part: String::new() };
-                Ok(DecodedPicture { map, uncropped, notes })
+                Ok(DecodedPicture { map, subject: self.subject, uncropped, notes })
             }
             PictureSource::Embedded { within, bytes } => {
                 let Decoded { layers, notes, .. } =
@@ -85,7 +86,7 @@ impl Picture {
                     remedy: "export it again".to_owned(),
                 })?;
                 let map = StoredMap { raster, file: within.clone(), part: self.subject.to_string() };
-                Ok(DecodedPicture { map, uncropped: None, notes })
+                Ok(DecodedPicture { map, subject: self.subject, uncropped: None, notes })
             }
         }
     }
@@ -117,7 +118,7 @@ pub(crate) fn decoded<'a>(
 fn use_all_that_is_stored(all: &mut [DecodedPicture]) {
     let plain = |picture: &DecodedPicture| picture.uncropped.is_none().then(|| picture.map.raster.size());
     let sizes: Vec<_> = all.iter().filter_map(plain).collect();
-    for DecodedPicture { map, uncropped, notes } in all {
+    for DecodedPicture { map, uncropped, notes, .. } in all {
         let Some(stored) = uncropped.take() else { continue };
         if sizes.contains(&stored.size()) && !sizes.contains(&map.raster.size()) {
             map.raster = stored;

@@ -101,18 +101,16 @@ impl Gltf {
     /// # Errors
     /// [`Error::NotAMaterial`] without a map that is needed; those of its pictures.
     pub(in crate::read) fn read(
-        mut self,
+        self,
         options: &ReadOptions,
         progress: &Progress,
     ) -> Result<StoredMaterial, Error> {
-        let pictures = std::mem::take(&mut self.pictures);
-        let read = decoded(&pictures, progress)?;
+        let read = decoded(&self.pictures, progress)?;
         let mut maps = MapsByRole::default();
         read.iter().for_each(|picture| maps.record_size(picture.map.raster.size()));
-        let roles: Vec<_> = pictures.into_iter().map(|picture| picture.subject).collect();
         let map = |role| {
-            let place = roles.iter().position(|subject| *subject == Subject::Map(role))?;
-            Some(read[place].map.clone())
+            let picture = read.iter().find(|picture| picture.subject == Subject::Map(role))?;
+            Some(picture.map.clone())
         };
         if let Some(normal) = map(Role::Normal) {
             maps.add(Role::Normal, normal.scaled_normals(self.material.normal_scale().into()));

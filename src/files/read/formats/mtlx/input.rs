@@ -8,7 +8,7 @@ use crate::read::options::transfer::ColourSpace;
 use crate::read::options::{Albedo, Role};
 use crate::read::raster::Raster;
 use crate::read::record::{Certainty, Reason, SpaceKnown, StorageConvention, Subject};
-use crate::read::stored::{DecodedPicture, Field, Inferred, Picture, StoredMap};
+use crate::read::stored::{DecodedPicture, Field, Inferred, StoredMap};
 
 /// Stored normals as nodes decode them: 2 n - 1.
 const DECODED_NORMALS: Affine = Affine { scale: [2.0; 3], offset: [-1.0; 3] };
@@ -159,12 +159,9 @@ impl MtlxSurface<'_> {
     /// The decoded picture of a file that is read as this map.
     fn picture(&self, file: &str, role: Role) -> Result<&StoredMap, Error> {
         let path = self.located.path_of(file);
-        let is_it = |(one, _): &(&Picture, _)| {
-            one.file().is_some_and(|file| file.path() == path) && one.subject == Subject::Map(role)
-        };
-        let found = self.located.pictures.iter().zip(self.pictures).find(is_it);
+        let is_it = |one: &&DecodedPicture| one.map.file == path && one.subject == Subject::Map(role);
         let missing = || Error::Internal(format!("{} was not located", path.display()));
-        found.map(|(_, picture)| &picture.map).ok_or_else(missing)
+        self.pictures.iter().find(is_it).map(|picture| &picture.map).ok_or_else(missing)
     }
 }
 

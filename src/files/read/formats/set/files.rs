@@ -47,8 +47,6 @@ pub(crate) struct SetFiles {
     pub unlabelled: Vec<String>,
     /// Pictures of maps whose names are not those of the set, but nearly so.
     pub misnamed: Vec<String>,
-    /// Documents beside them that list them, too.
-    pub documents: Vec<ListingDocument>,
     /// Pictures of heights, which tell the direction of y.
     pub heights: Vec<String>,
     pub notes: Vec<Note>,
@@ -90,6 +88,8 @@ pub(in crate::read) struct Set {
     /// The name of the material.
     pub name: String,
     pub files: SetFiles,
+    /// Documents beside them that list them, too.
+    pub documents: Vec<ListingDocument>,
     /// The files of the folder, for messages.
     pub listing: String,
     /// Whether a folder of renderings is beside the files, as in the data sets of SurfaceNet.
@@ -119,7 +119,7 @@ impl Set {
 const LONGEST: u64 = 4 << 20;
 
 /// The documents among the files `names` of `folder` that name a file of the set.
-pub(crate) fn documents_beside(folder: &Path, names: &[String], set: &SetFiles) -> Vec<ListingDocument> {
+pub(super) fn documents_beside(folder: &Path, names: &[String], set: &SetFiles) -> Vec<ListingDocument> {
     let listing = |name: &String| {
         let normal_y = match extension(name).as_str() {
             "gltf" | "mtlx" => Some(NormalY::Up),

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::files::{LabelledFile, NUMBERED, SetFiles, add_layers, of_one_size};
+use super::files::{LabelledFile, NUMBERED, Set, SetFiles, add_layers, documents_beside, of_one_size};
 use crate::error::Error;
 use crate::read::names::{
-    EXTENSIONS, Label, PICTURES, extension, is_junk, is_named_as, listing, set_labels, words,
+    EXTENSIONS, Label, PICTURES, extension, is_junk, is_named_as, listing, material_name, set_labels, words,
 };
 use crate::read::options::Role;
 use crate::read::record::{Note, Unused};
@@ -34,12 +34,38 @@ pub(crate) enum Wanted<'a> {
     SetOf(&'a str),
 }
 
-/// The files of the one material among `names` that is `wanted`: of all of them the only one that is complete with what is
-/// `bound` already. With the words that the names of its files have in common.
+/// The set of the one material among the files `names` of `folder` that is `wanted`: of all of them the only one that is complete with
+/// what is `bound` already. Its name is that of `path`, which the user gave, or of the words that its files have in common.
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where there are several materials, or two files for a map.
 pub(crate) fn choose(
+    path: &Path,
+    folder: &Path,
+    names: &[String],
+    wanted: Wanted<'_>,
+    bound: &[Role],
+) -> Result<Set, Error> {
+    let (files, stem) = files_of(path, names, wanted, bound)?;
+    let name = match wanted {
+        Wanted::All => material_name(path, ""),
+        Wanted::Named(prefix) => material_name(path, prefix),
+        Wanted::SetOf(_) if stem.is_empty() => material_name(folder, ""),
+        Wanted::SetOf(_) => stem.join(" "),
+    };
+    Ok(Set {
+        path: path.to_owned(),
+        folder: folder.to_owned(),
+        name,
+        documents: documents_beside(folder, names, &files),
+        files,
+        listing: listing(names),
+        has_renderings: folder.join("render").is_dir(),
+    })
+}
+
+/// The files of the set, and the words that their names have in common.
+fn files_of(
     path: &Path,
     names: &[String],
     wanted: Wanted<'_>,

@@ -89,7 +89,7 @@ impl<'a> PartialSet<'a> {
         }
         let role = self.role_of(label);
         self.notes.push(Note::MapFile { map: role, file: file.clone() });
-        self.are_floats &= raster.is_float() || !is_colour(label.role);
+        self.are_floats &= raster.is_float() || !label.role.is_colour();
         if label.word == "ps" && self.set.files.files.iter().any(|f| f.label.word == "axay") {
             raster = raster.scaled(&[Reflectance::DIELECTRIC.value() as f32]);
             self.notes.push(Note::SpecularFactor { file: file.clone() });
@@ -234,9 +234,4 @@ impl<'a> PartialSet<'a> {
         }
         self.notes.push(Note::Unused { what: file.to_owned(), why: unused });
     }
-}
-
-/// Whether a map holds colours.
-pub(super) fn is_colour(role: Role) -> bool {
-    matches!(role, Role::Base | Role::Diffuse | Role::Specular | Role::SpecularGlossiness)
 }

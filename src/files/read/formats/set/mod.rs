@@ -17,10 +17,10 @@ use crate::read::stored::{
     DecodedPicture, Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial, decoded,
 };
 
+pub(super) use files::Set;
 use files::{LabelledFile, NUMBERED};
-pub(super) use files::{Set, SetFiles, documents_beside};
 pub(super) use grouping::{Wanted, choose, is_beside, is_complete, is_picture, is_shared_with};
-use maps::{PartialSet, is_colour};
+use maps::PartialSet;
 
 impl Set {
     /// Reads its maps, with the maps `bound`; each picture is one step of `progress`. Pictures that are needed only where the pixels of
@@ -62,7 +62,7 @@ impl Set {
                 file: map.file.clone(),
                 by: SpecifiedBy::Caller,
             });
-            set.are_floats &= !is_colour(*role) || (map.raster.is_float() && !map.is_specified());
+            set.are_floats &= !role.is_colour() || (map.raster.is_float() && !map.is_specified());
             set.maps.replace(*role, map.clone());
         }
         let is_bound = |file: &str| is_bound(self, bound, file);
@@ -87,7 +87,7 @@ impl Set {
         add_hints(&mut found, self, are_floats, is_glossy);
         let file = self.files.heights.first().map(|file| StoredHeight::File(self.file(file)));
         found.height = file.or(height);
-        notes.extend(self.files.documents.iter().map(|one| Note::ListedBy { file: one.name.clone() }));
+        notes.extend(self.documents.iter().map(|one| Note::ListedBy { file: one.name.clone() }));
         let is_unused = |note: &&Note| !matches!(note, Note::Unused { what, .. } if is_bound(what));
         notes.extend(self.files.notes.iter().filter(is_unused).cloned());
         notes.append(&mut found.notes);
@@ -145,7 +145,7 @@ fn add_hints(found: &mut StoredMaterial, set: &Set, are_floats: bool, is_glossy:
 /// The direction of y by the format of a document beside the set that lists its normal map.
 fn listed_y(set: &Set) -> Inferred<NormalY> {
     let normal = set.files.files.iter().find(|file| file.label.role == Role::Normal)?;
-    let document = set.files.documents.iter().find(|one| one.files.contains(&normal.file))?;
+    let document = set.documents.iter().find(|one| one.files.contains(&normal.file))?;
     let why = Reason::ListedNormals { document: document.name.clone() };
     Some((document.normal_y?, why, Certainty::Likely))
 }
