@@ -3,13 +3,15 @@
 use std::collections::BTreeMap;
 use std::io::Seek as _;
 
+use exr::block::chunk::CompressedBlock;
+use exr::compression::Compression;
 use exr::image::FlatSamples;
 use exr::meta::MetaData;
 use exr::meta::attribute::{Chromaticities, IntegerBounds, Text};
+use exr::meta::header::Header;
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 use glam::DMat3;
 
-use super::dwa;
 use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE, ratio};
 use super::reader::Reader;
 use crate::disk::caught;
@@ -44,7 +46,7 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     let bytes = check(&meta, place)?;
     let _reserved = place.reserve(bytes)?;
     reader.rewind().map_err(|e| Error::unreadable(place.path, e))?;
-    caught(|| dwa::check(&mut reader, &meta, bytes + SMALL))
+    caught(|| check_dwa(&mut reader, &meta, bytes + SMALL))
         .map_err(|_| place.invalid("EXR", "a contradiction in its blocks"))?
         .map_err(invalid)?;
     let reading = || {
@@ -208,4 +210,46 @@ fn windowed(
     };
     let channels = raster.channels.iter().map(place).collect();
     Raster { width, height, channels, alpha: None, ..raster }
+}
+
+/// How many 8-byte numbers a block begins with: the version, then sizes and counts.
+const NUMBERS: usize = 11;
+
+/// Checks that no block of DWA claims to unpack into more than `most` bytes, which exr 1.74.2 allocates unchecked; leaves `reader` at its beginning.
+///
+/// # Errors
+/// Those of the library, and where a block claims more.
+fn check_dwa(reader: &mut Reader<'_>, meta: &MetaData, most: u64) -> exr::error::Result<()> {
+    let is_dwa = |compression| matches!(compression, Compression::DWAA(_) | Compression::DWAB(_));
+    if meta.headers.iter().any(|header| is_dwa(header.compression)) {
+        for chunk in exr::block::read(&mut *reader, false)?.filter_chunks(false, |_, _, _| true)? {
+            let chunk = chunk?;
+            let header = meta.headers.get(chunk.layer_index);
+            if let Some(header) = header.filter(|header| is_dwa(header.compression)) {
+                check_block(header, &chunk.compressed_block, most)?;
+            }
+        }
+        reader.rewind()?;
+    }
+    Ok(())
+}
+
+fn check_block(header: &Header, block: &CompressedBlock, most: u64) -> exr::error::Result<()> {
+    let bytes = match block {
+        CompressedBlock::ScanLine(block) => &block.compressed_pixels_le,
+        CompressedBlock::Tile(block) => &block.compressed_pixels_le,
+        _ => return Ok(()),
+    };
+    // The library takes a block of just this many bytes for the pixels themselves, and every other one for a packed one.
+    let place = header.get_absolute_block_pixel_coordinates(header.get_block_data_indices(block)?)?;
+    if bytes.len() == place.size.area() * header.channels.bytes_per_pixel {
+        return Ok(());
+    }
+    let numbers = bytes.as_chunks::<8>().0.iter().take(NUMBERS).skip(1);
+    match numbers.map(|eight| u64::from_le_bytes(*eight)).max() {
+        Some(largest) if largest > most => {
+            Err(exr::error::Error::Invalid(format!("a DWA block that claims {largest} bytes").into()))
+        }
+        _ => Ok(()),
+    }
 }

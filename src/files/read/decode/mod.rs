@@ -4,9 +4,7 @@
 //! name.
 
 mod dds;
-mod dwa;
 pub(crate) mod exr;
-mod head;
 mod jpeg;
 mod known;
 mod layout;
