@@ -78,6 +78,17 @@ impl Storage {
     pub fn has_steps(&self) -> bool {
         self.steps.iter().any(|step| *step > 0.0)
     }
+
+    /// The other encodings in which colours may be stored; none where values of the present one cannot be encoded again.
+    pub fn encodings(transfer: StoredEncoding) -> &'static [StoredEncoding] {
+        match transfer {
+            StoredEncoding::Unknown => &[StoredEncoding::Linear, StoredEncoding::Srgb],
+            StoredEncoding::Linear => &[StoredEncoding::Srgb, StoredEncoding::Gamma22],
+            StoredEncoding::Srgb => &[StoredEncoding::Linear, StoredEncoding::Gamma22],
+            StoredEncoding::Gamma22 => &[StoredEncoding::Linear, StoredEncoding::Srgb],
+            StoredEncoding::Other => &[],
+        }
+    }
 }
 
 impl Default for Storage {
@@ -91,19 +102,6 @@ impl Default for Storage {
             roughness: None,
             unscaled: false,
             steps: [1.0 / 255.0; 4],
-        }
-    }
-}
-
-impl Storage {
-    /// The other encodings in which colours may be stored; none where values of the present one cannot be encoded again.
-    pub fn encodings(transfer: StoredEncoding) -> &'static [StoredEncoding] {
-        match transfer {
-            StoredEncoding::Unknown => &[StoredEncoding::Linear, StoredEncoding::Srgb],
-            StoredEncoding::Linear => &[StoredEncoding::Srgb, StoredEncoding::Gamma22],
-            StoredEncoding::Srgb => &[StoredEncoding::Linear, StoredEncoding::Gamma22],
-            StoredEncoding::Gamma22 => &[StoredEncoding::Linear, StoredEncoding::Srgb],
-            StoredEncoding::Other => &[],
         }
     }
 }

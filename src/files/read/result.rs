@@ -77,9 +77,7 @@ impl<T> Read<T> {
             guesses => Err(Error::Guessed { path: path.to_owned(), guesses }),
         }
     }
-}
 
-impl<T> Read<T> {
     /// The readings of its values and the steps of its maps. A map that comes from several files has the largest step of these.
     pub fn storage(&self) -> Storage {
         let chosen = |what| self.assumptions.iter().find(|a| a.what == what).map(|a| a.chosen.as_str());

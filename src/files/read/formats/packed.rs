@@ -169,17 +169,8 @@ fn grids(image: &Raster, options: &ReadOptions) -> Vec<TileGrid> {
 fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Tiling> {
     let grids = grids(image, options);
     if let Some(order) = options.order {
-        if order.len() == 1 && options.grid.is_none() {
-            let grid = TileGrid { columns: 1, rows: 1 };
-            return Some(placed(
-                grid,
-                order,
-                options,
-                Reason::Specified(SpecifiedBy::Caller),
-                Certainty::Given,
-            ));
-        }
-        let grid = *grids.iter().find(|g| g.count() >= order.len())?;
+        let whole = (order.len() == 1 && options.grid.is_none()).then_some(TileGrid { columns: 1, rows: 1 });
+        let grid = whole.or_else(|| grids.iter().copied().find(|grid| grid.count() >= order.len()))?;
         return Some(placed(grid, order, options, Reason::Specified(SpecifiedBy::Caller), Certainty::Given));
     }
     if let Some(choice) = grids.iter().find_map(|&grid| recognized(image, grid, options)) {

@@ -50,14 +50,9 @@ pub(crate) fn check(found: &mut StoredMaterial, options: &ReadOptions) -> Result
     Ok(())
 }
 
-/// `value`, or `instead` if it is NaN or infinite.
-pub(crate) fn finite(value: f64, instead: f64) -> f64 {
-    if value.is_finite() { value } else { instead }
-}
-
 /// `value` in [0, 1], or `instead` of NaN and infinity.
 pub(crate) fn unit(value: f64, instead: f64) -> f64 {
-    finite(value, instead).clamp(0.0, 1.0)
+    if value.is_finite() { value.clamp(0.0, 1.0) } else { instead }
 }
 
 /// Values that lay outside [0, 1], how many for each map, and how far.

@@ -31,31 +31,25 @@ impl Samples {
     pub(crate) fn interleaved(samples: impl Into<Buffer>, count: usize) -> Vec<Self> {
         let buffer = samples.into();
         let texels = buffer.len() / count;
-        let channel = |first| {
-            let view =
-                ChannelView { first, step: count, stride: texels * count, width: texels, count: texels };
-            Self { buffer: buffer.clone(), view }
-        };
-        (0..count).map(channel).collect()
+        (0..count).map(|first| Self::new(buffer.clone(), first, count, texels)).collect()
     }
 
     /// The `count` channels that lie one behind another.
     pub(crate) fn planar(samples: impl Into<Buffer>, count: usize) -> Vec<Self> {
         let buffer = samples.into();
         let texels = buffer.len() / count;
-        let channel = |index| {
-            let view =
-                ChannelView { first: index * texels, step: 1, stride: texels, width: texels, count: texels };
-            Self { buffer: buffer.clone(), view }
-        };
-        (0..count).map(channel).collect()
+        (0..count).map(|index| Self::new(buffer.clone(), index * texels, 1, texels)).collect()
     }
 
     /// A channel of numbers that stand for themselves.
     pub(crate) fn floats(values: Vec<f32>) -> Self {
         let count = values.len();
-        let view = ChannelView { first: 0, step: 1, stride: count, width: count, count };
-        Self { buffer: values.into(), view }
+        Self::new(values.into(), 0, 1, count)
+    }
+
+    /// The `count` samples from number `first` on, `step` apart.
+    fn new(buffer: Buffer, first: usize, step: usize, count: usize) -> Self {
+        Self { buffer, view: ChannelView { first, step, stride: step * count, width: count, count } }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -64,12 +58,7 @@ impl Samples {
 
     /// The number that sample `index` stands for: an integer as a fraction of the largest one.
     pub(crate) fn at(&self, index: usize) -> f64 {
-        let place = self.view.place(index);
-        match &self.buffer {
-            Buffer::Bytes(all) => f64::from(all[place]) / 255.0,
-            Buffer::Words(all) => f64::from(all[place]) / 65_535.0,
-            Buffer::Floats(all) => f64::from(all[place]),
-        }
+        self.stored(index) / self.top()
     }
 
     /// Sample `index` as it is stored, an integer as such.
@@ -259,7 +248,7 @@ impl Samples {
             Buffer::Words(all) => pick(all, places).into(),
             Buffer::Floats(all) => pick(all, places).into(),
         };
-        Self { buffer, view: ChannelView { first: 0, step: 1, stride: count, width: count, count } }
+        Self::new(buffer, 0, 1, count)
     }
 
     /// The part of `size` whose top left corner is at `corner`, of a channel of rows of `width` samples.

@@ -60,9 +60,7 @@ impl What {
             Self::Values => "values",
         }
     }
-}
 
-impl What {
     /// The keys of the options of reading that specify it, the most specific first.
     pub fn keys(self) -> &'static [&'static str] {
         match self {

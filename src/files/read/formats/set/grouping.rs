@@ -264,16 +264,20 @@ fn best(
             // One of them may be constant.
             Some(_) if file.label.role == Role::Normal && normals.is_empty() => normals.push(file),
             Some(equal) => {
-                let (first, second) = if file.file < equal.file { (&file, equal) } else { (equal, &file) };
-                return Err(Error::NotAMaterial {
-                    path: path.to_owned(),
-                    expected: format!("one picture for the {} map", file.label.role.name()),
-                    found: format!("{} and {}", first.file, second.file),
-                    remedy: "give the prefix that only the files of this material share, or move one away"
-                        .to_owned(),
-                });
+                return Err(two_pictures(path, &file, equal));
             }
         }
     }
     Ok((chosen, normals))
+}
+
+/// The refusal of two files that are equally the picture of one map.
+pub(super) fn two_pictures(path: &Path, one: &LabelledFile, other: &LabelledFile) -> Error {
+    let (first, second) = if one.file < other.file { (one, other) } else { (other, one) };
+    Error::NotAMaterial {
+        path: path.to_owned(),
+        expected: format!("one picture for the {} map", one.label.role.name()),
+        found: format!("{} and {}", first.file, second.file),
+        remedy: "give the prefix that only the files of this material share, or move one away".to_owned(),
+    }
 }

@@ -43,7 +43,7 @@ impl Set {
                 None => (file, map.raster, notes),
             };
             if set.is_contested(file) {
-                return Err(two_pictures(self, file, &self.files.other_normals[0]));
+                return Err(grouping::two_pictures(&self.path, file, &self.files.other_normals[0]));
             }
             set.notes.extend(notes);
             let is_normal = file.label.role == Role::Normal;
@@ -66,11 +66,10 @@ impl Set {
             set.maps.replace(*role, map.clone());
         }
         let is_bound = |file: &str| is_bound(self, bound, file);
-        for file in self.files.unlabelled.iter().filter(|file| !is_bound(file)) {
-            set.rescue(file, Unused::Unlabelled);
-        }
-        for file in self.files.misnamed.iter().filter(|file| !is_bound(file)) {
-            set.rescue(file, Unused::OtherStem);
+        let unlabelled = self.files.unlabelled.iter().map(|file| (file, Unused::Unlabelled));
+        let misnamed = self.files.misnamed.iter().map(|file| (file, Unused::OtherStem));
+        for (file, unused) in unlabelled.chain(misnamed).filter(|(file, _)| !is_bound(file)) {
+            set.rescue(file, unused);
         }
         let PartialSet { maps, mut notes, are_floats, mut doubts, is_glossy, height, .. } = set;
         let options = &ReadOptions { workflow, ..*options };
@@ -103,17 +102,6 @@ fn is_bound(set: &Set, bound: &[(Role, StoredMap)], file: &str) -> bool {
             || map.file.canonicalize().is_ok_and(|one| place.canonicalize().is_ok_and(|p| p == one))
     };
     bound.iter().any(|(_, map)| map.file.file_name() == place.file_name() && is_it(map))
-}
-
-/// Two pictures of normals, neither of which is constant.
-fn two_pictures(set: &Set, one: &LabelledFile, other: &LabelledFile) -> Error {
-    let (first, second) = if one.file < other.file { (one, other) } else { (other, one) };
-    Error::NotAMaterial {
-        path: set.path.clone(),
-        expected: "one picture for the normal map".to_owned(),
-        found: format!("{} and {}", first.file, second.file),
-        remedy: "give the prefix that only the files of this material share, or move one away".to_owned(),
-    }
 }
 
 fn numbers_mislead(set: &Set, file: &str) -> Error {
