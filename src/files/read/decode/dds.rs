@@ -37,10 +37,11 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
     let bytes = texels.saturating_mul(4 * count as u64);
     let _reserved = place.check_size([size.width.into(), size.height.into()], bytes, ratio::DDS)?;
     let values = texels as usize * count;
+    let format = ColorFormat::new(channels, native.precision);
     let (buffer, depth) = match native.precision {
-        Precision::U8 => (pixels(&mut decoder, vec![0_u8; values], channels, place)?, "8-bit"),
-        Precision::U16 => (pixels(&mut decoder, vec![0_u16; values], channels, place)?, "16-bit"),
-        Precision::F32 => (pixels(&mut decoder, vec![0.0_f32; values], channels, place)?, "float"),
+        Precision::U8 => (pixels(&mut decoder, vec![0_u8; values], format, place)?, "8-bit"),
+        Precision::U16 => (pixels(&mut decoder, vec![0_u16; values], format, place)?, "16-bit"),
+        Precision::F32 => (pixels(&mut decoder, vec![0.0_f32; values], format, place)?, "float"),
     };
     let mut channels = Samples::interleaved(buffer, count);
     let (width, height) = (size.width as usize, size.height as usize);
@@ -55,50 +56,19 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
     Ok(Raster::with_alpha(width, height, depth, channels))
 }
 
-/// A type that samples are decoded into.
-trait Sample: Sized {
-    const PRECISION: Precision;
-
-    fn bytes(samples: &mut [Self]) -> &mut [u8];
-}
-
-impl Sample for u8 {
-    const PRECISION: Precision = Precision::U8;
-
-    fn bytes(samples: &mut [Self]) -> &mut [u8] {
-        samples
-    }
-}
-
-impl Sample for u16 {
-    const PRECISION: Precision = Precision::U16;
-
-    fn bytes(samples: &mut [Self]) -> &mut [u8] {
-        bytemuck::cast_slice_mut(samples)
-    }
-}
-
-impl Sample for f32 {
-    const PRECISION: Precision = Precision::F32;
-
-    fn bytes(samples: &mut [Self]) -> &mut [u8] {
-        bytemuck::cast_slice_mut(samples)
-    }
-}
-
 /// The pixels of the first surface.
-fn pixels<S: Sample>(
+fn pixels<S: bytemuck::Pod>(
     decoder: &mut dds::Decoder<Reader<'_>>,
     mut samples: Vec<S>,
-    channels: Channels,
+    format: ColorFormat,
     place: DecodedFile<'_>,
 ) -> Result<Buffer, Error>
 where
     Buffer: From<Vec<S>>,
 {
-    let format = ColorFormat::new(channels, S::PRECISION);
     let invalid = || place.invalid("DDS", "a contradiction in its size");
-    let view = ImageViewMut::new(S::bytes(&mut samples), decoder.main_size(), format).ok_or_else(invalid)?;
+    let view = ImageViewMut::new(bytemuck::cast_slice_mut(&mut samples), decoder.main_size(), format)
+        .ok_or_else(invalid)?;
     caught(|| decoder.read_surface(view)).map_err(|_| invalid())?.map_err(|e| explain(&e, place))?;
     Ok(samples.into())
 }

@@ -31,33 +31,34 @@ pub(crate) fn listing(names: &[String]) -> String {
 
 /// The names of the visible folders in `folder`, sorted.
 pub(crate) fn folders(folder: &Path) -> Result<Vec<String>, Error> {
-    let unreadable = |source| Error::unreadable(folder, source);
-    let mut names = Vec::new();
-    for entry in fs::read_dir(folder).map_err(unreadable)? {
-        let entry = entry.map_err(unreadable)?;
-        let name = entry.file_name().to_string_lossy().into_owned();
-        // A link may lead back here.
-        if entry.file_type().is_ok_and(|kind| kind.is_dir()) && !name.starts_with('.') {
-            names.push(name);
-        }
-    }
-    names.sort();
-    Ok(names)
+    // A link may lead back here.
+    let is_one = |entry: &fs::DirEntry, _: &str| entry.file_type().is_ok_and(|kind| kind.is_dir());
+    entries(folder, folder, is_one)
 }
 
 /// The names of the visible files in `folder` that begin with `prefix` and whose next word begins there, sorted.
 ///
 /// Where there is no such folder, the error names `path`, which the user gave.
 pub(crate) fn list(path: &Path, folder: &Path, prefix: &str) -> Result<Vec<String>, Error> {
-    let unreadable = |source| Error::unreadable(if folder.is_dir() { folder } else { path }, source);
     let prefix_words = words(prefix);
+    let begins = |name: &str| {
+        name.starts_with(prefix) && (prefix_words.is_empty() || words(name).starts_with(&prefix_words))
+    };
+    entries(path, folder, |entry, name| begins(name) && !is_folder(entry))
+}
+
+/// The visible names in `folder` of the entries that are wanted, sorted.
+fn entries(
+    path: &Path,
+    folder: &Path,
+    is_wanted: impl Fn(&fs::DirEntry, &str) -> bool,
+) -> Result<Vec<String>, Error> {
+    let unreadable = |source| Error::unreadable(if folder.is_dir() { folder } else { path }, source);
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
         let entry = entry.map_err(unreadable)?;
         let name = entry.file_name().to_string_lossy().into_owned();
-        let begins =
-            name.starts_with(prefix) && (prefix_words.is_empty() || words(&name).starts_with(&prefix_words));
-        if begins && !name.starts_with('.') && !is_folder(&entry) {
+        if !name.starts_with('.') && is_wanted(&entry, &name) {
             names.push(name);
         }
     }
