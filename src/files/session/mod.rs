@@ -106,38 +106,32 @@ impl Session {
         if session.materials.is_empty() {
             return Err(bad("expected at least one material, found none".to_owned()));
         }
-        if let Some(photograph) = &mut session.photograph {
-            photograph.path = named(&photograph.path, path)?;
+        if session.materials.iter().any(|material| material.path.is_some() == material.built_in.is_some()) {
+            return Err(bad("expected a path or the number of a built-in material".to_owned()));
+        }
+        for name in session.paths_mut() {
+            *name = named(name, path)?;
         }
         if convention::is_file(Path::new(&session.convention)) {
             session.convention = named(Path::new(&session.convention), path)?.display().to_string();
         }
-        for name in session.dataset.iter_mut().flat_map(SessionDataset::paths_mut) {
-            *name = named(name, path)?;
-        }
-        for material in &mut session.materials {
-            match (&mut material.path, material.built_in) {
-                (Some(name), None) => *name = named(name, path)?,
-                (None, Some(_)) => {}
-                _ => return Err(bad("expected a path or the number of a built-in material".to_owned())),
-            }
-        }
         Ok(session)
     }
 
+    /// Every path but that of a convention.
+    fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let materials = self.materials.iter_mut().filter_map(|material| material.path.as_mut());
+        let photograph = self.photograph.iter_mut().map(|photograph| &mut photograph.path);
+        materials.chain(photograph).chain(self.dataset.iter_mut().flat_map(SessionDataset::paths_mut))
+    }
+
     /// The files of a session that was read from `path` which lie outside of its folder.
-    pub fn outside(&self, path: &Path) -> Vec<&Path> {
+    pub fn outside(&self, path: &Path) -> Vec<PathBuf> {
         let folder = path.parent().unwrap_or(Path::new(""));
-        let materials = self.materials.iter().filter_map(|material| material.path.as_deref());
-        let photograph = self.photograph.iter().map(|photograph| photograph.path.as_path());
-        let dataset = self.dataset.iter().flat_map(SessionDataset::paths).map(PathBuf::as_path);
-        let convention = Some(Path::new(&self.convention)).filter(|path| convention::is_file(path));
-        materials
-            .chain(photograph)
-            .chain(dataset)
-            .chain(convention)
-            .filter(|file| is_outside(file, folder))
-            .collect()
+        let convention = Some(PathBuf::from(&self.convention)).filter(|path| convention::is_file(path));
+        let mut session = self.clone();
+        let all = session.paths_mut().map(|path| path.clone()).chain(convention);
+        all.filter(|file| is_outside(file, folder)).collect()
     }
 
     /// The text of the session file `path`: the paths of materials are relative to its folder.
@@ -151,13 +145,7 @@ impl Session {
         }
         let mut session = self.clone();
         let folder = absolute(path.parent().unwrap_or(Path::new("")));
-        for material in &mut session.materials {
-            material.path = material.path.as_ref().map(|path| relative(&absolute(path), &folder));
-        }
-        if let Some(photograph) = &mut session.photograph {
-            photograph.path = relative(&absolute(&photograph.path), &folder);
-        }
-        for path in session.dataset.iter_mut().flat_map(SessionDataset::paths_mut) {
+        for path in session.paths_mut() {
             *path = relative(&absolute(path), &folder);
         }
         let failed = |e: serde_json::Error| Error::Internal(format!("a session cannot be written: {e}"));
