@@ -20,7 +20,7 @@ use super::exposure::exposure;
 use super::pictures;
 use super::ranking::MaterialView;
 use svbrdf_evaluate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
-use svbrdf_files::disk::atomic::replace_own;
+use svbrdf_files::disk::atomic::replace;
 use svbrdf_files::disk::own;
 use svbrdf_files::disk::paths::plain;
 use svbrdf_files::read::{self, ReadOptions};
@@ -190,7 +190,9 @@ fn write_figure(
         max_bytes: FIGURE,
     };
     let page = report.page(&progress.part())?;
-    replace_own(path, progress, |file| file.write_all(page.html.as_bytes()))?;
+    // A link there is refused, since whoever made it did not mean this file.
+    own::check(path)?;
+    replace(path, progress, |file| file.write_all(page.html.as_bytes()))?;
     Ok(address(path))
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::progress::Progress;
 
-use crate::disk::{inputs, own};
+use crate::disk::inputs;
 use crate::error::Error;
 
 /// The program and its version, as the files that it writes name it.
@@ -134,20 +134,6 @@ pub fn replace(
 ) -> Result<(), Error> {
     inputs::check_output(path)?;
     written(path, progress, write)
-}
-
-/// [`replace`] for a file that the program named, such as a figure beside a page: a link there is refused, since whoever made it
-/// did not mean this file.
-///
-/// # Errors
-/// As [`replace`].
-pub fn replace_own(
-    path: &Path,
-    progress: &Progress,
-    write: impl FnOnce(&mut BufWriter<CancelledWriter<'_>>) -> io::Result<()>,
-) -> Result<(), Error> {
-    own::check(path)?;
-    replace(path, progress, write)
 }
 
 /// [`replace`] for a file that the program reads, changes and writes again, such as a sidecar file. It is an input from then on.

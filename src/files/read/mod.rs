@@ -35,8 +35,7 @@ pub use options::{
 };
 pub use photograph::{Photograph, Transfer, read_photograph};
 pub use record::{
-    Assumption, Certainty, Evidence, Gray, Note, Reason, SpecifiedBy, StorageConvention, Subject, Unused,
-    What,
+    Assumption, Certainty, Evidence, Note, Reason, SpecifiedBy, StorageConvention, Subject, Unused, What,
 };
 pub use result::{MapContent, Read};
 

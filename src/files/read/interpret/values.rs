@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::read::options::transfer::linear;
 use crate::read::options::{Albedo, NonFinite, ReadOptions, Role, Roughness, transfer};
 use crate::read::raster::{OutOfRange, Raster, Samples, channel_spread};
-use crate::read::record::{Assumption, Certainty, Gray, Note, Reason, StorageConvention, Subject, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Subject, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.
@@ -151,7 +151,7 @@ pub(super) fn gray_plane<T: Real>(
     let raster = &source.raster;
     let channel_spread = channel_spread(&raster.channels);
     if channel_spread > ROUNDING {
-        notes.push(Note::ChannelsDiffer { map, channel_spread, used: Gray::Red });
+        notes.push(Note::ChannelsDiffer { map, channel_spread });
     }
     clamped.add(raster.channels[0].out_of_range(), map);
     let plane = raster.channels[0].decoded(|v| unit(v, 0.0));
@@ -185,7 +185,7 @@ pub(super) fn roughness_plane<T: Real>(
     } else if largest == 0.0 {
         (channels[0].decoded(value), channels[0].out_of_range())
     } else {
-        notes.push(Note::ChannelsDiffer { map: Role::Roughness, channel_spread: largest, used: Gray::Mean });
+        notes.push(Note::ChannelsDiffer { map: Role::Roughness, channel_spread: largest });
         // Of integers exactly: their sum is one.
         let scale = channels.len() as f64 * channels[0].top();
         combined(channels, |stored| stored.iter().sum::<f64>() / scale, value)

@@ -11,8 +11,8 @@ use serde::Serialize;
 use svbrdf_core::material::Map;
 
 pub use evidence::{Evidence, StorageConvention};
-pub use note::{Gray, Note, SpecifiedBy, Subject, Unused};
-pub use reason::{Reason, SpaceKnown};
+pub use note::{Note, SpecifiedBy, Subject, Unused};
+pub use reason::Reason;
 
 /// The subject of an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]

@@ -54,15 +54,6 @@ pub enum Unused {
     Blender,
 }
 
-/// The value of a gray map whose channels differ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
-pub enum Gray {
-    #[display("red is used")]
-    Red,
-    #[display("their mean is used")]
-    Mean,
-}
-
 /// The subject of a decoding, for messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
 pub enum Subject {
@@ -122,10 +113,10 @@ pub enum Note {
     AlphaIgnored { map: Role },
     /// The channels of a gray map differ by up to `channel_spread`, in [0, 1].
     #[display(
-        "The red, green and blue of the {} map differ by up to {channel_spread:.4}; {used}.",
-        map.name()
+        "The red, green and blue of the {} map differ by up to {channel_spread:.4}; {} is used.",
+        map.name(), if *map == Role::Roughness { "their mean" } else { "red" }
     )]
-    ChannelsDiffer { map: Role, channel_spread: f64, used: Gray },
+    ChannelsDiffer { map: Role, channel_spread: f64 },
     #[display(
         "The two widths of the roughness map differ by up to {channel_spread:.4}; an isotropic lobe replaces them."
     )]

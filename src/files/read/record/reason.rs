@@ -33,10 +33,10 @@ pub enum Reason {
     PackingName {
         file: PathBuf,
     },
-    #[display("the file declares {space}{known}")]
+    #[display("the file declares {space}{}", if *is_known { "" } else { ", which is not known here" })]
     ColourSpace {
         space: String,
-        known: SpaceKnown,
+        is_known: bool,
     },
     /// Colours of 8 or 16 bits are display-encoded unless the evidence, weighed as log odds of linear, outweighs that.
     #[display("{}", evidence.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))]
@@ -225,15 +225,6 @@ fn sizes(maps: &[(Role, [usize; 2])]) -> String {
     maps.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// How well a colour space is known here.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Display)]
-pub enum SpaceKnown {
-    #[display("")]
-    Exactly,
-    #[display(", which is not known here")]
-    Unknown,
-}
-
 impl Reason {
     /// Whether a specification, a name, or the user states it: not only a measurement of pixels, and not a custom that a
     /// file need not follow.
@@ -244,7 +235,7 @@ impl Reason {
                 true
             }
             Self::MetallicMap { .. } | Self::SpecularMap | Self::NeitherMap => true,
-            Self::ColourSpace { known, .. } => *known == SpaceKnown::Exactly,
+            Self::ColourSpace { is_known, .. } => *is_known,
             // A flat map points nowhere.
             Self::Curl(None) => true,
             // A picture that is named after normals holds them in the usual way where their lengths confirm it.

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::read::options::transfer::ColourSpace;
 use crate::read::options::{Albedo, Role};
 use crate::read::raster::Raster;
-use crate::read::record::{Certainty, Reason, SpaceKnown, StorageConvention, Subject};
+use crate::read::record::{Certainty, Reason, StorageConvention, Subject};
 use crate::read::stored::{DecodedPicture, Field, Inferred, StoredMap};
 
 /// Stored normals as nodes decode them: 2 n - 1.
@@ -186,10 +186,8 @@ fn in_rec709(source: StoredMap, space: Option<&str>) -> LoadedInput {
 /// How colours of this colour space are stored once they are [brought to Rec. 709](in_rec709).
 fn encoding(name: &str) -> Inferred<Albedo> {
     let space = ColourSpace::of_name(name);
-    let (known, certainty) = match space {
-        Some(_) => (SpaceKnown::Exactly, Certainty::Sure),
-        None => (SpaceKnown::Unknown, Certainty::Unsure),
-    };
+    let is_known = space.is_some();
+    let certainty = if is_known { Certainty::Sure } else { Certainty::Unsure };
     let albedo = space.and_then(|space| space.albedo()).unwrap_or(Albedo::Linear);
-    Some((albedo, Reason::ColourSpace { space: name.to_owned(), known }, certainty))
+    Some((albedo, Reason::ColourSpace { space: name.to_owned(), is_known }, certainty))
 }
