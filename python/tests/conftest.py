@@ -8,6 +8,16 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
+
+try:
+    import torch
+
+    if not torch.cuda.is_available():
+        # Triton reads it when it is imported.
+        os.environ["TRITON_INTERPRET"] = "1"
+    from svbrdf import _fused
+except ImportError:
+    _fused = None  # type: ignore[assignment]
 import svbrdf
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -40,6 +50,13 @@ def problems(name: str, report: Any) -> list[str]:
         if "properties" in part:
             part["additionalProperties"] = False
     return [error.message for error in jsonschema.Draft202012Validator(schema).iter_errors(report)]
+
+
+@pytest.fixture(autouse=True)
+def interpreter_is_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Tensors of the processor take plain PyTorch, but in the tests of the kernel."""
+    if _fused:
+        monkeypatch.setattr(_fused, "INTERPRETED", False)
 
 
 @pytest.fixture(scope="session")

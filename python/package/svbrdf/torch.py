@@ -2,16 +2,16 @@
 
 Plain PyTorch, to be read and changed. It computes what the core computes: Algorithms 1 and 3 of
 Deschaintre et al. (2018-2020) in each of `svbrdf.CONVENTIONS`, whose renderer or norm may be another, in the scenes of
-the same seeds. In float64 it agrees
-with the core within 1e-12, in float32 within 1e-5 (relative). No gradient is NaN: not at roughness 0, not at l = -v,
-not on black texels.
+the same seeds. In float64 it agrees with the core within 1e-12, in float32 within 1e-5 (relative). No gradient is NaN:
+not at roughness 0, not at l = -v, not on black texels. On a CUDA card, `RenderingLoss` is one kernel, in `_kernel.py`.
 
     loss = svbrdf.torch.RenderingLoss()
     for ground_truth, photo in batches:
         loss(network(photo), ground_truth).backward()
 
-Every call samples new scenes, as the papers train; `seed` gives the same ones again. `torch.compile(loss)` computes the
-same several times faster. The scenes are sampled outside of the compiled graph: no seed compiles anything anew.
+Every call samples new scenes, as the papers train; `seed` gives the same ones again. Without the kernel,
+`torch.compile(loss)` computes the same several times faster. The scenes are sampled outside of the compiled graph: no
+seed compiles anything anew.
 
 Maps have channels first and any number of batch dimensions before them: normal, diffuse and specular ... x 3 x H x W,
 roughness ... x 1 x H x W. Values are linear; colours and roughness lie in [0, 1]. Shapes are checked in every call,
@@ -26,6 +26,7 @@ A vector is three planes here, its components: ... x 1 x H x W each. Everything 
 computed once per material for all scenes.
 """
 
+import warnings
 from collections.abc import Sequence
 from math import hypot, pi
 from typing import Any, Literal, NamedTuple
@@ -33,6 +34,7 @@ from typing import Any, Literal, NamedTuple
 import torch
 from torch import Tensor
 
+from . import _fused
 from ._maps import Maps, check_shapes, check_values, is_compiling, outside_of_graph, working_type
 from ._scenes import CONVENTIONS, Convention, Scene, sample_scenes
 
@@ -56,8 +58,10 @@ class RenderingLoss(torch.nn.Module):
 
     Where the norm of the convention is the mean square, that of (R_gt - R_pred)^2.
 
-    Without `torch.compile`, it computes the gradient together with the loss, scene after scene, so that it needs the
-    memory of one scene. It then has first derivatives only; `scene_losses` has all.
+    Maps on a CUDA card take one Triton kernel for loss and gradient, in the conventions of Algorithm 3 and the log L1
+    norm, unless the ground truth needs a gradient. Without it and without `torch.compile`, the gradient is computed
+    together with the loss, scene after scene, in the memory of one scene. Both ways have first derivatives only;
+    `scene_losses` has all.
 
     The scenes of a call are named by its `seed`. Without, they are new in each call, by the generator of PyTorch:
     `torch.manual_seed` makes a run repeatable. The papers train so, on 6 + 3 new scenes for every batch. Validate with
@@ -72,6 +76,7 @@ class RenderingLoss(torch.nn.Module):
         straight_through: Whether diffuse, specular and roughness of the prediction are clamped to their limits with the
             gradient of values that are not, so that an optimizer can bring them back: see `straight_through`.
         check: Whether the first call checks the values of the maps, for which it copies them to the CPU.
+        fused: Whether maps on a CUDA card take the fused kernel, where it has the convention.
 
     Raises:
         ValueError: There is no such convention, or no scene, or a light or view is not above the plane.
@@ -87,6 +92,7 @@ class RenderingLoss(torch.nn.Module):
         scenes: Sequence[Scene] | None = None,
         straight_through: bool = False,
         check: bool = True,
+        fused: bool = True,
     ) -> None:
         super().__init__()
         if convention not in CONVENTIONS:
@@ -97,41 +103,72 @@ class RenderingLoss(torch.nn.Module):
         self.near, self.distant = near, distant
         self.sampler: Literal["random", "sobol"] = sampler
         self.scenes = scenes
+        self._given = None if scenes is None else endpoints(scenes)
         self.straight_through = straight_through
         self.check = check
+        self.fused = fused
+        self._is_told = not fused
 
-    def forward(self, prediction: Maps, ground_truth: Maps, *, seed: int | None = None) -> Tensor:
+    def forward(
+        self, prediction: Maps, ground_truth: Maps, *, seed: int | None = None, points: Tensor | None = None
+    ) -> Tensor:
         """The mean loss of a batch, over the scenes that `seed` names; None: new ones.
+
+        `points` are the `endpoints` of scenes to use instead, such as a tensor on the card that a CUDA graph reads.
 
         Raises:
             TypeError: A material is not `Maps` of tensors.
             ValueError: A map has another shape or, in the first call, values that are not those of a material.
+            RuntimeError: A CUDA graph is captured without `points`: its replays would not sample.
         """
-        check_shapes(prediction=prediction, ground_truth=ground_truth)
-        self._check_once(prediction, ground_truth)
-        points = self._endpoints(seed)
+        is_compiled = is_compiling()
+        if not is_compiled:
+            self._check(prediction, ground_truth)
+        is_fused = self.fused and _fused.takes(prediction[0]) and not _fused.obstacle(self.convention, ground_truth)
+        if is_compiled and not is_fused:
+            # This would break the graph that holds the kernel.
+            self._check(prediction, ground_truth)
+        if points is None:
+            points = self._points_for(prediction[0], is_compiled, seed) if is_fused else self._endpoints(seed)
         if self.straight_through:
             prediction = straight_through(prediction, self.convention)
-        if torch.is_grad_enabled() and not is_compiling():
+        if is_fused:
+            return _fused.fused_loss(points, self.convention, prediction, ground_truth)
+        if torch.is_grad_enabled() and not is_compiled:
             return _MeanLoss.apply(points, self.convention, *prediction, *ground_truth)
         return _losses(prediction, ground_truth, points, self.convention).mean()
 
     @outside_of_graph
-    def _check_once(self, prediction: Maps, ground_truth: Maps) -> None:
+    def _check(self, prediction: Maps, ground_truth: Maps) -> None:
+        check_shapes(prediction=prediction, ground_truth=ground_truth)
         if self.check:
             check_values(prediction=prediction, ground_truth=ground_truth)
             self.check = False
+        if not self._is_told and _fused.takes(prediction[0]):
+            self._is_told = True
+            if obstacle := _fused.obstacle(self.convention, ground_truth):
+                told = f"RenderingLoss: without the fused kernel, many times slower: {obstacle}"
+                warnings.warn(told, stacklevel=2)
 
     @outside_of_graph
     def _endpoints(self, seed: int | None) -> Tensor:
-        scenes = self.scenes
-        if scenes is None:
-            if seed is None:
-                seed = int(torch.randint(2**63 - 1, (), device="cpu"))
-            scenes = sample_scenes(
-                self.near, self.distant, seed=seed, sampler=self.sampler, convention=self.convention.name
+        if self._given is not None:
+            return self._given
+        return _sampled(seed, self.near, self.distant, self.sampler, self.convention.name, False)
+
+    def _points_for(self, map: Tensor, is_compiled: bool, seed: int | None) -> Tensor:
+        """Endpoints of scenes in memory that the card of `map` copies without anybody waiting for it."""
+        if is_compiled and self._given is not None:
+            return self._given
+        if is_compiled:
+            return _sampled_in_graph(seed, self.near, self.distant, self.sampler, self.convention.name, map.is_cuda)
+        if map.is_cuda and torch.cuda.is_current_stream_capturing():
+            raise RuntimeError(
+                "a CUDA graph repeats the scenes of its capture; give points=, a tensor on the card, and copy "
+                "svbrdf.torch.endpoints(scenes) of new scenes into it before each replay"
             )
-        return endpoints(scenes)
+        points = self._endpoints(seed)
+        return points.pin_memory() if map.is_cuda else points
 
 
 def scene_losses(prediction: Maps, ground_truth: Maps, scenes: Sequence[Scene], convention: Convention) -> Tensor:
@@ -210,10 +247,9 @@ class _MeanLoss(torch.autograd.Function):
         return total
 
     @staticmethod
-    @torch.autograd.function.once_differentiable  # type: ignore[untyped-decorator]
     def backward(ctx: Any, factor: Tensor) -> tuple[Tensor | None, ...]:
-        gradients = iter(ctx.saved_tensors)
-        return tuple(next(gradients) * factor if wanted else None for wanted in ctx.needs_input_grad)
+        gradients = iter(_fused.first_derivatives(factor, ctx.saved_tensors))
+        return tuple(next(gradients) if wanted else None for wanted in ctx.needs_input_grad)
 
 
 def _leaves(tensors: Sequence[Tensor], wanted: Sequence[bool]) -> list[Tensor]:
@@ -396,6 +432,23 @@ def endpoints(scenes: Sequence[Scene]) -> Tensor:
         values = [c / length for w, length in zip((light, view), lengths, strict=True) for c in w]
         rows.append([float(kind == "near"), *values])
     return torch.tensor(rows, dtype=torch.float64)
+
+
+def _sampled(seed: int | None, near: int, distant: int, sampler: str, convention: str, is_pinned: bool) -> Tensor:
+    """The endpoints of the scenes of a seed, or of a new one."""
+    if seed is None:
+        seed = int(torch.randint(2**63 - 1, (), device="cpu"))
+    names: Any = {"sampler": sampler, "convention": convention}
+    points = endpoints(sample_scenes(near, distant, seed=seed, **names))
+    return points.pin_memory() if is_pinned else points
+
+
+# On the processor, so that CUDA graphs of a compiler, which would repeat the scenes, leave it out.
+_sampled_in_graph = _fused.operator(
+    "svbrdf::sample_scenes",
+    _sampled,
+    lambda seed, near, distant, *_: torch.empty(near + distant, 7, dtype=torch.float64),
+)
 
 
 def positions(height: int, width: int) -> tuple[Tensor, Tensor]:
