@@ -1,9 +1,12 @@
 """Measures what the loss of a training step costs in PyTorch, beside the plain lines that are copied for it.
 
-python measure_training.py [BATCH ...]
+python measure_training.py [BATCH ...] [--side SIDE ...] [--rounds ROUNDS]
 
-Forward and backward of the loss of a batch of predictions at 256 x 256, 6 + 3 scenes, 2 threads, float32: milliseconds,
-the median over rounds in which the variants take turns, and the memory of the tensors that are alive at the peak.
+Forward and backward of the loss of a batch of predictions, 6 + 3 scenes, float32: milliseconds, the median over rounds
+in which the variants take turns, the memory of the tensors that are alive at the peak, and how many kernels a card
+launches and which bytes they read and write, counted on the processor. On a CUDA card the times are those of the card
+between two events; the fused kernel is also replayed in a CUDA graph, where no time of the processor is left, and its
+gradient compared with that of float64. Without a card, the times are those of 2 threads of the processor.
 """
 
 import argparse
@@ -15,8 +18,12 @@ from typing import Any
 
 import svbrdf
 import torch
-from svbrdf.torch import Maps, RenderingLoss
+from svbrdf.torch import Maps, RenderingLoss, endpoints
 from torch.profiler import ProfilerActivity, profile
+from torch.utils._python_dispatch import TorchDispatchMode
+
+CARD = torch.cuda.is_available()
+DEVICE = "cuda" if CARD else "cpu"
 
 
 def dot(a: Any, b: Any) -> Any:
@@ -42,29 +49,80 @@ def plain_loss(prediction: Maps, ground_truth: Maps, scenes: Sequence[svbrdf.Sce
     """The loss of `plain_render`."""
     height, width = prediction.normal.shape[-2:]
     edge = (height - 1) / (width - 1)
-    x = torch.linspace(-1, 1, width).expand(height, width)
-    y = torch.linspace(edge, -edge, height)[:, None].expand(height, width)
+    x = torch.linspace(-1, 1, width, device=prediction.normal.device).expand(height, width)
+    y = torch.linspace(edge, -edge, height, device=x.device)[:, None].expand(height, width)
     position = torch.stack([x, y, torch.zeros_like(x)])
-    total = torch.zeros(())
+    total = torch.zeros((), device=x.device)
     for kind, view, light in scenes:
-        c = position if kind == "near" else torch.zeros(3, 1, 1)
-        w_l, w_v = (torch.tensor(w)[:, None, None] - c for w in (light, view))
+        c = position if kind == "near" else torch.zeros(3, 1, 1, device=x.device)
+        w_l, w_v = (torch.tensor(w, device=x.device)[:, None, None] - c for w in (light, view))
         logs = [torch.log(plain_render(maps, w_l, w_v) + 0.01) for maps in (prediction, ground_truth)]
         total = total + (logs[0] - logs[1]).abs().mean()
     return total / len(scenes)
 
 
-def random_maps(batch: int, side: int, seed: int, requires_grad: bool) -> Maps:
+def random_maps(batch: int, side: int, seed: int, device: str = DEVICE) -> Maps:
     """Random maps; the normals are up to 50 degrees from z."""
     generator = torch.Generator().manual_seed(seed)
     maps = [0.1 + 0.8 * torch.rand(batch, channels, side, side, generator=generator) for channels in (3, 3, 3, 1)]
     maps[0][:, :2] = 2 * maps[0][:, :2] - 1
     maps[0][:, 2] = 1
-    return Maps(*(map.requires_grad_(requires_grad) for map in maps))
+    return Maps(*(map.to(device) for map in maps))
+
+
+class Counted(TorchDispatchMode):  # type: ignore[misc]
+    """Counts the operations that a card launches a kernel for, and the bytes that they read and write."""
+
+    launches, moved = 0, 0
+
+    def __torch_dispatch__(self, operation: Any, types: Any, args: Any = (), kwargs: Any = None) -> Any:
+        """Counts one operation, unless it is a view."""
+        result = operation(*args, **(kwargs or {}))
+        alias = operation._schema.returns[0].alias_info if operation._schema.returns else None
+        if alias is None or alias.is_write:
+            self.launches += 1
+            tensors = [t for t in (*args, result) if isinstance(t, torch.Tensor)]
+            self.moved += sum(t.numel() * t.element_size() for t in tensors)
+        return result
+
+
+def step(loss: Callable[..., Any], prediction: Maps, ground_truth: Maps) -> list[Any]:
+    """Forward and backward: the loss and the gradients."""
+    leaves = Maps(*(map.detach().requires_grad_() for map in prediction))
+    value = loss(leaves, ground_truth)
+    value.backward()
+    return [value.detach(), *(leaf.grad for leaf in leaves)]
+
+
+def counted(loss: Callable[..., Any], texels: int) -> str:
+    """The launches and MB of a step, counted at 64 x 64 texels on the processor."""
+    pair = [random_maps(1, 64, seed, "cpu") for seed in (1, 2)]
+    with Counted() as count:
+        step(loss, *pair)
+    return f"{count.launches:9} {count.moved / 64**2 * texels / 1e6:9.0f}"
+
+
+def milliseconds(work: Callable[[], object]) -> float:
+    """The time of `work`: on a card, between two events."""
+    if not CARD:
+        start = time.perf_counter()
+        work()
+        return 1e3 * (time.perf_counter() - start)
+    events = [torch.cuda.Event(enable_timing=True) for _ in range(2)]
+    events[0].record()
+    work()
+    events[1].record()
+    torch.cuda.synchronize()
+    return float(events[0].elapsed_time(events[1]))
 
 
 def peak(work: Callable[[], object]) -> float:
     """The memory of the tensors that `work` has at its peak, in MiB, beside those that are there before."""
+    if CARD:
+        torch.cuda.reset_peak_memory_stats()
+        before = torch.cuda.memory_allocated()
+        work()
+        return float(torch.cuda.max_memory_allocated() - before) / 2**20
     with profile(activities=[ProfilerActivity.CPU], profile_memory=True) as profiled:
         work()
     events = [event for event in profiled.profiler.kineto_results.events() if event.name() == "[memory]"]
@@ -77,44 +135,69 @@ def peak(work: Callable[[], object]) -> float:
     return most / 2**20
 
 
-def measure(batch: int, side: int, rounds: int) -> None:
+def replayed(loss: RenderingLoss, pair: Sequence[Maps], scenes: Sequence[svbrdf.Scene]) -> Callable[[], object]:
+    """A CUDA graph of a step, whose scenes can be copied into `points`."""
+    points, graph, stream = endpoints(scenes).to(DEVICE), torch.cuda.CUDAGraph(), torch.cuda.Stream()
+    with torch.cuda.stream(stream):
+        step(lambda *maps: loss(*maps, points=points), *pair)
+    torch.cuda.synchronize()
+    with torch.cuda.graph(graph, stream=stream):
+        step(lambda *maps: loss(*maps, points=points), *pair)
+    return lambda points=points: graph.replay()  # type: ignore[misc]
+
+
+def measure(batch: int, side: int, rounds: int, compiles: bool) -> None:
     """Prints the rows of a batch."""
-    prediction, ground_truth = random_maps(batch, side, 1, True), random_maps(batch, side, 2, False)
-    scenes = svbrdf.sample_scenes(6, 3)
-    ours = RenderingLoss(scenes=scenes)
-    losses: dict[str, Callable[[], Any]] = {
-        "plain lines": lambda: plain_loss(prediction, ground_truth, scenes),
-        "svbrdf.torch": lambda: ours(prediction, ground_truth),
+    pair, scenes = [random_maps(batch, side, seed) for seed in (1, 2)], svbrdf.sample_scenes(6, 3)
+    by_pytorch, fused = RenderingLoss(scenes=scenes, fused=False), RenderingLoss(scenes=scenes)
+    losses: dict[str, Callable[..., Any]] = {
+        "plain lines": lambda p, g: plain_loss(p, g, scenes),
+        "svbrdf.torch, fused=False": by_pytorch,
     }
-    if hasattr(torch, "compile"):
+    counts = {name: counted(loss, batch * side**2) for name, loss in losses.items()}
+    if hasattr(torch, "compile") and compiles:
         torch.compiler.reset()
-        plain_compiled, compiled = torch.compile(plain_loss), torch.compile(ours)
-        losses["plain lines, compiled"] = lambda: plain_compiled(prediction, ground_truth, scenes)
-        losses["svbrdf.torch, compiled"] = lambda: compiled(prediction, ground_truth)
-
-    def step(loss: Callable[[], Any]) -> float:
-        for map in prediction:
-            map.grad = None
-        value = loss()
-        value.backward()
-        return float(value.item())
-
-    values = {name: step(loss) for name, loss in losses.items()}
-    expected = values["plain lines"]
-    assert all(math.isclose(value, expected, rel_tol=1e-4) for value in values.values()), values
-    times: dict[str, list[float]] = {name: [] for name in losses}
+        plain_compiled = torch.compile(plain_loss)
+        losses["plain lines, compiled"] = lambda p, g: plain_compiled(p, g, scenes)
+        losses["svbrdf.torch, fused=False, compiled"] = torch.compile(by_pytorch)
+    # The copy of the scenes, the kernel, the sum over its programs, and the product with the factor of the loss; the
+    # kernel reads 20 values of a texel and writes 10, which the product reads and writes.
+    counts["svbrdf.torch, fused"] = f"{4:9} {batch * side**2 * 200 / 1e6:9.0f}"
+    if CARD:
+        losses["svbrdf.torch, fused"] = fused
+    found = {name: step(loss, *pair) for name, loss in losses.items()}
+    assert all(math.isclose(one[0], found["plain lines"][0], rel_tol=1e-4) for one in found.values()), found
+    work: dict[str, Callable[[], object]] = {
+        name: lambda loss=loss: step(loss, *pair)  # type: ignore[misc]
+        for name, loss in losses.items()
+    }
+    if CARD:
+        work["svbrdf.torch, fused, CUDA graph"] = replayed(fused, pair, scenes)
+    times = {name: [milliseconds(one) for _ in range(3)][3:] for name, one in work.items()}
     for _ in range(rounds):
-        for name, loss in losses.items():
-            start = time.perf_counter()
-            step(loss)
-            times[name].append(1e3 * (time.perf_counter() - start))
-    for name, loss in losses.items():
-        print(f"batch of {batch}, {name:24} {statistics.median(times[name]):8.1f} {peak(lambda: step(loss)):8.0f}")  # noqa: B023
+        for name, one in work.items():
+            times[name].append(milliseconds(one))
+    print(f"batch of {batch}, {side} x {side} {'':23} {'ms':>9} {'MiB':>8} {'launches':>9} {'MB':>9}")
+    for name in dict.fromkeys((*work, *counts)):
+        row = f"{statistics.median(times[name]):9.3f} {peak(work[name]):8.0f}" if name in work else f"{'-':>9} {'-':>8}"
+        print(f"{name:40} {row} {counts.get(name, '')}")
+    if CARD:
+        wide = step(by_pytorch, *(Maps(*(map.double() for map in maps)) for maps in pair))
+        apart = [((a - b).norm() / b.norm()).item() for a, b in zip(found["svbrdf.torch, fused"], wide, strict=True)]
+        print("loss and gradients of the kernel against float64: " + ", ".join(f"{one:.1e}" for one in apart))
 
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-parser.add_argument("batch", nargs="*", type=int, default=[1, 8])
+parser.add_argument("batch", nargs="*", type=int, default=[8] if CARD else [1, 8])
+parser.add_argument("--side", nargs="+", type=int, default=[256, 512] if CARD else [256])
+parser.add_argument("--rounds", type=int, default=16)
+parsed = parser.parse_args()
 torch.set_num_threads(2)
-print(f"PyTorch {torch.__version__}\n{'':34} {'ms':>9} {'MiB':>8}")
-for batch in parser.parse_args().batch:
-    measure(batch, side=256, rounds=16)
+where = (
+    torch.cuda.get_device_name() if CARD else "no CUDA card: the processor; the fused kernel is counted, not measured"
+)
+print(f"PyTorch {torch.__version__}, {where}")
+for side in parsed.side:
+    for batch in parsed.batch:
+        # Compiling takes most of the time.
+        measure(batch, side, parsed.rounds, compiles=side == parsed.side[0])
