@@ -10,7 +10,7 @@ import pytest
 import svbrdf
 from test_torch import gradients, random_maps
 
-if os.environ.get("SVBRDF_NEEDS_TORCH"):
+if os.environ.get("SVBRDF_NEEDS_TRITON"):
     import triton  # noqa: F401
 else:
     pytest.importorskip("triton", reason="Triton is not installed")
