@@ -470,7 +470,13 @@ impl egui::DroppedFile for Dropped {
             Self::Panic => panic!("a planted fault"),
             Self::LostDevice(gpu) => {
                 gpu.lose();
-                Path::new(gpu.loss_by_now().unwrap())
+                // On another thread, as by a driver: it wakes the window, whose input is locked here.
+                let told = gpu.clone();
+                std::thread::spawn(move || told.loss_by_now().is_some());
+                while gpu.loss().is_none() {
+                    std::thread::yield_now();
+                }
+                Path::new("none.png")
             }
         }
     }
