@@ -41,11 +41,17 @@ pub struct StripArgs {
     #[arg(long, requires = "ground_truth")]
     pairs: bool,
 
-    #[command(flatten)]
-    paper: PaperArgs,
+    /// Width of the figure in millimetres [default: 88 for up to three cells in a row, else 180]
+    #[arg(long, value_name = "MM", value_parser = values::millimetres)]
+    width_mm: Option<f64>,
 
-    #[command(flatten)]
-    of_data_set: OfDataSetArgs,
+    /// Size of its text in points
+    #[arg(long, value_name = "PT", value_parser = values::points, default_value_t = Paper::default().text_pt)]
+    text_pt: f64,
+
+    /// Writes the loss of each prediction of a data set below its cell: those in this folder, to which the others are added
+    #[arg(long, value_name = "DIR")]
+    results: Option<PathBuf>,
 
     /// Columns: rendering, normal, diffuse, specular, roughness; with a colon and a kind, or a colon alone, differences:
     /// rendering:log, normal:; of a session, the difference that was chosen in its window
@@ -77,26 +83,6 @@ pub struct StripArgs {
 const OF_DATA_SET: [&str; 1] = ["rendering"];
 const OF_MATERIALS: [&str; 6] = ["normal", "diffuse", "roughness", "specular", "rendering", "rendering:"];
 
-/// What the figure of a data set has beside that of materials.
-#[derive(Debug, clap::Args)]
-struct OfDataSetArgs {
-    /// Writes the loss of each prediction of a data set below its cell: those in this folder, to which the others are added
-    #[arg(long, value_name = "DIR")]
-    results: Option<PathBuf>,
-}
-
-/// The size of a figure.
-#[derive(Debug, clap::Args)]
-struct PaperArgs {
-    /// Width of the figure in millimetres [default: 88 for up to three cells in a row, else 180]
-    #[arg(long, value_name = "MM", value_parser = values::millimetres)]
-    width_mm: Option<f64>,
-
-    /// Size of its text in points
-    #[arg(long, value_name = "PT", value_parser = values::points, default_value_t = Paper::default().text_pt)]
-    text_pt: f64,
-}
-
 #[derive(Debug)]
 struct StripJob {
     materials: MaterialJob,
@@ -108,7 +94,7 @@ struct StripJob {
 impl StripArgs {
     pub fn job(mut self, given: &Specified) -> NewJob {
         let destination = FigureDestination::new(&self.output)?;
-        let paper = Paper { width_mm: self.paper.width_mm, text_pt: self.paper.text_pt };
+        let paper = Paper { width_mm: self.width_mm, text_pt: self.text_pt };
         let is_data_set = self.dataset || self.pairs;
         if self.columns.is_empty() {
             let columns: &[&str] = if is_data_set { &OF_DATA_SET } else { &OF_MATERIALS };
@@ -118,11 +104,10 @@ impl StripArgs {
             let columns = columns(&self, None)?;
             self.refuse_unused(&columns, given)?;
             let look = Look { columns, exposure_ev: self.rendering.exposure, crops: self.crops, paper };
-            let results = self.of_data_set.results;
-            return strip_methods::job(&self.comparison, self.pairs, look, results, self.output);
+            return strip_methods::job(&self.comparison, self.pairs, look, self.results, self.output);
         }
         let reason = "losses below cells are those of --dataset or --pairs";
-        refuse(self.of_data_set.results.is_some(), "results", reason)?;
+        refuse(self.results.is_some(), "results", reason)?;
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         let session = comparison.session.as_ref();
         let columns = columns(&self, session)?;

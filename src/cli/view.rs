@@ -59,14 +59,6 @@ pub struct DatasetArgs {
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
 
-    #[command(flatten)]
-    losses: DatasetLossArgs,
-}
-
-/// The losses of a data set in the window.
-#[derive(Debug, clap::Args)]
-#[cfg_attr(not(feature = "viewer"), allow(dead_code, reason = "there is no window to open"))]
-pub struct DatasetLossArgs {
     /// Computes the floor of every ground truth, too, as `svbrdf rank --diagnose` does: losses below it are not resolvable
     #[arg(long)]
     diagnose: bool,
@@ -84,7 +76,8 @@ impl ViewArgs {
         let materials = &self.materials;
         let is_dataset = self.dataset.dataset || self.dataset.pairs;
         if !is_dataset {
-            given.refuse::<DatasetLossArgs>(ONLY_OF_DATASET)?;
+            refuse(self.dataset.diagnose, "diagnose", ONLY_OF_DATASET)?;
+            given.refuse::<SceneArgs<Accuracy>>(ONLY_OF_DATASET)?;
             let is_session = materials.paths().any(|path| Session::is_named(path));
             refuse(self.dataset.results.is_some() && !is_session, "results", ONLY_OF_DATASET)?;
         }
@@ -173,11 +166,11 @@ impl ViewArgs {
 /// The data set, matched by name.
 #[cfg(feature = "viewer")]
 fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
-    let DatasetArgs { pairs, losses, results, .. } = &args.dataset;
+    let DatasetArgs { pairs, results, diagnose, accuracy, .. } = &args.dataset;
     let source = cases::source(&args.materials, *pairs)?;
-    let accuracy = losses.accuracy.options()?.accuracy();
+    let accuracy = accuracy.options()?.accuracy();
     let mut dataset = svbrdf::OpenDataset::new(source, DatasetReading::default(), accuracy, results.clone())?;
-    dataset.settings.diagnose = losses.diagnose;
+    dataset.settings.diagnose = *diagnose;
     dataset.reading = cases::reading(&args.materials.reading, dataset.methods())?;
     Ok(dataset)
 }

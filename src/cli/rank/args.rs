@@ -47,8 +47,10 @@ pub struct RankArgs {
     #[command(flatten)]
     pub output: OutputArgs,
 
-    #[command(flatten)]
-    pub page: PageArgs,
+    /// Writes figures of materials beside the page: all, or worst:N, of the N largest mean losses
+    #[arg(long, value_name = "all|worst:N")]
+    #[arg(value_parser = offered(str::parse::<Figures>, ["all", "worst:20"]), hide_possible_values = true)]
+    pub figures: Option<Figures>,
 
     #[command(flatten)]
     pub comparison: ComparisonArgs,
@@ -82,15 +84,6 @@ pub struct DataSetArgs {
     /// does not resolve.
     #[arg(long)]
     pub diagnose: bool,
-}
-
-/// What the page of a data set has beside what is printed.
-#[derive(Debug, clap::Args)]
-pub struct PageArgs {
-    /// Writes figures of materials beside the page: all, or worst:N, of the N largest mean losses
-    #[arg(long, value_name = "all|worst:N")]
-    #[arg(value_parser = offered(str::parse::<Figures>, ["all", "worst:20"]), hide_possible_values = true)]
-    pub figures: Option<Figures>,
 }
 
 /// The format of the ranking, and the file that it is written to.

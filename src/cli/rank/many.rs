@@ -12,7 +12,7 @@ use svbrdf_evaluate::robust::RobustReport;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
-use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
+use super::args::{DataSetArgs, OutputArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use super::cases::{reading, source};
 use crate::cli::args::{Specified, refuse};
 use crate::cli::job::{Job, NewJob};
@@ -74,7 +74,7 @@ fn output(args: &RankArgs, given: &Specified, cases: &[Case]) -> Result<Output, 
     let materials = cases.iter().map(|case| &case.ground_truth).chain(predictions);
     output.check(materials.chain(args.comparison.materials.paths()))?;
     if output.format() != RankFormat::Html {
-        given.refuse::<PageArgs>("only --format html has figures beside it")?;
+        refuse(args.figures.is_some(), "figures", "only --format html has figures beside it")?;
         if args.robust {
             let reason = "the order under other questions has no results folder, no samples, no metrics, no marks, no limit and no remarks";
             given.refuse::<DataSetArgs>(reason)?;
@@ -86,7 +86,7 @@ fn output(args: &RankArgs, given: &Specified, cases: &[Case]) -> Result<Output, 
     let missing = || CommandError::usage("--format html writes a file; give --output NAME.html");
     let path = output.output.clone().ok_or_else(missing)?;
     check_destination(&path)?;
-    Ok(Output::Page { path, figures: args.page.figures })
+    Ok(Output::Page { path, figures: args.figures })
 }
 
 /// Prints the ranking, or writes the page; fails where a loss is above a limit, after that.

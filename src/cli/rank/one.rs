@@ -6,7 +6,7 @@ use svbrdf_evaluate::analyses::{MaterialReading, RankReport};
 use svbrdf_evaluate::report::{Analysis as _, NoOptions, Repetition, Report as _};
 use svbrdf_evaluate::robust::RobustReport;
 
-use super::args::{DataSetArgs, OutputArgs, PageArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
+use super::args::{DataSetArgs, OutputArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use crate::cli::args::{Specified, refuse};
 use crate::cli::job::{self, ComparisonJob, Job, NewJob, OpenedMaterials, SessionSettings};
 use crate::cli::output::{CommandError, command_line, warn_of, watched};
@@ -26,7 +26,7 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let reason = "only a data set (--dataset, --pairs) has kept results, parts, samples, metrics and marks here; `svbrdf metrics` and \
         `svbrdf diagnose` print those of one material";
     given.refuse::<DataSetArgs>(reason)?;
-    given.refuse::<PageArgs>(reason)?;
+    refuse(args.figures.is_some(), "figures", reason)?;
     if args.output.format() == RankFormat::Html {
         let problem = "--format html is for data sets; `svbrdf report` writes a page of the predictions of one material";
         return Err(CommandError::usage(problem));
