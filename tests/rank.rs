@@ -248,7 +248,7 @@ fn methods_that_lack_one_material_each_are_compared_over_the_others() {
 }
 
 #[test]
-fn equal_maps_leave_the_mean_psnr_finite() {
+fn the_mean_psnr_is_that_of_the_materials_and_the_pooled_one_that_of_their_square_errors() {
     let results: Vec<MaterialResult> = (0..12)
         .map(|i| {
             let mut result = result(i, &[("a", Some(0.2)), ("b", Some(0.3)), ("same", Some(0.4))]);
@@ -264,8 +264,11 @@ fn equal_maps_leave_the_mean_psnr_finite() {
         .collect();
     let report = ranked(&["a", "b", "same"], &results, Pick::Fixed);
     let of = |place: usize| report.methods[place].metrics["psnr_diffuse"];
+    assert!((of(0).mean - 20.6).abs() < 1e-12 && of(0).infinite == 1, "{:?}", of(0));
+    assert!(report.conditions().iter().any(|line| line.starts_with("a: 1 material with equal maps")));
+    let pooled = report.methods[0].metrics["psnr_pooled_diffuse"];
     let square_errors = (1..12).map(|i| 10_f64.powf(-(20.0 + 0.1 * f64::from(i)) / 10.0)).sum::<f64>();
-    assert!((of(0).mean - (-10.0 * (square_errors / 12.0).log10())).abs() < 1e-12, "{:?}", of(0));
+    assert!((pooled.mean - (-10.0 * (square_errors / 12.0).log10())).abs() < 1e-12, "{pooled:?}");
     let [low, high] = of(1).interval95_materials.unwrap();
     assert!(30.0 < low && low < of(1).mean && of(1).mean < high && high < 31.2, "{:?}", of(1));
     assert_eq!(of(2).mean, f64::INFINITY);

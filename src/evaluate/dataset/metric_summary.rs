@@ -10,21 +10,27 @@ use super::pick::counted;
 use super::record::MaterialResult;
 use super::summary::{DatasetReport, MethodSummary, MetricSummary};
 
-/// How values of a metric are averaged: as errors of 0 or more, which have a mean and an interval whatever they are.
+/// The beginning of the name of a PSNR of all materials together, before that of the metric.
+const POOLED: &str = "psnr_pooled_";
+
+/// How values of a metric are averaged: as errors, of which less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Scale {
-    /// The metric itself.
+    /// The metric itself, of 0 or more.
     Error,
     /// 1 - the similarity, which is at least -1.
     Similarity,
-    /// The mean square error of a PSNR in dB, in squares of the range.
+    /// A PSNR in dB, as papers average it, less being worse; that of equal maps is infinite, and in no mean.
     Decibel,
+    /// The mean square error of a PSNR, in squares of the range: that of all texels of materials of one size.
+    Pooled,
 }
 
 impl Scale {
     fn of(metric: &str) -> Self {
         match metric {
             _ if metric.starts_with("ssim") => Self::Similarity,
+            _ if metric.starts_with(POOLED) => Self::Pooled,
             _ if metric.starts_with("psnr") => Self::Decibel,
             _ => Self::Error,
         }
@@ -34,7 +40,8 @@ impl Scale {
         match self {
             Self::Error => value,
             Self::Similarity => 1.0 - value,
-            Self::Decibel => 10_f64.powf(-value / 10.0),
+            Self::Decibel => -value,
+            Self::Pooled => 10_f64.powf(-value / 10.0),
         }
     }
 
@@ -42,8 +49,17 @@ impl Scale {
         match self {
             Self::Error => error,
             Self::Similarity => (1.0 - error).max(-1.0),
-            Self::Decibel => -10.0 * error.log10(),
+            Self::Decibel => -error,
+            Self::Pooled => -10.0 * error.log10(),
         }
+    }
+
+    fn interval_of(self, errors: &[f64]) -> Option<[f64; 2]> {
+        let interval = match self {
+            Self::Decibel => interval_of_mean(errors),
+            Self::Error | Self::Similarity | Self::Pooled => interval_of_positive_mean(errors),
+        };
+        interval.and_then(|ends| self.interval(ends))
     }
 
     /// The interval of values, from that of errors.
@@ -58,16 +74,15 @@ pub(super) fn summarize_metrics(
     report: &DatasetReport,
     method: &MethodSummary,
 ) -> BTreeMap<String, MetricSummary> {
-    let summary = |(name, errors): (&str, BTreeMap<usize, f64>)| {
-        let scale = Scale::of(name);
-        let mut errors: Vec<f64> = errors.into_values().collect();
-        let interval = interval_of_positive_mean(&errors).and_then(|ends| scale.interval(ends));
+    let summary = |(name, errors): (String, BTreeMap<usize, f64>)| {
+        let (scale, mut all) = (Scale::of(&name), errors.values().copied().collect::<Vec<_>>());
         let summary = MetricSummary {
             mean: scale.value(mean(&errors)),
-            interval95_materials: interval,
-            median: scale.value(median(&mut errors).unwrap_or(f64::NAN)),
+            infinite: all.iter().filter(|error| error.is_infinite()).count(),
+            interval95_materials: scale.interval_of(&finite(&errors)),
+            median: scale.value(median(&mut all).unwrap_or(f64::NAN)),
         };
-        (name.to_owned(), summary)
+        (name, summary)
     };
     errors_of(report, method).into_iter().map(summary).collect()
 }
@@ -82,43 +97,61 @@ pub fn is_better_larger(metric: &str) -> bool {
 pub fn best_by_metric(report: &DatasetReport) -> BTreeMap<String, Vec<bool>> {
     let methods = &report.methods;
     let errors: Vec<_> = methods.iter().map(|method| errors_of(report, method)).collect();
-    let names: BTreeSet<&str> = errors.iter().flat_map(|errors| errors.keys().copied()).collect();
-    let best_of = |name: &str| -> Vec<bool> {
+    let names: BTreeSet<&String> = errors.iter().flat_map(BTreeMap::keys).collect();
+    let best_of = |name: &String| -> Vec<bool> {
         let compared =
             methods.iter().zip(&errors).map(|(method, errors)| errors.get(name).filter(|_| method.compared));
-        let mean = |errors: &BTreeMap<usize, f64>| mean(&errors.values().copied().collect::<Vec<_>>());
         let best = compared.clone().flatten().min_by(|a, b| mean(a).total_cmp(&mean(b)));
         compared.map(|errors| errors.zip(best).is_some_and(|(errors, best)| ties(errors, best))).collect()
     };
-    names.into_iter().map(|name| (name.to_owned(), best_of(name))).collect()
+    names.into_iter().map(|name| (name.clone(), best_of(name))).collect()
 }
 
 /// Whether the materials of both cannot separate a method from the best one.
 fn ties(errors: &BTreeMap<usize, f64>, best: &BTreeMap<usize, f64>) -> bool {
     let paired = errors.iter().filter_map(|(material, error)| Some(error - best.get(material)?));
-    interval_of_mean(&paired.collect::<Vec<_>>()).is_none_or(|[low, _]| low <= 0.0)
+    // Infinite ones on both sides are equal.
+    let paired: Vec<f64> =
+        paired.map(|difference| if difference.is_nan() { 0.0 } else { difference }).collect();
+    let (known, infinite): (Vec<f64>, Vec<f64>) = paired.iter().partition(|one| one.is_finite());
+    let worse = infinite.iter().filter(|difference| **difference > 0.0).count();
+    2 * worse <= paired.len() && interval_of_mean(&known).is_none_or(|[low, _]| low <= 0.0)
 }
 
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len() as f64
+/// The mean of the finite errors, or of all where none is: maps that are equal for every material have an infinite PSNR.
+fn mean(errors: &BTreeMap<usize, f64>) -> f64 {
+    let of = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let finite = finite(errors);
+    if finite.is_empty() { of(&errors.values().copied().collect::<Vec<_>>()) } else { of(&finite) }
+}
+
+fn finite(errors: &BTreeMap<usize, f64>) -> Vec<f64> {
+    errors.values().copied().filter(|error| error.is_finite()).collect()
 }
 
 /// The errors of each metric by the index of the material.
-type Errors<'a> = BTreeMap<&'a str, BTreeMap<usize, f64>>;
+type Errors = BTreeMap<String, BTreeMap<usize, f64>>;
 
-fn errors_of<'a>(report: &'a DatasetReport, method: &MethodSummary) -> Errors<'a> {
-    let mut errors: Errors<'a> = BTreeMap::new();
+fn errors_of(report: &DatasetReport, method: &MethodSummary) -> Errors {
+    let mut errors = Errors::new();
     let is_over = |result: &&MaterialResult| !method.compared || report.common.contains(&result.index);
     for result in report.results.iter().filter(is_over) {
         let counted = counted(result, &method.method, report.pick);
         for name in counted.first().map(|prediction| prediction.metrics.keys()).into_iter().flatten() {
-            let scale = Scale::of(name);
-            let all = counted.iter().filter_map(|prediction| prediction.metrics.get(name));
-            let sum: f64 = all.map(|value| scale.error(*value)).sum();
-            errors.entry(name).or_default().insert(result.index, sum / counted.len() as f64);
+            for averaged in [Some(name.clone()), pooled(name)].into_iter().flatten() {
+                let scale = Scale::of(&averaged);
+                let all = counted.iter().filter_map(|prediction| prediction.metrics.get(name));
+                let sum: f64 = all.map(|value| scale.error(*value)).sum();
+                errors.entry(averaged).or_default().insert(result.index, sum / counted.len() as f64);
+            }
         }
     }
     errors
+}
+
+/// The name of the PSNR of all materials together, where this is that of one.
+fn pooled(metric: &str) -> Option<String> {
+    metric.strip_prefix("psnr_").map(|of| format!("{POOLED}{of}"))
 }
 
 /// The names of the metrics of the results.
@@ -139,7 +172,9 @@ pub(super) fn metrics_table(report: &DatasetReport) -> Option<Table> {
         });
         [name.into()].into_iter().chain(cells).collect()
     };
-    let rows: Vec<_> = metric_names(&report.results).into_iter().map(row).collect();
+    let names: BTreeSet<&str> =
+        report.methods.iter().flat_map(|summary| summary.metrics.keys()).map(String::as_str).collect();
+    let rows: Vec<_> = names.into_iter().map(row).collect();
     let titles = ["metric, mean over materials"].into_iter().chain(titles);
     (!rows.is_empty()).then(|| Table::new(titles, rows))
 }

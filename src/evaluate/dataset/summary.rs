@@ -89,13 +89,21 @@ impl MethodSummary {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MetricSummary {
-    /// The mean; of a PSNR, that of the mean square error, which is infinite only where the maps of all materials are equal.
+    /// The mean over materials, as papers print it; of `psnr_*`, over those whose PSNR is finite; of `psnr_pooled_*`, the PSNR of the mean
+    /// square error of all materials.
     #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub mean: f64,
+    /// How many materials have an infinite PSNR: their maps are equal.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub infinite: usize,
     #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub median: f64,
     /// The 95% interval of the mean over all materials like these; `None` for fewer than 5, and where the mean is infinite.
     pub interval95_materials: Option<[f64; 2]>,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 /// The marks of a method over the materials that were diagnosed.
