@@ -8,10 +8,12 @@ use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::text::line;
 use svbrdf_files::Error;
 
+use super::names;
 use super::record::{CandidateFile, Case, Method, Source};
 use crate::report::distinct_names;
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::disk::{inputs, memory};
+use svbrdf_files::read::sets;
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];
@@ -116,9 +118,10 @@ fn method_name(path: &Path) -> String {
 
 /// Matches the materials in the folder `ground_truths` with those of the same name in the folder of each method, or at its pattern.
 ///
-/// Every file or folder there is a material, by its name without extension; a folder that holds nothing but folders is searched
-/// itself, and its name is put before theirs. Several predictions of a material are `name_0`, `name_1` and so on. A material
-/// without a prediction by a method is kept: that is a missing prediction.
+/// Every file or folder there is a material, by its name without extension, and so are the files of a set, one for each map, by what
+/// their names have in common; a folder that holds nothing but folders is searched itself, and its name is put before theirs. Several
+/// predictions of a material are `name_0`, `name_1` and so on. Other names are matched where that is one to one. A material without a
+/// prediction by a method is kept: that is a missing prediction.
 ///
 /// # Errors
 /// [`Error::Unreadable`], and [`Error::NotADataSet`] where there are no materials.
@@ -127,7 +130,8 @@ pub fn cases_of_folders(ground_truths: &Path, methods: &[Method]) -> Result<Vec<
     if truths.is_empty() {
         return Err(not_a_data_set(ground_truths, "materials", "none"));
     }
-    let found = methods.iter().map(Predictions::of).collect::<Result<Vec<_>, _>>()?;
+    let found =
+        methods.iter().map(|method| Predictions::of(method, &truths)).collect::<Result<Vec<_>, _>>()?;
     let case = |(index, (material, ground_truth)): (usize, (&String, &PathBuf))| {
         let candidates =
             methods.iter().zip(&found).flat_map(|(method, found)| found.candidates(method, material));
@@ -146,11 +150,29 @@ enum Predictions<'a> {
 }
 
 impl<'a> Predictions<'a> {
-    fn of(method: &'a Method) -> Result<Self, Error> {
-        match method.path.to_str().filter(|path| path.contains(PLACEHOLDER) && !method.path.exists()) {
-            Some(pattern) => Ok(Self::AtPattern(pattern)),
-            None => entries(&method.path).map(Self::InFolder),
+    fn of(method: &'a Method, truths: &BTreeMap<String, PathBuf>) -> Result<Self, Error> {
+        if let Some(pattern) =
+            method.path.to_str().filter(|path| path.contains(PLACEHOLDER) && !method.path.exists())
+        {
+            return Ok(Self::AtPattern(pattern));
         }
+        let mut found = entries(&method.path)?;
+        let is_sample_of = |name: &str, truth: &str| {
+            let number = name.strip_prefix(truth).and_then(|rest| rest.strip_prefix('_'));
+            number.is_some_and(|number| number.parse::<usize>().is_ok())
+        };
+        let has_name =
+            |name: &str| truths.contains_key(name) || truths.keys().any(|truth| is_sample_of(name, truth));
+        if found.keys().any(|name| has_name(name)) {
+            return Ok(Self::InFolder(found));
+        }
+        let [materials, predictions] =
+            [truths, &found].map(|all| all.keys().map(String::as_str).collect::<Vec<_>>());
+        let pairs = names::matched(&materials, &predictions).into_iter();
+        let pairs: Vec<_> =
+            pairs.map(|(material, name)| (material.to_owned(), found[name].clone())).collect();
+        found.extend(pairs);
+        Ok(Self::InFolder(found))
     }
 
     /// The predictions of a material, or the one that is missing.
@@ -225,7 +247,20 @@ fn entries(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Error> {
 }
 
 fn collect(folder: &Path, prefix: &str, found: &mut BTreeMap<String, PathBuf>) -> Result<(), Error> {
-    for path in children(folder)? {
+    let all = children(folder)?;
+    let files: Vec<String> = all
+        .iter()
+        .filter(|path| path.is_file())
+        .filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned()))
+        .collect();
+    let sets = sets(&files);
+    let in_set: HashSet<&String> = sets.values().flatten().collect();
+    found.extend(sets.keys().map(|name| (format!("{prefix}{name}"), folder.join(name))));
+    for path in all {
+        let file = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if in_set.contains(&file) {
+            continue;
+        }
         let Some(name) = path.file_stem().map(|name| name.to_string_lossy().into_owned()) else { continue };
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         if name.starts_with('.') || (path.is_file() && OTHER.contains(&extension.as_str())) {

@@ -10,6 +10,7 @@ mod evaluate;
 mod list;
 mod mark_summary;
 mod metric_summary;
+mod names;
 mod pick;
 mod ranking;
 mod record;

@@ -28,7 +28,7 @@ use std::sync::Arc;
 
 pub use formats::{Binding, Sidecar, is_prefix};
 pub use interpret::Neighbours;
-pub use names::EXTENSIONS;
+pub use names::{EXTENSIONS, sets};
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
     Roughness, TileGrid, Workflow,

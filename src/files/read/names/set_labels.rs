@@ -1,9 +1,10 @@
 //! Names of the files of a set: the words that they have in common tell no map, and the words by which libraries name the maps.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use super::label::Label;
-use super::words::words_of_file;
+use super::words::{words, words_of_file};
 use crate::read::options::Role;
 
 /// The label of each of these files, in their order.
@@ -26,6 +27,34 @@ pub(crate) fn set_labels(names: &[String]) -> Vec<Option<Label>> {
         Label::of_words(words.clone(), common)
     };
     all.iter().map(label).collect()
+}
+
+/// The sets among the files `names` of a folder, by the name of each: at least two files for different maps, the names of which have that
+/// beginning in common, and no file without a map has.
+pub fn sets(names: &[String]) -> BTreeMap<String, Vec<String>> {
+    let mut by_stem: BTreeMap<Vec<String>, Vec<(&String, Role)>> = BTreeMap::new();
+    for (name, label) in names.iter().zip(set_labels(names)) {
+        if let Some(label) = label.filter(|label| label.role != Role::Ignored && !label.stem.is_empty()) {
+            by_stem.entry(label.stem).or_default().push((name, label.role));
+        }
+    }
+    let sets = by_stem.into_values().filter(|files| files.iter().any(|(_, role)| *role != files[0].1));
+    let named = sets.filter_map(|files| {
+        let all: Vec<String> = files.iter().map(|(name, _)| (*name).clone()).collect();
+        let first = Path::new(&all[0]).file_stem()?.to_str()?.to_owned();
+        let common = first.char_indices().rev().map(|(at, _)| &first[..at]).find(|start| {
+            !start.is_empty()
+                && !start.ends_with(char::is_alphanumeric)
+                && all.iter().all(|name| name.starts_with(*start))
+        })?;
+        let name = common.trim_end_matches(|c: char| !c.is_alphanumeric());
+        (!name.is_empty()).then(|| (name.to_owned(), all))
+    });
+    let others = |name: &str, set: &[String]| {
+        let starts = |one: &&String| words(one).starts_with(&words(name)) && !set.contains(*one);
+        names.iter().any(|one| starts(&one))
+    };
+    named.filter(|(name, set)| !others(name, set)).collect()
 }
 
 /// Words for normals, the colour, roughness and metallic that go together, as their files have them.
@@ -88,6 +117,22 @@ mod tests {
         let names = ["metal_color.png", "metal_normal.png"].map(str::to_owned);
         let stems: Vec<_> = set_labels(&names).into_iter().map(|label| label.unwrap().stem).collect();
         assert_eq!(stems, [["metal"], ["metal"]]);
+    }
+
+    #[test]
+    fn files_for_the_maps_of_a_material_are_a_set_and_packed_pictures_are_none() {
+        let sets = |names: &[&str]| {
+            let names: Vec<String> = names.iter().map(|name| format!("{name}.png")).collect();
+            sets(&names).into_iter().map(|(name, files)| (name, files.len())).collect::<Vec<_>>()
+        };
+        let of = |name: &str, count: usize| (name.to_owned(), count);
+        assert_eq!(
+            sets(&["01_Nout", "01_Dout", "01_Rout", "01_Sout", "02_Nout", "02_Dout"]),
+            [of("01", 4), of("02", 2)]
+        );
+        assert_eq!(sets(&["oak_normal", "oak_rough", "tin"]), [of("oak", 2)]);
+        assert_eq!(sets(&["oak", "tin", "metal_1", "metal_2", "rough_n"]), []);
+        assert_eq!(sets(&["oak_normal", "oak_rough", "oak_2"]), [], "whose is the third?");
     }
 
     #[test]
