@@ -58,6 +58,7 @@ pub fn rank_dataset(
             .map(|(name, options)| Ok((name.clone(), read_options(options)?)))
             .collect::<PyResult<_>>()?,
         strict: asked.strict,
+        ..DatasetReading::default()
     };
     let methods = asked.methods.into_iter().map(|(name, path)| Method { name, path }).collect();
     let source = Source::Folders { ground_truths: asked.ground_truths, methods };
@@ -72,8 +73,11 @@ pub fn rank_dataset(
         ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };
     let folder = asked.results.as_deref();
-    let DatasetResults { results, notes, unkept } =
-        work::run(py, progress, |progress| dataset::run(&cases, &settings, &reading, folder, progress))?;
+    let (reading, DatasetResults { results, notes, unkept }) = work::run(py, progress, |progress| {
+        let reading = dataset::decided(&cases, reading, progress)?;
+        let found = dataset::run(&cases, &settings, &reading, folder, progress)?;
+        Ok::<_, svbrdf_evaluate::Error>((reading, found))
+    })?;
     let report = DatasetReport::new(settings, reading, results, pick);
     for warning in notes.into_iter().chain(unkept).chain(report.doubts()) {
         py.import("warnings")?.call_method1("warn", (warning,))?;

@@ -90,7 +90,7 @@ const VALUES: &[(&str, &str)] = &[
     ("layout", "wipe"), ("light", "0.1,0.2,1"), ("lights", "flash"), ("like", "gao"),
     ("map", "roughness=@gray.png"), ("max-size", "1kB"), ("metrics metrics", "psnr"), ("near", "3"), ("output", "@y.png"),
     ("over", "lights"), ("photo", "@photo.png"), ("pick", "mean"), ("plot", "@x.svg"), ("precision", "f64"),
-    ("preset", "gao"), ("range", "0.125"), ("read", "albedo=gamma2.2"),
+    ("preset", "gao"), ("range", "0.125"), ("read", "albedo=gamma2.2"), ("register", "crop=1,2"),
     ("render difference", ""), ("resize-to", "6"),
     ("results", "@kept"), ("sampler", "random"),
     ("scenes", "@two.json"), ("seed", "5"), ("shard", "1/2"), ("show", "diffuse"), ("side", "5"),

@@ -69,7 +69,8 @@ pub fn job(
     let chosen = comparison.convention.clone().unwrap_or_default();
     let convention = chosen.convention;
     let settings = DatasetSettings::new(source, chosen, TARGET_ERROR, 0, &cases);
-    let reading = cases::reading(given, &settings.methods)?;
+    let reading = cases::reading(given, &settings.methods, &[])?;
+    let reading = dataset::decided(&cases, reading, &Progress::default())?;
     let mut content = column.content;
     if let Some(difference) = &mut content.difference {
         difference.range = Some(difference.range.unwrap_or_else(|| difference.kind.default_range()));

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 #[cfg(feature = "viewer")]
 use svbrdf_core::loss::FileScenes;
 #[cfg(feature = "viewer")]
-use svbrdf_evaluate::dataset::DatasetReading;
+use svbrdf_evaluate::dataset::{DatasetReading, decided};
 #[cfg(feature = "viewer")]
 use svbrdf_files::Error;
 use svbrdf_files::convention::ChosenConvention;
@@ -171,7 +171,8 @@ fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
     let accuracy = accuracy.options()?.accuracy();
     let mut dataset = svbrdf::OpenDataset::new(source, DatasetReading::default(), accuracy, results.clone())?;
     dataset.settings.diagnose = *diagnose;
-    dataset.reading = cases::reading(&args.materials.reading, dataset.methods())?;
+    let reading = cases::reading(&args.materials.reading, dataset.methods(), &[])?;
+    dataset.reading = decided(&dataset.cases, reading, &svbrdf_core::progress::Progress::default())?;
     Ok(dataset)
 }
 

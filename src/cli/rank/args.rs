@@ -2,9 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::text::printable;
 use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::dataset::{Pick, Shard};
+use svbrdf_evaluate::registration::Registration;
 use svbrdf_evaluate::report::Report;
 use svbrdf_files::Error;
 use svbrdf_files::disk::inputs::check_output_of;
@@ -72,6 +74,14 @@ pub struct DataSetArgs {
     #[arg(value_parser = offered(str::parse::<Pick>, ["fixed", "mean", "best"]), hide_possible_values = true)]
     pub pick: Pick,
 
+    /// How predictions of another size lie on their ground truths [default: found by the maps]
+    ///
+    /// resize, centre-crop, crop=X,Y, or crop=X,Y/N of ground truths reduced by N; after NAME: for one method only. May be given
+    /// several times.
+    #[arg(long, value_name = "[METHOD:]WAY", hide_short_help = true)]
+    #[arg(value_parser = offered(registered, ["resize", "centre-crop", "crop=16,16", "crop=0,0/4"]), hide_possible_values = true)]
+    pub register: Vec<(Option<String>, Registration)>,
+
     /// Adds metrics of the maps of a data set
     ///
     /// RMSE, L1, angles and SSIM of each material, and their means.
@@ -84,6 +94,14 @@ pub struct DataSetArgs {
     /// does not resolve.
     #[arg(long)]
     pub diagnose: bool,
+}
+
+/// A registration, after the name of a method that it is for.
+fn registered(text: &str) -> Result<(Option<String>, Registration), CoreError> {
+    match text.rsplit_once(':') {
+        Some((method, way)) => Ok((Some(method.to_owned()), way.parse()?)),
+        None => Ok((None, text.parse()?)),
+    }
 }
 
 /// The format of the ranking, and the file that it is written to.

@@ -1,20 +1,46 @@
 //! The materials of a data set, and how they are read.
 
+use std::collections::BTreeMap;
+
 use svbrdf_evaluate::dataset::{DatasetReading, Source};
+use svbrdf_evaluate::registration::Registration;
 
 use crate::cli::args::MaterialArgs;
 use crate::cli::args::reading::{PairReadingArgs, Side};
 use crate::cli::output::CommandError;
 
 /// How the ground truths and the predictions of `methods` are read.
-pub fn reading(given: &PairReadingArgs, methods: &[String]) -> Result<DatasetReading, CommandError> {
+pub fn reading(
+    given: &PairReadingArgs,
+    methods: &[String],
+    register: &[(Option<String>, Registration)],
+) -> Result<DatasetReading, CommandError> {
     let reading = given.reading()?;
     reading.check(None, methods)?;
     let predictions = reading.options_for(Side::Prediction, "");
     let of_method = |name: &String| (name.clone(), reading.options_for(Side::Prediction, name));
-    let methods = methods.iter().map(of_method).filter(|(_, options)| *options != predictions).collect();
+    let of_methods = methods.iter().map(of_method).filter(|(_, options)| *options != predictions).collect();
     let ground_truths = reading.options_for(Side::GroundTruth, "");
-    Ok(DatasetReading { ground_truths, predictions, methods, strict: given.both.strict })
+    let mut registrations = BTreeMap::new();
+    for (whose, way) in register {
+        let is_of = |method: &&String| whose.as_ref().is_none_or(|whose| whose == *method);
+        let of: Vec<&String> = methods.iter().filter(is_of).collect();
+        if of.is_empty() {
+            let (whose, names) = (whose.as_deref().unwrap_or_default(), methods.join(", "));
+            return Err(CommandError::Usage(format!(
+                "--register: no method is named {whose}; the names are {names}"
+            )));
+        }
+        registrations.extend(of.into_iter().map(|method| (method.clone(), *way)));
+    }
+    Ok(DatasetReading {
+        ground_truths,
+        predictions,
+        methods: of_methods,
+        registrations,
+        strict: given.both.strict,
+        ..DatasetReading::default()
+    })
 }
 
 /// The folders or the table of the materials.

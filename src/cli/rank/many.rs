@@ -42,7 +42,7 @@ enum Output {
 }
 
 pub fn job(args: RankArgs, given: &Specified) -> NewJob {
-    let reason = "materials of a data set are not resized";
+    let reason = "materials of a data set are brought to one size by --register";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", reason)?;
     if args.robust {
         refuse_scenes(given)?;
@@ -54,14 +54,14 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let options = args.scenes.options()?;
     let (target_error, seed) = options.accuracy();
     let scenes = FixedScenes::new(options.question()?.request, args.scenes.words())?;
-    let DataSetArgs { results, shard, pick, metrics, diagnose } = args.of_data_set;
+    let DataSetArgs { results, shard, pick, register, metrics, diagnose } = args.of_data_set;
     let settings = DatasetSettings {
         metrics,
         diagnose,
         ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };
     let given = &args.comparison.materials.reading;
-    let reading = reading(given, &settings.methods)?;
+    let reading = reading(given, &settings.methods, &register)?;
     let (verbose, fail_above, robust) = (given.both.verbose, args.fail_above, args.robust);
     let job = ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output };
     Ok(Box::new(job))
@@ -107,6 +107,7 @@ impl ManyJob {
             return Ok(output.put(&report, RobustReport::latex)?);
         }
         let strict = reading.strict;
+        let reading = dataset::decided(&cases, reading, progress)?;
         let cases = part(shard, cases);
         let DatasetResults { results, notes, unkept } =
             watched_on(progress, "comparing materials", |progress| {

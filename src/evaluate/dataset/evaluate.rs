@@ -199,6 +199,9 @@ impl<'a> Evaluation<'a> {
             "method": method,
             "sample": sample,
         });
+        if let Some(registration) = self.reading.registrations.get(method) {
+            of["registration"] = json!(registration);
+        }
         if let Some(scenes) = scenes {
             of["scenes"] = scenes.key();
         }
@@ -240,11 +243,19 @@ impl<'a> Evaluation<'a> {
             (Ok(truth), None) => truth,
         };
         let opened = open(&candidate.path, self.reading.of_method(&candidate.method), self.reading.strict);
+        let registration = self.reading.registrations.get(&candidate.method);
+        let mut registered = None;
         let found = opened.found.and_then(|found| {
-            check_same_size(&truth.material, &found.material).map_err(|problem| problem.to_string())?;
-            Ok(found)
+            let pair = [&truth.material, &found.material];
+            let Some(registration) = registration.filter(|_| pair[0].size() != pair[1].size()) else {
+                check_same_size(pair[0], pair[1]).map_err(|problem| problem.to_string())?;
+                return Ok(found);
+            };
+            let [part, material] = registration.applied(pair).map_err(|problem| problem.to_string())?;
+            registered = Some(OpenedMaterial { material: part, storage: truth.storage.clone() });
+            Ok(OpenedMaterial { material, ..found })
         });
-        Opened { found, ..opened }
+        Opened { found, truth: registered, ..opened }
     }
 
     /// The result of a prediction; `floor` is that of the ground truth.
@@ -256,7 +267,8 @@ impl<'a> Evaluation<'a> {
         floor: f64,
         seed: u64,
     ) -> Result<PredictionResult, Error> {
-        let pair = truth.found.as_ref().ok().zip(opened.found.as_ref().ok());
+        let truth = opened.truth.as_ref().or(truth.found.as_ref().ok());
+        let pair = truth.zip(opened.found.as_ref().ok());
         let metrics = pair.filter(|_| self.settings.metrics).map(metrics).unwrap_or_default();
         let marks = pair.filter(|_| self.settings.diagnose);
         let marks = marks.map(|pair| self.marks(pair, floor, seed)).transpose()?;
@@ -323,13 +335,15 @@ type OpenedPair<'a> = (&'a OpenedMaterial, &'a OpenedMaterial);
 /// A material that was opened, or why it cannot be used.
 pub(super) struct Opened {
     pub(super) found: Result<OpenedMaterial, String>,
+    /// The part of the ground truth that a prediction of another size is compared with.
+    pub(super) truth: Option<OpenedMaterial>,
     remarks: Vec<Remark>,
     neighbours: Option<Neighbours>,
 }
 
 impl Opened {
     fn failed(problem: String) -> Self {
-        Self { found: Err(problem), remarks: Vec::new(), neighbours: None }
+        Self { found: Err(problem), truth: None, remarks: Vec::new(), neighbours: None }
     }
 }
 
@@ -348,7 +362,8 @@ pub(super) fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
     let guesses = if strict { read.refuse_guesses(path) } else { Ok(()) };
     let (remarks, storage) = (Remark::of(&read), read.storage());
     let found = guesses.map(|()| OpenedMaterial { material: read.material, storage });
-    Opened { found: found.map_err(|problem| problem.to_string()), remarks, neighbours: read.neighbours }
+    let found = found.map_err(|problem| problem.to_string());
+    Opened { found, truth: None, remarks, neighbours: read.neighbours }
 }
 
 /// The metrics of the maps.

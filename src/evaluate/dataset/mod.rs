@@ -21,6 +21,7 @@ mod results;
 mod robust;
 mod scenes;
 mod summary;
+mod witness;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
 pub use doubts::{DoubtCount, ReadingSummary};
@@ -37,3 +38,4 @@ pub use remark::Remark;
 pub use robust::robust;
 pub use scenes::FixedScenes;
 pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};
+pub use witness::decided;

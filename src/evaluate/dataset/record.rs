@@ -10,6 +10,7 @@ use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate, Request};
 
 use super::remark::Remark;
 use super::scenes::FixedScenes;
+use crate::registration::Registration;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::ReadOptions;
 
@@ -190,6 +191,12 @@ pub struct DatasetReading {
     /// By the name of a method.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub methods: BTreeMap<String, ReadOptions>,
+    /// How the predictions of a method of another size lie on their ground truths, by the name of the method.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub registrations: BTreeMap<String, Registration>,
+    /// What the materials beside each other have decided: lines.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub decisions: Vec<String>,
     /// Whether a material that can only be read by guesses has no result.
     pub strict: bool,
 }

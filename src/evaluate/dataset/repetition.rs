@@ -46,13 +46,14 @@ fn method(method: &Method) -> OsString {
     word
 }
 
-/// `--read gt:KEY=VALUE,...` for the ground truths, the predictions and the methods that are read by options.
+/// `--read gt:KEY=VALUE,...` for the ground truths, the predictions and the methods that are read by options, and `--register` for those of
+/// another size.
 fn read_options(reading: &DatasetReading) -> Vec<String> {
     let DatasetReading { ground_truths, predictions, methods, .. } = reading;
     let of_methods = methods.iter().map(|(name, options)| (name.as_str(), options));
     let all = [("gt", ground_truths), ("pred", predictions)].into_iter().chain(of_methods);
-    all.map(|(name, options)| (name, options.words()))
-        .filter(|(_, words)| !words.is_empty())
-        .flat_map(|(name, words)| ["--read".to_owned(), format!("{name}:{words}")])
-        .collect()
+    let read = all.map(|(name, options)| (name, options.words())).filter(|(_, words)| !words.is_empty());
+    let read = read.flat_map(|(name, words)| ["--read".to_owned(), format!("{name}:{words}")]);
+    let ways = reading.registrations.iter();
+    read.chain(ways.flat_map(|(name, way)| ["--register".to_owned(), format!("{name}:{way}")])).collect()
 }

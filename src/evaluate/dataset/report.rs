@@ -1,5 +1,7 @@
 //! The losses of methods over a data set: JSON, text, CSV and LaTeX.
 
+use std::path::Path;
+
 use crate::error::Error;
 use crate::report::{Cell, Field, Reader, Repetition, Report, Table, bold, escaped, latex, missed};
 use svbrdf_core::text::line;
@@ -10,7 +12,7 @@ use super::mark_summary::{marks_table, summarize_marks};
 use super::metric_summary::{latex_table, metric_names, metrics_table, summarize_metrics};
 use super::pick::{Pick, counted};
 use super::ranking::ranked;
-use super::record::{DatasetReading, DatasetSettings, MaterialResult, PredictionResult};
+use super::record::{DatasetReading, DatasetSettings, MaterialResult, Method, PredictionResult, Source};
 use super::remark::Remark;
 use super::repetition;
 use super::summary::{DatasetReport, MethodSummary};
@@ -110,7 +112,22 @@ impl DatasetReport {
 
     /// The materials that the means are over, and how they were read: lines.
     pub fn conditions(&self) -> Vec<String> {
-        self.over().into_iter().chain(self.doubts()).collect()
+        let said = self.infinite().chain(self.matched()).chain(self.reading.decisions.iter().cloned());
+        self.over().into_iter().chain(said).chain(self.doubts()).collect()
+    }
+
+    /// The methods with materials that are in no mean of a PSNR: lines.
+    fn infinite(&self) -> impl Iterator<Item = String> {
+        self.methods.iter().filter_map(|summary| {
+            let most =
+                summary.metrics.values().map(|metric| metric.infinite).max().filter(|most| *most > 0)?;
+            let materials =
+                if most == 1 { "1 material".to_owned() } else { format!("up to {most} materials") };
+            Some(format!(
+                "{}: {materials} with equal maps, whose infinite PSNR is in no mean",
+                summary.method
+            ))
+        })
     }
 
     /// The materials that the means are over, and the methods that lack some: lines below a table.
@@ -135,6 +152,27 @@ impl DatasetReport {
             lines.push(format!("intervals over materials and significance need {FEWEST} materials"));
         }
         lines
+    }
+
+    /// The methods whose predictions have other names than their materials: lines.
+    fn matched(&self) -> impl Iterator<Item = String> {
+        let Source::Folders { methods, .. } = &self.settings.source else { return Vec::new().into_iter() };
+        let line = |method: &Method| {
+            let is_pattern = method.path.to_string_lossy().contains("{}");
+            let mut named =
+                self.predictions().filter(|(_, one)| one.method == method.name && one.sample == 0);
+            let other = |(result, one): &(&MaterialResult, &PredictionResult)| {
+                let name =
+                    Path::new(&one.path).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                !result.material.ends_with(&name) && !name.starts_with(&result.material)
+            };
+            let (result, one) = named.find(other).filter(|_| !is_pattern)?;
+            Some(format!(
+                "{}: names are matched one to one, such as {} of {}",
+                method.name, one.path, result.material
+            ))
+        };
+        methods.iter().filter_map(line).collect::<Vec<_>>().into_iter()
     }
 
     /// The doubts in reading the ground truths, and the predictions of each method: lines, none where nothing is in doubt.

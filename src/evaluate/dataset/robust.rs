@@ -53,6 +53,9 @@ pub fn robust(
     Ok(RobustReport::of_answers(compared, materials, &settings.methods, &over_materials(&all)))
 }
 
+/// Questions are asked about all methods in the same scenes and texels.
+const OTHER_SIZE: &str = "its predictions have another size than their ground truths";
+
 /// Refuses fewer than [`FEWEST`] materials.
 fn enough(count: usize, settings: &DatasetSettings) -> Result<(), FilesError> {
     if count >= FEWEST {
@@ -86,7 +89,13 @@ fn of_material(case: &Case, evaluation: &Evaluation<'_>) -> Result<Result<Vec<Sc
         let candidate = case.candidates.iter().find(|candidate| candidate.method == *method);
         let found = candidate.map_or_else(
             || Err("no prediction".to_owned()),
-            |candidate| evaluation.open(candidate, &truth).found,
+            |candidate| {
+                let opened = evaluation.open(candidate, &truth);
+                match opened.truth {
+                    Some(_) => Err(OTHER_SIZE.to_owned()),
+                    None => opened.found,
+                }
+            },
         );
         found.map_err(|problem| format!("{method}: {problem}"))
     };

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_evaluate::dataset::{DatasetReading, Method, Source};
+use svbrdf_evaluate::dataset::{DatasetReading, Method, Source, decided};
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 
 use crate::frame::layout::Parts;
@@ -13,12 +13,13 @@ use crate::model::dataset::{DatasetState, OpenDataset, TARGET_ERROR};
 
 /// Matches the materials of these folders, or of one table.
 pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
-    parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
+    parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |progress| {
         let mut paths = paths.into_iter();
         let first = paths.next().unwrap_or_default();
         let methods: Vec<_> = paths.map(|path| (None, path)).collect();
         let source = if methods.is_empty() { Source::Table(first) } else { Source::folders(first, methods) };
-        let open = OpenDataset::new(source, DatasetReading::default(), (TARGET_ERROR, 0), None)?;
+        let mut open = OpenDataset::new(source, DatasetReading::default(), (TARGET_ERROR, 0), None)?;
+        open.reading = decided(&open.cases, open.reading, progress)?;
         Ok(DatasetState::of(Arc::new(open), 0, Default::default()))
     }));
 }
@@ -43,6 +44,7 @@ pub(super) fn restore(parts: &mut Parts, session: SessionDataset, results: Optio
             predictions: session.read_predictions,
             methods: session.read_methods,
             strict,
+            ..DatasetReading::default()
         };
         let mut open = OpenDataset::new(source, reading, (session.target_error, session.seed), results)?;
         open.settings.diagnose = session.diagnose;
