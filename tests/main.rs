@@ -24,6 +24,7 @@ mod page;
 mod photograph;
 mod rank;
 mod real_files;
+mod released;
 mod sampling;
 #[cfg(feature = "viewer")]
 mod shaders;

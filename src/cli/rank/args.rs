@@ -82,6 +82,10 @@ pub struct DataSetArgs {
     #[arg(value_parser = offered(registered, ["resize", "centre-crop", "crop=16,16", "crop=0,0/4"]), hide_possible_values = true)]
     pub register: Vec<(Option<String>, Registration)>,
 
+    /// Compares only the texels that are opaque in the alpha of the ground truth of a data set
+    #[arg(long, value_name = "alpha", value_parser = ["alpha"], hide_possible_values = true, hide_short_help = true)]
+    pub mask: Option<String>,
+
     /// Adds metrics of the maps of a data set
     ///
     /// RMSE, L1, angles and SSIM of each material, and their means.

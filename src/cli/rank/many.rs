@@ -54,14 +54,20 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let options = args.scenes.options()?;
     let (target_error, seed) = options.accuracy();
     let scenes = FixedScenes::new(options.question()?.request, args.scenes.words())?;
-    let DataSetArgs { results, shard, pick, register, metrics, diagnose } = args.of_data_set;
+    let DataSetArgs { results, shard, pick, register, mask, metrics, diagnose } = args.of_data_set;
+    refuse(
+        mask.is_some() && diagnose,
+        "diagnose",
+        "a diagnosis is of all texels, and not of those of a mask",
+    )?;
+    refuse(mask.is_some() && args.robust, "robust", "the order under other questions is over all texels")?;
     let settings = DatasetSettings {
         metrics,
         diagnose,
         ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };
     let given = &args.comparison.materials.reading;
-    let reading = reading(given, &settings.methods, &register)?;
+    let reading = DatasetReading { mask: mask.is_some(), ..reading(given, &settings.methods, &register)? };
     let (verbose, fail_above, robust) = (given.both.verbose, args.fail_above, args.robust);
     let job = ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output };
     Ok(Box::new(job))

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 
 use serde_json::json;
 
@@ -10,7 +11,7 @@ use crate::error::Error;
 use crate::metrics::of_maps;
 use crate::rank::most_scenes;
 use svbrdf_core::loss::{Comparison, check_same_size};
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Grid, Material};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
@@ -19,7 +20,7 @@ use svbrdf_files::Error as FilesError;
 use super::record::{
     CandidateFile, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
-use super::remark::Remark;
+use super::remark::{MASK, Remark};
 use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
 use svbrdf_files::read::{self, Dependencies, MaterialPath, Neighbours, ReadOptions};
 
@@ -156,7 +157,8 @@ impl<'a> Evaluation<'a> {
     /// The result of a material, of which what was found is not computed again.
     fn computed(&self, case: &Case, found: Found) -> Result<MaterialResult, Error> {
         let (index, material, seed) = (case.index, case.material.clone(), self.seed(case));
-        let truth = open(&case.ground_truth, &self.reading.ground_truths, self.reading.strict);
+        let mut truth = open(&case.ground_truth, &self.reading.ground_truths, self.reading.strict);
+        truth.remarks.retain(|remark| !self.reading.mask || remark.doubt.as_deref() != Some(MASK));
         let floor = self.floor(&truth, seed)?;
         let mut predictions = Vec::new();
         for (candidate, (key, known)) in case.candidates.iter().zip(found) {
@@ -199,6 +201,9 @@ impl<'a> Evaluation<'a> {
             "method": method,
             "sample": sample,
         });
+        if self.reading.mask {
+            of["mask"] = json!("alpha");
+        }
         if let Some(registration) = self.reading.registrations.get(method) {
             of["registration"] = json!(registration);
         }
@@ -244,18 +249,32 @@ impl<'a> Evaluation<'a> {
         };
         let opened = open(&candidate.path, self.reading.of_method(&candidate.method), self.reading.strict);
         let registration = self.reading.registrations.get(&candidate.method);
-        let mut registered = None;
+        let (mut registered, mut kept) = (None, None);
         let found = opened.found.and_then(|found| {
             let pair = [&truth.material, &found.material];
-            let Some(registration) = registration.filter(|_| pair[0].size() != pair[1].size()) else {
-                check_same_size(pair[0], pair[1]).map_err(|problem| problem.to_string())?;
-                return Ok(found);
+            let other_size = registration.filter(|_| pair[0].size() != pair[1].size());
+            let [part, material] = match other_size {
+                Some(_) if self.reading.mask => {
+                    return Err(
+                        "a mask is not cut to predictions of another size; leave out --mask".to_owned()
+                    );
+                }
+                Some(registration) => registration.applied(pair).map_err(|problem| problem.to_string())?,
+                None => {
+                    check_same_size(pair[0], pair[1]).map_err(|problem| problem.to_string())?;
+                    if !self.reading.mask {
+                        return Ok(found);
+                    }
+                    kept = Some(truth.kept()?);
+                    let texels = kept.iter().flatten().copied().collect::<Vec<_>>();
+                    pair.map(|material| material.gathered(&texels, [texels.len(), 1]))
+                }
             };
-            let [part, material] = registration.applied(pair).map_err(|problem| problem.to_string())?;
-            registered = Some(OpenedMaterial { material: part, storage: truth.storage.clone() });
+            registered = Some(OpenedMaterial { material: part, mask: None, storage: truth.storage.clone() });
             Ok(OpenedMaterial { material, ..found })
         });
-        Opened { found, truth: registered, ..opened }
+        let kept = kept.map(|kept| (truth.material.grid(), kept));
+        Opened { found, truth: registered, kept, ..opened }
     }
 
     /// The result of a prediction; `floor` is that of the ground truth.
@@ -272,7 +291,7 @@ impl<'a> Evaluation<'a> {
         let metrics = pair.filter(|_| self.settings.metrics).map(metrics).unwrap_or_default();
         let marks = pair.filter(|_| self.settings.diagnose);
         let marks = marks.map(|pair| self.marks(pair, floor, seed)).transpose()?;
-        let known = pair.map(|pair| self.loss(pair, seed)).transpose()?;
+        let known = pair.map(|pair| self.loss(pair, opened.kept.as_ref(), seed)).transpose()?;
         // `open` gives the problem of the ground truth, too.
         let error = opened.found.err();
         let reading = opened.remarks;
@@ -286,8 +305,18 @@ impl<'a> Evaluation<'a> {
         })
     }
 
-    fn loss(&self, (truth, prediction): OpenedPair<'_>, seed: u64) -> Result<KnownLoss, Error> {
-        let comparison = Comparison::new(&truth.material, &[&prediction.material], self.convention)?;
+    /// The loss of a pair; of texels that a mask keeps, with their places.
+    fn loss(
+        &self,
+        (truth, prediction): OpenedPair<'_>,
+        kept: Option<&(Grid, Vec<usize>)>,
+        seed: u64,
+    ) -> Result<KnownLoss, Error> {
+        let predictions = [&prediction.material];
+        let mut comparison = Comparison::new(&truth.material, &predictions, self.convention)?;
+        if let Some((grid, texels)) = kept {
+            comparison = comparison.at(*grid, texels);
+        }
         let request = self.settings.request(seed);
         let outcome = comparison.at_most(most_scenes(1)).run(&request, &self.progress.part())?;
         let estimate = outcome.losses.first().map(|loss| loss.estimate);
@@ -337,20 +366,36 @@ pub(super) struct Opened {
     pub(super) found: Result<OpenedMaterial, String>,
     /// The part of the ground truth that a prediction of another size is compared with.
     pub(super) truth: Option<OpenedMaterial>,
+    /// The texels that a mask keeps, and the grid that they are texels of.
+    kept: Option<(Grid, Vec<usize>)>,
     remarks: Vec<Remark>,
     neighbours: Option<Neighbours>,
 }
 
 impl Opened {
     fn failed(problem: String) -> Self {
-        Self { found: Err(problem), truth: None, remarks: Vec::new(), neighbours: None }
+        Self { found: Err(problem), truth: None, kept: None, remarks: Vec::new(), neighbours: None }
     }
 }
 
 /// A material that was read, and how it is stored.
 pub(super) struct OpenedMaterial {
     pub(super) material: Material<f32>,
+    /// Which texels are opaque.
+    mask: Option<Arc<[bool]>>,
     storage: Storage,
+}
+
+impl OpenedMaterial {
+    /// The texels that its mask keeps, at least one.
+    fn kept(&self) -> Result<Vec<usize>, String> {
+        let [width, height] = self.material.size();
+        let mask = self.mask.as_ref().filter(|mask| mask.len() == width * height);
+        let mask =
+            mask.ok_or("no alpha of the ground truth is a mask, 0 or 1 nearly everywhere; leave out --mask")?;
+        let kept: Vec<usize> = (0..mask.len()).filter(|texel| mask[*texel]).collect();
+        if kept.is_empty() { Err("the mask of the ground truth keeps no texel".to_owned()) } else { Ok(kept) }
+    }
 }
 
 /// Reads a material.
@@ -361,9 +406,9 @@ pub(super) fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
     };
     let guesses = if strict { read.refuse_guesses(path) } else { Ok(()) };
     let (remarks, storage) = (Remark::of(&read), read.storage());
-    let found = guesses.map(|()| OpenedMaterial { material: read.material, storage });
+    let found = guesses.map(|()| OpenedMaterial { material: read.material, mask: read.mask, storage });
     let found = found.map_err(|problem| problem.to_string());
-    Opened { found, truth: None, remarks, neighbours: read.neighbours }
+    Opened { found, truth: None, kept: None, remarks, neighbours: read.neighbours }
 }
 
 /// The metrics of the maps.

@@ -194,6 +194,9 @@ pub struct DatasetReading {
     /// How the predictions of a method of another size lie on their ground truths, by the name of the method.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub registrations: BTreeMap<String, Registration>,
+    /// Whether only the texels count that are opaque in the alpha of the ground truth.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub mask: bool,
     /// What the materials beside each other have decided: lines.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub decisions: Vec<String>,

@@ -4,6 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use svbrdf_files::read::{Assumption, Note, Read, What};
 
+/// The doubt about an alpha that is no more than noted.
+pub(super) const MASK: &str = "with an alpha that looks like a mask (--mask alpha leaves its texels out)";
+
 /// One thing that was noticed or assumed in reading a material.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -28,6 +31,9 @@ impl Remark {
 }
 
 fn of_note(note: &Note) -> Option<String> {
+    if matches!(note, Note::MaskInAlpha { .. }) {
+        return Some(MASK.to_owned());
+    }
     (!note.is_routine()).then(|| "with notes".to_owned())
 }
 

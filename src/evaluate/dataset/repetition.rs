@@ -31,7 +31,12 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
     let specified = options.into_iter().filter(|(_, value, default)| value != default);
     words.extend(specified.flat_map(|(name, value, _)| [OsString::from(name), value.into()]));
     words.extend(scenes.iter().flat_map(|scenes| scenes.options.iter().map(OsString::from)));
-    let switches = [("--metrics", *metrics), ("--diagnose", *diagnose), ("--strict", reading.strict)];
+    let switches = [
+        ("--metrics", *metrics),
+        ("--diagnose", *diagnose),
+        ("--strict", reading.strict),
+        ("--mask=alpha", reading.mask),
+    ];
     words.extend(switches.into_iter().filter(|(_, is)| *is).map(|(name, _)| OsString::from(name)));
     words.extend(read_options(reading).into_iter().map(OsString::from));
     words.iter().map(quoted).collect::<Vec<_>>().join(" ")

@@ -181,9 +181,11 @@ fn finish<T: Real>(mut stored: StoredMaterial, options: &ReadOptions) -> Result<
     let bytes = (width as u64).saturating_mul(height as u64).saturating_mul(10 * size_of::<T>() as u64);
     let memory = memory::reserve(bytes, || format!("the material {}", stored.name))?;
     let maps = result::reports(&stored);
+    let mask = interpret::mask(&mut stored, options);
     let (material, neighbours) = interpret::interpret(&mut stored, options)?;
     Ok(Read {
         material,
+        mask,
         assumptions: stored.assumptions,
         notes: stored.notes,
         files: stored.files,

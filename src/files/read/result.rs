@@ -21,6 +21,8 @@ use crate::read::stored::{StoredMap, StoredMaterial};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Read<T> {
     pub material: Material<T>,
+    /// Of each texel whether it is opaque, where the alpha of a map is a mask: 0 or 1 nearly everywhere.
+    pub mask: Option<Arc<[bool]>>,
     /// The assumptions, each with its reason.
     pub assumptions: Vec<Assumption>,
     /// Other things that were noticed.

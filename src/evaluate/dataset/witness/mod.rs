@@ -55,7 +55,7 @@ pub fn decided(
     for method in methods {
         let pairs: Vec<_> = materials.iter().filter_map(|one| one.pair(method)).collect();
         let found = register(&mut decided, method, &pairs);
-        groups.push((method, sampled(&pairs, found)));
+        groups.push((method, sampled(&pairs, found, decided.mask)));
     }
     decide(&mut decided, &groups);
     Ok(decided)
@@ -117,7 +117,11 @@ fn register(
 }
 
 /// Texels of the pairs that can be compared.
-fn sampled(pairs: &[PairRead<'_>], found: Option<registration::Registration>) -> Vec<[Sampled; 2]> {
+fn sampled(
+    pairs: &[PairRead<'_>],
+    found: Option<registration::Registration>,
+    is_masked: bool,
+) -> Vec<[Sampled; 2]> {
     let of = |pair: &PairRead<'_>| {
         let materials = pair.map(|read| &read.material);
         let [truth, prediction] = match found {
@@ -125,6 +129,15 @@ fn sampled(pairs: &[PairRead<'_>], found: Option<registration::Registration>) ->
                 registration.applied(materials).ok()?
             }
             _ => materials.map(Clone::clone),
+        };
+        let [width, height] = truth.size();
+        let mask = pair[0].mask.as_ref().filter(|mask| is_masked && mask.len() == width * height);
+        let kept = mask.map(|mask| (0..mask.len()).filter(|texel| mask[*texel]).collect::<Vec<_>>());
+        let [truth, prediction] = match kept.filter(|kept| !kept.is_empty()) {
+            Some(kept) if truth.size() == prediction.size() => {
+                [truth, prediction].map(|one| one.gathered(&kept, [kept.len(), 1]))
+            }
+            _ => [truth, prediction],
         };
         (truth.size() == prediction.size())
             .then(|| [Sampled::of(&truth, pair[0]), Sampled::of(&prediction, pair[1])])

@@ -8,6 +8,7 @@ mod normals;
 mod values;
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -62,6 +63,33 @@ pub(super) fn interpret<T: Real>(
         found.notes.push(Note::RowsFlipped { by: SpecifiedBy::Caller });
     }
     Ok((Material::new(found.name.as_str(), size[0], size[1], planes)?, neighbours))
+}
+
+/// The share of the samples of a mask that are neither 0 nor 1, at most: those at its border.
+const BORDER: f64 = 0.05;
+/// The share of empty texels from which on a mask is one that somebody meant.
+const EMPTY: f64 = 0.25;
+
+/// Which texels are opaque, where the alpha of a map is a mask.
+pub(super) fn mask(found: &mut StoredMaterial, options: &ReadOptions) -> Option<Arc<[bool]>> {
+    let size = found.colour.raster.size();
+    let is_mask = |alpha: &Vec<f32>| {
+        let between = alpha.iter().filter(|value| (0.02..0.98).contains(*value)).count();
+        between as f64 <= BORDER * alpha.len() as f64
+    };
+    let (map, alpha) = found.sources().into_iter().find_map(|(map, source)| {
+        let alpha = source.raster.alpha.as_ref().filter(|_| source.raster.size() == size)?;
+        Some((map, alpha.decoded::<f32>(|value| value))).filter(|(_, alpha)| is_mask(alpha))
+    })?;
+    let mut mask: Vec<bool> = alpha.iter().map(|value| *value >= 0.5).collect();
+    if options.flip_v == Some(true) {
+        mask = mask.rchunks(size[0]).flatten().copied().collect();
+    }
+    let empty = mask.iter().filter(|is_opaque| !**is_opaque).count() as f64 / mask.len() as f64;
+    if (EMPTY..1.0).contains(&empty) {
+        found.notes.push(Note::MaskInAlpha { map, empty });
+    }
+    Some(mask.into())
 }
 
 /// Notes the maps whose alpha is not used, also not by another map.

@@ -111,6 +111,12 @@ pub enum Note {
     Gamut { spaces: Vec<String> },
     #[display("The {} map is partly transparent; its alpha is ignored.", map.name())]
     AlphaIgnored { map: Role },
+    /// The share of the texels that are empty.
+    #[display(
+        "The alpha of the {} map looks like a mask: {:.0}% of the texels are empty, and count as all others unless a mask is asked for.",
+        map.name(), 100.0 * empty
+    )]
+    MaskInAlpha { map: Role, empty: f64 },
     /// The channels of a gray map differ by up to `channel_spread`, in [0, 1].
     #[display(
         "The red, green and blue of the {} map differ by up to {channel_spread:.4}; {} is used.",
@@ -195,7 +201,7 @@ impl Note {
             | Self::PrimariesChunk(..)
             | Self::Gamut { .. } => true,
             Self::DataWindow { .. } | Self::PartialData { .. } | Self::OptionsUnused { .. } => true,
-            Self::FirstOnly(_) => true,
+            Self::FirstOnly(_) | Self::MaskInAlpha { .. } => true,
             Self::Unused { why, .. } => {
                 matches!(
                     why,

@@ -1,0 +1,168 @@
+//! Evaluations in the forms that research codes release them in: their losses are those of plain files of one size whose reading is stated.
+
+use std::fs;
+use std::path::Path;
+
+use image::{Rgb, RgbImage, Rgba, RgbaImage};
+use tempfile::TempDir;
+
+use svbrdf_core::math::srgb;
+use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::dataset::{DatasetReading, DatasetReport, DatasetSettings, Pick, Source, decided, run};
+use svbrdf_files::convention::ChosenConvention;
+use svbrdf_files::read::{Albedo, ReadOptions};
+
+/// The maps of a texel: normal, diffuse, roughness and specular, as stored.
+type Texel = [[u8; 3]; 4];
+
+/// Where diffuse and specular are stored.
+type Curve = fn(f64) -> f64;
+
+const MATERIALS: usize = 6;
+const SIDE: u32 = 40;
+const SRGB: Curve = |value| f64::from(srgb::encode(value as f32));
+const LINEAR: Curve = |value| value;
+
+/// A texel of a smooth material, and of what a method makes of it: rougher, and with a diffuse times `level`.
+fn texel(material: usize, [x, y]: [u32; 2], encode: Curve, level: Option<f64>) -> Texel {
+    let [u, v, seed] = [f64::from(x), f64::from(y), material as f64];
+    let wave = |a: f64, b: f64, phase: f64| (a * u + b * v + phase + 1.7 * seed).sin();
+    let normal = [0.35 * wave(0.31, 0.12, 0.0), 0.35 * wave(-0.09, 0.27, 1.0), 1.0];
+    let length = normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let bright = [0.45, 0.12, 0.25][material % 3];
+    let diffuse = [1.0, 0.8, 0.6].map(|tint| tint * bright * (1.0 + 0.4 * wave(0.11, 0.17, 2.0)));
+    let specular = 0.07 + 0.04 * wave(0.13, -0.21, 3.0);
+    let rough = 0.5 + 0.2 * wave(0.19, 0.08, 4.0) + if level.is_some() { 0.08 } else { 0.0 };
+    let code = |value: f64| (255.0 * value.clamp(0.0, 1.0)).round() as u8;
+    [
+        normal.map(|x| code(0.5 + 0.5 * x / length)),
+        diffuse.map(|value| code(encode(value * level.unwrap_or(1.0)))),
+        [code(rough); 3],
+        [code(encode(specular)); 3],
+    ]
+}
+
+/// Normal, diffuse, roughness and specular side by side, of the texels from `at` on.
+fn strip(path: &Path, [at, side]: [u32; 2], of: impl Fn([u32; 2]) -> Texel) {
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    let pixel = |x: u32, y: u32| Rgb(of([at + x % side, at + y])[(x / side) as usize]);
+    RgbImage::from_fn(4 * side, side, pixel).save(path).unwrap();
+}
+
+/// The losses of `ours`, read as `reading` states and, where it leaves something open, as the materials beside each other decide.
+fn losses(folder: &Path, truths: &str, reading: DatasetReading) -> Vec<Result<f64, String>> {
+    let source = Source::folders(folder.join(truths), vec![(None, folder.join("ours"))]);
+    let cases = source.cases().unwrap();
+    let settings = DatasetSettings::new(source, ChosenConvention::default(), 0.05, 0, &cases);
+    let reading = decided(&cases, reading, &Progress::default()).unwrap();
+    let found = run(&cases, &settings, &reading, None, &Progress::default()).unwrap();
+    let report = DatasetReport::new(settings, reading, found.results, Pick::Fixed);
+    let one = |result: &svbrdf_evaluate::dataset::MaterialResult| {
+        let prediction = &result.predictions[0];
+        prediction.known.map(|known| known.loss).ok_or_else(|| prediction.error.clone().unwrap())
+    };
+    report.results.iter().map(one).collect()
+}
+
+fn stated(truths: Albedo, ours: Albedo) -> DatasetReading {
+    let options = |albedo| ReadOptions { albedo: Some(albedo), specular: Some(albedo), ..ReadOptions::AUTO };
+    DatasetReading { ground_truths: options(truths), predictions: options(ours), ..DatasetReading::default() }
+}
+
+fn name(material: usize) -> String {
+    format!("m{material}.png")
+}
+
+#[test]
+fn a_method_is_read_as_it_is_stored_and_a_dark_one_is_not_flattered() {
+    for (truths, ours, level) in
+        [(SRGB, LINEAR, 1.0), (LINEAR, SRGB, 1.0), (SRGB, SRGB, 0.22), (LINEAR, LINEAR, 0.9)]
+    {
+        let folder = TempDir::new().unwrap();
+        for material in 0..MATERIALS {
+            let whole = [0, SIDE];
+            let at = |folder_name: &str| folder.path().join(folder_name).join(name(material));
+            strip(&at("gt"), whole, |at| texel(material, at, truths, None));
+            strip(&at("ours"), whole, |at| texel(material, at, ours, Some(level)));
+        }
+        let [truths, ours] =
+            [truths, ours].map(|curve| if curve(0.5) > 0.6 { Albedo::Srgb } else { Albedo::Linear });
+        let expected = losses(folder.path(), "gt", stated(truths, ours));
+        assert_eq!(
+            losses(folder.path(), "gt", DatasetReading::default()),
+            expected,
+            "{truths} {ours} {level}"
+        );
+        let flattered = losses(folder.path(), "gt", stated(truths, Albedo::Log));
+        assert_ne!(flattered, expected, "a planted reading is seen");
+    }
+}
+
+#[test]
+fn crops_and_names_of_a_method_are_found() {
+    let folder = TempDir::new().unwrap();
+    let (at, side) = (4, SIDE - 8);
+    let path = |of: &str, file: &str| folder.path().join(of).join(file);
+    for material in 0..MATERIALS {
+        let truth = |at| texel(material, at, SRGB, None);
+        strip(&path("gt", &format!("0{material};Oak_{material}.png")), [0, SIDE], truth);
+        strip(&path("cropped", &format!("0{material};Oak_{material}.png")), [at, side], truth);
+        for (index, map) in ["N", "D", "R", "S"].iter().enumerate() {
+            let of = |x, y| Rgb(texel(material, [at + x, at + y], SRGB, Some(1.0))[index]);
+            let file = path("ours", &format!("0{material}_{map}out.png"));
+            fs::create_dir_all(file.parent().unwrap()).unwrap();
+            RgbImage::from_fn(side, side, of).save(file).unwrap();
+        }
+    }
+    let expected = losses(folder.path(), "cropped", stated(Albedo::Srgb, Albedo::Srgb));
+    assert!(expected.iter().all(Result::is_ok), "{expected:?}");
+    assert_eq!(losses(folder.path(), "gt", DatasetReading::default()), expected);
+    // Of other materials, nothing is located.
+    for material in 0..MATERIALS {
+        let file = path("gt", &format!("0{material};Oak_{material}.png"));
+        strip(&file, [0, SIDE], |[x, y]| texel(material + 50, [3 * y + 7, 2 * x], SRGB, None));
+    }
+    let unrelated = losses(folder.path(), "gt", DatasetReading::default());
+    assert!(
+        unrelated.iter().all(|loss| loss.as_ref().is_err_and(|why| why.contains("sizes differ"))),
+        "{unrelated:?}"
+    );
+}
+
+#[test]
+fn texels_outside_of_a_mask_do_not_count() {
+    let folder = TempDir::new().unwrap();
+    let maps = ["normal", "diffuse", "roughness", "specular"];
+    let is_inside = |[x, y]: [u32; 2]| (x.abs_diff(SIDE / 2)).pow(2) + (y.abs_diff(SIDE / 2)).pow(2) < 160;
+    let write = |outside: u8| {
+        for material in 0..MATERIALS {
+            for (index, map) in maps.iter().enumerate() {
+                let truth = |x, y| {
+                    let [r, g, b] = texel(material, [x, y], SRGB, None)[index];
+                    Rgba([r, g, b, if is_inside([x, y]) { 255 } else { 0 }])
+                };
+                let ours = |x, y| match (index, is_inside([x, y])) {
+                    (1 | 2, false) => Rgb([outside; 3]),
+                    _ => Rgb(texel(material, [x, y], SRGB, Some(1.0))[index]),
+                };
+                let path =
+                    |of: &str| folder.path().join(of).join(format!("m{material}")).join(format!("{map}.png"));
+                ["gt", "ours"].iter().for_each(|of| fs::create_dir_all(path(of).parent().unwrap()).unwrap());
+                RgbaImage::from_fn(SIDE, SIDE, truth).save(path("gt")).unwrap();
+                RgbImage::from_fn(SIDE, SIDE, ours).save(path("ours")).unwrap();
+            }
+        }
+    };
+    let of = |mask: bool| {
+        losses(folder.path(), "gt", DatasetReading { mask, ..stated(Albedo::Srgb, Albedo::Srgb) })
+    };
+    write(0);
+    let [masked, whole] = [of(true), of(false)];
+    write(255);
+    assert_eq!(of(true), masked);
+    assert_ne!(of(false), whole);
+    let is_less = |(masked, whole): (&Result<f64, String>, &Result<f64, String>)| {
+        masked.as_ref().unwrap() < whole.as_ref().unwrap()
+    };
+    assert!(masked.iter().zip(&whole).all(is_less), "{masked:?} {whole:?}");
+}
