@@ -164,7 +164,7 @@ impl Planes {
 }
 
 /// The correlation of pairs; `None` where a side is flat.
-fn correlation(pairs: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
+pub(crate) fn correlation(pairs: impl Iterator<Item = [f64; 2]>) -> Option<f64> {
     let mut sums = [0.0; 6];
     for [a, b] in pairs {
         for (sum, value) in sums.iter_mut().zip([1.0, a, b, a * a, b * b, a * b]) {

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 
+pub(crate) use find::correlation;
 pub use find::{Found, common, found};
 
 /// How a prediction lies on its ground truth.

@@ -1,6 +1,6 @@
 //! The ground truths as witnesses of how the predictions of a method are read: once for the method, not file by file.
 //!
-//! What is decided is a convention that all files of a method follow: the encoding of its colours, the direction of y in its normals, whether
+//! A decision is a convention that all files of a method follow: the encoding of its colours, the direction of y in its normals, whether
 //! its roughness is glossiness, and which part of the ground truths they are. A free parameter is never fitted.
 
 mod colours;

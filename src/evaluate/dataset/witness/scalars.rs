@@ -5,6 +5,7 @@ use svbrdf_files::read::{NormalY, Roughness};
 
 use super::super::record::DatasetReading;
 use super::group::{Group, Sampled};
+use crate::registration;
 
 /// The correlation beyond which the ground truths tell a direction.
 const CLEAR: f64 = 0.3;
@@ -75,13 +76,5 @@ fn agreed(found: &mut [f64], group: &Group<'_>) -> Option<f64> {
 }
 
 fn correlation(a: &[f32], b: &[f32]) -> Option<f64> {
-    let count = a.len() as f64;
-    let mean = |values: &[f32]| values.iter().map(|value| f64::from(*value)).sum::<f64>() / count;
-    let (of_a, of_b) = (mean(a), mean(b));
-    let sums = a.iter().zip(b).fold([0.0; 3], |[aa, bb, ab], (x, y)| {
-        let (x, y) = (f64::from(*x) - of_a, f64::from(*y) - of_b);
-        [aa + x * x, bb + y * y, ab + x * y]
-    });
-    let spread = (sums[0] * sums[1]).sqrt();
-    (spread > 1e-6 * count).then(|| sums[2] / spread)
+    registration::correlation(a.iter().zip(b).map(|(a, b)| [*a, *b].map(f64::from)))
 }
