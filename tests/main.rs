@@ -22,6 +22,7 @@ mod mutations;
 mod packages;
 mod page;
 mod photograph;
+mod protocols;
 mod rank;
 mod real_files;
 mod released;

@@ -7,7 +7,7 @@ use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::picture::flip::mean_flip;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::render::render_f32;
-use svbrdf_evaluate::metrics::{Metric, RenderedScenes, of_maps, of_renderings};
+use svbrdf_evaluate::metrics::{Kept, Metric, RenderedScenes, of_maps, of_masked_maps, of_renderings};
 use svbrdf_files::samples;
 
 /// Two texels of one normal, with diffuse, specular and roughness of each.
@@ -199,8 +199,57 @@ fn ssim_is_that_of_scikit_image() {
             .map(|metric| metric.name)
             .collect::<Vec<_>>()
     };
-    assert!(names(10).iter().all(|name| name.starts_with("ssim7")) && names(10).len() == 4);
+    assert!(names(10).iter().all(|name| name.starts_with("ssim7")) && names(10).len() == 6);
     assert!(names(6).is_empty());
+}
+
+/// The functions that protocols follow, of the patterns `a` and `b` above with specular 0.04:
+///
+/// ```python
+/// mask = numpy.ones(a.shape[:2], numpy.float32)
+/// orb = dict(max_value=1, use_gt_median=False, tonemapping=False, scale_invariant=True, divide_mask=False)
+/// calc_PSNR(b, a, mask, **orb)  # Stanford-ORB: 21.85338230394205
+/// scaled = numpy.clip((a * b).sum((0, 1)) / (b * b).sum((0, 1)) * b, 0, 1)
+/// structural_similarity(a, scaled, **window, channel_axis=2)  # 0.9547757642788864
+/// material = lambda v: srgb(numpy.stack([v[..., 0], 0 * v[..., 0], 0 * v[..., 0]], -1))
+/// peak_signal_noise_ratio(material(a), material(b), data_range=1)  # Marigold: 25.963282072062878
+/// structural_similarity(material(a), material(b), **window, channel_axis=2)  # 0.9675758368498789
+/// numpy.abs(A - B).mean()  # DeepBasis, of 10 channels in [-1, 1]: 0.054146547507892044
+/// kept = numpy.arange(24)[None, :, None] < 12, with --use_mask
+/// peak_signal_noise_ratio(srgb(a)[:, :12], srgb(b)[:, :12], data_range=1)  # 21.056218790379585
+/// structural_similarity(kept * srgb(a), kept * srgb(b), **window, channel_axis=2)  # 0.9603892122786788
+/// ```
+#[test]
+fn metrics_of_protocols_are_those_of_the_codes_that_they_follow() {
+    let size = [24, 17];
+    let first = |x: usize, y: usize, c: usize| ((7 * x + 13 * y + 29 * c) % 64) as f64 / 63.0;
+    let material = |maps: [Vec<f64>; 3]| {
+        let flat = |value| vec![value; size[0] * size[1]];
+        let planes = Planes {
+            normal: [flat(0.0), flat(0.0), flat(1.0)],
+            roughness: maps[0].clone(),
+            diffuse: maps,
+            specular: [flat(0.04), flat(0.04), flat(0.04)],
+        };
+        Material::new("pattern", size[0], size[1], planes).unwrap()
+    };
+    let a = material(pattern(size, first));
+    let b = pattern(size, |x, y, c| 0.8 * first(x, y, c) + 0.2 * ((x * x + 3 * y + c) % 50) as f64 / 49.0);
+    let b = material(b);
+    let got = of_maps(&a, &b).unwrap();
+    assert_is(&got, "l1_maps_minus1_to_1", 0.054_146_547_507_892_044);
+    assert_is(&got, "psnr_base_colour_linear_scaled_channels", 21.853_382_303_942_05);
+    assert_is(&got, "ssim11_gaussian_base_colour_linear_scaled_channels", 0.954_775_764_278_886_4);
+    assert_is(&got, "psnr_roughness_metallic_0_srgb", 25.963_282_072_062_878);
+    assert_is(&got, "ssim11_gaussian_roughness_metallic_0_srgb", 0.967_575_836_849_878_9);
+    assert_is(&got, "ssim11_gaussian_base_colour_srgb", 0.909_353_940_148_961_8);
+    assert_is(&got, "ssim11_gaussian_metallic", 1.0);
+    let texels: Vec<bool> = (0..size[0] * size[1]).map(|texel| texel % size[0] < 12).collect();
+    let masked = |count_all| of_masked_maps(&a, &b, Some(Kept { texels: &texels, count_all })).unwrap();
+    assert_is(&masked(false), "psnr_base_colour_srgb", 21.056_218_790_379_585);
+    assert_is(&masked(false), "ssim11_gaussian_base_colour_srgb", 0.960_389_212_278_678_8);
+    // All texels count, half of which are equal.
+    assert_is(&masked(true), "psnr_base_colour_srgb", 21.056_218_790_379_585 + 10.0 * 2.0_f64.log10());
 }
 
 /// flip-evaluator 1.7, the means of its error maps of linear pictures in f64:

@@ -11,12 +11,17 @@ use svbrdf_core::material::Map;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
-    DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, MethodSummary, Pick,
-    PredictionResult, Source, best_by_metric, interval_of_mean, interval_of_positive_mean,
+    DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, MethodSummary,
+    MetricRow, Pick, PredictionResult, Source, best_by_metric, interval_of_mean, interval_of_positive_mean,
 };
+use svbrdf_evaluate::metrics::MetricSelection;
 use svbrdf_evaluate::rank;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::samples;
+
+fn of_row<'a>(rows: &'a [(MetricRow, Vec<bool>)], metric: &str) -> &'a [bool] {
+    &rows.iter().find(|(row, _)| row.metric == metric).unwrap().1
+}
 
 #[test]
 fn predictions_are_ranked_and_equal_ones_share_a_group() {
@@ -160,7 +165,8 @@ fn ranked(methods: &[&str], results: &[MaterialResult], pick: Pick) -> DatasetRe
     let methods = methods.iter().map(|method| (*method).to_owned()).collect();
     let settings =
         DatasetSettings::new(Source::Table("pairs.csv".into()), ChosenConvention::default(), 0.01, 0, &[]);
-    let settings = DatasetSettings { methods, ..settings };
+    let metrics = Some(MetricSelection::default());
+    let settings = DatasetSettings { methods, metrics, ..settings };
     DatasetReport::new(settings, DatasetReading::default(), results.to_vec(), pick)
 }
 
@@ -214,7 +220,7 @@ fn a_method_that_lacks_materials_is_never_the_best() {
     assert!(over.contains("the 4 materials that all 2 compared methods have"), "{over}");
     assert!(over.contains("few has 1 of 4 materials: not compared"), "{over}");
     let best = best_by_metric(&report);
-    assert_eq!(best["rmse_roughness"], [true, true, false, false]);
+    assert_eq!(of_row(&best, "rmse_roughness"), [true, true, false, false]);
 }
 
 #[test]
@@ -273,7 +279,7 @@ fn the_mean_psnr_is_that_of_the_materials_and_the_pooled_one_that_of_their_squar
     assert!(30.0 < low && low < of(1).mean && of(1).mean < high && high < 31.2, "{:?}", of(1));
     assert_eq!(of(2).mean, f64::INFINITY);
     let best = best_by_metric(&report);
-    assert_eq!(best["psnr_diffuse"], [false, false, true], "equal maps are the best");
+    assert_eq!(of_row(&best, "psnr_diffuse"), [false, false, true], "equal maps are the best");
 }
 
 #[test]
@@ -374,11 +380,11 @@ fn the_best_of_a_metric_ties_with_what_the_materials_cannot_separate() {
     let results: Vec<MaterialResult> = (0..8).map(of).collect();
     // In the order of their losses: a, c, b, and d, which has none.
     let best = best_by_metric(&ranked(&["a", "b", "c", "d"], &results, Pick::Fixed));
-    assert_eq!(best["rmse_roughness"], [true, true, false, false]);
+    assert_eq!(of_row(&best, "rmse_roughness"), [true, true, false, false]);
     // Of similarities the largest is the best.
-    assert_eq!(best["ssim11_roughness"], [false, false, true, false]);
+    assert_eq!(of_row(&best, "ssim11_roughness"), [false, false, true, false]);
     assert_eq!(best.len(), 2);
     // Two materials separate nothing.
     let best = best_by_metric(&ranked(&["a", "b"], &results[..2], Pick::Fixed));
-    assert_eq!(best["rmse_roughness"], [true, true]);
+    assert_eq!(of_row(&best, "rmse_roughness"), [true, true]);
 }

@@ -8,7 +8,10 @@ use tempfile::TempDir;
 
 use svbrdf_core::math::srgb;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::dataset::{DatasetReading, DatasetReport, DatasetSettings, Pick, Source, decided, run};
+use svbrdf_evaluate::dataset::{
+    DatasetReading, DatasetReport, DatasetSettings, Pick, Source, best_by_metric, decided, run,
+};
+use svbrdf_evaluate::protocols::{Mask, Protocol};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::{Albedo, ReadOptions};
 
@@ -51,17 +54,25 @@ fn strip(path: &Path, [at, side]: [u32; 2], of: impl Fn([u32; 2]) -> Texel) {
 
 /// The losses of `ours`, read as `reading` states and, where it leaves something open, as the materials beside each other decide.
 fn losses(folder: &Path, truths: &str, reading: DatasetReading) -> Vec<Result<f64, String>> {
-    let source = Source::folders(folder.join(truths), vec![(None, folder.join("ours"))]);
-    let cases = source.cases().unwrap();
-    let settings = DatasetSettings::new(source, ChosenConvention::default(), 0.05, 0, &cases);
-    let reading = decided(&cases, reading, &Progress::default()).unwrap();
-    let found = run(&cases, &settings, &reading, None, &Progress::default()).unwrap();
-    let report = DatasetReport::new(settings, reading, found.results, Pick::Fixed);
+    let report = report(folder, truths, reading, None);
     let one = |result: &svbrdf_evaluate::dataset::MaterialResult| {
         let prediction = &result.predictions[0];
         prediction.known.map(|known| known.loss).ok_or_else(|| prediction.error.clone().unwrap())
     };
     report.results.iter().map(one).collect()
+}
+
+/// The report of `ours`, by a protocol where one is given.
+fn report(folder: &Path, truths: &str, reading: DatasetReading, protocol: Option<Protocol>) -> DatasetReport {
+    let source = Source::folders(folder.join(truths), vec![(None, folder.join("ours"))]);
+    let cases = source.cases().unwrap();
+    let settings = DatasetSettings::new(source, ChosenConvention::default(), 0.05, 0, &cases);
+    let metrics = protocol.as_ref().map(Protocol::selection);
+    let reading = protocol.iter().fold(reading, DatasetReading::over);
+    let settings = DatasetSettings { metrics, protocol, ..settings };
+    let reading = decided(&cases, reading, &Progress::default()).unwrap();
+    let found = run(&cases, &settings, &reading, None, &Progress::default()).unwrap();
+    DatasetReport::new(settings, reading, found.results, Pick::Fixed)
 }
 
 fn stated(truths: Albedo, ours: Albedo) -> DatasetReading {
@@ -129,6 +140,63 @@ fn crops_and_names_of_a_method_are_found() {
     );
 }
 
+/// The made folders have the forms of a released evaluation: strips of linear ground truths, and their centres in files of maps of gamma 2.2
+/// beside inputs and copies of the ground truths.
+#[test]
+fn a_protocol_gives_the_numbers_of_the_code_that_it_follows() {
+    let folder = TempDir::new().unwrap();
+    let (at, side) = (4, SIDE - 8);
+    let gamma: Curve = |value| value.powf(0.4545);
+    let path = |of: &str, file: String| folder.path().join(of).join(file);
+    let mut expected = [0.0; 4];
+    for material in 0..MATERIALS {
+        let [truth, ours] = [(LINEAR, None), (gamma, Some(0.8))]
+            .map(|(curve, level)| move |at| texel(material, at, curve, level));
+        strip(&path("gt", format!("0{material};Oak_{material}.png")), [0, SIDE], truth);
+        let map = |index: usize| move |x, y| Rgb(ours([at + x, at + y])[index]);
+        let save = |name: String, index| {
+            fs::create_dir_all(path("ours", String::new())).unwrap();
+            RgbImage::from_fn(side, side, map(index)).save(path("ours", name)).unwrap();
+        };
+        ["N", "D", "R", "S"]
+            .iter()
+            .enumerate()
+            .for_each(|(index, map)| save(format!("0{material}_{map}out.png"), index));
+        save(format!("0{material}_input.png"), 1);
+        save(format!("gt_N_{material}.png"), 0);
+        let value = |code: u8| f64::from(code) / 255.0;
+        let read = |index: usize, [truth, ours]: [u8; 2]| match index {
+            2 => [0.9 * value(truth) + 0.1, value(ours)],
+            1 | 3 => [value(truth), value(ours).powf(2.2)],
+            _ => [value(truth), value(ours)],
+        };
+        for (index, sum) in expected.iter_mut().enumerate() {
+            let texels = (0..side).flat_map(|y| (0..side).map(move |x| [at + x, at + y]));
+            let both = |place| [truth(place)[index], ours(place)[index]];
+            let square = |place| -> f64 {
+                let [a, b] = both(place);
+                (0..3).map(|c| read(index, [a[c], b[c]])).map(|[a, b]| (a - b).powi(2)).sum::<f64>() / 3.0
+            };
+            *sum += (texels.map(square).sum::<f64>() / f64::from(side * side)).sqrt() / MATERIALS as f64;
+        }
+    }
+    let weiyi = Protocol::read("weiyi").unwrap();
+    let report = report(folder.path(), "gt", DatasetReading::default(), Some(weiyi));
+    let rows = best_by_metric(&report);
+    assert_eq!(rows.iter().map(|(row, _)| row.label.as_deref().unwrap()).collect::<String>(), "NDRS");
+    for ((row, _), expected) in rows.iter().zip(expected) {
+        let (found, _) = row.value(&report.methods[0]).unwrap();
+        // Normals are normalized on reading.
+        assert!(
+            (found - expected).abs() < 0.005 * expected + 1e-9,
+            "{}: {found}, not {expected}",
+            row.title()
+        );
+    }
+    let command = report.repetition.to_string();
+    assert!(command.contains("--protocol weiyi") && !command.contains("--read"), "{command}");
+}
+
 #[test]
 fn texels_outside_of_a_mask_do_not_count() {
     let folder = TempDir::new().unwrap();
@@ -154,6 +222,7 @@ fn texels_outside_of_a_mask_do_not_count() {
         }
     };
     let of = |mask: bool| {
+        let mask = mask.then_some(Mask::Alpha);
         losses(folder.path(), "gt", DatasetReading { mask, ..stated(Albedo::Srgb, Albedo::Srgb) })
     };
     write(0);

@@ -68,7 +68,7 @@ pub fn rank_dataset(
     let scenes = FixedScenes::new(request, asked.scenes).map_err(exception)?;
     let (target_error, seed) = options.accuracy();
     let settings = DatasetSettings {
-        metrics: asked.metrics,
+        metrics: asked.metrics.then(Default::default),
         diagnose: asked.diagnose,
         ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };

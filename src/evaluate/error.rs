@@ -46,6 +46,14 @@ pub enum Error {
     #[error("{name}: {problem}")]
     BadOption { name: String, problem: String },
 
+    /// A protocol that says something impossible.
+    #[error("the protocol {name}: {problem}; correct it, docs/protocols.md has the format")]
+    BadProtocol {
+        /// Its name or its file.
+        name: String,
+        problem: String,
+    },
+
     /// Of a file, or of a computation.
     #[error(transparent)]
     Files(#[from] FilesError),

@@ -7,6 +7,7 @@
 //! | [`diagnose`] | whether exposure, alignment or reading explain a loss; what the ground truth resolves |
 //! | [`metrics`] | differences of maps and renderings, each with its convention in its name |
 //! | [`rank`], [`robust`] | many predictions of one ground truth, best first; whether their order survives other questions |
+//! | [`protocols`] | what papers and their codes compute, as data |
 //! | [`registration`] | which part of a ground truth a prediction is |
 //! | [`study`] | speed against accuracy, measured for one pair on one machine |
 //! | [`report`] | results with their settings as values, and their tables |
@@ -24,6 +25,7 @@ mod error;
 mod json_schema;
 pub mod metrics;
 pub mod photograph;
+pub mod protocols;
 pub mod rank;
 pub mod registration;
 pub mod report;

@@ -6,7 +6,7 @@ use super::markup::{Document, escaped, filled, number};
 use super::tables::{HtmlTable, cell, row_heading};
 use super::{findings, plots};
 use svbrdf_evaluate::dataset::{
-    DatasetReport, FEWEST, MaterialResult, MethodSummary, Pick, best_by_metric, counted_loss,
+    DatasetReport, FEWEST, MaterialResult, MethodSummary, MetricRow, Pick, best_by_metric, counted_loss,
     is_better_larger, marks_table,
 };
 use svbrdf_evaluate::report::{Reader, Report as _};
@@ -139,17 +139,17 @@ fn metrics(report: &DatasetReport) -> String {
     if all.is_empty() {
         return String::new();
     }
-    let row = |(name, best): (&String, &Vec<bool>)| {
+    let row = |(row, best): &(MetricRow, Vec<bool>)| {
         let compared = report.methods.iter().zip(best).filter(|(summary, _)| summary.compared);
         let differ = compared.into_iter().any(|(_, best)| !best);
         let cells = report.methods.iter().zip(best).map(|(summary, best)| {
-            let metric = summary.metrics.get(name);
-            let interval = metric.and_then(|metric| metric.interval95_materials);
+            let known = row.value(summary);
+            let interval = known.and_then(|known| known.1);
             let class = if *best && differ { "best" } else { "" };
-            with_interval(metric.map(|metric| metric.mean), interval, class, "")
+            with_interval(known.map(|known| known.0), interval, class, "")
         });
-        let arrow = if is_better_larger(name) { "\u{2191}" } else { "\u{2193}" };
-        [row_heading("", &format!("{} {arrow}", escaped(name)))].into_iter().chain(cells).collect()
+        let arrow = if is_better_larger(&row.metric) { "\u{2191}" } else { "\u{2193}" };
+        [row_heading("", &format!("{} {arrow}", escaped(&row.title())))].into_iter().chain(cells).collect()
     };
     let table = by_method(report, &["Metric"], all.iter().map(row));
     format!(

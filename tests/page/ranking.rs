@@ -9,6 +9,7 @@ use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, Pick,
     PredictionResult, Remark, Source,
 };
+use svbrdf_evaluate::metrics::MetricSelection;
 use svbrdf_evaluate::report::Compared;
 use svbrdf_evaluate::robust::{RobustReport, Scores};
 use svbrdf_files::convention::ChosenConvention;
@@ -69,7 +70,8 @@ pub fn page() -> String {
         seed: 0,
         materials: names.map(str::to_owned).to_vec(),
         methods: vec!["ours".to_owned(), HOSTILE.to_owned()],
-        metrics: true,
+        protocol: None,
+        metrics: Some(MetricSelection::default()),
         diagnose: true,
     };
     let reading = DatasetReading::default();

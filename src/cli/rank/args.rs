@@ -6,6 +6,8 @@ use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::text::printable;
 use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::dataset::{Pick, Shard};
+use svbrdf_evaluate::metrics::MetricSelection;
+use svbrdf_evaluate::protocols::Protocol;
 use svbrdf_evaluate::registration::Registration;
 use svbrdf_evaluate::report::Report;
 use svbrdf_files::Error;
@@ -86,11 +88,20 @@ pub struct DataSetArgs {
     #[arg(long, value_name = "alpha", value_parser = ["alpha"], hide_possible_values = true, hide_short_help = true)]
     pub mask: Option<String>,
 
-    /// Adds metrics of the maps of a data set
+    /// Adds metrics of a data set: all of the maps, or those whose names have these words, such as =rmse_normal,psnr
     ///
-    /// RMSE, L1, angles and SSIM of each material, and their means.
-    #[arg(long)]
-    pub metrics: bool,
+    /// RMSE, L1, angles and SSIM of each material, and their means; of renderings where they are named, in --near, --distant, --lights
+    /// or --scenes.
+    #[arg(long, value_name = "WORDS,...", num_args = 0..=1, require_equals = true, value_delimiter = ',', hide_possible_values = true)]
+    #[arg(value_parser = offered(word, MetricSelection::words()), default_missing_value = "")]
+    pub metrics: Option<Vec<String>>,
+
+    /// Compares as a paper does: the name of a protocol, or a .toml file
+    ///
+    /// It decides reading, registration, mask, scenes, convention and metrics with their means; --read and --register count before it.
+    #[arg(long, value_name = "NAME|FILE", value_parser = offered(|text| Protocol::read(text).map(Box::new), Protocol::names()), hide_possible_values = true)]
+    #[arg(conflicts_with = "metrics")]
+    pub protocol: Option<Box<Protocol>>,
 
     /// Adds the marks of `svbrdf diagnose` to a data set
     ///
@@ -98,6 +109,13 @@ pub struct DataSetArgs {
     /// does not resolve.
     #[arg(long)]
     pub diagnose: bool,
+}
+
+/// A word of a name of metrics; none stands for all.
+fn word(text: &str) -> Result<String, CoreError> {
+    let selection =
+        MetricSelection::try_from(if text.is_empty() { Vec::new() } else { vec![text.to_owned()] });
+    selection.map(|_| text.to_owned())
 }
 
 /// A registration, after the name of a method that it is for.

@@ -2,19 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
+use svbrdf_core::loss::LossOptions;
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
     Pick, Shard,
 };
+use svbrdf_evaluate::metrics::MetricSelection;
+use svbrdf_evaluate::protocols::{Mask, Protocol};
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_evaluate::robust::RobustReport;
+use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
 use super::args::{DataSetArgs, OutputArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use super::cases::{reading, source};
-use crate::cli::args::{Specified, refuse};
+use crate::cli::args::scenes::{FixedNumber, SceneArgs};
+use crate::cli::args::{ComparisonArgs, Specified, refuse};
 use crate::cli::job::{Job, NewJob};
 use crate::cli::output::{CommandError, exit, stoppable, warn_of, watched_on};
 
@@ -50,11 +56,23 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
     let output = output(&args, given, &cases)?;
-    let convention = args.comparison.convention.clone().unwrap_or_default();
-    let options = args.scenes.options()?;
+    let DataSetArgs { results, shard, pick, register, mask, metrics, protocol, diagnose } = args.of_data_set;
+    let protocol = protocol.map(|protocol| *protocol);
+    let (convention, options) = match &protocol {
+        Some(protocol) => of_protocol(protocol, &args.comparison, &args.scenes, given)?,
+        None => (args.comparison.convention.clone().unwrap_or_default(), args.scenes.options()?),
+    };
     let (target_error, seed) = options.accuracy();
     let scenes = FixedScenes::new(options.question()?.request, args.scenes.words())?;
-    let DataSetArgs { results, shard, pick, register, mask, metrics, diagnose } = args.of_data_set;
+    let words = |words: Vec<String>| words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>();
+    let metrics = metrics.map(|given| MetricSelection::try_from(words(given))).transpose()?;
+    let metrics =
+        metrics.or(protocol.as_ref().filter(|one| !one.metrics.is_empty()).map(Protocol::selection));
+    let has_renderings = metrics.as_ref().is_some_and(|one| !one.is_all() && one.has_renderings());
+    if has_renderings && scenes.is_none() {
+        let problem = "metrics of renderings need scenes; give --near and --distant, --lights or --scenes";
+        return Err(CommandError::usage(problem));
+    }
     refuse(
         mask.is_some() && diagnose,
         "diagnose",
@@ -64,13 +82,41 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let settings = DatasetSettings {
         metrics,
         diagnose,
+        protocol: protocol.clone(),
         ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };
     let given = &args.comparison.materials.reading;
-    let reading = DatasetReading { mask: mask.is_some(), ..reading(given, &settings.methods, &register)? };
+    let mask = mask.map(|_| Mask::Alpha);
+    let reading = DatasetReading { mask, ..reading(given, &settings.methods, &register)? };
+    let reading = protocol.iter().fold(reading, DatasetReading::over);
     let (verbose, fail_above, robust) = (given.both.verbose, args.fail_above, args.robust);
     let job = ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output };
     Ok(Box::new(job))
+}
+
+/// The convention and the scenes of a protocol; what it decides is refused beside it.
+fn of_protocol(
+    protocol: &Protocol,
+    comparison: &ComparisonArgs,
+    scenes: &SceneArgs<RankReport>,
+    given: &Specified,
+) -> Result<(ChosenConvention, LossOptions), CommandError> {
+    let name = &protocol.name;
+    let reason = |what: &str| format!("the protocol {name} decides {what}");
+    let convention = match &comparison.convention {
+        Some(convention) if protocol.convention.is_none() => convention.clone(),
+        given => {
+            refuse(given.is_some(), "convention", &reason("the convention"))?;
+            protocol.chosen_convention()?
+        }
+    };
+    let typed = scenes.options()?;
+    if protocol.scenes.is_none() {
+        return Ok((convention, typed));
+    }
+    given.refuse::<SceneArgs<FixedNumber>>(&reason("the scenes"))?;
+    refuse(typed.target_error.is_some(), "target-error", &reason("the scenes"))?;
+    Ok((convention, LossOptions { seed: typed.seed, ..protocol.options()? }))
 }
 
 /// Where the ranking goes, before anything is computed: to a file that replaces no material and no list, or to stdout.

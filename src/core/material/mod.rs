@@ -35,7 +35,7 @@ use crate::error::Error;
 use crate::math::real::{Real, Vector as _};
 use crate::model::brdf::Texel;
 use crate::text::line;
-use resize::Filter;
+use resize::{Filter, Kernel};
 
 /// The maps of a material as planes of `width * height` values, row 0 on top.
 ///
@@ -199,6 +199,35 @@ impl<T: Real> Material<T> {
             roughness: resize::plane(roughness, from, size, Filter::Roughness),
         };
         Self::new(self.name, size[0], size[1], planes)
+    }
+
+    /// The same material in another size by a kernel: with [`Kernel::Cubic`] all maps as they are, cut to their ranges, roughness as r.
+    ///
+    /// # Errors
+    /// As [`Material::resized`].
+    pub fn resized_by(self, size: [usize; 2], kernel: Kernel) -> Result<Self, Error> {
+        let from = self.size();
+        if kernel == Kernel::Area || from == size {
+            return self.resized(size);
+        }
+        let value = |plane: &Vec<T>| resize::cubic(plane, from, size, [0.0, 1.0]);
+        let Planes { normal, diffuse, specular, roughness } = &*self.planes;
+        let planes = Planes {
+            normal: normal.each_ref().map(|plane| resize::cubic(plane, from, size, [-1.0, 1.0])),
+            diffuse: diffuse.each_ref().map(value),
+            specular: specular.each_ref().map(value),
+            roughness: value(roughness),
+        };
+        Self::new(self.name, size[0], size[1], planes)
+    }
+
+    /// The same material with another roughness: a factor times its own, and an offset, cut to [0, 1].
+    #[must_use]
+    pub fn with_roughness(mut self, [factor, offset]: [f64; 2]) -> Self {
+        let planes = Arc::make_mut(&mut self.planes);
+        let changed = |r: &T| T::of((factor * r.f64() + offset).clamp(0.0, 1.0));
+        planes.roughness = planes.roughness.iter().map(changed).collect();
+        self
     }
 
     /// The same material in another precision.

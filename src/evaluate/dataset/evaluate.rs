@@ -6,23 +6,25 @@ use std::sync::Arc;
 
 use serde_json::json;
 
-use crate::diagnose::{Storage, diagnose, floor};
+use crate::diagnose::{diagnose, floor};
 use crate::error::Error;
-use crate::metrics::of_maps;
+use crate::metrics::{Kept, RenderedScenes, of_masked_maps, of_renderings};
+use crate::protocols::Mask;
 use crate::rank::most_scenes;
-use svbrdf_core::loss::{Comparison, check_same_size};
-use svbrdf_core::material::{Grid, Material};
+use svbrdf_core::loss::Comparison;
 use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error as FilesError;
 
+use super::opened::{Opened, OpenedMaterial, OpenedPair};
 use super::record::{
     CandidateFile, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
-use super::remark::{MASK, Remark};
+use super::remark::MASK;
 use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
-use svbrdf_files::read::{self, Dependencies, MaterialPath, Neighbours, ReadOptions};
+use svbrdf_files::read::{Dependencies, MaterialPath, ReadOptions};
 
 /// The results of a run over a data set.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,8 +159,9 @@ impl<'a> Evaluation<'a> {
     /// The result of a material, of which what was found is not computed again.
     fn computed(&self, case: &Case, found: Found) -> Result<MaterialResult, Error> {
         let (index, material, seed) = (case.index, case.material.clone(), self.seed(case));
-        let mut truth = open(&case.ground_truth, &self.reading.ground_truths, self.reading.strict);
-        truth.remarks.retain(|remark| !self.reading.mask || remark.doubt.as_deref() != Some(MASK));
+        let mut truth = Opened::ground_truth(&case.ground_truth, self.reading);
+        let is_masked = self.reading.mask.is_some();
+        truth.remarks.retain(|remark| !is_masked || remark.doubt.as_deref() != Some(MASK));
         let floor = self.floor(&truth, seed)?;
         let mut predictions = Vec::new();
         for (candidate, (key, known)) in case.candidates.iter().zip(found) {
@@ -183,17 +186,17 @@ impl<'a> Evaluation<'a> {
         // How it is read is a part of the digest.
         let material =
             |path: &Path, sha256: &str| json!({"path": path.display().to_string(), "sha256": sha256});
-        let DatasetSettings { target_error, scenes, metrics, diagnose, .. } = self.settings;
+        let DatasetSettings { target_error, scenes, diagnose, .. } = self.settings;
         let Convention { name, .. } = self.convention;
         // That of a file by its content.
         let is_named = name.parse().is_ok_and(|named: Convention| named == self.convention);
         let convention = if is_named { json!(name) } else { json!(self.convention) };
         let mut of = json!({
-            "format": 2,
+            "format": 3,
             "convention": convention,
             "target_error": target_error,
             "seed": seed,
-            "metrics": metrics,
+            "metrics": self.settings.computes()[0],
             "diagnose": diagnose,
             "strict": self.reading.strict,
             "ground_truth": material(&case.ground_truth, &truth.sha256),
@@ -201,8 +204,14 @@ impl<'a> Evaluation<'a> {
             "method": method,
             "sample": sample,
         });
-        if self.reading.mask {
-            of["mask"] = json!("alpha");
+        if let Some(mask) = self.reading.mask {
+            of["mask"] = json!(mask);
+        }
+        if self.reading.roughness != [None; 2] {
+            of["roughness"] = json!(self.reading.roughness);
+        }
+        if self.settings.computes()[1] {
+            of["metrics of renderings"] = json!(true);
         }
         if let Some(registration) = self.reading.registrations.get(method) {
             of["registration"] = json!(registration);
@@ -242,39 +251,7 @@ impl<'a> Evaluation<'a> {
 
     /// A prediction of the size of the ground truth, or why there is none.
     pub(super) fn open(&self, candidate: &CandidateFile, truth: &Opened) -> Opened {
-        let truth = match (&truth.found, &candidate.missing) {
-            (Err(problem), _) => return Opened::failed(format!("ground truth: {problem}")),
-            (_, Some(problem)) => return Opened::failed(problem.clone()),
-            (Ok(truth), None) => truth,
-        };
-        let opened = open(&candidate.path, self.reading.of_method(&candidate.method), self.reading.strict);
-        let registration = self.reading.registrations.get(&candidate.method);
-        let (mut registered, mut kept) = (None, None);
-        let found = opened.found.and_then(|found| {
-            let pair = [&truth.material, &found.material];
-            let other_size = registration.filter(|_| pair[0].size() != pair[1].size());
-            let [part, material] = match other_size {
-                Some(_) if self.reading.mask => {
-                    return Err(
-                        "a mask is not cut to predictions of another size; leave out --mask".to_owned()
-                    );
-                }
-                Some(registration) => registration.applied(pair).map_err(|problem| problem.to_string())?,
-                None => {
-                    check_same_size(pair[0], pair[1]).map_err(|problem| problem.to_string())?;
-                    if !self.reading.mask {
-                        return Ok(found);
-                    }
-                    kept = Some(truth.kept()?);
-                    let texels = kept.iter().flatten().copied().collect::<Vec<_>>();
-                    pair.map(|material| material.gathered(&texels, [texels.len(), 1]))
-                }
-            };
-            registered = Some(OpenedMaterial { material: part, mask: None, storage: truth.storage.clone() });
-            Ok(OpenedMaterial { material, ..found })
-        });
-        let kept = kept.map(|kept| (truth.material.grid(), kept));
-        Opened { found, truth: registered, kept, ..opened }
+        Opened::beside(candidate, truth, self.reading)
     }
 
     /// The result of a prediction; `floor` is that of the ground truth.
@@ -288,10 +265,11 @@ impl<'a> Evaluation<'a> {
     ) -> Result<PredictionResult, Error> {
         let truth = opened.truth.as_ref().or(truth.found.as_ref().ok());
         let pair = truth.zip(opened.found.as_ref().ok());
-        let metrics = pair.filter(|_| self.settings.metrics).map(metrics).unwrap_or_default();
+        let kept = opened.kept.as_ref();
+        let metrics = pair.map(|pair| self.metrics(pair, kept, seed)).transpose()?.unwrap_or_default();
         let marks = pair.filter(|_| self.settings.diagnose);
         let marks = marks.map(|pair| self.marks(pair, floor, seed)).transpose()?;
-        let known = pair.map(|pair| self.loss(pair, opened.kept.as_ref(), seed)).transpose()?;
+        let known = pair.map(|pair| self.loss(pair, kept, seed)).transpose()?;
         // `open` gives the problem of the ground truth, too.
         let error = opened.found.err();
         let reading = opened.remarks;
@@ -309,13 +287,18 @@ impl<'a> Evaluation<'a> {
     fn loss(
         &self,
         (truth, prediction): OpenedPair<'_>,
-        kept: Option<&(Grid, Vec<usize>)>,
+        kept: Option<&Arc<[bool]>>,
         seed: u64,
     ) -> Result<KnownLoss, Error> {
-        let predictions = [&prediction.material];
-        let mut comparison = Comparison::new(&truth.material, &predictions, self.convention)?;
-        if let Some((grid, texels)) = kept {
-            comparison = comparison.at(*grid, texels);
+        let texels = kept.map(|kept| (0..kept.len()).filter(|texel| kept[*texel]).collect::<Vec<_>>());
+        let pair = [&truth.material, &prediction.material].map(|material| match &texels {
+            Some(texels) => material.gathered(texels, [texels.len(), 1]),
+            None => material.clone(),
+        });
+        let predictions = [&pair[1]];
+        let mut comparison = Comparison::new(&pair[0], &predictions, self.convention)?;
+        if let Some(texels) = &texels {
+            comparison = comparison.at(truth.material.grid(), texels);
         }
         let request = self.settings.request(seed);
         let outcome = comparison.at_most(most_scenes(1)).run(&request, &self.progress.part())?;
@@ -330,6 +313,31 @@ impl<'a> Evaluation<'a> {
             interval95: sampled.and(estimate.interval95).unwrap_or([estimate.mean; 2]),
             scenes: outcome.scenes.len(),
         })
+    }
+
+    /// The metrics that are asked for, by name.
+    fn metrics(
+        &self,
+        (truth, prediction): OpenedPair<'_>,
+        kept: Option<&Arc<[bool]>>,
+        seed: u64,
+    ) -> Result<BTreeMap<String, f64>, Error> {
+        let [maps, renderings] = self.settings.computes();
+        let (truth, prediction) = (&truth.material, &prediction.material);
+        let mut metrics = Vec::new();
+        if maps {
+            let count_all = self.reading.mask == Some(Mask::AlphaElseBlack);
+            let mask = kept.map(|texels| Kept { texels, count_all });
+            metrics = of_masked_maps(truth, prediction, mask)?;
+        }
+        let scenes = self.settings.request(seed).scenes(&self.convention)?;
+        if let Some(scenes) = scenes.filter(|_| renderings && kept.is_none()) {
+            let convention = &self.convention;
+            let (sampler, exposure_ev) = (Sampler::Random, 0.0);
+            let rendered = RenderedScenes { scenes: &scenes, sampler, convention, exposure_ev };
+            metrics.extend(of_renderings(truth, prediction, &rendered, &self.progress.part())?);
+        }
+        Ok(metrics.into_iter().map(|metric| (metric.name.to_owned(), metric.value)).collect())
     }
 
     /// The floor of a ground truth that was read, where diagnoses are asked for.
@@ -356,63 +364,4 @@ fn without_loss(candidate: &CandidateFile, problem: String) -> PredictionResult 
     let path = path.display().to_string();
     let (error, metrics) = (Some(problem), BTreeMap::new());
     PredictionResult { method, sample, path, known: None, error, reading: Vec::new(), metrics, marks: None }
-}
-
-/// A ground truth and a prediction of one size.
-type OpenedPair<'a> = (&'a OpenedMaterial, &'a OpenedMaterial);
-
-/// A material that was opened, or why it cannot be used.
-pub(super) struct Opened {
-    pub(super) found: Result<OpenedMaterial, String>,
-    /// The part of the ground truth that a prediction of another size is compared with.
-    pub(super) truth: Option<OpenedMaterial>,
-    /// The texels that a mask keeps, and the grid that they are texels of.
-    kept: Option<(Grid, Vec<usize>)>,
-    remarks: Vec<Remark>,
-    neighbours: Option<Neighbours>,
-}
-
-impl Opened {
-    fn failed(problem: String) -> Self {
-        Self { found: Err(problem), truth: None, kept: None, remarks: Vec::new(), neighbours: None }
-    }
-}
-
-/// A material that was read, and how it is stored.
-pub(super) struct OpenedMaterial {
-    pub(super) material: Material<f32>,
-    /// Which texels are opaque.
-    mask: Option<Arc<[bool]>>,
-    storage: Storage,
-}
-
-impl OpenedMaterial {
-    /// The texels that its mask keeps, at least one.
-    fn kept(&self) -> Result<Vec<usize>, String> {
-        let [width, height] = self.material.size();
-        let mask = self.mask.as_ref().filter(|mask| mask.len() == width * height);
-        let mask =
-            mask.ok_or("no alpha of the ground truth is a mask, 0 or 1 nearly everywhere; leave out --mask")?;
-        let kept: Vec<usize> = (0..mask.len()).filter(|texel| mask[*texel]).collect();
-        if kept.is_empty() { Err("the mask of the ground truth keeps no texel".to_owned()) } else { Ok(kept) }
-    }
-}
-
-/// Reads a material.
-pub(super) fn open(path: &Path, options: &ReadOptions, strict: bool) -> Opened {
-    let read = match read::read::<f32>(path, options, &Progress::default()) {
-        Ok(read) => read,
-        Err(problem) => return Opened::failed(problem.to_string()),
-    };
-    let guesses = if strict { read.refuse_guesses(path) } else { Ok(()) };
-    let (remarks, storage) = (Remark::of(&read), read.storage());
-    let found = guesses.map(|()| OpenedMaterial { material: read.material, mask: read.mask, storage });
-    let found = found.map_err(|problem| problem.to_string());
-    Opened { found, truth: None, kept: None, remarks, neighbours: read.neighbours }
-}
-
-/// The metrics of the maps.
-fn metrics((truth, prediction): OpenedPair<'_>) -> BTreeMap<String, f64> {
-    let metrics = of_maps(&truth.material, &prediction.material).unwrap_or_default();
-    metrics.into_iter().map(|metric| (metric.name.to_owned(), metric.value)).collect()
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::protocols::{Aggregate, Row};
 use crate::report::{Cell, Table, bold, escaped, latex};
 use svbrdf_core::statistics::median;
 
@@ -10,8 +11,9 @@ use super::pick::counted;
 use super::record::MaterialResult;
 use super::summary::{DatasetReport, MethodSummary, MetricSummary};
 
-/// The beginning of the name of a PSNR of all materials together, before that of the metric.
+/// The beginnings of the names of what is of all materials together, before those of the metric.
 const POOLED: &str = "psnr_pooled_";
+const POOLED_ROOT: &str = "rmse_pooled_";
 
 /// How values of a metric are averaged: as errors, of which less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +26,8 @@ enum Scale {
     Decibel,
     /// The mean square error of a PSNR, in squares of the range: that of all texels of materials of one size.
     Pooled,
+    /// The same of an RMSE.
+    PooledRoot,
 }
 
 impl Scale {
@@ -31,6 +35,7 @@ impl Scale {
         match metric {
             _ if metric.starts_with("ssim") => Self::Similarity,
             _ if metric.starts_with(POOLED) => Self::Pooled,
+            _ if metric.starts_with(POOLED_ROOT) => Self::PooledRoot,
             _ if metric.starts_with("psnr") => Self::Decibel,
             _ => Self::Error,
         }
@@ -42,6 +47,7 @@ impl Scale {
             Self::Similarity => 1.0 - value,
             Self::Decibel => -value,
             Self::Pooled => 10_f64.powf(-value / 10.0),
+            Self::PooledRoot => value * value,
         }
     }
 
@@ -51,13 +57,14 @@ impl Scale {
             Self::Similarity => (1.0 - error).max(-1.0),
             Self::Decibel => -error,
             Self::Pooled => -10.0 * error.log10(),
+            Self::PooledRoot => error.sqrt(),
         }
     }
 
     fn interval_of(self, errors: &[f64]) -> Option<[f64; 2]> {
         let interval = match self {
             Self::Decibel => interval_of_mean(errors),
-            Self::Error | Self::Similarity | Self::Pooled => interval_of_positive_mean(errors),
+            _ => interval_of_positive_mean(errors),
         };
         interval.and_then(|ends| self.interval(ends))
     }
@@ -84,27 +91,71 @@ pub(super) fn summarize_metrics(
         };
         (name, summary)
     };
-    errors_of(report, method).into_iter().map(summary).collect()
+    let asked: BTreeSet<String> = rows(report).into_iter().map(|row| row.metric).collect();
+    let errors = errors_of(report, method).into_iter();
+    errors.filter(|(name, _)| asked.contains(name)).map(summary).collect()
+}
+
+/// A row of the tables of metrics.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MetricRow {
+    /// The name of the metric, or of what is pooled over materials.
+    pub metric: String,
+    /// What the protocol calls it.
+    pub label: Option<String>,
+    is_median: bool,
+}
+
+impl MetricRow {
+    /// What the row has of a method, with its interval.
+    pub fn value(&self, summary: &MethodSummary) -> Option<(f64, Option<[f64; 2]>)> {
+        let metric = summary.metrics.get(&self.metric)?;
+        Some(if self.is_median { (metric.median, None) } else { (metric.mean, metric.interval95_materials) })
+    }
+
+    /// The label of the protocol before the name.
+    pub fn title(&self) -> String {
+        let median = if self.is_median { ", median" } else { "" };
+        let label = self.label.as_ref().map_or(String::new(), |label| format!("{label}: "));
+        format!("{label}{}{median}", self.metric)
+    }
+}
+
+/// The rows of the tables: those of the protocol, or the metrics that are asked for.
+pub fn rows(report: &DatasetReport) -> Vec<MetricRow> {
+    if let Some(protocol) = &report.settings.protocol {
+        let of = |row: &Row| MetricRow {
+            metric: row.summary(),
+            label: Some(row.label.clone()),
+            is_median: row.over_materials == Aggregate::Median,
+        };
+        return protocol.metrics.iter().map(of).collect();
+    }
+    let asked = |name: &&str| report.settings.metrics.as_ref().is_some_and(|metrics| metrics.has(name));
+    let names = metric_names(&report.results).into_iter().filter(asked);
+    let all: BTreeSet<String> =
+        names.flat_map(|name| [Some(name.to_owned()), pooled(name)]).flatten().collect();
+    all.into_iter().map(|metric| MetricRow { metric, label: None, is_median: false }).collect()
 }
 
 /// Whether larger values of a metric are better ones: similarities and signal-to-noise ratios.
 pub fn is_better_larger(metric: &str) -> bool {
-    Scale::of(metric) != Scale::Error
+    !matches!(Scale::of(metric), Scale::Error | Scale::PooledRoot)
 }
 
-/// For each metric by name: which methods of the ranking are the best one, or cannot be separated from it. Only methods that are compared
+/// For each row: which methods of the ranking are the best one, or cannot be separated from it. Only methods that are compared
 /// are; a method ties with the best one where the 95% interval of the mean of their differences includes 0 or is unknown.
-pub fn best_by_metric(report: &DatasetReport) -> BTreeMap<String, Vec<bool>> {
+pub fn best_by_metric(report: &DatasetReport) -> Vec<(MetricRow, Vec<bool>)> {
     let methods = &report.methods;
     let errors: Vec<_> = methods.iter().map(|method| errors_of(report, method)).collect();
-    let names: BTreeSet<&String> = errors.iter().flat_map(BTreeMap::keys).collect();
-    let best_of = |name: &String| -> Vec<bool> {
-        let compared =
-            methods.iter().zip(&errors).map(|(method, errors)| errors.get(name).filter(|_| method.compared));
+    let best_of = |row: &MetricRow| -> Vec<bool> {
+        let of = methods.iter().zip(&errors);
+        let compared = of.map(|(method, errors)| errors.get(&row.metric).filter(|_| method.compared));
         let best = compared.clone().flatten().min_by(|a, b| mean(a).total_cmp(&mean(b)));
         compared.map(|errors| errors.zip(best).is_some_and(|(errors, best)| ties(errors, best))).collect()
     };
-    names.into_iter().map(|name| (name.clone(), best_of(name))).collect()
+    let has_any = |row: &MetricRow| methods.iter().any(|method| row.value(method).is_some());
+    rows(report).into_iter().filter(has_any).map(|row| (row.clone(), best_of(&row))).collect()
 }
 
 /// Whether the materials of both cannot separate a method from the best one.
@@ -138,7 +189,7 @@ fn errors_of(report: &DatasetReport, method: &MethodSummary) -> Errors {
     for result in report.results.iter().filter(is_over) {
         let counted = counted(result, &method.method, report.pick);
         for name in counted.first().map(|prediction| prediction.metrics.keys()).into_iter().flatten() {
-            for averaged in [Some(name.clone()), pooled(name)].into_iter().flatten() {
+            for averaged in [Some(name.clone()), pooled(name), pooled_root(name)].into_iter().flatten() {
                 let scale = Scale::of(&averaged);
                 let all = counted.iter().filter_map(|prediction| prediction.metrics.get(name));
                 let sum: f64 = all.map(|value| scale.error(*value)).sum();
@@ -154,29 +205,41 @@ fn pooled(metric: &str) -> Option<String> {
     metric.strip_prefix("psnr_").map(|of| format!("{POOLED}{of}"))
 }
 
+/// The name of the RMSE of all materials together, where this is that of one.
+fn pooled_root(metric: &str) -> Option<String> {
+    metric.strip_prefix("rmse_").map(|of| format!("{POOLED_ROOT}{of}"))
+}
+
 /// The names of the metrics of the results.
 pub(super) fn metric_names(results: &[MaterialResult]) -> Vec<&str> {
     let first = results.iter().flat_map(|result| &result.predictions).find(|p| !p.metrics.is_empty());
     first.into_iter().flat_map(|prediction| prediction.metrics.keys()).map(String::as_str).collect()
 }
 
-/// The means over materials with their intervals, two columns for each method; `None` without metrics.
+/// The means over materials with their intervals, two columns for each method; `None` without metrics. A method that is not compared has the
+/// number of its materials in its title.
 pub(super) fn metrics_table(report: &DatasetReport) -> Option<Table> {
     let methods = report.methods.iter();
-    let titles = methods.flat_map(|summary| [summary.method.as_str(), "95%"]);
-    let row = |name: &str| {
+    let titles = methods.flat_map(|summary| [method_title(summary), "95%".to_owned()]);
+    let row = |row: MetricRow| {
         let cells = report.methods.iter().flat_map(|summary| {
-            let metric = summary.metrics.get(name);
-            let interval = metric.and_then(|metric| metric.interval95_materials);
-            [Cell::or(metric.map(|metric| metric.mean), "-"), Cell::or(interval, "-")]
+            let known = row.value(summary);
+            [Cell::or(known.map(|known| known.0), "-"), Cell::or(known.and_then(|known| known.1), "-")]
         });
-        [name.into()].into_iter().chain(cells).collect()
+        [row.title().into()].into_iter().chain(cells).collect()
     };
-    let names: BTreeSet<&str> =
-        report.methods.iter().flat_map(|summary| summary.metrics.keys()).map(String::as_str).collect();
-    let rows: Vec<_> = names.into_iter().map(row).collect();
-    let titles = ["metric, mean over materials"].into_iter().chain(titles);
+    let has_any = |row: &MetricRow| report.methods.iter().any(|method| row.value(method).is_some());
+    let rows: Vec<_> = rows(report).into_iter().filter(has_any).map(row).collect();
+    let titles = ["metric, mean over materials".to_owned()].into_iter().chain(titles);
     (!rows.is_empty()).then(|| Table::new(titles, rows))
+}
+
+/// The name of a method, with the number of its materials where its means are over others than those of the compared ones.
+fn method_title(summary: &MethodSummary) -> String {
+    match summary.compared {
+        true => summary.method.clone(),
+        false => format!("{} ({} materials)", summary.method, summary.count()),
+    }
 }
 
 /// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
@@ -187,16 +250,16 @@ pub(super) fn latex_table(report: &DatasetReport) -> String {
     if best.is_empty() {
         return String::new();
     }
-    let row = |(name, best): (&String, &Vec<bool>)| {
+    let line = |(row, best): (&MetricRow, &Vec<bool>)| {
         let cell = |(method, &best): (&MethodSummary, &bool)| {
-            method.metrics.get(name).map_or("--".to_owned(), |metric| bold(&number(metric.mean), best))
+            row.value(method).map_or("--".to_owned(), |(value, _)| bold(&number(value), best))
         };
         let cells: Vec<String> = methods.iter().zip(best).map(cell).collect();
-        let arrow = if is_better_larger(name) { "$\\uparrow$" } else { "$\\downarrow$" };
-        format!("{} {arrow} & {} \\\\\n", escaped(name), cells.join(" & "))
+        let arrow = if is_better_larger(&row.metric) { "$\\uparrow$" } else { "$\\downarrow$" };
+        format!("{} {arrow} & {} \\\\\n", escaped(&row.title()), cells.join(" & "))
     };
-    let rows: String = best.iter().map(row).collect();
-    let names: Vec<String> = methods.iter().map(|summary| escaped(&summary.method)).collect();
+    let rows: String = best.iter().map(|(row, best)| line((row, best))).collect();
+    let names: Vec<String> = methods.iter().map(|summary| escaped(&method_title(summary))).collect();
     let heading = format!("Metric, mean over materials & {}", names.join(" & "));
     format!("\n{}", latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
 }

@@ -11,6 +11,7 @@ mod list;
 mod mark_summary;
 mod metric_summary;
 mod names;
+mod opened;
 mod pick;
 mod ranking;
 mod record;
@@ -28,7 +29,7 @@ pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{DatasetResults, Evaluation, run};
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use mark_summary::marks_table;
-pub use metric_summary::{best_by_metric, is_better_larger};
+pub use metric_summary::{MetricRow, best_by_metric, is_better_larger};
 pub use pick::{Pick, counted_loss, counted_sample};
 pub use record::{
     CandidateFile, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,

@@ -19,14 +19,11 @@ const WAYS: [Way; 4] = [
 pub(super) fn matched<'a>(materials: &[&'a str], predictions: &[&'a str]) -> BTreeMap<&'a str, &'a str> {
     let by = |way: &Way| {
         let [of_materials, of_predictions] = [materials, predictions].map(|names| keys(names, *way));
-        let pair =
-            |(key, material): (String, Option<&'a str>)| Some((material?, (*of_predictions.get(&key)?)?));
-        let pairs: BTreeMap<_, _> = of_materials.clone().into_iter().filter_map(pair).collect();
-        // A key that several have tells nothing about the others either.
-        let is_clear = [&of_materials, &of_predictions].iter().all(|keys| keys.values().all(Option::is_some));
-        if is_clear { pairs } else { BTreeMap::new() }
+        let both = of_materials.into_iter().filter_map(|(key, one)| Some((one, *of_predictions.get(&key)?)));
+        // A key that several of a side have, and one of the other, tells nothing about the others either.
+        both.map(|(material, prediction)| material.zip(prediction)).collect::<Option<_>>().unwrap_or_default()
     };
-    let found: Vec<_> = WAYS.iter().map(by).collect();
+    let found: Vec<BTreeMap<_, _>> = WAYS.iter().map(by).collect();
     let most = found.iter().map(BTreeMap::len).max().unwrap_or(0);
     found.into_iter().find(|pairs| pairs.len() == most).unwrap_or_default()
 }
@@ -78,7 +75,7 @@ mod tests {
     fn names_are_matched_where_the_match_is_one_to_one() {
         type Row =
             (&'static [&'static str], &'static [&'static str], &'static [(&'static str, &'static str)]);
-        let rows: [Row; 10] = [
+        let rows: [Row; 11] = [
             (&["Brick", "Wood"], &["brick", "wood"], &[("Brick", "brick"), ("Wood", "wood")]),
             (&["a", "b"], &["pred_a", "pred_b"], &[("a", "pred_a"), ("b", "pred_b")]),
             (&["m0", "m1"], &["m0_pred", "m1_pred"], &[("m0", "m0_pred"), ("m1", "m1_pred")]),
@@ -92,6 +89,8 @@ mod tests {
             // Two candidates are none.
             (&["oak_1", "oak_2"], &["oak_a", "oak_b"], &[]),
             (&["01;x", "02;y"], &["01_a", "01_b", "02_a"], &[]),
+            // Other files of the folder.
+            (&["01;x", "02;y"], &["01", "02", "gt_0", "gt_1"], &[("01;x", "01"), ("02;y", "02")]),
         ];
         for (materials, predictions, expected) in rows {
             let found: Vec<_> = matched(materials, predictions).into_iter().collect();

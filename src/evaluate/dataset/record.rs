@@ -10,6 +10,8 @@ use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate, Request};
 
 use super::remark::Remark;
 use super::scenes::FixedScenes;
+use crate::metrics::MetricSelection;
+use crate::protocols::{self, Mask, Protocol};
 use crate::registration::Registration;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::ReadOptions;
@@ -77,6 +79,14 @@ pub struct Method {
     pub path: PathBuf,
 }
 
+/// True for all metrics, otherwise the words that select them.
+fn words<S: Serializer>(metrics: &Option<MetricSelection>, serializer: S) -> Result<S::Ok, S::Error> {
+    match metrics.as_ref().filter(|metrics| !metrics.is_all()) {
+        Some(metrics) => metrics.serialize(serializer),
+        None => serializer.serialize_bool(metrics.is_some()),
+    }
+}
+
 /// A path as it is printed: it may be no Unicode.
 fn as_text<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_str(&path.display())
@@ -99,9 +109,12 @@ pub struct DatasetSettings {
     pub materials: Vec<String>,
     /// In order.
     pub methods: Vec<String>,
-    /// Whether results have metrics of the maps.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub metrics: bool,
+    /// What it follows, by its name and source.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "protocols::by_name")]
+    pub protocol: Option<Protocol>,
+    /// Which metrics results have, if any.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "words")]
+    pub metrics: Option<MetricSelection>,
     /// Whether results have the marks of a diagnosis.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub diagnose: bool,
@@ -131,9 +144,16 @@ impl DatasetSettings {
             seed,
             materials,
             methods,
-            metrics: false,
+            protocol: None,
+            metrics: None,
             diagnose: false,
         }
+    }
+
+    /// Whether metrics of maps and of renderings are computed. Those of renderings only where they are named.
+    pub(super) fn computes(&self) -> [bool; 2] {
+        let Some(metrics) = &self.metrics else { return [false; 2] };
+        [metrics.has_maps(), !metrics.is_all() && metrics.has_renderings()]
     }
 
     /// The same settings with these scenes for every material; `None`: as many as the target error needs.
@@ -194,9 +214,15 @@ pub struct DatasetReading {
     /// How the predictions of a method of another size lie on their ground truths, by the name of the method.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub registrations: BTreeMap<String, Registration>,
-    /// Whether only the texels count that are opaque in the alpha of the ground truth.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    pub mask: bool,
+    /// How they may, where that is restricted: the maps decide which.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ways: Vec<Registration>,
+    /// Which texels count, where not all do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mask: Option<Mask>,
+    /// Factor and offset on the roughness of ground truths and predictions.
+    #[serde(skip_serializing_if = "is_nothing")]
+    pub roughness: [Option<[f64; 2]>; 2],
     /// What the materials beside each other have decided: lines.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub decisions: Vec<String>,
@@ -204,7 +230,27 @@ pub struct DatasetReading {
     pub strict: bool,
 }
 
+fn is_nothing(roughness: &[Option<[f64; 2]>; 2]) -> bool {
+    *roughness == [None; 2]
+}
+
 impl DatasetReading {
+    /// This reading, and what a protocol states where it is left open.
+    #[must_use]
+    pub fn over(self, protocol: &Protocol) -> Self {
+        let Protocol { ground_truths, predictions, registration, mask, .. } = protocol;
+        let method = |(name, options): (String, ReadOptions)| (name, options.over(predictions.read));
+        Self {
+            ground_truths: self.ground_truths.over(ground_truths.read),
+            predictions: self.predictions.over(predictions.read),
+            methods: self.methods.into_iter().map(method).collect(),
+            ways: registration.clone(),
+            mask: self.mask.or(*mask),
+            roughness: [ground_truths.roughness, predictions.roughness],
+            ..self
+        }
+    }
+
     /// How the predictions of a method are read.
     pub fn of_method(&self, method: &str) -> &ReadOptions {
         self.methods.get(method).unwrap_or(&self.predictions)

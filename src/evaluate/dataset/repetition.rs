@@ -4,12 +4,16 @@ use std::ffi::OsString;
 
 use svbrdf_core::text::{line, quoted};
 
+use svbrdf_files::read::ReadOptions;
+
 use super::pick::Pick;
 use super::record::{DatasetReading, DatasetSettings, Method, Source};
+use crate::protocols::Protocol;
 
 /// The command line that makes the same results, quoted for a shell. Options that have their defaults are left out.
 pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick: Pick) -> String {
-    let DatasetSettings { source, convention, target_error, scenes, seed, metrics, diagnose, .. } = settings;
+    let DatasetSettings { source, convention, target_error, scenes, seed, protocol, diagnose, .. } = settings;
+    let metrics = settings.metrics.as_ref().filter(|_| protocol.is_none());
     let mut words: Vec<OsString> = vec!["svbrdf".into(), "rank".into()];
     match source {
         Source::Folders { ground_truths, methods } => {
@@ -28,17 +32,21 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
         ("--seed", seed.to_string(), "0"),
         ("--pick", pick.to_string(), "fixed"),
     ];
-    let specified = options.into_iter().filter(|(_, value, default)| value != default);
+    let is_of_protocol = |name: &str| protocol.is_some() && name == "--convention";
+    let specified =
+        options.into_iter().filter(|(name, value, default)| value != default && !is_of_protocol(name));
     words.extend(specified.flat_map(|(name, value, _)| [OsString::from(name), value.into()]));
     words.extend(scenes.iter().flat_map(|scenes| scenes.options.iter().map(OsString::from)));
-    let switches = [
-        ("--metrics", *metrics),
-        ("--diagnose", *diagnose),
-        ("--strict", reading.strict),
-        ("--mask=alpha", reading.mask),
-    ];
+    words.extend(protocol.iter().flat_map(|one| [OsString::from("--protocol"), one.argument().into()]));
+    words.extend(metrics.map(|metrics| match Vec::from(metrics.clone()) {
+        words if words.is_empty() => "--metrics".into(),
+        words => OsString::from(format!("--metrics={}", words.join(","))),
+    }));
+    let of_protocol = protocol.as_ref().and_then(|protocol| protocol.mask);
+    let is_masked = reading.mask.is_some() && reading.mask != of_protocol;
+    let switches = [("--diagnose", *diagnose), ("--strict", reading.strict), ("--mask=alpha", is_masked)];
     words.extend(switches.into_iter().filter(|(_, is)| *is).map(|(name, _)| OsString::from(name)));
-    words.extend(read_options(reading).into_iter().map(OsString::from));
+    words.extend(read_options(reading, protocol.as_ref()).into_iter().map(OsString::from));
     words.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 
@@ -52,12 +60,15 @@ fn method(method: &Method) -> OsString {
 }
 
 /// `--read gt:KEY=VALUE,...` for the ground truths, the predictions and the methods that are read by options, and `--register` for those of
-/// another size.
-fn read_options(reading: &DatasetReading) -> Vec<String> {
+/// another size. What the protocol states is left out.
+fn read_options(reading: &DatasetReading, protocol: Option<&Protocol>) -> Vec<String> {
     let DatasetReading { ground_truths, predictions, methods, .. } = reading;
-    let of_methods = methods.iter().map(|(name, options)| (name.as_str(), options));
-    let all = [("gt", ground_truths), ("pred", predictions)].into_iter().chain(of_methods);
-    let read = all.map(|(name, options)| (name, options.words())).filter(|(_, words)| !words.is_empty());
+    let [of_truths, of_predictions] = protocol
+        .map_or([ReadOptions::AUTO; 2], |protocol| [protocol.ground_truths.read, protocol.predictions.read]);
+    let of_methods = methods.iter().map(|(name, options)| (name.as_str(), options, of_predictions));
+    let all = [("gt", ground_truths, of_truths), ("pred", predictions, of_predictions)];
+    let all = all.into_iter().chain(of_methods).filter(|(_, options, stated)| *options != stated);
+    let read = all.map(|(name, options, _)| (name, options.words())).filter(|(_, words)| !words.is_empty());
     let read = read.flat_map(|(name, words)| ["--read".to_owned(), format!("{name}:{words}")]);
     let ways = reading.registrations.iter();
     read.chain(ways.flat_map(|(name, way)| ["--register".to_owned(), format!("{name}:{way}")])).collect()

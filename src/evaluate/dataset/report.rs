@@ -102,7 +102,13 @@ impl DatasetReport {
             ..summary
         };
         let methods = methods.into_iter().map(whole).collect();
-        Self { methods, ..report }
+        let mut report = Self { methods, ..report };
+        // A results folder has all metrics.
+        let has = |name: &str| report.settings.metrics.as_ref().is_some_and(|metrics| metrics.has(name));
+        for prediction in report.results.iter_mut().flat_map(|result| &mut result.predictions) {
+            prediction.metrics.retain(|name, _| has(name));
+        }
+        report
     }
 
     /// The best method, where methods are compared.
@@ -239,8 +245,10 @@ impl DatasetReport {
 impl Report for DatasetReport {
     fn heading(&self) -> String {
         let DatasetSettings { convention, materials, .. } = &self.settings;
+        let protocol = self.settings.protocol.as_ref();
+        let protocol = protocol.map_or(String::new(), |protocol| format!("protocol {protocol}\n"));
         format!(
-            "rendering loss over {} of {} materials\nconvention {convention}, {}, pick {}\n",
+            "rendering loss over {} of {} materials\n{protocol}convention {convention}, {}, pick {}\n",
             self.results.len(),
             materials.len(),
             self.settings.accuracy(),

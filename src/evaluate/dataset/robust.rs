@@ -7,7 +7,8 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::Error as FilesError;
 
 use super::bootstrap::{FEWEST, interval_of_mean};
-use super::evaluate::{Evaluation, open};
+use super::evaluate::Evaluation;
+use super::opened::Opened;
 use super::record::{Case, DatasetReading, DatasetSettings};
 use crate::error::Error;
 use crate::report::Compared;
@@ -84,7 +85,7 @@ fn over_materials(all: &[Vec<Scores>]) -> Vec<Scores> {
 /// The answers about a material, or why it cannot be asked about.
 fn of_material(case: &Case, evaluation: &Evaluation<'_>) -> Result<Result<Vec<Scores>, String>, Error> {
     let Evaluation { settings, reading, progress, .. } = evaluation;
-    let truth = open(&case.ground_truth, &reading.ground_truths, reading.strict);
+    let truth = Opened::ground_truth(&case.ground_truth, reading);
     let of_method = |method: &String| {
         let candidate = case.candidates.iter().find(|candidate| candidate.method == *method);
         let found = candidate.map_or_else(

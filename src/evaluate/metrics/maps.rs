@@ -54,9 +54,12 @@ const ROUGHNESS: Measures = &[
 ];
 const ROUGHNESS_ALPHA: Measures = &[("rmse_roughness_alpha", rmse)];
 const BASE_LINEAR: Measures = &[("rmse_base_colour_linear", rmse)];
+const BASE_SCALED: Measures = &[("psnr_base_colour_linear_scaled_channels", peak_ratio)];
 const BASE_SRGB: Measures =
     &[("rmse_base_colour_srgb", rmse), ("l1_base_colour_srgb", l1), ("psnr_base_colour_srgb", peak_ratio)];
 const METALLIC: Measures = &[("rmse_metallic", rmse), ("l1_metallic", l1), ("psnr_metallic", peak_ratio)];
+const PACKED: Measures = &[("psnr_roughness_metallic_0_srgb", peak_ratio)];
+const ALL_MAPS: Measures = &[("l1_maps_minus1_to_1", l1_stretched)];
 
 const NORMAL_SIMILARITY: Similarities =
     &[("ssim11_gaussian_normal_stored", ssim11), ("ssim7_uniform_normal_stored", ssim7)];
@@ -66,6 +69,12 @@ const SPECULAR_SIMILARITY: Similarities =
     &[("ssim11_gaussian_specular_srgb", ssim11), ("ssim7_uniform_specular_srgb", ssim7)];
 const ROUGHNESS_SIMILARITY: Similarities =
     &[("ssim11_gaussian_roughness", ssim11), ("ssim7_uniform_roughness", ssim7)];
+const BASE_SIMILARITY: Similarities =
+    &[("ssim11_gaussian_base_colour_srgb", ssim11), ("ssim7_uniform_base_colour_srgb", ssim7)];
+const SCALED_SIMILARITY: Similarities = &[("ssim11_gaussian_base_colour_linear_scaled_channels", ssim11)];
+const METALLIC_SIMILARITY: Similarities =
+    &[("ssim11_gaussian_metallic", ssim11), ("ssim7_uniform_metallic", ssim7)];
+const PACKED_SIMILARITY: Similarities = &[("ssim11_gaussian_roughness_metallic_0_srgb", ssim11)];
 
 /// The names of all metrics of maps.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
@@ -81,10 +90,22 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
         ROUGHNESS,
         ROUGHNESS_ALPHA,
         BASE_LINEAR,
+        BASE_SCALED,
         BASE_SRGB,
         METALLIC,
+        PACKED,
+        ALL_MAPS,
     ];
-    let similarities = [NORMAL_SIMILARITY, DIFFUSE_SIMILARITY, SPECULAR_SIMILARITY, ROUGHNESS_SIMILARITY];
+    let similarities = [
+        NORMAL_SIMILARITY,
+        DIFFUSE_SIMILARITY,
+        SPECULAR_SIMILARITY,
+        ROUGHNESS_SIMILARITY,
+        BASE_SIMILARITY,
+        SCALED_SIMILARITY,
+        METALLIC_SIMILARITY,
+        PACKED_SIMILARITY,
+    ];
     let measures = measures.into_iter().flatten().map(|(name, _)| *name);
     ANGLES.into_iter().chain(measures).chain(similarities.into_iter().flatten().map(|(name, _)| *name))
 }
@@ -94,17 +115,49 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// [`Error::SizesDiffer`].
 pub fn of_maps<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) -> Result<Vec<Metric>, Error> {
+    of_masked_maps(ground_truth, prediction, None)
+}
+
+/// The texels that a mask keeps. The others are black in both materials.
+#[derive(Clone, Copy, Debug)]
+pub struct Kept<'a> {
+    /// Whether each is.
+    pub texels: &'a [bool],
+    /// Whether the others count, too, for other metrics than SSIM.
+    pub count_all: bool,
+}
+
+/// [`of_maps`] of the texels that a mask keeps.
+///
+/// # Errors
+/// [`Error::SizesDiffer`].
+pub fn of_masked_maps<T: Real>(
+    ground_truth: &Material<T>,
+    prediction: &Material<T>,
+    mask: Option<Kept<'_>>,
+) -> Result<Vec<Metric>, Error> {
     check_same_size(ground_truth, prediction)?;
+    let kept = mask.map(|mask| mask.texels);
     let (truth, predicted) = (ground_truth.planes(), prediction.planes());
-    let normal = pairs(&truth.normal, &predicted.normal);
-    let [diffuse, specular] = [(&truth.diffuse, &predicted.diffuse), (&truth.specular, &predicted.specular)]
-        .map(|(a, b)| pairs(a, b));
-    let roughness = pairs(std::slice::from_ref(&truth.roughness), std::slice::from_ref(&predicted.roughness));
-    let normal_stored = stored(&normal);
+    let blackened = |pairs: Pairs| match kept {
+        Some(kept) => blackened(&pairs, kept),
+        None => pairs,
+    };
+    let of = |truth: &[Vec<T>], predicted: &[Vec<T>]| blackened(pairs(truth, predicted));
+    let normal = of(&truth.normal, &predicted.normal);
+    let normal_stored = blackened(stored(&normal));
+    let [diffuse, specular] =
+        [(&truth.diffuse, &predicted.diffuse), (&truth.specular, &predicted.specular)].map(|(a, b)| of(a, b));
+    let roughness = of(std::slice::from_ref(&truth.roughness), std::slice::from_ref(&predicted.roughness));
     let alpha = mapped(&roughness, |r| r * r);
     let (base, metallic) = base_pairs(&diffuse, &specular);
+    let [base, metallic] = [base, metallic].map(blackened);
     let [diffuse_srgb, specular_srgb, base_srgb] =
         [&diffuse, &specular, &base].map(|pairs| mapped(pairs, srgb::encode));
+    let base_scaled = scaled_channels(&base);
+    let zeros = vec![[0.0; 2]; metallic.len()];
+    let packed = mapped(&[roughness.as_slice(), &metallic, &zeros].concat(), srgb::encode);
+    let all = [normal_stored.as_slice(), &diffuse, &roughness, &specular].concat();
     let measured = [
         (NORMAL_UNIT, &normal),
         (NORMAL_STORED, &normal_stored),
@@ -115,24 +168,44 @@ pub fn of_maps<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) ->
         (ROUGHNESS, &roughness),
         (ROUGHNESS_ALPHA, &alpha),
         (BASE_LINEAR, &base),
+        (BASE_SCALED, &base_scaled),
         (BASE_SRGB, &base_srgb),
         (METALLIC, &metallic),
+        (PACKED, &packed),
+        (ALL_MAPS, &all),
     ];
     let similar = [
         (NORMAL_SIMILARITY, &normal_stored),
         (DIFFUSE_SIMILARITY, &diffuse_srgb),
         (SPECULAR_SIMILARITY, &specular_srgb),
         (ROUGHNESS_SIMILARITY, &roughness),
+        (BASE_SIMILARITY, &base_srgb),
+        (SCALED_SIMILARITY, &base_scaled),
+        (METALLIC_SIMILARITY, &metallic),
+        (PACKED_SIMILARITY, &packed),
     ];
-    let size = ground_truth.size();
-    let mut metrics = of_angles(angles(ground_truth, prediction));
+    let mut metrics = of_angles(angles(ground_truth, prediction, kept));
+    let left_out = mask.filter(|mask| !mask.count_all).map(|mask| mask.texels);
     metrics.extend(measured.into_iter().flat_map(|(measures, pairs)| {
-        measures.iter().map(move |(name, measure)| Metric::exact(name, measure(pairs)))
+        let pairs = left_out.map_or_else(|| pairs.clone(), |kept| counted(pairs, kept));
+        measures.iter().map(move |(name, measure)| Metric::exact(name, measure(&pairs)))
     }));
+    let size = ground_truth.size();
     metrics.extend(similar.into_iter().flat_map(|(measures, pairs)| {
         measures.iter().filter_map(move |(name, measure)| Some(Metric::exact(name, measure(pairs, size)?)))
     }));
     Ok(metrics)
+}
+
+/// The pairs with black in both where texels are not kept.
+fn blackened(pairs: &[[f64; 2]], kept: &[bool]) -> Pairs {
+    let one = |(pair, kept): (&[f64; 2], &bool)| if *kept { *pair } else { [0.0; 2] };
+    pairs.iter().zip(kept.iter().cycle()).map(one).collect()
+}
+
+/// The pairs of texels that are kept, channel after channel.
+fn counted(pairs: &[[f64; 2]], kept: &[bool]) -> Pairs {
+    pairs.iter().zip(kept.iter().cycle()).filter(|(_, kept)| **kept).map(|(pair, _)| *pair).collect()
 }
 
 /// All (ground truth, prediction) of the channels of a map.
@@ -173,10 +246,29 @@ fn rmse_stretched(pairs: &[[f64; 2]]) -> f64 {
 
 /// The RMSE of the prediction times the one factor for all channels that brings it closest (least squares).
 fn rmse_scaled(pairs: &[[f64; 2]]) -> f64 {
+    let factor = factor(pairs);
+    rmse(&pairs.iter().map(|[a, b]| [*a, factor * b]).collect::<Pairs>())
+}
+
+/// Each channel of the prediction times the factor that brings it closest (least squares), clipped to [0, 1].
+fn scaled_channels(pairs: &[[f64; 2]]) -> Pairs {
+    let scaled = |channel: &[[f64; 2]]| -> Pairs {
+        let factor = factor(channel);
+        channel.iter().map(|[a, b]| [*a, (factor * b).clamp(0.0, 1.0)]).collect()
+    };
+    pairs.chunks((pairs.len() / 3).max(1)).flat_map(scaled).collect()
+}
+
+/// The factor on the prediction that brings it closest to the ground truth (least squares).
+fn factor(pairs: &[[f64; 2]]) -> f64 {
     let square: f64 = pairs.iter().map(|[_, b]| b * b).sum();
     let product: f64 = pairs.iter().map(|[a, b]| a * b).sum();
-    let factor = if square > 0.0 { product / square } else { 1.0 };
-    rmse(&pairs.iter().map(|[a, b]| [*a, factor * b]).collect::<Pairs>())
+    if square > 0.0 { product / square } else { 1.0 }
+}
+
+/// The mean absolute difference of values v as 2 v - 1.
+fn l1_stretched(pairs: &[[f64; 2]]) -> f64 {
+    2.0 * l1(pairs)
 }
 
 fn l1(pairs: &[[f64; 2]]) -> f64 {
@@ -198,8 +290,8 @@ fn of_angles(mut angles: Vec<f64>) -> Vec<Metric> {
     ]
 }
 
-/// The angles between normals in degrees, sorted.
-fn angles<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) -> Vec<f64> {
+/// The angles between normals of the texels that are kept, in degrees, sorted.
+fn angles<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>, kept: Option<&[bool]>) -> Vec<f64> {
     let vector = |material: &Material<T>, i: usize| {
         glam::DVec3::from_array(material.planes().normal.each_ref().map(|plane| plane[i].f64()))
     };
@@ -208,7 +300,9 @@ fn angles<T: Real>(ground_truth: &Material<T>, prediction: &Material<T>) -> Vec<
         // Exact for small angles, too, where the arc cosine is not.
         2.0 * (a - b).length().atan2((a + b).length()).to_degrees()
     };
-    let mut angles: Vec<f64> = (0..ground_truth.width() * ground_truth.height()).map(angle).collect();
+    let is_kept = |i: &usize| kept.is_none_or(|kept| kept[*i]);
+    let all = (0..ground_truth.width() * ground_truth.height()).filter(is_kept);
+    let mut angles: Vec<f64> = all.map(angle).collect();
     angles.sort_by(f64::total_cmp);
     angles
 }

@@ -6,7 +6,7 @@ mod renderings;
 mod selection;
 mod ssim;
 
-pub use maps::of_maps;
+pub use maps::{Kept, of_maps, of_masked_maps};
 pub use pictures::{PictureMetrics, of_pictures};
 pub use renderings::{RenderedScenes, of_renderings};
 pub use selection::MetricSelection;

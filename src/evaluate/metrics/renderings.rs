@@ -16,10 +16,12 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::render;
 
 /// The names of all metrics of renderings.
-pub(super) const NAMES: [&str; 8] = [
+pub(super) const NAMES: [&str; 10] = [
     "rmse_rendering_clipped_linear",
     "rmse_rendering_clipped_srgb",
     "rmse_rendering_clipped_gamma2.2",
+    "l1_rendering_clipped_linear",
+    "l1_rendering_clipped_srgb",
     "psnr_rendering_clipped_linear",
     "psnr_rendering_clipped_srgb",
     "flip_rendering_clipped",
@@ -38,12 +40,13 @@ pub struct RenderedScenes<'a> {
     pub exposure_ev: f32,
 }
 
-/// Of one scene: mean squared differences in three encodings, FLIP, and the SSIM where a window lies inside.
+/// Of one scene: mean squared differences in three encodings, mean absolute ones in two, FLIP, and the SSIM where a window lies inside.
 #[derive(Clone, Copy, Debug)]
 struct Means {
     linear: f64,
     srgb: f64,
     gamma: f64,
+    absolute: [f64; 2],
     flip: f64,
     ssim11: Option<f64>,
     ssim7: Option<f64>,
@@ -90,6 +93,8 @@ impl RenderedScenes<'_> {
             linear,
             srgb,
             gamma,
+            known("l1_rendering_clipped_linear", |means| means.absolute[0]),
+            known("l1_rendering_clipped_srgb", |means| means.absolute[1]),
             Metric::exact("psnr_rendering_clipped_linear", psnr(linear.value)),
             Metric::exact("psnr_rendering_clipped_srgb", psnr(srgb.value)),
             known("flip_rendering_clipped", |means| means.flip),
@@ -118,19 +123,24 @@ fn root(square: Metric) -> Metric {
 fn means(truth: &Image<f32>, predicted: &Image<f32>, exposure_ev: f32) -> Means {
     let count = truth.pixels.len();
     let gain = f64::from(exposure_ev).exp2();
-    let [mut linear, mut gamma] = [0.0; 2];
+    let [mut linear, mut gamma, mut absolute] = [0.0; 3];
     let mut encoded = vec![[0.0; 2]; 3 * count];
     for (index, (a, b)) in truth.pixels.iter().zip(&predicted.pixels).enumerate() {
         for c in 0..3 {
             let [a, b] = [a[c], b[c]].map(|value| (gain * f64::from(value)).clamp(0.0, 1.0));
             encoded[c * count + index] = [srgb::encode(a), srgb::encode(b)];
             linear += (a - b).powi(2);
+            absolute += (a - b).abs();
             gamma += (a.powf(1.0 / 2.2) - b.powf(1.0 / 2.2)).powi(2);
         }
     }
     let srgb: f64 = encoded.iter().map(|[a, b]| (a - b).powi(2)).sum();
-    let [linear, srgb, gamma] = [linear, srgb, gamma].map(|sum| sum / encoded.len() as f64);
+    let of_encoded: f64 = encoded.iter().map(|[a, b]| (a - b).abs()).sum();
+    let mean = |sum: f64| sum / encoded.len() as f64;
+    let [linear, srgb, gamma] = [linear, srgb, gamma].map(mean);
+    let absolute = [absolute, of_encoded].map(mean);
     let size = [truth.width, truth.height];
     let flip = mean_flip(truth, predicted, exposure_ev);
-    Means { linear, srgb, gamma, flip, ssim11: ssim11(&encoded, size), ssim7: ssim7(&encoded, size) }
+    let [ssim11, ssim7] = [ssim11(&encoded, size), ssim7(&encoded, size)];
+    Means { linear, srgb, gamma, absolute, flip, ssim11, ssim7 }
 }

@@ -27,6 +27,21 @@ impl MetricSelection {
         renderings::NAMES.into_iter().any(|name| self.has(name))
     }
 
+    /// The metrics of these names.
+    pub(crate) fn of_names(names: Vec<String>) -> Self {
+        Self(names)
+    }
+
+    /// Whether all metrics are.
+    pub fn is_all(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// The names of all metrics.
+    pub fn names() -> Vec<&'static str> {
+        names().collect()
+    }
+
     /// The first words of all names, then the names.
     pub fn words() -> Vec<&'static str> {
         let mut kinds: Vec<_> = names().filter_map(|name| name.split('_').next()).collect();

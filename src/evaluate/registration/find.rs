@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use svbrdf_core::material::Material;
-use svbrdf_core::material::resize::{self, Filter};
+use svbrdf_core::material::resize::{self, Filter, Kernel};
 
 use super::Registration;
 
@@ -18,6 +18,8 @@ const AROUND: usize = 2;
 /// Spread below which a plane says nothing.
 const FLAT: f64 = 1e-3;
 
+const RESIZE: Registration = Registration::Resize(Kernel::Area);
+
 /// A registration, and how well the maps correlate in it, at most 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
@@ -29,21 +31,23 @@ pub struct Found {
 pub fn found(truth: &Material<f32>, prediction: &Material<f32>) -> Option<Found> {
     let pair = [truth, prediction].map(Planes::of);
     let resized = is_same_shape(truth.size(), prediction.size())
-        .then(|| Some(Found { registration: Registration::Resize, correlation: of_resized(&pair)? }))
+        .then(|| Some(Found { registration: RESIZE, correlation: of_resized(&pair)? }))
         .flatten();
     let crops = REDUCTIONS.into_iter().filter_map(|reduced| best_crop(&pair, reduced));
     resized.into_iter().chain(crops).max_by(|a, b| a.correlation.total_cmp(&b.correlation))
 }
 
-/// The registration that all `pairs` have in common, with their mean correlation; `None` where they correlate no better than maps that have
-/// nothing to do with each other.
-pub fn common(pairs: &[[&Material<f32>; 2]]) -> Option<Found> {
+/// The registration that all `pairs` have in common, one of `allowed` or, where that is empty, any, with their mean correlation; `None` where
+/// they correlate no better than maps that have nothing to do with each other.
+pub fn common(pairs: &[[&Material<f32>; 2]], allowed: &[Registration]) -> Option<Found> {
     // Four planes of unrelated maps correlate by 0.15 at a place, and by three times that at the best of many.
     let least = 0.3 + 0.45 / (pairs.len() as f64).sqrt();
-    let each: Vec<Found> =
-        pairs.par_iter().filter_map(|[truth, prediction]| found(truth, prediction)).collect();
-    let mut ways: Vec<Registration> = each.iter().map(|one| one.registration).collect();
-    ways.extend([Registration::CentreCrop, Registration::Resize]);
+    let mut ways = allowed.to_vec();
+    if allowed.is_empty() {
+        let each = pairs.par_iter().filter_map(|[truth, prediction]| found(truth, prediction));
+        ways = each.map(|one| one.registration).collect();
+        ways.extend([Registration::CentreCrop, RESIZE]);
+    }
     ways.sort();
     ways.dedup();
     let of = |registration: &Registration| {
@@ -63,7 +67,8 @@ pub fn common(pairs: &[[&Material<f32>; 2]]) -> Option<Found> {
 
 /// How well the maps correlate in a registration; `None` where it is impossible.
 fn correlation_of(pair: [&Material<f32>; 2], registration: Registration) -> Option<f64> {
-    let is_possible = registration != Registration::Resize || is_same_shape(pair[0].size(), pair[1].size());
+    let is_resized = matches!(registration, Registration::Resize(_));
+    let is_possible = !is_resized || is_same_shape(pair[0].size(), pair[1].size());
     let [truth, prediction] = registration.applied(pair).ok().filter(|_| is_possible)?;
     let [truth, prediction] = [&truth, &prediction].map(Planes::of);
     let texels = texels(prediction.size);
@@ -225,7 +230,7 @@ mod tests {
             let reduced = [1, 1, 1, 2][trial % 4];
             let most = sides.map(|side: usize| side / reduced);
             let expected = if trial % 5 == 4 {
-                Registration::Resize
+                RESIZE
             } else {
                 let [x, y] = [generator.random_range(1..24), generator.random_range(0..24)];
                 Registration::Crop { x, y, reduced }
@@ -250,7 +255,7 @@ mod tests {
         let located = (0..100).filter(|trial| {
             let truth = material([72, 72 + trial % 9], &mut generator);
             let prediction = material([64, 64], &mut generator);
-            common(&[[&truth, &prediction]]).is_some()
+            common(&[[&truth, &prediction]], &[]).is_some()
         });
         assert_eq!(located.count(), 0, "of 100");
     }

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
+use svbrdf_core::material::resize::Kernel;
 
 pub(crate) use find::correlation;
 pub use find::{Found, common, found};
@@ -19,8 +20,8 @@ pub use find::{Found, common, found};
 /// How a prediction lies on its ground truth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Registration {
-    /// The same surface in another size: the larger one is reduced to the size of the smaller one, by means over areas.
-    Resize,
+    /// The same surface in another size: the larger one is reduced to the size of the smaller one.
+    Resize(Kernel),
     /// The prediction is the centre of the ground truth.
     CentreCrop,
     /// The prediction is the part of the ground truth, reduced by `reduced`, whose upper left texel is at (x, y).
@@ -36,10 +37,12 @@ impl Registration {
         let [truth, prediction] = pair;
         let [of_truth, of_prediction] = pair.map(Material::size);
         match self {
-            Self::Resize if of_truth[0] < of_prediction[0] => {
-                Ok([truth.clone(), prediction.clone().resized(of_truth)?])
+            Self::Resize(kernel) if of_truth[0] < of_prediction[0] => {
+                Ok([truth.clone(), prediction.clone().resized_by(of_truth, kernel)?])
             }
-            Self::Resize => Ok([truth.clone().resized(of_prediction)?, prediction.clone()]),
+            Self::Resize(kernel) => {
+                Ok([truth.clone().resized_by(of_prediction, kernel)?, prediction.clone()])
+            }
             Self::CentreCrop => {
                 let at = [0, 1].map(|axis| of_truth[axis].saturating_sub(of_prediction[axis]) / 2);
                 Ok([part(truth, prediction, at)?, prediction.clone()])
@@ -63,11 +66,12 @@ fn part(truth: &Material<f32>, prediction: &Material<f32>, at: [usize; 2]) -> Re
     Ok(truth.gathered(&texels, size))
 }
 
-/// As it is typed: `resize`, `centre-crop`, `crop=16,16` or `crop=16,16/4`.
+/// As it is typed: `resize`, `resize=cubic`, `centre-crop`, `crop=16,16` or `crop=16,16/4`.
 impl fmt::Display for Registration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Resize => f.write_str("resize"),
+            Self::Resize(Kernel::Area) => f.write_str("resize"),
+            Self::Resize(Kernel::Cubic) => f.write_str("resize=cubic"),
             Self::CentreCrop => f.write_str("centre-crop"),
             Self::Crop { x, y, reduced: 1 } => write!(f, "crop={x},{y}"),
             Self::Crop { x, y, reduced } => write!(f, "crop={x},{y}/{reduced}"),
@@ -86,11 +90,12 @@ impl FromStr for Registration {
             Some(Self::Crop { x: x.parse().ok()?, y: y.parse().ok()?, reduced })
         };
         let known = match text {
-            "resize" => Some(Self::Resize),
+            "resize" => Some(Self::Resize(Kernel::Area)),
+            "resize=cubic" => Some(Self::Resize(Kernel::Cubic)),
             "centre-crop" => Some(Self::CentreCrop),
             _ => crop(),
         };
-        let ways = "resize, centre-crop, crop=X,Y or crop=X,Y/N of a ground truth reduced by N";
+        let ways = "resize, resize=cubic, centre-crop, crop=X,Y or crop=X,Y/N of a ground truth reduced by N";
         known.ok_or_else(|| Error::unknown_name("registration", text, ways))
     }
 }

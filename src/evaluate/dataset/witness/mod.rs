@@ -55,7 +55,7 @@ pub fn decided(
     for method in methods {
         let pairs: Vec<_> = materials.iter().filter_map(|one| one.pair(method)).collect();
         let found = register(&mut decided, method, &pairs);
-        groups.push((method, sampled(&pairs, found, decided.mask)));
+        groups.push((method, sampled(&pairs, found, decided.mask.is_some())));
     }
     decide(&mut decided, &groups);
     Ok(decided)
@@ -106,7 +106,7 @@ fn register(
         .filter(|pair| of_pair(pair)[0] != of_pair(pair)[1])
         .map(|pair| pair.map(|read| &read.material))
         .collect();
-    let found = registration::common(&differ).filter(|_| 2 * differ.len() > pairs.len())?;
+    let found = registration::common(&differ, &decided.ways).filter(|_| 2 * differ.len() > pairs.len())?;
     decided.registrations.insert(method.to_owned(), found.registration);
     let [of_truth, of_prediction] = differ[0].map(Material::size);
     decided.decisions.push(format!(

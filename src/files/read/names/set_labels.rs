@@ -1,6 +1,6 @@
 //! Names of the files of a set: the words that they have in common tell no map, and the words by which libraries name the maps.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::label::Label;
@@ -30,7 +30,8 @@ pub(crate) fn set_labels(names: &[String]) -> Vec<Option<Label>> {
 }
 
 /// The sets among the files `names` of a folder, by the name of each: at least two files for different maps, the names of which have that
-/// beginning in common, and no file without a map has.
+/// beginning in common. A file without a map does not have it, unless its other words stand beside most sets, as those of the inputs of a
+/// network do: then it is listed with the set.
 pub fn sets(names: &[String]) -> BTreeMap<String, Vec<String>> {
     let mut by_stem: BTreeMap<Vec<String>, Vec<(&String, Role)>> = BTreeMap::new();
     for (name, label) in names.iter().zip(set_labels(names)) {
@@ -50,11 +51,25 @@ pub fn sets(names: &[String]) -> BTreeMap<String, Vec<String>> {
         let name = common.trim_end_matches(|c: char| !c.is_alphanumeric());
         (!name.is_empty()).then(|| (name.to_owned(), all))
     });
-    let others = |name: &str, set: &[String]| {
-        let starts = |one: &&String| words(one).starts_with(&words(name)) && !set.contains(*one);
-        names.iter().any(|one| starts(&one))
+    let named: BTreeMap<String, Vec<String>> = named.collect();
+    let of_maps: BTreeSet<&String> = named.values().flatten().collect();
+    let rest = |name: &String| named.keys().filter_map(|set| rest_of(name, set)).collect::<Vec<_>>();
+    let mut beside: BTreeMap<String, usize> = BTreeMap::new();
+    let others: Vec<&String> = names.iter().filter(|name| !of_maps.contains(name)).collect();
+    others.iter().flat_map(|name| rest(name)).for_each(|rest| *beside.entry(rest).or_default() += 1);
+    let is_of_most = |rest: &String| beside[rest] > 2 && 2 * beside[rest] > named.len();
+    let is_alone =
+        |set: &String| others.iter().filter_map(|name| rest_of(name, set)).all(|rest| is_of_most(&rest));
+    let whole = |(set, files): (&String, &Vec<String>)| {
+        let beside = others.iter().copied().filter(|name| rest_of(name, set).is_some());
+        (set.clone(), files.iter().chain(beside).cloned().collect())
     };
-    named.filter(|(name, set)| !others(name, set)).collect()
+    named.iter().filter(|(set, _)| is_alone(set)).map(whole).collect()
+}
+
+/// What a name that begins with the words of a set has after them.
+fn rest_of(name: &str, set: &str) -> Option<String> {
+    words(name).strip_prefix(words(set).as_slice()).map(|rest| rest.join("_"))
 }
 
 /// Words for normals, the colour, roughness and metallic that go together, as their files have them.
@@ -133,6 +148,10 @@ mod tests {
         assert_eq!(sets(&["oak_normal", "oak_rough", "tin"]), [of("oak", 2)]);
         assert_eq!(sets(&["oak", "tin", "metal_1", "metal_2", "rough_n"]), []);
         assert_eq!(sets(&["oak_normal", "oak_rough", "oak_2"]), [], "whose is the third?");
+        let with_input =
+            ["a", "b", "c"].map(|name| ["Nout", "Dout", "input"].map(|map| format!("{name}_{map}")));
+        let with_input: Vec<&str> = with_input.iter().flatten().map(String::as_str).collect();
+        assert_eq!(sets(&with_input), [of("a", 3), of("b", 3), of("c", 3)]);
     }
 
     #[test]
