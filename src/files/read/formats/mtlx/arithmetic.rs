@@ -30,6 +30,10 @@ pub(super) struct BoundPicture {
     pub affine: Affine,
     /// The scale of x and y of a normal.
     pub scale: f32,
+    /// How it lies over the surface, in words; empty where it fills the first set of coordinates once.
+    pub placement: String,
+    /// Inputs of its node that are not understood.
+    pub unread: Vec<String>,
 }
 
 /// Products with `scale` plus `offset`, for red, green and blue.
@@ -114,7 +118,8 @@ fn gathered(channels: [Bound; 3]) -> Option<Bound> {
             Bound::Picture(one) => {
                 (scale[place], offset[place]) = (one.affine.scale[place], one.affine.offset[place]);
                 sources.push((place, one.channel?));
-                if picture.as_ref().is_some_and(|other| other.file != one.file || other.space != one.space) {
+                let key = |one: &BoundPicture| (one.file.clone(), one.space.clone(), one.placement.clone());
+                if picture.as_ref().is_some_and(|other| key(other) != key(&one)) {
                     return None;
                 }
                 picture.get_or_insert(one);

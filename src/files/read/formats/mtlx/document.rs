@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node};
 
-use super::arithmetic::{Bound, Obstacle};
-use super::graph::{bound, input};
+use super::arithmetic::{Bound, BoundPicture, Obstacle};
+use super::connection::{input, is_input};
+use super::graph::bound;
 use super::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
 use crate::disk::open::NamedFile;
 use crate::disk::refuse_pointer;
@@ -81,8 +82,41 @@ impl Mtlx {
                 picture.file = only_tile(&picture.file, path)?;
             }
         }
+        located.check_placements()?;
         located.pictures = located.pictures(&wanted);
         Ok(located)
+    }
+
+    /// Names what is not understood of the nodes of pictures.
+    ///
+    /// # Errors
+    /// [`Error::NotAMaterial`] where pictures are placed differently: then the maps do not lie over one another.
+    fn check_placements(&mut self) -> Result<(), Error> {
+        let specular_usd = self.is_specular_usd();
+        let read = self.inputs.iter().filter(|(name, _)| *name != USD_SPECULAR.0 || specular_usd);
+        let pictures: Vec<_> = read
+            .filter_map(|(name, bound)| match bound {
+                Ok(Bound::Picture(picture)) => Some((name, picture)),
+                _ => None,
+            })
+            .collect();
+        let Some((first, others)) = pictures.split_first() else { return Ok(()) };
+        if let Some(other) = others.iter().find(|other| other.1.placement != first.1.placement) {
+            let named = |(name, picture): &(&&str, &BoundPicture)| {
+                let placement = if picture.placement.is_empty() { "none" } else { &picture.placement };
+                format!("{placement} for {name}")
+            };
+            return Err(Error::NotAMaterial {
+                path: self.path.clone(),
+                expected: "one placement of coordinates for all maps".to_owned(),
+                found: format!("{} and {}", named(first), named(other)),
+                remedy: "bake the maps into one arrangement".to_owned(),
+            });
+        }
+        let mut unread: Vec<_> = pictures.iter().flat_map(|(_, picture)| picture.unread.clone()).collect();
+        unread.dedup();
+        self.not_modelled.extend(unread);
+        Ok(())
     }
 
     /// What input `name` is bound to; `None` where the document does not declare it.
@@ -144,7 +178,18 @@ fn not_modelled(model: &SurfaceModel, surface: Node<'_, '_>) -> Vec<String> {
         let values = input.attribute("value").map(|v| v.split(',').map(|v| v.trim().parse::<f32>()));
         values.is_none_or(|mut values| values.any(|value| value.is_ok_and(|value| value != *off)))
     };
-    model.not_modelled.iter().filter(is_on).map(|(name, _)| (*name).to_owned()).collect()
+    let names = surface.children().filter(is_input).filter_map(|input| input.attribute("name"));
+    // Parameters of a lobe matter only with its weight.
+    let is_of =
+        |name: &str, (known, _): &(&str, f32)| name.starts_with(known.split('_').next().unwrap_or_default());
+    let is_known = |name: &&str| {
+        model.inputs().iter().any(|(known, _)| known == name)
+            || [model.ior.0, USE_SPECULAR].contains(name)
+            || model.not_modelled.iter().any(|one| is_of(name, one))
+    };
+    let unknown = names.filter(|name| !is_known(name) && (is_on(&&(*name, 0.0)) && is_on(&&(*name, 1.0))));
+    let known = model.not_modelled.iter().filter(is_on).map(|(name, _)| *name);
+    known.chain(unknown).map(str::to_owned).collect()
 }
 
 /// The token of the number of a tile, of UDIM and by column and row.

@@ -3,18 +3,14 @@
 use roxmltree::Node;
 
 use super::arithmetic::{self, Affine, Bound, BoundPicture, OPERANDS, Obstacle};
+use super::connection::{input, of_interface, target};
+use super::placement;
 
 /// More nodes than any chain from an input to its picture has.
 const DEEPEST: usize = 256;
 /// Nodes that pass on what they get, or one channel of it.
 const PASSING: [&str; 9] =
     ["normalmap", "extract", "separate2", "separate3", "separate4", "swizzle", "convert", "dot", "output"];
-
-/// The input `name` of `node`.
-pub(super) fn input<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
-    let is_named = |n: &Node<'_, '_>| n.attribute("name") == Some(name);
-    node.children().filter(|n| n.has_tag_name("input") || n.has_tag_name("parameter")).find(is_named)
-}
 
 /// What input `name` of `node` is bound to; `None` where the file does not declare it.
 ///
@@ -54,27 +50,6 @@ fn follow(input: Node<'_, '_>, depth: usize) -> Result<Bound, Obstacle> {
         Some(channel) => found.channel(channel),
         None => found,
     })
-}
-
-/// The node that an input is connected to.
-fn target<'a, 'd>(input: Node<'a, 'd>) -> Option<Node<'a, 'd>> {
-    fn named<'a, 'd>(scope: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
-        scope.children().find(|n| n.attribute("name") == Some(name))
-    }
-    let node = match input.attribute("nodegraph") {
-        Some(graph) => named(input.document().root_element(), graph)?,
-        None => {
-            let name = input.attribute("nodename")?;
-            input.ancestors().skip(1).find_map(|scope| named(scope, name))?
-        }
-    };
-    if !node.has_tag_name("nodegraph") {
-        return Some(node);
-    }
-    let wanted = input.attribute("output");
-    let mut outputs = node.children().filter(|n| n.has_tag_name("output"));
-    // The output of a graph is connected as an input is.
-    outputs.find(|n| wanted.is_none() || n.attribute("name") == wanted)
 }
 
 /// What a node gives: the picture that it reads, what it passes on, or the values that it computes.
@@ -124,19 +99,28 @@ fn picture(node: Node<'_, '_>, file: Node<'_, '_>, depth: usize) -> Result<Bound
         space: inherited(file, "colorspace"),
         is_colour: is_colour(node),
         channel: None,
-        affine: Affine::default(),
+        affine: affine(node, depth),
         scale: 1.0,
+        placement: placement::of_picture(node, depth),
+        unread: placement::unread(node),
     })
 }
 
-/// The input of the graph that `file` stands for.
-fn of_interface<'a, 'd>(file: Node<'a, 'd>, depth: usize) -> Node<'a, 'd> {
-    let outer = || {
-        let face = file.attribute("interfacename").filter(|_| file.attribute("value").is_none())?;
-        let mut graphs = file.ancestors().filter(|n| n.has_tag_name("nodegraph"));
-        graphs.find_map(|graph| input(graph, face)).filter(|outer| *outer != file && depth > 0)
+/// The factors and offsets that nodes of glTF and USD have beside their picture.
+fn affine(node: Node<'_, '_>, depth: usize) -> Affine {
+    let three = |name: &str, usual: f32| -> [f32; 3] {
+        let declared =
+            input(node, name).and_then(|one| numbers(of_interface(one, depth).attribute("value")?));
+        let declared = declared.filter(|all| !all.is_empty()).unwrap_or_else(|| vec![usual]);
+        [0, 1, 2].map(|c: usize| declared[c.min(declared.len() - 1)])
     };
-    outer().map_or(file, |outer| of_interface(outer, depth - 1))
+    let (factor, bias) = match node.tag_name().name() {
+        "UsdUVTexture" => ("scale", "bias"),
+        "gltf_colorimage" => ("color", ""),
+        "gltf_image" => ("factor", ""),
+        _ => return Affine::default(),
+    };
+    Affine { scale: three(factor, 1.0), offset: three(bias, 0.0) }
 }
 
 /// `0.5`, `1, 0.5, 0` or `true`.

@@ -2,9 +2,11 @@
 //! values of their inputs.
 
 mod arithmetic;
+mod connection;
 mod document;
 mod graph;
 mod input;
+mod placement;
 mod surface_model;
 
 use svbrdf_core::progress::Progress;
