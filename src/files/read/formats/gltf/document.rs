@@ -68,8 +68,7 @@ struct Buffer {
 
 #[derive(Deserialize)]
 struct Asset {
-    #[serde(rename = "version")]
-    _version: String,
+    version: String,
 }
 
 impl Document {
@@ -88,7 +87,11 @@ impl Document {
         let of_json = |error: serde_json::Error| invalid(&error.to_string());
         let declared: Value = serde_json::from_slice(json).map_err(of_json)?;
         let Value::Object(mut all) = declared else { return Err(invalid("no object")) };
-        Asset::deserialize(all.get("asset").unwrap_or(&Value::Null)).map_err(of_json)?;
+        let Asset { version } =
+            Asset::deserialize(all.get("asset").unwrap_or(&Value::Null)).map_err(of_json)?;
+        if !version.starts_with("2.") {
+            return Err(bad(path, format!("expected glTF 2.0, found version {version}")));
+        }
         let images: Vec<Image> = part(&mut all, "images").map_err(of_json)?;
         let leads = |i: &Image| i.uri.is_some() || (i.buffer_view.is_some() && i.mime_type.is_some());
         if !images.iter().all(leads) {
