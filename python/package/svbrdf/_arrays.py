@@ -70,9 +70,10 @@ def _numpy(name: str, given: object) -> NDArray[Any]:
 
 
 def looks_unsigned(normal: NDArray[Any]) -> str | None:
-    """Why normals, height x width x 3, may be stored as (n + 1) / 2: no x or y is negative, and lengths are not 1."""
+    """Why normals, height x width x 3, may be stored as (n + 1) / 2: few x or y are negative, and lengths are not 1."""
     xy = normal[..., :2]
-    if not (normal.size and xy.min() >= 0 and xy.max() > 0):
+    # Filters overshoot.
+    if not (normal.size and np.count_nonzero(xy < 0) <= FEW * xy.size and xy.max() > 0):
         return None
     far, shortest, longest = 0, np.inf, 0.0
     # Few rows at a time, which take little memory.
@@ -82,4 +83,5 @@ def looks_unsigned(normal: NDArray[Any]) -> str | None:
         shortest, longest = min(shortest, lengths.min()), max(longest, lengths.max())
     if far <= FEW * xy[..., 0].size:
         return None
-    return f"no x or y is negative, and lengths are {shortest:.2f} to {longest:.2f}, not 1"
+    word = "no" if xy.min() >= 0 else "hardly any"
+    return f"{word} x or y is negative, and lengths are {shortest:.2f} to {longest:.2f}, not 1"
