@@ -59,6 +59,10 @@ pub struct Case {
     reads: Option<Vec<String>>,
     /// Whether strict reading refuses it.
     guessed: Option<bool>,
+    /// Of metadata: the line of the table in docs/formats.md.
+    format: String,
+    field: String,
+    done: String,
     /// Whether the file that is opened is a seed of damaged files.
     pub seed: bool,
 }
@@ -304,6 +308,31 @@ fn options_and_sidecar_files() {
 #[test]
 fn refused_files() {
     run("refused");
+}
+
+#[test]
+fn metadata() {
+    run("metadata");
+}
+
+#[test]
+fn the_table_of_metadata_is_made_of_its_cases() {
+    const HEAD: &str = "| format | field | what is done |\n|---|---|---|";
+    let mut made = vec![HEAD.to_owned()];
+    for Case { format, field, done, .. } in table("metadata").cases {
+        let line = format!("| {format} | {field} | {done} |");
+        made.extend((!made.contains(&line)).then_some(line));
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/formats.md");
+    let page = std::fs::read_to_string(&path).unwrap();
+    let start = page.find(HEAD).unwrap();
+    let end = start + page[start..].find("\n\n").unwrap();
+    let made = made.join("\n");
+    if std::env::var_os("SVBRDF_BLESS").is_some() {
+        std::fs::write(path, [&page[..start], &made, &page[end..]].concat()).unwrap();
+        return;
+    }
+    assert_eq!(&page[start..end], made, "renew the table with SVBRDF_BLESS=1");
 }
 
 /// The folders of the cases that are seeds, each with its case and the file to damage.

@@ -36,6 +36,8 @@ pub struct Content {
     pub bytes: Option<String>,
     /// Of a tile.
     size: Option<[usize; 2]>,
+    /// Black texels around each tile.
+    borders: usize,
     /// Of a sample: 8 by default, 16, `half` or `float`; `u32` and `i16` of a TIFF; 1 to 16 of a PNG of its own.
     bits: Option<String>,
     /// Of a PNG: `gray`, `palette` or `rgb`; of its chunks the name and content in hexadecimal.
@@ -54,6 +56,12 @@ pub struct Content {
     /// Of a DDS: its code of four letters, or the number of its DXGI format, or the words of its pixel format; and its blocks in hexadecimal.
     code: Option<String>,
     blocks: String,
+    /// Of a TIFF: whether its alpha multiplies its colours, and whether a page before it is a smaller version of it.
+    premultiplied: bool,
+    thumbnail: bool,
+    /// Bytes in hexadecimal by their place in the file, and text that is inserted there.
+    patch: BTreeMap<String, String>,
+    insert: BTreeMap<String, String>,
     /// Bytes that are cut off its end.
     cut: usize,
 }
@@ -81,7 +89,11 @@ impl Content {
             ("dds", ..) => fs::write(path, self.dds()).unwrap(),
             ("pfm", ..) => fs::write(path, self.pfm()).unwrap(),
             ("tif" | "tiff", ..)
-                if self.orientation.is_some() || self.pages.is_some() || self.is_of("i16") =>
+                if self.orientation.is_some()
+                    || self.pages.is_some()
+                    || self.is_of("i16")
+                    || self.premultiplied
+                    || self.thumbnail =>
             {
                 self.tiff(path);
             }
@@ -97,6 +109,18 @@ impl Content {
             }
             _ => fs::write(path, &self.is).unwrap(),
         }
+        if !self.patch.is_empty() || !self.insert.is_empty() {
+            let mut bytes = fs::read(path).unwrap();
+            for (at, patch) in &self.patch {
+                let (at, patch) = (at.parse::<usize>().unwrap(), hex(patch));
+                bytes[at..at + patch.len()].copy_from_slice(&patch);
+            }
+            for (at, text) in &self.insert {
+                let at: usize = at.parse().unwrap();
+                bytes.splice(at..at, text.bytes());
+            }
+            fs::write(path, bytes).unwrap();
+        }
         if self.cut > 0 {
             let bytes = fs::read(path).unwrap();
             fs::write(path, &bytes[..bytes.len() - self.cut]).unwrap();
@@ -111,12 +135,18 @@ impl Content {
     fn samples(&self) -> ([usize; 2], usize, Vec<f64>) {
         let size = self.size.unwrap_or([SIDE; 2]);
         let rows: Vec<Vec<&str>> = self.is.split(';').map(|row| row.split('|').collect()).collect();
-        let [width, height] = [rows[0].len() * size[0], rows.len() * size[1]];
+        let border = self.borders;
+        let step = size.map(|side| side + border);
+        let [width, height] = [rows[0].len() * step[0] + border, rows.len() * step[1] + border];
         let texels: Vec<Vec<f64>> = (0..width * height)
             .map(|i| [i % width, i / width])
             .map(|[x, y]| {
-                let place = Place { x: x % size[0], y: y % size[1], size };
-                values(rows[y / size[1]][x / size[0]], place)
+                let [column, row] = [x % step[0], y % step[1]];
+                if column < border || row < border {
+                    return vec![0.0];
+                }
+                let place = Place { x: column - border, y: row - border, size };
+                values(rows[y / step[1]][x / step[0]], place)
             })
             .collect();
         let count = texels.iter().map(Vec::len).max().unwrap();
@@ -155,6 +185,16 @@ impl Content {
         let tag: u16 = self.orientation.as_ref().map_or(1, |tag| tag.parse().unwrap());
         let (size, _, samples) = self.samples();
         let [width, height] = size.map(|side| side as u32);
+        if self.thumbnail {
+            let mut page = encoder.new_image::<colortype::RGB8>(1, 1).unwrap();
+            page.encoder().write_tag(tiff::tags::Tag::NewSubfileType, 1_u32).unwrap();
+            page.write_data(&[9; 3]).unwrap();
+        }
+        if self.premultiplied {
+            let mut page = encoder.new_image::<colortype::RGBA8>(width, height).unwrap();
+            page.encoder().write_tag(tiff::tags::Tag::ExtraSamples, &[1_u16][..]).unwrap();
+            return page.write_data(self.picture().as_bytes()).unwrap();
+        }
         for _ in 0..self.pages.unwrap_or(1) {
             match self.bits.as_deref() {
                 Some("u32") => {
@@ -247,6 +287,9 @@ impl Content {
     fn exr(&self, path: &Path) {
         let size = self.size.unwrap_or([SIDE; 2]);
         let flat = |values: Vec<f64>| match self.bits.as_deref() {
+            Some("uint") => {
+                FlatSamples::U32(values.into_iter().map(|v| (65_535.0 * v).round() as u32).collect())
+            }
             Some("half") => FlatSamples::F16(values.into_iter().map(f16::from_f64).collect()),
             _ => FlatSamples::F32(values.into_iter().map(|v| v as f32).collect()),
         };
@@ -266,6 +309,8 @@ impl Content {
             for (c, letter) in letters.chars().enumerate() {
                 let name = if layer.is_empty() || self.parts {
                     letter.to_string()
+                } else if letter == '*' {
+                    layer.to_owned()
                 } else {
                     format!("{layer}.{letter}")
                 };
@@ -334,11 +379,12 @@ impl Content {
     /// An array of NumPy, as in `16x16x3 f4 = N`.
     fn array(&self, text: &str) -> Vec<u8> {
         let (head, formula) = text.split_once('=').unwrap_or(("", text));
-        let (mut shape, mut kind, mut is_planar) = (Vec::new(), "f4", false);
+        let (mut shape, mut kind, mut is_planar, mut is_fortran) = (Vec::new(), "f4", false, false);
         for word in head.split_whitespace() {
             match word {
                 "-" => {}
                 "planes" => is_planar = true,
+                "fortran" => is_fortran = true,
                 word if word.contains('x') || word.parse::<u64>().is_ok() => {
                     shape = word.split('x').map(|side| side.parse::<usize>().unwrap()).collect();
                 }
@@ -359,15 +405,20 @@ impl Content {
         let texels = count / channels.max(1);
         let size = [width, texels / width.max(1)];
         let value = |i: usize| {
-            let (texel, channel) =
-                if is_planar { (i % texels, i / texels) } else { (i / channels, i % channels) };
+            // The channels are apart where they come first, or last and the first axis is the fastest.
+            let is_apart = is_planar != is_fortran;
+            let (at, channel) =
+                if is_apart { (i % texels, i / texels) } else { (i / channels, i % channels) };
+            let texel = if is_fortran { at % size[1] * width + at / size[1] } else { at };
             let of = values(formula, Place { x: texel % width, y: texel / width, size });
             of[channel.min(of.len() - 1)]
         };
         let sides: String = shape.iter().map(|side| format!("{side},")).collect();
         let order = if kind.starts_with('>') { ">" } else { "<" };
         let kind = kind.trim_start_matches('>');
-        let header = format!("{{'descr': '{order}{kind}', 'fortran_order': False, 'shape': ({sides}), }}");
+        let fortran = if is_fortran { "True" } else { "False" };
+        let header =
+            format!("{{'descr': '{order}{kind}', 'fortran_order': {fortran}, 'shape': ({sides}), }}");
         let header = format!("{header:117}\n");
         let mut file = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
         file.extend(header.into_bytes());

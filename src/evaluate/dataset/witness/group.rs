@@ -72,9 +72,7 @@ impl Own {
         let custom = assumption.and_then(|assumption| match &assumption.why {
             _ if assumption.certainty >= Certainty::Sure && !is_order(&assumption.why) => None,
             why if is_order(why) => Some(ORDER),
-            Reason::Weighed { .. } | Reason::SpecularMedian { .. } | Reason::ContradictedBy(..) => {
-                Some(RESEARCH)
-            }
+            Reason::Weighed { .. } | Reason::ContradictedBy(..) => Some(RESEARCH),
             Reason::StorageConvention(Custom::SeparateColours | Custom::MtlColours)
             | Reason::DiffuseAlone => Some(ENCODED),
             _ => None,

@@ -1,25 +1,27 @@
-//! DDS through the `dds` library: blocks (BC1 to BC7) and plain pixels; the first surface, the largest level.
+//! DDS: blocks (BC1 to BC7) and formats of DXGI through the `dds` library, pixels of masks here; the first surface, the largest level.
 
-use std::io::ErrorKind;
+use std::io::{BufRead as _, ErrorKind, Read as _, Seek as _, SeekFrom};
 
-use dds::header::{Dx9Header, Dx9PixelFormat, Header, PixelFormatFlags};
+use dds::header::{AlphaMode, Header};
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
-use super::place::{DecodedFile, ratio};
+use super::place::{Decoded, DecodedFile, alone, ratio};
 use super::reader::Reader;
 use crate::disk::caught;
 use crate::error::Error;
-use crate::read::options::Role;
 use crate::read::raster::{Buffer, Raster, Samples};
-use crate::read::record::Subject;
+use crate::read::record::Note;
 
-pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+    let head = reader.fill_buf().map_err(|error| Error::unreadable(place.path, error))?;
+    if let Some(masks) = Masks::of(head) {
+        return masks.decode(reader, place).map(alone);
+    }
     let contradiction = |_| place.invalid("DDS", "a contradiction in it");
     let mut decoder =
         caught(|| dds::Decoder::new(reader)).map_err(contradiction)?.map_err(|e| explain(&e, place))?;
     if !decoder.layout().is_texture() {
-        let problem = "expected one picture, found a DDS of a cube map, a volume or several pictures";
-        return Err(place.bad(problem, "save the map by itself"));
+        return Err(several(place));
     }
     if is_signed(decoder.format()) {
         let problem = format!("expected unsigned samples, found a DDS in {:?}", decoder.format());
@@ -47,13 +49,95 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raste
     let (width, height) = (size.width as usize, size.height as usize);
     if is_two_channel(decoder.format()) {
         channels.truncate(2);
-        // Gray and alpha; but writers of x and y claim that, too.
-        let is_gray = is_luminance(decoder.header()) && place.what != Subject::Map(Role::Normal);
-        if !is_gray {
-            return Ok(Raster { width, height, depth, channels, alpha: None, to_rec709: None });
-        }
+        return Ok(alone(Raster { width, height, depth, channels, alpha: None, to_rec709: None }));
     }
-    Ok(Raster::with_alpha(width, height, depth, channels))
+    let raster = Raster::with_alpha(width, height, depth, channels);
+    // The library itself divides what DXT2 and DXT4 hold.
+    let Header::Dx10(header) = decoder.header() else { return Ok(alone(raster)) };
+    Ok(match header.alpha_mode {
+        AlphaMode::Opaque => alone(Raster { alpha: None, ..raster }),
+        AlphaMode::Premultiplied => {
+            let notes = vec![Note::Unmultiplied(place.what)];
+            Decoded { notes, ..alone(raster.unmultiplied()) }
+        }
+        _ => alone(raster),
+    })
+}
+
+fn several(place: DecodedFile<'_>) -> Error {
+    let problem = "expected one picture, found a DDS of a cube map, a volume or several pictures";
+    place.bad(problem, "save the map by itself")
+}
+
+/// Pixels whose header has a mask of bits for each channel.
+struct Masks {
+    size: [u32; 2],
+    is_one: bool,
+    /// Bytes of a pixel.
+    bytes: usize,
+    masks: Vec<u32>,
+}
+
+impl Masks {
+    /// Bytes before the pixels.
+    const HEAD: usize = 128;
+
+    /// `None` of blocks and formats of DXGI, of signed pixels, and of none at all.
+    fn of(head: &[u8]) -> Option<Self> {
+        const ALPHA: u32 = 3;
+        const FOUR_LETTERS: u32 = 4;
+        const COLOURS: u32 = 0x40 | 0x2_0000;
+        const SEVERAL: u32 = 0x20_fe00;
+        let field = |at: usize| Some(u32::from_le_bytes(*head.get(..Self::HEAD)?[at..].first_chunk()?));
+        let (flags, bits) = (field(80)?, field(88)?);
+        let known = FOUR_LETTERS | COLOURS | ALPHA;
+        let is_whole = field(4)? == 124 && field(76)? == 32;
+        if flags & FOUR_LETTERS != 0 || flags & !known != 0 || !matches!(bits, 8 | 16 | 24 | 32) || !is_whole
+        {
+            return None;
+        }
+        let mut masks = Vec::new();
+        for at in [92, 96, 100].into_iter().filter(|_| flags & COLOURS != 0) {
+            masks.extend(Some(field(at)?).filter(|mask| *mask != 0 && !masks.contains(mask)));
+        }
+        masks.extend(Some(field(104)?).filter(|mask| flags & ALPHA != 0 && *mask != 0));
+        let is_one = field(112)? & SEVERAL == 0;
+        let size = [field(16)?, field(12)?];
+        (!masks.is_empty()).then_some(Self { size, is_one, bytes: bits as usize / 8, masks })
+    }
+
+    fn decode(&self, mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
+        if !self.is_one {
+            return Err(several(place));
+        }
+        let [width, height] = self.size.map(u64::from);
+        let bytes = width.saturating_mul(height).saturating_mul(4 * self.masks.len() as u64);
+        let _reserved = place.check_size([width, height], bytes, ratio::DDS)?;
+        let (width, height) = (width as usize, height as usize);
+        let unreadable = |error| Error::unreadable(place.path, error);
+        let mut pixels = Vec::new();
+        reader.seek(SeekFrom::Start(Self::HEAD as u64)).map_err(unreadable)?;
+        let length = width * height * self.bytes;
+        reader.take(length as u64).read_to_end(&mut pixels).map_err(unreadable)?;
+        if pixels.len() < length {
+            return Err(place.truncated());
+        }
+        let value = |bytes: &[u8], mask: u32, top: u64| {
+            let pixel = bytes.iter().rev().fold(0, |sum, byte| sum << 8 | u32::from(*byte));
+            let (stored, most) = ((pixel & mask) >> mask.trailing_zeros(), mask >> mask.trailing_zeros());
+            (u64::from(stored) * top + u64::from(most) / 2) / u64::from(most)
+        };
+        let samples = |top: u64| {
+            let texels = pixels.chunks_exact(self.bytes);
+            texels.flat_map(move |texel| self.masks.iter().map(move |mask| value(texel, *mask, top)))
+        };
+        let (buffer, depth) = match self.masks.iter().all(|mask| mask.count_ones() <= 8) {
+            true => (samples(255).map(|value| value as u8).collect::<Vec<_>>().into(), "8-bit"),
+            false => (samples(65_535).map(|value| value as u16).collect::<Vec<_>>().into(), "16-bit"),
+        };
+        let buffer: Buffer = buffer;
+        Ok(place.raster([width, height], depth, Samples::interleaved(buffer, self.masks.len())))
+    }
 }
 
 /// The pixels of the first surface.
@@ -89,12 +173,4 @@ fn is_signed(format: Format) -> bool {
 fn is_two_channel(format: Format) -> bool {
     use Format as F;
     matches!(format, F::BC5_UNORM | F::R8G8_UNORM | F::R16G16_UNORM | F::R16G16_FLOAT | F::R32G32_FLOAT)
-}
-
-/// Whether the header claims gray and alpha.
-fn is_luminance(header: &Header) -> bool {
-    let Header::Dx9(Dx9Header { pixel_format: Dx9PixelFormat::Mask(mask), .. }) = header else {
-        return false;
-    };
-    mask.flags.contains(PixelFormatFlags::LUMINANCE_ALPHA)
 }

@@ -10,7 +10,6 @@ use exr::meta::MetaData;
 use exr::meta::attribute::{Chromaticities, IntegerBounds, Text};
 use exr::meta::header::Header;
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
-use glam::DMat3;
 
 use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE, ratio};
 use super::reader::Reader;
@@ -18,7 +17,6 @@ use crate::disk::caught;
 use crate::error::Error;
 use crate::read::names::Label;
 use crate::read::options::Role;
-use crate::read::options::transfer::to_rec709;
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject, Unused};
 
@@ -26,9 +24,6 @@ use crate::read::record::{Note, Subject, Unused};
 pub(crate) const NATIVE: &str = "svbrdf:version=1\n";
 /// Blocks of DWA may take so many bytes more than their samples: they are padded to 8 x 8.
 const SMALL: u64 = 1 << 20;
-
-/// Matrices that differ from the identity by less are those of rounded chromaticities.
-const SAME: f64 = 1e-3;
 
 /// The channels of one layer: name in capitals, samples.
 type NamedSamples = Vec<(String, Samples)>;
@@ -83,13 +78,10 @@ fn check(meta: &MetaData, place: DecodedFile<'_>) -> Result<u64, Error> {
 fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let mut decoded = Decoded::default();
     let display = image.attributes.display_window;
-    let to_rec709 = image.attributes.chromaticities.map(|Chromaticities { red, green, blue, white }| {
-        to_rec709([red, green, blue, white].map(|one| [one.0, one.1].map(f64::from)))
+    let to_rec709 = image.attributes.chromaticities.and_then(|Chromaticities { red, green, blue, white }| {
+        let declared = [red, green, blue, white].map(|one| [one.0, one.1].map(f64::from));
+        place.to_rec709(declared, &mut decoded.notes)
     });
-    if to_rec709 == Some(None) && !place.is_data() {
-        decoded.notes.push(Note::Primaries);
-    }
-    let to_rec709 = to_rec709.flatten().filter(|matrix| !matrix.abs_diff_eq(DMat3::IDENTITY, SAME));
     for part in image.layer_data {
         let size = [part.size.0, part.size.1];
         let data = IntegerBounds::new(part.attributes.layer_position, part.size);
@@ -98,9 +90,14 @@ fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
         let own = part.attributes.layer_name.map(|name| name.to_string()).unwrap_or_default();
         let mut named: BTreeMap<String, NamedSamples> = BTreeMap::new();
         let mut depth = "half";
+        let integers = part.channel_data.list.iter().filter_map(|channel| match &channel.sample_data {
+            FlatSamples::U32(values) => values.iter().max().copied(),
+            _ => None,
+        });
+        let most = integers.max().unwrap_or(0);
         for AnyChannel { name, sample_data, .. } in part.channel_data.list {
             let (layer, channel) = split(&own, &name);
-            let (samples, found) = samples(sample_data);
+            let (samples, found) = samples(sample_data, most);
             depth = if found == "half" { depth } else { found };
             named.entry(layer).or_default().push((channel, samples));
         }
@@ -118,7 +115,7 @@ fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
             let stored = raster.clone();
             let raster = windowed(raster, data, display, &name, &mut decoded.notes);
             let uncropped = (raster.size() != stored.size()).then_some(stored);
-            decoded.layers.push(Layer { name, raster, uncropped });
+            decoded.layers.push(Layer { name, raster, uncropped, meaning: None });
         }
     }
     if decoded.layers.is_empty() {
@@ -129,20 +126,30 @@ fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     Ok(decoded)
 }
 
-/// `diffuse.R` is channel R of layer `diffuse`; a part's name stands for a missing layer's.
+/// `diffuse.R` is channel R of layer `diffuse`; a part's name stands for a missing layer's, and so does a channel that is named after a map.
 fn split(part: &str, channel: &Text) -> (String, String) {
     let name = channel.to_string();
     match name.rsplit_once('.') {
         Some((layer, channel)) => (layer.to_owned(), channel.to_uppercase()),
+        None if Label::of(&name).is_some_and(|label| !label.is_short()) => (name, "Y".to_owned()),
         None => (part.to_owned(), name.to_uppercase()),
     }
 }
 
-fn samples(samples: FlatSamples) -> (Samples, &'static str) {
+/// The samples of a channel; integers, of which `most` is the largest of the part, are codes of as many bits as that takes.
+fn samples(samples: FlatSamples, most: u32) -> (Samples, &'static str) {
+    let code = |value: u32| match most {
+        0 | 1 => value * 65_535,
+        2..=255 => value * 257,
+        256..=65_535 => value,
+        _ => ((u64::from(value) + 0x8000) / 0x1_0001) as u32,
+    };
     match samples {
         FlatSamples::F16(values) => (Samples::floats(values.into_iter().map(f32::from).collect()), "half"),
         FlatSamples::F32(values) => (Samples::floats(values), "float"),
-        FlatSamples::U32(values) => (Samples::floats(values.into_iter().map(|v| v as f32).collect()), "uint"),
+        FlatSamples::U32(values) => {
+            (Samples::words(values.into_iter().map(|value| code(value) as u16).collect()), "uint")
+        }
     }
 }
 

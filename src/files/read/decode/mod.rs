@@ -59,7 +59,7 @@ pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) ->
     } else if begins(b"PF\n") || begins(b"Pf\n") {
         pfm::decode(reader, place).map(alone)
     } else if begins(b"DDS ") {
-        dds::decode(reader, place).map(alone)
+        dds::decode(reader, place)
     } else {
         picture::decode(reader, place)
     }
@@ -70,7 +70,7 @@ pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) ->
 /// # Errors
 /// As [`whole`]; [`Error::BadImage`] where several could be meant.
 pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>), Error> {
-    let Decoded { mut layers, mut notes, .. } = whole(file, what)?;
+    let Decoded { mut layers, mut notes, meaning, .. } = whole(file, what)?;
     let is_named = |layer: &Layer| matches!(what, Subject::Map(role) if Label::of(&layer.name).is_some_and(|label| label.role == role));
     let named: Vec<_> = (0..layers.len()).filter(|at| is_named(&layers[*at])).collect();
     let unnamed = layers.iter().position(|layer| layer.name.is_empty());
@@ -88,7 +88,8 @@ pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>),
             return Err(DecodedFile::of(file.path(), what).bad(problem, remedy));
         }
     };
-    let chosen = layers.swap_remove(chosen);
+    let mut chosen = layers.swap_remove(chosen);
+    chosen.meaning = meaning;
     let unused = |layer: Layer| Note::Unused { what: format!("Layer {}", layer.name), why: Unused::NotAMap };
     notes.extend(layers.into_iter().map(unused));
     Ok((chosen, notes))

@@ -9,8 +9,9 @@ use super::place::{Decoded, DecodedFile, Layer, MAX_BYTES, alone, ratio};
 use super::reader::Reader;
 use crate::error::Error;
 use crate::npy::Header;
-use crate::read::raster::{Buffer, Raster, Samples};
-use crate::read::record::{Note, Unused};
+use crate::read::names::Label;
+use crate::read::raster::{Buffer, Samples};
+use crate::read::record::{Note, Subject, Unused};
 
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
@@ -116,11 +117,6 @@ fn decode(
     let bytes = width.checked_mul(height).and_then(|n| n.checked_mul(8 * count));
     let bytes = bytes.unwrap_or(u64::MAX).min(MAX_BYTES + 1);
     let _reserved = place.check_size([width, height], bytes, ratio::NUMPY)?;
-    if header.is_fortran {
-        return Err(
-            place.bad(format!("{whose}expected rows first, found Fortran order"), "save a C-ordered copy")
-        );
-    }
     let samples = values(reader, &header).map_err(|e| broken(&e, name, place))?;
     let (values, depth) = samples.ok_or_else(|| {
         place.bad(
@@ -129,13 +125,16 @@ fn decode(
         )
     })?;
     let (width, height, count) = (width as usize, height as usize, count as usize);
-    let channels = if planar { Samples::planar } else { Samples::interleaved };
-    let channels = channels(values, count);
-    Ok(Layer {
-        name: name.to_owned(),
-        raster: Raster::with_alpha(width, height, depth, channels),
-        uncropped: None,
-    })
+    // In Fortran order the first axis is the fastest: rows and columns are exchanged, and channels are at the other end.
+    let channels = if planar == header.is_fortran { Samples::interleaved } else { Samples::planar };
+    let mut channels = channels(values, count);
+    if header.is_fortran {
+        let place = |index: usize| index % width * height + index / width;
+        channels = channels.iter().map(|plane| plane.picked(width * height, place)).collect();
+    }
+    let named = Label::of(name).map_or(place.what, |label| Subject::Map(label.role));
+    let raster = DecodedFile { what: named, ..place }.raster([width, height], depth, channels);
+    Ok(Layer { name: name.to_owned(), raster, uncropped: None, meaning: None })
 }
 
 /// The values of an array and the name of their type; `None` of a type that is no sample of a picture.

@@ -4,7 +4,7 @@ use std::io;
 use std::io::{BufRead as _, ErrorKind, Read as _, Seek as _};
 
 use image::codecs::bmp::BmpDecoder;
-use image::codecs::hdr::HdrDecoder;
+use image::codecs::hdr::{HdrDecoder, HdrMetadata};
 use image::codecs::png::PngDecoder;
 use image::codecs::pnm::{PnmDecoder, PnmSubtype};
 use image::codecs::qoi::QoiDecoder;
@@ -38,7 +38,9 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
             }
             reader.rewind().map_err(unreadable)?;
             let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
-            decode_with(Box::new(decoder), "HDR", ratio::HDR, place)
+            let metadata = decoder.metadata();
+            let decoded = decode_with(Box::new(decoder), "HDR", ratio::HDR, place)?;
+            Ok(radiance(decoded, &metadata, place))
         }
         Ok(ImageFormat::Bmp) => {
             // Compression 1 and 2.
@@ -49,8 +51,12 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
         }
         Ok(ImageFormat::Pnm) => pnm(reader, place),
         Ok(ImageFormat::Qoi) => {
+            // All channels are linear by its header.
+            let is_linear = head.get(13) == Some(&1) && !place.is_data();
             let decoder = QoiDecoder::new(reader).map_err(|error| explain(&error, "QOI", place))?;
-            decode_with(Box::new(decoder), "QOI", ratio::QOI, place)
+            let mut decoded = decode_with(Box::new(decoder), "QOI", ratio::QOI, place)?;
+            decoded.notes.extend(is_linear.then_some(Note::LinearChunk(place.what, "QOI header")));
+            Ok(decoded)
         }
         Ok(ImageFormat::WebP) => {
             let most = if head.get(12..16) == Some(b"VP8 ") { ratio::LOSSY_WEBP } else { ratio::NONE };
@@ -134,7 +140,7 @@ fn decode_with(
         .map_err(|_| place.invalid(format, "a contradiction in it"))?
         .map_err(broken)?;
     let found = image.color();
-    let raster = raster(image)
+    let raster = raster(image, place)
         .ok_or_else(|| place.bad(format!("expected 8 or 16 bits, found {found:?}"), "convert it"))?;
     let raster = if place.is_photograph() { raster.oriented(orientation.into()) } else { raster };
     Ok(Decoded { notes, ..alone(raster) })
@@ -178,7 +184,7 @@ fn explain(error: &ImageError, format: &str, place: DecodedFile<'_>) -> Error {
 }
 
 /// `None` for kinds of pixels that are not known.
-fn raster(image: DynamicImage) -> Option<Raster> {
+fn raster(image: DynamicImage, place: DecodedFile<'_>) -> Option<Raster> {
     let (width, height) = (image.width() as usize, image.height() as usize);
     let (channels, depth) = match image {
         DynamicImage::ImageLuma8(i) => (Samples::interleaved(i.into_raw(), 1), "8-bit"),
@@ -192,7 +198,28 @@ fn raster(image: DynamicImage) -> Option<Raster> {
         DynamicImage::ImageRgb32F(i) => (Samples::interleaved(i.into_raw(), 3), "float"),
         _ => return None,
     };
-    Some(Raster::with_alpha(width, height, depth, channels))
+    Some(place.raster([width, height], depth, channels))
+}
+
+/// The radiance of an HDR, by whose exposures and corrections its pixels are multiplied, with the primaries that it declares.
+fn radiance(mut decoded: Decoded, metadata: &HdrMetadata, place: DecodedFile<'_>) -> Decoded {
+    let (red, green, blue) = metadata.color_correction.unwrap_or((1.0, 1.0, 1.0));
+    let factors = [red, green, blue].map(|factor| (factor * metadata.exposure.unwrap_or(1.0)).recip());
+    let is_usable = factors.iter().all(|factor| factor.is_finite() && *factor > 0.0);
+    let primaries = metadata.custom_attributes.iter().find(|(name, _)| name == "PRIMARIES");
+    let numbers = primaries.map(|(_, text)| text.split_whitespace().filter_map(|one| one.parse().ok()));
+    let numbers: Vec<f64> = numbers.into_iter().flatten().collect();
+    let of_primaries = match numbers.as_chunks::<2>() {
+        (&[red, green, blue, white], []) => place.to_rec709([red, green, blue, white], &mut decoded.notes),
+        _ => None,
+    };
+    for layer in &mut decoded.layers {
+        layer.raster.to_rec709 = of_primaries;
+        if is_usable {
+            layer.raster = layer.raster.clone().scaled(&factors);
+        }
+    }
+    decoded
 }
 
 /// Most bytes of the header of an HDR.
@@ -217,7 +244,7 @@ struct PngHead {
     pub other_primaries: Option<&'static str>,
     /// Whether it is an animation.
     pub is_animated: bool,
-    /// The text that this program writes into packed pictures: their order and encoding.
+    /// The text that this program writes into its pictures: their order and encoding.
     pub meaning: Option<String>,
 }
 
@@ -242,7 +269,7 @@ fn numbers<const N: usize>(reader: &mut Reader<'_>, left: &mut i64) -> io::Resul
 }
 
 fn png_head(reader: &mut Reader<'_>) -> io::Result<PngHead> {
-    const KEYWORD: &[u8] = b"svbrdf\0packed ";
+    const KEYWORD: &[u8] = b"svbrdf\0";
     let (mut gamma_is_one, mut srgb, mut is_animated, mut meaning) = (false, false, false, None);
     let (mut cicp, mut primaries): (Option<[u8; 4]>, Option<[u32; 6]>) = (None, None);
     reader.seek_relative(8)?;
@@ -255,14 +282,14 @@ fn png_head(reader: &mut Reader<'_>) -> io::Result<PngHead> {
         match &name {
             b"IDAT" => {
                 let linear = match cicp {
-                    Some([_, transfer, ..]) => (transfer == LINEAR).then_some("cICP"),
-                    None => (gamma_is_one && !srgb).then_some("gAMA"),
+                    Some([_, transfer, ..]) => (transfer == LINEAR).then_some("cICP chunk"),
+                    None => (gamma_is_one && !srgb).then_some("gAMA chunk"),
                 };
                 // Of cICP, 2 are not specified.
                 let is_far = |all: &[u32; 6]| all.iter().zip(REC709).any(|(a, b)| a.abs_diff(b) > 1000);
                 let other_primaries = match cicp {
-                    Some([primaries, ..]) => (!matches!(primaries, 1 | 2)).then_some("cICP"),
-                    None => primaries.filter(is_far).filter(|_| !srgb).map(|_| "cHRM"),
+                    Some([primaries, ..]) => (!matches!(primaries, 1 | 2)).then_some("cICP chunk"),
+                    None => primaries.filter(is_far).filter(|_| !srgb).map(|_| "cHRM chunk"),
                 };
                 return Ok(PngHead { linear, other_primaries, is_animated, meaning });
             }

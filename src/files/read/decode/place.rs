@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use glam::DMat3;
+
 use crate::disk::memory::{self, Reserved};
 use crate::error::Error;
 use crate::read::options::Role;
-use crate::read::raster::Raster;
+use crate::read::options::transfer::{Chromaticities, to_rec709};
+use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject};
 
 /// Largest side of a map: the largest that material libraries publish.
@@ -58,6 +61,8 @@ pub(crate) struct Layer {
     pub raster: Raster,
     /// All that is stored, where the picture is another part of the plane.
     pub uncropped: Option<Raster>,
+    /// As that of [`Decoded`].
+    pub meaning: Option<String>,
 }
 
 /// The content of a file.
@@ -66,7 +71,7 @@ pub(crate) struct Decoded {
     pub layers: Vec<Layer>,
     /// Whether this program wrote the file, in its own encoding.
     pub native: bool,
-    /// The order and encoding that this program wrote into a packed picture.
+    /// The order and encoding that this program wrote into a picture.
     pub meaning: Option<String>,
     /// Other things that were noticed.
     pub notes: Vec<Note>,
@@ -101,6 +106,27 @@ impl<'a> DecodedFile<'a> {
     /// An error of a library that decodes `format`.
     pub(super) fn invalid(self, format: &str, found: impl std::fmt::Display) -> Error {
         self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
+    }
+
+    /// The picture of 1 to 4 channels: the last of 2 or 4 is alpha, but of 2 in a map of normals y.
+    pub(super) fn raster(self, size: [usize; 2], depth: &'static str, channels: Vec<Samples>) -> Raster {
+        let [width, height] = size;
+        let is_normal = self.what == Subject::Map(Role::Normal);
+        if is_normal && channels.len() == 2 && !channels[1].is_all(1.0) {
+            return Raster { width, height, depth, channels, alpha: None, to_rec709: None };
+        }
+        Raster::with_alpha(width, height, depth, channels)
+    }
+
+    /// The matrix from primaries that the file declares to those of Rec. 709, where they are others; noted where there is none.
+    pub(super) fn to_rec709(self, declared: Chromaticities, notes: &mut Vec<Note>) -> Option<DMat3> {
+        /// Matrices that differ from the identity by less are those of rounded chromaticities.
+        const SAME: f64 = 1e-3;
+        let matrix = to_rec709(declared);
+        if matrix.is_none() && !self.is_data() {
+            notes.push(Note::Primaries);
+        }
+        matrix.filter(|matrix| !matrix.abs_diff_eq(DMat3::IDENTITY, SAME))
     }
 
     /// Whether the picture is known to hold data, for which colour spaces mean nothing.
@@ -189,6 +215,6 @@ pub(crate) fn alone(layer: impl Into<Layer>) -> Decoded {
 
 impl From<Raster> for Layer {
     fn from(raster: Raster) -> Self {
-        Self { name: String::new(), raster, uncropped: None }
+        Self { name: String::new(), raster, uncropped: None, meaning: None }
     }
 }

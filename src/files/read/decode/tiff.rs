@@ -13,31 +13,20 @@ use crate::read::raster::{Buffer, Raster, Samples};
 use crate::read::record::Note;
 
 pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
-    let invalid = |error: tiff::TiffError| match error {
-        tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
-        tiff::TiffError::UnsupportedError(Unsupported::UnsupportedCompressionMethod(method)) => {
-            let name = compression(method.to_u16()).map_or_else(|| format!("{method:?}"), str::to_owned);
-            place.bad(
-                format!("expected a compression that is read, found a TIFF in {name}"),
-                "save it with LZW or Deflate",
-            )
-        }
-        tiff::TiffError::UnsupportedError(what) => {
-            place.bad(format!("expected gray or RGB, found a TIFF in which {what}"), "convert it to RGB")
-        }
-        other => place.invalid("TIFF", other),
-    };
+    let invalid = |error| explained(error, place);
     let mut limits = Limits::default();
     limits.decoding_buffer_size = usize::try_from(MAX_BYTES).unwrap_or(usize::MAX);
     limits.intermediate_buffer_size = limits.decoding_buffer_size;
     let mut decoder = Decoder::new(reader).map_err(invalid)?.with_limits(limits);
+    skip_thumbnails(&mut decoder).map_err(invalid)?;
     let (width, height) = decoder.dimensions().map_err(invalid)?;
     let colour = decoder.colortype().map_err(invalid)?;
-    // Of fewer, several samples are in a byte, of which a column of texels has one each.
-    if colour.bit_depth() < 8 {
+    let bits = colour.bit_depth();
+    let is_read = matches!(bits, 8 | 16 | 32 | 64) || matches!(colour, ColorType::Gray(1 | 2 | 4));
+    if !is_read {
         let problem =
-            format!("expected 8 bits a sample or more, found a TIFF with a depth of {}", colour.bit_depth());
-        return Err(place.bad(problem, "save it with 8 bits"));
+            format!("expected 8, 16 or 32 bits a sample, or gray of 1, 2 or 4, found a TIFF of {bits} bits");
+        return Err(place.bad(problem, "save it with 8 or 16 bits"));
     }
     let count = channels_of(colour)
         .ok_or_else(|| place.bad(format!("expected gray or RGB, found {colour:?}"), "convert it to RGB"))?;
@@ -56,17 +45,68 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decod
     }
     let (width, height) = (width as usize, height as usize);
     let layout = Interleaving { count, planar, texels: width * height };
-    if let (true, DecodingResult::U8(samples)) = (is_ycbcr, &mut result) {
-        layout.to_rgb(samples);
+    if let DecodingResult::U8(samples) = &mut result {
+        if is_ycbcr {
+            layout.to_rgb(samples);
+        } else if bits < 8 {
+            *samples = unpacked(samples, width, bits.into());
+        }
     }
     let kind = kind(&result);
     let (channels, depth) = layout.samples(result).ok_or_else(|| {
         let problem = format!("expected unsigned integers of 8, 16 or 32 bits, or floats, found {kind}");
         place.bad(problem, "convert it")
     })?;
-    let raster = Raster::with_alpha(width, height, depth, channels).oriented(orientation);
-    let notes = has_pages(&mut decoder).then_some(Note::FirstOnly(place.what)).into_iter().collect();
+    let raster = place.raster([width, height], depth, channels).oriented(orientation);
+    with_metadata(raster, &mut decoder, place).map_err(invalid)
+}
+
+/// The picture of a page with what its fields do to it, and the notes on the rest of the file.
+fn with_metadata(
+    mut raster: Raster,
+    decoder: &mut Decoder<Reader<'_>>,
+    place: DecodedFile<'_>,
+) -> tiff::TiffResult<Decoded> {
+    let extra = decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples)?.unwrap_or_default();
+    let profile = decoder.find_tag(Tag::IccProfile).ok().flatten().and_then(|one| one.into_u8_vec().ok());
+    let mut notes = place.metadata_notes(1, profile.as_deref());
+    // Alpha that the colours are multiplied by is the first kind of extra samples.
+    if extra.first() == Some(&1) && raster.alpha.is_some() {
+        notes.push(Note::Unmultiplied(place.what));
+        raster = raster.unmultiplied();
+    }
+    notes.extend(has_pages(decoder).then_some(Note::FirstOnly(place.what)));
     Ok(Decoded { notes, ..alone(raster) })
+}
+
+/// The error of the library.
+fn explained(error: tiff::TiffError, place: DecodedFile<'_>) -> Error {
+    match error {
+        tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
+        tiff::TiffError::UnsupportedError(Unsupported::UnsupportedCompressionMethod(method)) => {
+            let name = compression(method.to_u16()).map_or_else(|| format!("{method:?}"), str::to_owned);
+            place.bad(
+                format!("expected a compression that is read, found a TIFF in {name}"),
+                "save it with LZW or Deflate",
+            )
+        }
+        tiff::TiffError::UnsupportedError(Unsupported::InterpretationWithBits(kind, bits)) => place.bad(
+            format!("expected gray or RGB, found a TIFF of {kind:?} in {} bits", bits.first().unwrap_or(&0)),
+            "save it as gray or RGB of 8 or 16 bits",
+        ),
+        tiff::TiffError::UnsupportedError(what) => {
+            place.bad(format!("expected gray or RGB, found a TIFF in which {what}"), "convert it to RGB")
+        }
+        other => place.invalid("TIFF", other),
+    }
+}
+
+/// Codes of 8 bits of samples of fewer, of which several are in a byte and rows begin with one.
+fn unpacked(packed: &[u8], width: usize, bits: usize) -> Vec<u8> {
+    let most = u8::MAX >> (8 - bits);
+    let code = |row: &[u8], x: usize| row[x * bits / 8] >> (8 - bits - x * bits % 8) & most;
+    let rows = packed.chunks_exact((width * bits).div_ceil(8));
+    rows.flat_map(|row| (0..width).map(move |x| code(row, x) * (u8::MAX / most))).collect()
 }
 
 /// The name of a compression by its code.
@@ -95,20 +135,34 @@ fn kind(result: &DecodingResult) -> &'static str {
     }
 }
 
-/// Whether there are pictures after the first which are no smaller levels of it.
+/// Most pages that are looked at.
+const MOST_PAGES: usize = 32;
+
+/// Whether a page calls itself a smaller version of another one.
+fn is_reduced(decoder: &mut Decoder<Reader<'_>>) -> tiff::TiffResult<bool> {
+    let [new, old] = [Tag::NewSubfileType, Tag::SubfileType]
+        .map(|tag| decoder.find_tag_unsigned::<u32>(tag).ok().flatten().unwrap_or(0));
+    Ok(new & 1 != 0 || old == 2)
+}
+
+/// Goes to the first page that is no smaller version of another one; to the first of all where each is.
+fn skip_thumbnails(decoder: &mut Decoder<Reader<'_>>) -> tiff::TiffResult<()> {
+    for _ in 0..MOST_PAGES {
+        if !is_reduced(decoder)? {
+            return Ok(());
+        }
+        if !decoder.more_images() || decoder.next_image().is_err() {
+            break;
+        }
+    }
+    decoder.seek_to_image(0)
+}
+
+/// Whether there are pages after this one which are no smaller versions of it.
 fn has_pages(decoder: &mut Decoder<Reader<'_>>) -> bool {
-    const REDUCED: u32 = 1;
-    const MOST: usize = 32;
-    let mut next = || -> tiff::TiffResult<bool> {
-        decoder.next_image()?;
-        Ok(decoder.find_tag_unsigned::<u32>(Tag::NewSubfileType)?.unwrap_or(0) & REDUCED == 0)
-    };
-    let mut count = 0;
-    std::iter::from_fn(|| {
-        count += 1;
-        (count <= MOST).then(|| next().ok())?
-    })
-    .any(|is_page| is_page)
+    (0..MOST_PAGES)
+        .map_while(|_| decoder.next_image().and_then(|()| is_reduced(decoder)).ok())
+        .any(|is_reduced| !is_reduced)
 }
 
 fn channels_of(colour: ColorType) -> Option<usize> {
@@ -188,20 +242,45 @@ mod tests {
     use super::*;
     use crate::read::record::Subject;
 
-    #[test]
-    fn bits_are_refused_also_where_a_row_has_as_many_bytes_as_texels() {
-        // Width, height, bits, compression, photometric, offset of the strip, samples, rows and bytes of it.
-        let fields =
-            [(256, 1), (257, 2), (258, 1), (259, 1), (262, 1), (273, 8), (277, 1), (278, 2), (279, 2_u32)];
-        let mut file = b"II*\0\x0a\0\0\0\x80\0\x09\0".to_vec();
+    /// A TIFF of a row of `bits` a sample, whose bytes these are.
+    fn file(width: u32, bits: u32, photometric: u32, row: &[u8]) -> Vec<u8> {
+        let length = row.len() as u32;
+        let fields = [
+            (256, width),
+            (257, 1),
+            (258, bits),
+            (259, 1),
+            (262, photometric),
+            (273, 8),
+            (277, 1),
+            (278, 1),
+            (279, length),
+        ];
+        let mut file = [b"II*\0", &(8 + length.next_multiple_of(4)).to_le_bytes()[..], row].concat();
+        file.resize(8 + row.len().next_multiple_of(4), 0);
+        file.extend([fields.len() as u8, 0]);
         for (tag, value) in fields {
             file.extend([u16::to_le_bytes(tag), 4_u16.to_le_bytes()].as_flattened());
             file.extend([1_u32.to_le_bytes(), value.to_le_bytes()].as_flattened());
         }
         file.extend([0; 4]);
-        let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
-        let refused = decode(Reader::of_bytes(&file), place).unwrap_err().to_string();
-        assert!(refused.contains("found a TIFF with a depth of 1;"), "{refused}");
+        file
+    }
+
+    #[test]
+    fn gray_of_few_bits_is_read_and_other_bits_are_named() {
+        let read = |file: &[u8]| {
+            let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
+            let decoded = decode(Reader::of_bytes(file), place).map_err(|error| error.to_string())?;
+            let plane = &decoded.layers[0].raster.channels[0];
+            Ok::<_, String>((0..plane.len()).map(|at| plane.stored(at)).collect::<Vec<_>>())
+        };
+        // From black or from white.
+        assert_eq!(read(&file(3, 1, 1, &[0b1010_0000])), Ok(vec![255.0, 0.0, 255.0]));
+        assert_eq!(read(&file(3, 1, 0, &[0b1010_0000])), Ok(vec![0.0, 255.0, 0.0]));
+        assert_eq!(read(&file(3, 4, 1, &[0xf0, 0x80])), Ok(vec![255.0, 0.0, 136.0]));
+        let refused = read(&file(2, 12, 1, &[0; 3])).unwrap_err();
+        assert!(refused.contains("found a TIFF of 12 bits"), "{refused}");
     }
 
     #[test]

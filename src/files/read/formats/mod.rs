@@ -11,6 +11,7 @@ mod packed;
 mod picture;
 mod set;
 mod sidecar;
+mod tile;
 
 use std::path::Path;
 

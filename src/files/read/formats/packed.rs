@@ -3,12 +3,13 @@
 use std::ops::Range;
 use std::path::Path;
 
+use super::tile;
 use crate::error::Error;
-use crate::read::options::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Role, Roughness, TileGrid};
+use crate::read::options::{Albedo, NormalY, Order, Preset, ReadOptions, Role, Roughness, TileGrid};
 use crate::read::raster::Raster;
 use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
 use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, What};
-use crate::read::stored::{Inferred, MapsByRole, StoredMap, StoredMaterial};
+use crate::read::stored::{MapsByRole, StoredMap, StoredMaterial, WrittenEncoding};
 
 /// Of a picture of diffuse alone.
 const ROUGHNESS: f32 = 0.5;
@@ -34,10 +35,13 @@ pub(super) fn material(
     options: &ReadOptions,
 ) -> Result<StoredMaterial, Error> {
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let is_divided = options.grid.is_some() || (options.order.is_some() && !grids(image, options).is_empty());
+    let cut = if is_divided { None } else { tile::without_borders(image) };
+    let (image, border) = cut.as_ref().map_or((image, 0), |(tiles, border)| (tiles, *border));
     let own = meaning
-        .and_then(|text| WrittenEncoding::of(text, image))
+        .and_then(|text| WrittenStrip::of(text, image))
         .filter(|_| options.order.is_none() && options.grid.is_none());
-    let chosen = own.as_ref().map(WrittenEncoding::tiling).or_else(|| choose(image, &name, options));
+    let chosen = own.as_ref().map(WrittenStrip::tiling).or_else(|| choose(image, &name, options));
     let refused = || refusal(path, image, options);
     let Tiling { grid, order, first, why, certainty } = chosen.ok_or_else(refused)?;
     if is_stack(grid, order.len()) {
@@ -60,13 +64,16 @@ pub(super) fn material(
         found.assumptions.push(missing);
     }
     match own {
-        Some(own) => own.add_to(&mut found),
-        None => add_usual(&mut found, order, image),
+        Some(own) => found.specify(&own.encoding, &Role::ALL),
+        None => add_usual(&mut found, order, grid, image),
     }
     let maps = order.roles().map(Role::name).collect::<Vec<_>>().join(", ");
     let chosen = format!("{order} in {grid} tiles of {} x {} ({maps})", tile[0], tile[1]);
     found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
     let photos = if grid.rows == 1 || grid.columns == 1 { first } else { 0 };
+    if border > 0 {
+        found.notes.push(Note::Borders { border });
+    }
     if photos > 0 {
         found.notes.push(Note::Photos { count: photos, tiles: grid.count() });
     }
@@ -77,31 +84,18 @@ pub(super) fn material(
     Ok(found)
 }
 
-/// The encoding that this program wrote into a strip, as in `ndrs, diffuse linear, ..., energy scaled`.
-struct WrittenEncoding {
+/// The order and encoding that this program wrote into a strip, as in `packed ndrs, diffuse linear, ..., energy scaled`.
+struct WrittenStrip {
     order: Order,
-    diffuse: Albedo,
-    specular: Albedo,
-    roughness: Roughness,
-    normal_y: NormalY,
-    energy: Energy,
+    encoding: WrittenEncoding,
 }
 
-impl WrittenEncoding {
+impl WrittenStrip {
     /// `None` where the text or the shape of the picture is none that this program writes.
     fn of(text: &str, image: &Raster) -> Option<Self> {
-        let mut parts = text.split(", ");
-        let order: Order = parts.next()?.parse().ok()?;
-        let mut next = |key: &str| parts.next()?.strip_prefix(key)?.strip_prefix(' ').map(str::to_owned);
-        let own = Self {
-            order,
-            diffuse: next("diffuse")?.parse().ok()?,
-            specular: next("specular")?.parse().ok()?,
-            roughness: next("roughness")?.parse().ok()?,
-            normal_y: next("normal y")?.parse().ok()?,
-            energy: next("energy")?.parse().ok()?,
-        };
-        (image.width == order.len() * (image.width / order.len())).then_some(own)
+        let (order, encoding) = text.strip_prefix("packed ")?.split_once(", ")?;
+        let (order, encoding) = (order.parse::<Order>().ok()?, WrittenEncoding::of(encoding)?);
+        image.width.is_multiple_of(order.len()).then_some(Self { order, encoding })
     }
 
     fn tiling(&self) -> Tiling {
@@ -114,27 +108,16 @@ impl WrittenEncoding {
             certainty: Certainty::Sure,
         }
     }
-
-    fn add_to(&self, found: &mut StoredMaterial) {
-        fn sure<T>(value: T) -> Inferred<T> {
-            Some((value, StorageConvention::NativeText.into(), Certainty::Sure))
-        }
-        found.inferred.albedo = sure(self.diffuse);
-        found.inferred.specular = sure(self.specular);
-        found.inferred.roughness = sure(self.roughness);
-        found.inferred.normal_y = sure(self.normal_y);
-        found.inferred.energy = sure(self.energy);
-    }
 }
 
-/// Adds the encoding that goes with an order; nothing where none is known.
-fn add_usual(found: &mut StoredMaterial, order: Order, image: &Raster) {
+/// Adds the encoding that goes with an order in this grid; nothing where none is known: pixels decide then.
+fn add_usual(found: &mut StoredMaterial, order: Order, grid: TileGrid, image: &Raster) {
+    let materialgan = (Albedo::Gamma22, Roughness::Gamma22, StorageConvention::MaterialGanOrder);
     let (albedo, roughness, why) = match order {
         _ if image.is_float() => (Albedo::Linear, Roughness::R, StorageConvention::Floats),
         Order::NDRS => (Albedo::Linear, Roughness::R, StorageConvention::DeschaintreOrder),
-        Order::DNRS | Order::DNR | Order::NDSR => {
-            (Albedo::Gamma22, Roughness::Gamma22, StorageConvention::MaterialGanOrder)
-        }
+        Order::DNRS | Order::DNR => materialgan,
+        Order::NDSR if grid.columns == 2 => materialgan,
         Order::DSRN => (Albedo::Gamma22, Roughness::R, StorageConvention::MatFusionOrder),
         Order::IBRM => (Albedo::Srgb, Roughness::R, StorageConvention::SvbrdfEvaluationOrder),
         _ => return,
@@ -244,21 +227,36 @@ fn recognized(image: &Raster, grid: TileGrid, options: &ReadOptions) -> Option<T
     if best < NORMAL_AT_LEAST || second >= NORMAL_AT_LEAST {
         return None;
     }
-    let square = grid.columns == 2 && grid.rows == 2;
-    let order = match (count, place) {
-        (3, 1) => Order::DNR,
-        (4, 0) if square => Order::NDSR,
-        (4, 3) => Order::DSRN,
-        (4, 0) => Order::NDRS,
-        (4, 1) if !square => Order::DNRS,
-        (5.., place) if place + 4 == count => Order::NDRS,
-        _ => return None,
+    let known: &[Order] = if grid.columns == 2 && grid.rows == 2 { &Order::SQUARES } else { &Order::ROWS };
+    let is_one = |order: &&Order| {
+        let normals = order.roles().position(|role| role == Role::Normal);
+        let photos = count.checked_sub(order.len()).filter(|photos| *photos == 0 || **order == Order::NDRS);
+        photos.zip(normals).is_some_and(|(photos, normals)| photos + normals == place)
     };
+    let known: Vec<Order> = known.iter().filter(is_one).copied().collect();
+    let usual = *known.first()?;
     if is_stack(grid, 0) && !every_row_has_normals(image, grid, place) {
         return None;
     }
     let why = Reason::NormalTile { number: place + 1, share: best, next: second };
-    Some(Tiling { grid, order, first: start + count - order.len(), why, certainty: Certainty::Likely })
+    let first = |order: Order| start + count - order.len();
+    let against = |order: &Order| contradicted(image, grid, first(*order), *order);
+    let (why, certainty) = match against(&usual) {
+        Some(tile) => (Reason::ContradictedBy(Box::new(why), Box::new(tile)), Certainty::Unsure),
+        None => (why, Certainty::Likely),
+    };
+    let order = known.into_iter().find(|order| against(order).is_none()).unwrap_or(usual);
+    Some(Tiling { grid, order, first: first(order), why, certainty })
+}
+
+/// The first tile that cannot be the map that an order of tiles makes of it.
+fn contradicted(image: &Raster, grid: TileGrid, first: usize, order: Order) -> Option<Reason> {
+    let size = grid.tile(image.size())?;
+    order.roles().enumerate().find_map(|(place, map)| {
+        let number = first + place;
+        let found = tile::contradiction(&image.crop(grid.corner(number, size), size), map)?;
+        Some(Reason::TileOf { number: number + 1, map, found })
+    })
 }
 
 fn refusal(path: &Path, image: &Raster, options: &ReadOptions) -> Error {

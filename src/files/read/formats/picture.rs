@@ -1,5 +1,6 @@
 //! One picture that holds a whole material: in tiles, or in named layers, as those of an EXR or the arrays of an npz.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use svbrdf_core::progress::Progress;
@@ -95,10 +96,16 @@ fn of_layers(
     let listed = format!("the layers {}", listing(&names));
     let mut maps = MapsByRole::default();
     let mut notes = Vec::new();
-    let mut floats = true;
-    for Layer { name, raster, .. } in layers {
-        match Label::of(&name) {
+    let mut named: Vec<_> = layers.into_iter().map(|layer| (Label::of(&layer.name), layer)).collect();
+    // `geo_normal` is none beside `normal`.
+    named.sort_by_key(|(label, _)| label.as_ref().map_or(0, |label| label.stem.len()));
+    let mut stems = HashMap::new();
+    for (label, Layer { name, raster, .. }) in named {
+        match label {
             Some(label) if label.role == Role::Ignored => notes.push(unused(&name)),
+            Some(label) if stems.get(&label.role).is_some_and(|stem| *stem < label.stem.len()) => {
+                notes.push(unused(&name));
+            }
             Some(label) if maps.has(label.role) => {
                 return Err(Error::NotAMaterial {
                     path: path.to_owned(),
@@ -108,11 +115,9 @@ fn of_layers(
                 });
             }
             Some(label) => {
-                floats &= raster.is_float();
-                maps.add(
-                    label.role,
-                    StoredMap { raster, file: path.to_owned(), part: format!("layer {name}") },
-                );
+                let part = format!("layer {name}");
+                stems.insert(label.role, label.stem.len());
+                maps.add(label.role, StoredMap { raster, file: path.to_owned(), part });
             }
             None if name.is_empty() => notes.push(Note::Preview),
             None => notes.push(unused(&name)),
@@ -124,16 +129,14 @@ fn of_layers(
     found.assumptions.insert(0, layout);
     notes.append(&mut found.notes);
     found.notes = notes;
-    if floats {
-        let (why, certainty) = if native {
-            (StorageConvention::Native, Certainty::Sure)
-        } else {
-            (StorageConvention::Floats, Certainty::Likely)
-        };
-        found.inferred.albedo = Some((Albedo::Linear, why.into(), certainty));
+    if native {
+        let why = || StorageConvention::Native.into();
+        found.inferred.albedo = Some((Albedo::Linear, why(), Certainty::Sure));
         found.inferred.specular = found.inferred.albedo.clone();
-        found.inferred.roughness = Some((Roughness::R, why.into(), certainty));
-        found.inferred.normal_y = native.then(|| (NormalY::Up, why.into(), certainty));
+        found.inferred.roughness = Some((Roughness::R, why(), Certainty::Sure));
+        found.inferred.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
+    } else {
+        found.infer_floats();
     }
     Ok(found)
 }

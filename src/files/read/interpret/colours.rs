@@ -1,84 +1,126 @@
-//! Encodings of colours: as specified, as the files tell, or as the evidence of pixels suggests.
+//! Encodings of colours: of each map as specified, as its own file tells, or as the evidence of pixels suggests.
 
-use super::evidence::{self, PRIOR, SURE};
+use super::evidence::{self, CUSTOM, PRIOR, SURE};
 use super::neighbours::Neighbours;
-use super::values::decide;
 use crate::read::options::{Albedo, ReadOptions, Roughness};
 use crate::read::raster::measure;
 use crate::read::record::{
     Assumption, Certainty, Evidence, Note, Reason, SpecifiedBy, StorageConvention, What,
 };
-use crate::read::stored::{Inferences, Inferred, StoredMap, StoredMaterial};
+use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+
+/// An encoding with its reason and certainty.
+type Choice = (Albedo, Reason, Certainty);
 
 /// How diffuse (or a base colour) and specular are stored, recorded; with the neighbours that were looked at.
 pub(super) fn encodings(
     found: &mut StoredMaterial,
     options: &ReadOptions,
 ) -> ([Albedo; 2], Option<Neighbours>) {
-    let ([diffuse, specular], neighbours) = detected(found, options);
-    let inferred = found.inferred.albedo.take();
-    // Nothing is detected where the encoding is specified or inferred: then this is never asked.
-    let detected = || diffuse.unwrap_or_else(|| alone(None));
-    let albedo = decide(&mut found.assumptions, What::Albedo, options.albedo, inferred, detected);
-    let is_other = options.albedo.is_none() && found.notes.contains(&Note::Primaries);
-    if let Some(assumption) = found.assumptions.last_mut().filter(|_| is_other) {
-        let why = std::mem::replace(&mut assumption.why, Reason::OtherPrimaries);
-        assumption.why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::OtherPrimaries));
-        assumption.certainty = Certainty::Unsure;
-    }
-    ([albedo, specular_encoding(found, options, specular)], neighbours)
-}
-
-/// The encodings that the pixels of diffuse (or a base colour) and of specular suggest, where options and files leave them open.
-fn detected(found: &StoredMaterial, options: &ReadOptions) -> ([Inferred<Albedo>; 2], Option<Neighbours>) {
-    let Inferences { albedo, specular: known, roughness, .. } = &found.inferred;
-    match &found.specular {
-        _ if options.albedo.is_some() || (albedo.is_some() && known.is_some()) => ([None, None], None),
-        Some(specular) => {
-            let roughness = options.roughness.or(roughness.as_ref().map(|known| known.0));
-            pair(&found.colour, specular, roughness)
+    let given = [options.albedo, options.specular.or(options.albedo)];
+    let known = [found.inferred.albedo.take(), found.inferred.specular.take()];
+    let is_open = |which: usize| {
+        given[which].is_none() && known[which].as_ref().is_none_or(|(_, why, _)| why.is_custom_of_codes())
+    };
+    let open = [is_open(0), is_open(1) && found.specular.is_some()];
+    let is_known = known.iter().any(Option::is_some);
+    let (evidence, neighbours) = evidence_of(found, open, is_known, options);
+    let mut chosen = [Albedo::Srgb; 2];
+    for (which, (known, evidence)) in known.into_iter().zip(evidence).enumerate() {
+        let Some(map) = [Some(&found.colour), found.specular.as_ref()][which] else { continue };
+        let (albedo, mut why, mut certainty) = match (given[which], known) {
+            (Some(given), _) => {
+                found.notes.extend((which == 1).then(|| contradiction(map, given)).flatten());
+                (given, Reason::Specified(SpecifiedBy::Caller), Certainty::Given)
+            }
+            (None, Some(known)) => judged(known, evidence, &mut found.inferred.roughness),
+            (None, None) if which == 0 && open != [true; 2] => alone(evidence),
+            (None, None) => verdict(evidence),
+        };
+        if which == 0 && certainty != Certainty::Given && found.notes.contains(&Note::Primaries) {
+            why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::OtherPrimaries));
+            certainty = Certainty::Unsure;
         }
-        None if albedo.is_some() => ([None, None], None),
-        None => ([Some(alone(evidence::alone(&found.colour.raster))), None], None),
+        chosen[which] = albedo;
+        found.assumptions.push(Assumption::new(
+            [What::Albedo, What::Specular][which],
+            albedo,
+            why,
+            certainty,
+        ));
     }
+    (chosen, neighbours)
 }
 
-/// The encodings of diffuse and specular, with the evidence of neighbours where their own leaves them open.
-///
-/// The two differ only where evidence about diffuse alone does. `roughness` is what the names declare it: glossiness is
-/// how artists name it.
-fn pair(
-    diffuse: &StoredMap,
-    specular: &StoredMap,
-    roughness: Option<Roughness>,
-) -> ([Inferred<Albedo>; 2], Option<Neighbours>) {
+/// The evidence of the pixels about each colour that is `open`: of both together only where both are. Neighbours are asked where nothing
+/// else is known.
+fn evidence_of(
+    found: &StoredMaterial,
+    open: [bool; 2],
+    is_known: bool,
+    options: &ReadOptions,
+) -> ([Vec<Evidence>; 2], Option<Neighbours>) {
+    let roughness = options.roughness.or(found.inferred.roughness.as_ref().map(|known| known.0));
+    // Glossiness is how artists name it.
     let prior = if roughness == Some(Roughness::Gloss) { Evidence::Prior } else { Evidence::Research };
-    let mut common = vec![prior];
-    if evidence::is_jpeg(&diffuse.file) && evidence::is_jpeg(&specular.file) {
-        common.push(Evidence::Jpeg);
-    }
-    common.extend(evidence::measured(&diffuse.raster, &specular.raster));
-    let total: f64 = common.iter().map(|one| one.log_odds()).sum();
-    let pictures = || [diffuse.file.clone(), specular.file.clone()];
-    let neighbours = (total.abs() < SURE).then(|| Neighbours::of(pictures()));
-    common.extend(neighbours.as_ref().and_then(Neighbours::evidence));
-    let bright = evidence::too_bright(&diffuse.raster, &specular.raster);
-    let diffuse = common.iter().copied().chain(bright).collect();
-    ([diffuse, common].map(verdict).map(Some), neighbours)
-}
-
-/// The encoding of a colour without specular, by convention.
-fn alone(dark: Option<Evidence>) -> (Albedo, Reason, Certainty) {
-    match dark {
-        Some(dark) => {
-            let evidence = vec![Evidence::Prior, dark];
-            (Albedo::Srgb, Reason::Weighed { log_odds: PRIOR, evidence }, Certainty::Unsure)
+    let jpeg =
+        |maps: &[&StoredMap]| maps.iter().all(|map| evidence::is_jpeg(&map.file)).then_some(Evidence::Jpeg);
+    let diffuse = &found.colour;
+    match &found.specular {
+        Some(specular) if open == [true; 2] => {
+            let mut common: Vec<_> = [prior].into_iter().chain(jpeg(&[diffuse, specular])).collect();
+            common.extend(evidence::measured(&diffuse.raster, &specular.raster));
+            let total: f64 = common.iter().map(|one| one.log_odds()).sum();
+            let pictures = || [diffuse.file.clone(), specular.file.clone()];
+            let neighbours = (!is_known && total.abs() < SURE).then(|| Neighbours::of(pictures()));
+            common.extend(neighbours.as_ref().and_then(Neighbours::evidence));
+            // The two differ only where evidence about diffuse alone does.
+            let bright = evidence::too_bright(&diffuse.raster, &specular.raster);
+            ([common.iter().copied().chain(bright).collect(), common], neighbours)
         }
-        None => (Albedo::Srgb, StorageConvention::SeparateColours.into(), Certainty::Likely),
+        Some(specular) if open[1] => {
+            let of_specular = evidence::dielectrics(&specular.raster);
+            let all = [prior].into_iter().chain(jpeg(&[specular])).chain(of_specular);
+            ([Vec::new(), all.collect()], None)
+        }
+        _ if open[0] => ([evidence::alone(&diffuse.raster).into_iter().collect(), Vec::new()], None),
+        _ => (Default::default(), None),
     }
 }
 
-fn verdict(evidence: Vec<Evidence>) -> (Albedo, Reason, Certainty) {
+/// What a file tells, against the evidence of pixels: a custom of codes is doubted, or outweighed, and the curve of roughness with it.
+fn judged(known: Choice, evidence: Vec<Evidence>, roughness: &mut Inferred<Roughness>) -> Choice {
+    let (albedo, why, certainty) = known;
+    let counts = |one: &Evidence| !one.is_custom() && !matches!(one, Evidence::Dark(_));
+    let evidence: Vec<_> = evidence.into_iter().filter(counts).collect();
+    let log_odds: f64 = evidence.iter().map(|one| one.log_odds()).sum();
+    let against = if albedo == Albedo::Linear { -log_odds } else { log_odds };
+    if against < SURE {
+        return (albedo, why, certainty);
+    }
+    let other = if albedo == Albedo::Linear { Albedo::Srgb } else { Albedo::Linear };
+    let is_outweighed = against > CUSTOM;
+    let own = why.clone();
+    let why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::Weighed { log_odds, evidence }));
+    if let Some((Roughness::Gamma22, of_roughness, _)) = roughness
+        && is_outweighed
+        && *of_roughness == own
+    {
+        *roughness = Some((Roughness::R, why.clone(), Certainty::Unsure));
+    }
+    (if is_outweighed { other } else { albedo }, why, Certainty::Unsure)
+}
+
+/// The encoding of a colour without another one to compare it with, by convention.
+fn alone(mut dark: Vec<Evidence>) -> Choice {
+    if dark.is_empty() {
+        return (Albedo::Srgb, StorageConvention::SeparateColours.into(), Certainty::Likely);
+    }
+    dark.insert(0, Evidence::Prior);
+    (Albedo::Srgb, Reason::Weighed { log_odds: PRIOR, evidence: dark }, Certainty::Unsure)
+}
+
+fn verdict(evidence: Vec<Evidence>) -> Choice {
     let log_odds = evidence.iter().map(|one| one.log_odds()).sum::<f64>();
     let albedo = if log_odds > 0.0 { Albedo::Linear } else { Albedo::Srgb };
     let disagrees = |one: &Evidence| {
@@ -90,53 +132,14 @@ fn verdict(evidence: Vec<Evidence>) -> (Albedo, Reason, Certainty) {
     (albedo, Reason::Weighed { log_odds, evidence }, certainty)
 }
 
-/// The encoding that the median of specular suggests: 0.04 stored linearly, or encoded.
-fn by_median(median: f64) -> (Albedo, Reason, Certainty) {
-    let (albedo, suggests, certainty) = match median {
-        0.03..=0.06 => (Albedo::Linear, Some(Albedo::Linear), Certainty::Likely),
-        0.2..=0.26 => (Albedo::Srgb, Some(Albedo::Srgb), Certainty::Likely),
-        _ => (Albedo::Srgb, None, Certainty::Unsure),
+/// The note that the median of a specular map suggests another encoding than the one that is specified: 0.04 stored linearly, or encoded.
+fn contradiction(map: &StoredMap, chosen: Albedo) -> Option<Note> {
+    let median = measure::specular_median(&map.raster);
+    let suggests = match median {
+        0.03..=0.06 => Albedo::Linear,
+        0.2..=0.26 => Albedo::Srgb,
+        _ => return None,
     };
-    (albedo, Reason::SpecularMedian { median, suggests }, certainty)
-}
-
-fn specular_encoding(
-    found: &mut StoredMaterial,
-    options: &ReadOptions,
-    detected: Inferred<Albedo>,
-) -> Albedo {
-    let Some(source) = &found.specular else { return Albedo::Srgb };
-    let median = measure::specular_median(&source.raster);
-    let hint = found.inferred.specular.take();
-    let is_known = hint.is_some();
-    let hint = hint.or(detected);
-    let chosen = options.specular.or(options.albedo).or(hint.as_ref().map(|h| h.0)).unwrap_or(Albedo::Srgb);
-    let (says, why, certainty) = by_median(median);
-    let contradicts =
-        (says == Albedo::Linear) != (chosen == Albedo::Linear) && certainty == Certainty::Likely;
-    let assumption = if options.specular.or(options.albedo).is_some() {
-        if contradicts && !source.raster.is_float() {
-            found.notes.push(Note::SpecularMedian {
-                chosen,
-                by: SpecifiedBy::Caller,
-                median,
-                suggests: says,
-            });
-        }
-        Assumption::given(What::Specular, chosen)
-    } else if contradicts
-        && is_known
-        && !source.raster.is_float()
-        && hint.as_ref().is_none_or(|(.., certainty)| *certainty != Certainty::Sure)
-    {
-        let convention = hint.map_or(StorageConvention::SeparateColours.into(), |(_, why, _)| why);
-        let why = Reason::ContradictedBy(Box::new(convention), Box::new(why));
-        Assumption::new(What::Specular, chosen, why, Certainty::Unsure)
-    } else if let Some((_, why, certainty)) = hint {
-        Assumption::new(What::Specular, chosen, why, certainty)
-    } else {
-        Assumption::new(What::Specular, chosen, why, certainty)
-    };
-    found.assumptions.push(assumption);
-    chosen
+    let is_other = (suggests == Albedo::Linear) != (chosen == Albedo::Linear) && !map.raster.is_float();
+    is_other.then_some(Note::SpecularMedian { chosen, by: SpecifiedBy::Caller, median, suggests })
 }

@@ -32,7 +32,8 @@ pub(super) fn measured(diffuse: &Raster, specular: &Raster) -> Vec<Evidence> {
     } else {
         None
     };
-    dielectrics(specular).into_iter().chain(dark).chain(metals(diffuse, specular)).collect()
+    let others = [metals(diffuse, specular), no_material(diffuse, specular)].into_iter().flatten();
+    dielectrics(specular).into_iter().chain(dark).chain(others).collect()
 }
 
 pub(super) fn is_jpeg(file: &Path) -> bool {
@@ -40,7 +41,7 @@ pub(super) fn is_jpeg(file: &Path) -> bool {
 }
 
 /// The evidence of texels with the specular of dielectrics, 0.04, as it is or encoded.
-fn dielectrics(specular: &Raster) -> Option<Evidence> {
+pub(super) fn dielectrics(specular: &Raster) -> Option<Evidence> {
     let (mut count, mut plain, mut encoded) = (0_u32, 0_u32, 0_u32);
     for index in specular.sampled() {
         let least = specular.rgb(index).into_iter().fold(f64::INFINITY, f64::min);
@@ -80,6 +81,24 @@ fn metals(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
     Some(Evidence::Metals { median, log_odds: likelihood(median, METAL).clamp(-SURE, SURE) })
 }
 
+/// The evidence of texels that are those of no material if they are linear: too bright a specular for a dielectric, and too bright a
+/// diffuse for a metal.
+fn no_material(diffuse: &Raster, specular: &Raster) -> Option<Evidence> {
+    if diffuse.size() != specular.size() {
+        return None;
+    }
+    let is_one = |[d, s]: [f64; 2]| d > METAL_DIFFUSE && s > MOST_DIELECTRIC;
+    let least = |rgb: [f64; 3]| rgb.into_iter().fold(1.0, f64::min);
+    let (mut count, mut found) = (0_u32, 0_u32);
+    for index in diffuse.sampled() {
+        let stored = [diffuse, specular].map(|map| least(map.rgb(index)).max(0.0));
+        count += 1;
+        found += u32::from(is_one(stored) && !is_one(stored.map(|value| linear(value, Albedo::Srgb))));
+    }
+    let share = f64::from(found) / f64::from(count.max(1));
+    (share > CHANCE).then_some(Evidence::NoMaterial(share))
+}
+
 fn most(rgb: [f64; 3]) -> f64 {
     rgb.into_iter().fold(0.0, f64::max)
 }
@@ -116,6 +135,11 @@ pub(super) const CHANCE: f64 = 0.25;
 const TOO_BRIGHT: f64 = -20.0;
 /// Shares of texels with too bright a sum that tell nothing.
 pub(super) const BRIGHT_CHANCE: f64 = 0.02;
+/// Dielectrics reflect less than this at normal incidence, and metals have a diffuse below that.
+const MOST_DIELECTRIC: f64 = 0.2;
+const METAL_DIFFUSE: f64 = 0.05;
+/// Log odds from which on pixels outweigh a custom of codes.
+pub(super) const CUSTOM: f64 = 3.0;
 /// Odds below 7 to 1 are unsure, and so is what evidence of such odds contradicts.
 pub(super) const SURE: f64 = 2.0;
 /// Logarithm of a usual albedo, 0.2, and the standard deviation of its logarithm over materials.
@@ -136,6 +160,7 @@ impl Evidence {
             Self::Jpeg => JPEG,
             Self::LinearDielectrics(share) => DIELECTRICS * (share - CHANCE),
             Self::EncodedDielectrics(share) => -DIELECTRICS * (share - CHANCE),
+            Self::NoMaterial(share) => -DIELECTRICS * (share - CHANCE),
             Self::TooBright(share) => TOO_BRIGHT * (share - BRIGHT_CHANCE).min(0.5),
             Self::Dark(median) => likelihood(median, ALBEDO),
             Self::Metals { log_odds, .. } | Self::Neighbours { log_odds, .. } => log_odds,

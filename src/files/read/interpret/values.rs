@@ -27,6 +27,10 @@ pub(crate) fn check(found: &mut StoredMaterial, options: &ReadOptions) -> Result
             first = first.or(Some((index, value)));
             if value.is_nan() { nans += 1 } else { infinities += 1 }
         }
+        replaced.extend(few_bits(&source.raster).map(|bits| {
+            let why = Reason::FewBits { map, bits };
+            Assumption::new(What::Values, "as stored", why, Certainty::Unsure)
+        }));
         let Some((index, value)) = first else { continue };
         match options.non_finite.unwrap_or_default() {
             NonFinite::Refuse => {
@@ -48,6 +52,14 @@ pub(crate) fn check(found: &mut StoredMaterial, options: &ReadOptions) -> Result
     }
     found.assumptions.extend(replaced);
     Ok(())
+}
+
+/// How many bits the samples of a picture of 16 bits take, where these are 8, 10 or 12: some programs store what has so many without scaling
+/// it.
+fn few_bits(raster: &Raster) -> Option<u32> {
+    let stored = raster.channels.iter().filter(|_| raster.depth == "16-bit");
+    let most = stored.flat_map(|plane| raster.sampled().map(|index| plane.stored(index))).fold(0.0, f64::max);
+    [8, 10, 12].into_iter().find(|bits| (0.5..1.0).contains(&(most / f64::from(1 << bits))))
 }
 
 /// `value` in [0, 1], or `instead` of NaN and infinity.

@@ -35,6 +35,25 @@ impl Order {
     /// The strip of svbrdf-evaluation (Gauthier 2025), which has no normals.
     pub const IBRM: Self = Self::of(b"ibrm");
 
+    /// Orders of the tiles of a row or a column, the most common first.
+    pub(crate) const ROWS: [Self; 11] = [
+        Self::NDRS,
+        Self::of(b"ndsr"),
+        Self::of(b"nbrm"),
+        Self::DNRS,
+        Self::of(b"dnsr"),
+        // IDArb: albedo, normal, metallic, roughness.
+        Self::of(b"bnmr"),
+        Self::of(b"bnrm"),
+        Self::DSRN,
+        Self::of(b"brmn"),
+        Self::DNR,
+        // Base colour, normal, height, roughness, metallic.
+        Self::of(b"bnirm"),
+    ];
+    /// Orders of 2 x 2 tiles.
+    pub(crate) const SQUARES: [Self; 2] = [Self::NDSR, Self::DSRN];
+
     /// A picture that is all diffuse.
     pub const D: Self = Self::of(b"d");
 

@@ -110,6 +110,20 @@ impl Raster {
         Self { channels: self.channels.iter().zip(factors.iter().cycle()).map(times).collect(), ..self }
     }
 
+    /// The channels divided by alpha, by which the file multiplies them; 0 where nothing is left of them.
+    pub(crate) fn unmultiplied(self) -> Self {
+        let Some(alpha) = &self.alpha else { return self };
+        let divided = |plane: &Samples| {
+            let value = |index: usize| plane.at(index) / alpha.at(index);
+            let finite = (0..plane.len()).map(value).map(|v| if v.is_finite() { v } else { 0.0 });
+            if plane.is_float() {
+                return Samples::floats(finite.map(|value| value as f32).collect());
+            }
+            Samples::words(finite.map(|value| (65_535.0 * value.min(1.0)).round() as u16).collect())
+        };
+        Self { channels: self.channels.iter().map(divided).collect(), ..self }
+    }
+
     /// The upright picture of one whose rows and columns are stored in the TIFF `orientation` (1 to 8).
     pub(crate) fn oriented(self, orientation: u16) -> Self {
         let (mirrored, upset) = (matches!(orientation, 2 | 3 | 6 | 7), matches!(orientation, 3 | 4 | 7 | 8));

@@ -47,6 +47,12 @@ impl Samples {
         Self::new(values.into(), 0, 1, count)
     }
 
+    /// A channel of codes of 16 bits.
+    pub(crate) fn words(codes: Vec<u16>) -> Self {
+        let count = codes.len();
+        Self::new(codes.into(), 0, 1, count)
+    }
+
     /// The `count` samples from number `first` on, `step` apart.
     fn new(buffer: Buffer, first: usize, step: usize, count: usize) -> Self {
         Self { buffer, view: ChannelView { first, step, stride: step * count, width: count, count } }

@@ -23,6 +23,9 @@ pub enum Evidence {
     /// Share of the texels.
     #[display("linear colours would reflect too much light in {:.0}% of the texels", 100.0 * _0)]
     TooBright(f64),
+    /// Share of the texels.
+    #[display("linear colours would be those of no material in {:.0}% of the texels", 100.0 * _0)]
+    NoMaterial(f64),
     /// If it is encoded, darker than most materials are. Stored median.
     #[display("the median of the colour is {_0:.3}, which suggests linear colours")]
     Dark(f64),

@@ -94,6 +94,8 @@ pub enum Note {
     InFolder { folder: String },
     #[display("The first {count} of {tiles} tiles are taken as photos and ignored.")]
     Photos { count: usize, tiles: usize },
+    #[display("The borders of {border} texels around the tiles are cut off.")]
+    Borders { border: usize },
     #[display("The image holds {count} materials, one in each row; this is number {index} from 0.")]
     Rows { count: usize, index: usize },
     /// The file holds several materials of these names; `index` counts from 0.
@@ -143,8 +145,8 @@ pub enum Note {
         shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
     )]
     ChannelsLast { array: String, shape: Vec<u64> },
-    /// A chunk of a PNG, by its name.
-    #[display("The {_0} has a {_1} chunk that declares it linear, which is ignored.")]
+    /// A chunk of a PNG or another header, by its name.
+    #[display("The {_0} has a {_1} that declares it linear, which is ignored.")]
     LinearChunk(Subject, &'static str),
     #[display("The file of the {_0} holds several pages or frames; the first is used.")]
     FirstOnly(Subject),
@@ -152,12 +154,14 @@ pub enum Note {
     Orientation(Subject),
     #[display("The {_0} has an ICC profile other than sRGB, which is ignored.")]
     Profile(Subject),
-    #[display("The {_0} has a {_1} chunk with primaries other than those of Rec. 709, which is ignored.")]
+    #[display("The {_0} has a {_1} with primaries other than those of Rec. 709, which is ignored.")]
     PrimariesChunk(Subject, &'static str),
-    #[display("The EXR has primaries that enclose no white; its RGB is used as it is.")]
+    #[display("The picture has primaries that enclose no white; its RGB is used as it is.")]
     Primaries,
     #[display("The {_0} is converted from the primaries that its file declares to those of Rec. 709.")]
     Converted(Subject),
+    #[display("The {_0} is divided by its alpha, by which its file multiplies it.")]
+    Unmultiplied(Subject),
     /// The layer may have no name.
     #[display(
         "{} has a data window beside its display window; the data is used as it is.",

@@ -7,7 +7,7 @@ use derive_more::Display;
 use super::evidence::Evidence;
 use super::evidence::StorageConvention;
 use super::note::SpecifiedBy;
-use crate::read::options::{Albedo, NormalY, Role};
+use crate::read::options::{NormalY, Role};
 
 /// The reason of an assumption.
 #[derive(Clone, Debug, PartialEq, Display)]
@@ -73,15 +73,6 @@ pub enum Reason {
         file: PathBuf,
     },
     // Measurements of pixels.
-    #[display("the median of specular is {median:.3}, {}", match suggests {
-        Some(Albedo::Linear) => "near a linear 0.04",
-        Some(_) => "near an encoded 0.04",
-        None => "which is inconclusive; colours are sRGB by convention",
-    })]
-    SpecularMedian {
-        median: f64,
-        suggests: Option<Albedo>,
-    },
     #[display("nearly all of its pixels look like normals, and no other file is named as the normal map")]
     NormalPixels,
     /// Shares of the pixels of this tile and of the next best.
@@ -93,6 +84,13 @@ pub enum Reason {
         number: usize,
         share: f64,
         next: f64,
+    },
+    /// The contradiction of a tile to the usual order.
+    #[display("tile {number} {found}: it is no {} map, as in the usual order", map.name())]
+    TileOf {
+        number: usize,
+        map: Role,
+        found: &'static str,
     },
     #[display("no tile tells; it is the order of the preset")]
     PresetOrder,
@@ -149,10 +147,9 @@ pub enum Reason {
     OtherPrimaries,
     /// Of a packed picture.
     #[display(
-        "metallic is 1 everywhere, but the median of the base colour is {_0:.3}, darker than metals: where the surface is no \
-        metal, specify metallic=0"
+        "metallic is 1 everywhere, and programs also fill an unused channel so: where the surface is no metal, specify metallic=0"
     )]
-    DarkMetal(f64),
+    FilledMetallic,
     #[display(
         "the slopes of {} correlate by {:+.2} with x of the normals and by {:+.2} with y",
         file.display(), correlations[0], correlations[1]
@@ -184,6 +181,11 @@ pub enum Reason {
     #[display("the largest map has it; resampled bilinearly: {}", sizes(_0))]
     SmallerMaps(Vec<(Role, [usize; 2])>),
     // Values that were changed.
+    #[display("no sample of the {} map takes more than {bits} of its 16 bits, which stand for [0, 1]", map.name())]
+    FewBits {
+        map: Role,
+        bits: u32,
+    },
     #[display("{count} samples of the {} map are NaN or infinite", map.name())]
     NotFinite {
         map: Role,
@@ -263,6 +265,22 @@ impl Reason {
             ),
             _ => false,
         }
+    }
+
+    /// Whether it is no more than a custom of some codes, that pixels may outweigh.
+    pub(crate) fn is_custom_of_codes(&self) -> bool {
+        use StorageConvention as C;
+        let Self::StorageConvention(convention) = self else { return false };
+        matches!(
+            convention,
+            C::DeschaintreOrder
+                | C::MaterialGanOrder
+                | C::MatFusionOrder
+                | C::MaterialGanNames
+                | C::NumberedResults
+                | C::DeschaintreNames
+                | C::SurfaceNetFolder
+        )
     }
 
     /// Who specified it, where someone did.

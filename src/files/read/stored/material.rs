@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::read::options::transfer::{encoded, linear};
 use crate::read::options::{Albedo, Energy, NormalEncoding, NormalY, Role, Roughness, Workflow};
 use crate::read::raster::{Raster, Samples};
-use crate::read::record::{Assumption, Certainty, Note, Reason, Unused, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
 
 /// Inferences from the files about stored values. `None` where they tell nothing.
 #[derive(Clone, Debug, Default)]
@@ -78,17 +78,33 @@ impl StoredMaterial {
         self.add_file(file.to_owned());
     }
 
-    /// Replaces the map of a role.
+    /// Replaces the map of a role; what was inferred of the one before does not concern it.
     pub(crate) fn replace(&mut self, role: Role, source: StoredMap) {
         if !source.is_specified() {
             self.add_file(source.file.clone());
         }
+        let encoding = source.of_floats(None);
         match role {
             Role::Normal => self.normal = Some(source),
-            Role::Specular => (self.specular, self.metallic) = (Some(source), None),
-            Role::Roughness => self.roughness = source,
+            Role::Specular => {
+                (self.specular, self.metallic, self.inferred.specular) = (Some(source), None, encoding);
+            }
+            Role::Roughness => (self.roughness, self.inferred.roughness) = (source, None),
             Role::Metallic => (self.metallic, self.specular) = (Some(source), None),
-            _ => self.colour = source,
+            _ => (self.colour, self.inferred.albedo) = (source, encoding),
+        }
+    }
+
+    /// Infers of each map of floats that it is stored as it is, by its own samples.
+    pub(crate) fn infer_floats(&mut self) {
+        let Self { colour, specular, roughness, inferred, .. } = self;
+        inferred.albedo = colour.of_floats(inferred.albedo.take());
+        if let Some(specular) = specular {
+            inferred.specular = specular.of_floats(inferred.specular.take());
+        }
+        let is_curved = matches!(inferred.roughness, Some((Roughness::Gamma22, ..)));
+        if is_curved && roughness.is_of_floats() {
+            inferred.roughness = None;
         }
     }
 
@@ -126,7 +142,8 @@ impl StoredMaterial {
             if *size == [1, 1] {
                 continue;
             }
-            if size[0] * height != size[1] * width && !self.is_mapped {
+            // A level of half the size, and so on, is rounded.
+            if (size[0] * height).abs_diff(size[1] * width) >= width.max(height) && !self.is_mapped {
                 return Err(Error::MapSizesDiffer {
                     first: largest_whose.clone(),
                     first_size: *largest,
@@ -188,6 +205,26 @@ impl StoredMap {
     pub(crate) fn specified(values: &[f32]) -> Self {
         let text = values.iter().map(f32::to_string).collect::<Vec<_>>().join(",");
         Self { raster: Raster::constant("value", values), file: text.into(), part: SPECIFIED.to_owned() }
+    }
+
+    /// Whether a file holds it in floats.
+    fn is_of_floats(&self) -> bool {
+        self.raster.is_float() && !self.is_specified()
+    }
+
+    /// The encoding of its colours: of floats linear, unsure where what else is `known` differs.
+    fn of_floats(&self, known: Inferred<Albedo>) -> Inferred<Albedo> {
+        if !self.is_of_floats() {
+            return known;
+        }
+        let floats = Reason::from(StorageConvention::Floats);
+        Some(match known {
+            Some((Albedo::Linear, ..)) | None => (Albedo::Linear, floats, Certainty::Likely),
+            Some((_, why, _)) => {
+                let why = Reason::ContradictedBy(Box::new(floats), Box::new(why));
+                (Albedo::Linear, why, Certainty::Unsure)
+            }
+        })
     }
 
     /// Whether it is specified as a value, and in no file.

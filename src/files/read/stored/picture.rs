@@ -52,6 +52,8 @@ pub(crate) struct DecodedPicture {
     pub subject: Subject,
     /// All that is stored, where the picture is another part of the plane.
     uncropped: Option<Raster>,
+    /// The encoding that this program wrote into it.
+    pub meaning: Option<String>,
     pub notes: Vec<Note>,
 }
 
@@ -72,9 +74,9 @@ impl Picture {
     fn decoded(&self) -> Result<DecodedPicture, Error> {
         match &self.source {
             PictureSource::File(file) => {
-                let (Layer { raster, uncropped, .. }, notes) = one(file, self.subject)?;
+                let (Layer { raster, uncropped, meaning, .. }, notes) = one(file, self.subject)?;
                 let map = StoredMap { raster, file: file.path().to_owned(), part: String::new() };
-                Ok(DecodedPicture { map, subject: self.subject, uncropped, notes })
+                Ok(DecodedPicture { map, subject: self.subject, uncropped, meaning, notes })
             }
             PictureSource::Embedded { within, bytes } => {
                 let Decoded { layers, notes, .. } =
@@ -86,7 +88,7 @@ impl Picture {
                     remedy: "export it again".to_owned(),
                 })?;
                 let map = StoredMap { raster, file: within.clone(), part: self.subject.to_string() };
-                Ok(DecodedPicture { map, subject: self.subject, uncropped: None, notes })
+                Ok(DecodedPicture { map, subject: self.subject, uncropped: None, meaning: None, notes })
             }
         }
     }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::disk::open::NamedFile;
-use crate::read::names::{Label, PICTURES, extension, is_named_within, size};
+use crate::read::names::{Label, PICTURES, extension, is_named_within, size, words};
 use crate::read::options::{NormalY, Role};
 use crate::read::record::{Note, Unused};
 use crate::read::stored::Picture;
@@ -109,6 +109,11 @@ impl Set {
         self.files.files.iter().map(picture).collect()
     }
 
+    /// The word that names the map `role`.
+    pub(super) fn word(&self, role: Role) -> Option<&str> {
+        self.files.files.iter().find(|file| file.label.role == role).map(|file| file.label.word.as_str())
+    }
+
     /// The path of a file of the folder.
     pub(crate) fn path_of(&self, name: &str) -> PathBuf {
         self.folder.join(name)
@@ -140,29 +145,72 @@ pub(super) fn documents_beside(folder: &Path, names: &[String], set: &SetFiles) 
 }
 
 /// Words before that of a map which make it the map of a layer that is not modelled.
-const LAYERS: [&str; 6] = ["clear", "coat", "clearcoat", "sheen", "fuzz", "detail"];
+const LAYERS: [&str; 11] = [
+    "clear",
+    "coat",
+    "clearcoat",
+    "sheen",
+    "fuzz",
+    "detail",
+    "emission",
+    "emissive",
+    "subsurface",
+    "transmission",
+    "translucency",
+];
+/// Words of the parameters of a surface (Arnold, OpenPBR), as in `specular_roughness`, whose map is that of the word after them; but the
+/// roughness of `diffuse_roughness` is one that is not modelled.
+const PARAMETERS: [&str; 5] = ["base", "specular", "geometry", "geo", DIFFUSE];
+const DIFFUSE: &str = "diffuse";
 
-/// Moves the maps of layers, such as `x_coat_normal` beside `x_normal`, to their set: they are none of its maps.
-pub(super) fn add_layers(groups: &mut BTreeMap<Vec<String>, Vec<LabelledFile>>) {
-    let set_of = |stem: &[String]| {
-        let count = stem.iter().rev().take_while(|word| LAYERS.contains(&word.as_str())).count();
-        (count > 0 && count < stem.len()).then(|| stem[..stem.len() - count].to_vec())
-    };
-    let stems: Vec<_> = groups.keys().filter_map(|stem| Some((stem.clone(), set_of(stem)?))).collect();
-    for (stem, set) in stems {
-        let roles: Vec<Role> = groups[&stem].iter().map(|file| file.label.role).collect();
+/// Moves the maps of layers and parameters, such as `x_coat_normal` and `x_specular_roughness` beside `x_normal`, to their set.
+pub(super) fn add_parameters(groups: &mut BTreeMap<Vec<String>, Vec<LabelledFile>>) {
+    let is_one = |word: &str| LAYERS.contains(&word) || PARAMETERS.contains(&word);
+    let count = |stem: &[String]| stem.iter().rev().take_while(|word| is_one(word)).count();
+    let stems: Vec<_> = groups.keys().filter(|stem| count(stem) > 0).cloned().collect();
+    for stem in &stems {
+        let set_of = |stem: &'_ Vec<String>| stem[..stem.len() - count(stem)].to_vec();
+        let (set, words) = (set_of(stem), &stem[stem.len() - count(stem)..]);
+        let roles: Vec<Role> = groups[stem].iter().map(|file| file.label.role).collect();
         // A material may be a coat itself.
         let has = |wanted: &[Role]| wanted.iter().any(|role| roles.contains(role));
         let is_whole = has(&[Role::Normal]) && has(&[Role::Base, Role::Diffuse]) && has(&[Role::Roughness]);
-        if groups.contains_key(&set) && !is_whole {
-            let files = groups.remove(&stem).unwrap_or_default();
-            let of_set = groups.entry(set).or_default();
-            of_set.extend(files.into_iter().map(|mut file| {
+        let is_alone = stems.iter().filter(|other| set_of(other) == set).count() < 2;
+        if (is_alone && !groups.contains_key(&set)) || is_whole {
+            continue;
+        }
+        let is_layer = words.iter().any(|word| LAYERS.contains(&word.as_str()));
+        let is_diffuse = words.iter().any(|word| word == DIFFUSE);
+        let files = groups.remove(stem).unwrap_or_default();
+        let of_set = groups.entry(set).or_default();
+        for mut file in files {
+            let is_there = of_set.iter().any(|one| one.label.role == file.label.role);
+            if is_layer || is_there || (is_diffuse && file.label.role == Role::Roughness) {
                 file.label.role = Role::Ignored;
-                file
-            }));
+            }
+            of_set.push(file);
         }
     }
+}
+
+/// Makes `x_a` the base colour of the files `x_n` and `x_r` beside it that have none: a letter alone names other maps, too.
+pub(super) fn add_letter_a(
+    groups: &mut BTreeMap<Vec<String>, Vec<LabelledFile>>,
+    unlabelled: &mut Vec<String>,
+) {
+    unlabelled.retain(|name| {
+        let mut stem = words(&Path::new(name).file_stem().unwrap_or_default().to_string_lossy());
+        let word = stem.pop().filter(|word| word == "a");
+        let Some((files, word)) = groups.get_mut(&stem).zip(word) else { return true };
+        let is_colour = |one: &LabelledFile| matches!(one.label.role, Role::Base | Role::Diffuse);
+        let are_letters = files.iter().filter(|one| one.label.is_short()).count() > 1;
+        if !are_letters || files.iter().any(is_colour) {
+            return true;
+        }
+        let label = Label { role: Role::Base, word, stem, normal_y: None };
+        files.push(LabelledFile { file: name.clone(), label });
+        false
+    });
 }
 
 /// The files of one size, where some maps are there in several: the size of the file `named`, else the largest that is `complete`.

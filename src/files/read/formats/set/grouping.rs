@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::files::{LabelledFile, NUMBERED, Set, SetFiles, add_layers, documents_beside, of_one_size};
+use super::files::{
+    LabelledFile, NUMBERED, Set, SetFiles, add_letter_a, add_parameters, documents_beside, of_one_size,
+};
 use crate::error::Error;
 use crate::read::names::{
     EXTENSIONS, Label, PICTURES, extension, is_junk, is_named_as, listing, material_name, set_labels, words,
@@ -84,7 +86,8 @@ fn files_of(
         }
     }
     share(&mut groups);
-    add_layers(&mut groups);
+    add_parameters(&mut groups);
+    add_letter_a(&mut groups, &mut set.unlabelled);
     // A short word counts beside other maps, or beside a picture that has the name of the set.
     let has_colour = |stem: &[String]| set.unlabelled.iter().any(|name| is_named_as(name, stem));
     let stems: Vec<_> = groups.keys().cloned().collect();

@@ -19,18 +19,18 @@ pub(super) struct PartialSet<'a> {
     pub(super) maps: MapsByRole,
     pub(super) notes: Vec<Note>,
     pub(super) doubts: Vec<Assumption>,
-    /// Whether all colours are floats.
-    pub(super) are_floats: bool,
     /// Whether alpha beside specular is the glossiness.
     pub(super) is_glossy: bool,
     /// The heights beside a map, in its alpha.
     pub(super) height: Option<StoredHeight>,
+    /// The file that is named after heights and is the normal map.
+    pub(super) normal_bump: Option<&'a String>,
 }
 
 impl<'a> PartialSet<'a> {
     pub(super) fn new(set: &'a Set) -> Self {
         let (maps, notes, doubts) = (MapsByRole::default(), Vec::new(), Vec::new());
-        Self { set, maps, notes, doubts, are_floats: true, is_glossy: false, height: None }
+        Self { set, maps, notes, doubts, is_glossy: false, height: None, normal_bump: None }
     }
 
     fn has_named(&self, is: impl Fn(Role) -> bool) -> bool {
@@ -89,7 +89,6 @@ impl<'a> PartialSet<'a> {
         }
         let role = self.role_of(label);
         self.notes.push(Note::MapFile { map: role, file: file.clone() });
-        self.are_floats &= raster.is_float() || !label.role.is_colour();
         if label.word == "ps" && self.set.files.files.iter().any(|f| f.label.word == "axay") {
             raster = raster.scaled(&[Reflectance::DIELECTRIC.value() as f32]);
             self.notes.push(Note::SpecularFactor { file: file.clone() });
@@ -209,17 +208,37 @@ impl<'a> PartialSet<'a> {
         }
     }
 
+    /// Uses a picture as the normal map where the set lacks one and it looks like normals; returns whether it does.
+    fn is_normal_map(&mut self, file: &str) -> bool {
+        if self.maps.has(Role::Normal) {
+            return false;
+        }
+        let decoded = self.decoded(file, Subject::Picture).map(|(raster, _)| raster);
+        let Some(raster) = decoded.filter(|raster| normal_score(raster) > NORMAL_ALL_OVER) else {
+            return false;
+        };
+        let map = StoredMap { raster, file: self.set.path_of(file), part: String::new() };
+        self.maps.add(Role::Normal, map);
+        self.doubt(&format!("normal is {file}"), Reason::NormalPixels);
+        true
+    }
+
+    /// Uses a picture that is named after heights as the normal map where it looks like that.
+    pub(super) fn rescue_bump(&mut self) {
+        let set = self.set;
+        if let Some(bump) = set.files.heights.iter().find(|file| self.is_normal_map(file)) {
+            self.normal_bump = Some(bump);
+        }
+    }
+
     /// Uses a picture whose name names no map where the set lacks normals and it looks like them, or where the set lacks
     /// a colour and it has the name of the set; notes that it is `unused` otherwise.
     pub(super) fn rescue(&mut self, file: &str, unused: Unused) {
         let set = self.set;
         let map = |raster| StoredMap { raster, file: set.path_of(file), part: String::new() };
         let decoded = |this: &Self| this.decoded(file, Subject::Picture).map(|(raster, _)| raster);
-        if !self.maps.has(Role::Normal)
-            && let Some(raster) = decoded(self).filter(|raster| normal_score(raster) > NORMAL_ALL_OVER)
-        {
-            self.maps.add(Role::Normal, map(raster));
-            return self.doubt(&format!("normal is {file}"), Reason::NormalPixels);
+        if self.is_normal_map(file) {
+            return;
         }
         let is_of_set = set.files.files.iter().any(|named| is_named_as(file, &named.label.stem));
         let has_colour = self.maps.has(Role::Base) || self.maps.has(Role::Diffuse);
@@ -227,7 +246,6 @@ impl<'a> PartialSet<'a> {
             && !has_colour
             && let Some(raster) = decoded(self)
         {
-            self.are_floats &= raster.is_float();
             self.maps.add(Role::Base, map(raster));
             let why = Reason::NameOfSet { file: file.to_owned() };
             return self.doubt(&format!("base colour is {file}"), why);

@@ -9,12 +9,12 @@ use svbrdf_core::progress::Progress;
 
 use crate::error::Error;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness, Workflow};
-use crate::read::raster::measure::{NORMAL_AT_LEAST, dark_metal, normal_score};
+use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score};
 use crate::read::record::{
     Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, Unused, What,
 };
 use crate::read::stored::{
-    DecodedPicture, Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial, decoded,
+    DecodedPicture, Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial, WrittenEncoding, decoded,
 };
 
 pub(super) use files::Set;
@@ -35,9 +35,12 @@ impl Set {
         progress: &Progress,
     ) -> Result<StoredMaterial, Error> {
         let mut set = PartialSet::new(self);
-        for (file, DecodedPicture { map, notes, .. }) in
+        let mut written = Vec::new();
+        for (file, DecodedPicture { map, notes, meaning, .. }) in
             self.files.files.iter().zip(decoded(&self.pictures(), progress)?)
         {
+            let meaning = meaning.as_deref().and_then(WrittenEncoding::of);
+            written.extend(meaning.map(|meaning| (file.label.role, meaning)));
             let (file, raster, notes) = match set.other_normals(file, &map.raster) {
                 Some(other) => other,
                 None => (file, map.raster, notes),
@@ -62,35 +65,44 @@ impl Set {
                 file: map.file.clone(),
                 by: SpecifiedBy::Caller,
             });
-            set.are_floats &= !role.is_colour() || (map.raster.is_float() && !map.is_specified());
             set.maps.replace(*role, map.clone());
         }
+        set.rescue_bump();
         let is_bound = |file: &str| is_bound(self, bound, file);
         let unlabelled = self.files.unlabelled.iter().map(|file| (file, Unused::Unlabelled));
         let misnamed = self.files.misnamed.iter().map(|file| (file, Unused::OtherStem));
         for (file, unused) in unlabelled.chain(misnamed).filter(|(file, _)| !is_bound(file)) {
             set.rescue(file, unused);
         }
-        let PartialSet { maps, mut notes, are_floats, mut doubts, is_glossy, height, .. } = set;
+        let PartialSet { maps, mut notes, mut doubts, is_glossy, height, normal_bump, .. } = set;
         let options = &ReadOptions { workflow, ..*options };
         let mut found = maps.material(&self.path, self.name.clone(), &self.listing, options)?;
         found.assumptions.append(&mut doubts);
-        let packed = found
-            .metallic
-            .as_ref()
-            .filter(|metallic| !metallic.part.is_empty() && metallic.raster.size() != [1, 1]);
-        if let Some(median) = packed.and_then(|metallic| dark_metal(&metallic.raster, &found.colour.raster)) {
-            let why = Reason::DarkMetal(median);
-            found.assumptions.push(Assumption::new(What::Layout, "metallic 1", why, Certainty::Unsure));
-        }
-        add_hints(&mut found, self, are_floats, is_glossy);
-        let file = self.files.heights.first().map(|file| StoredHeight::File(self.file(file)));
+        doubt_filled_metallic(&mut found);
+        add_hints(&mut found, self, is_glossy);
+        let is_own = |role: Role| bound.iter().all(|(other, _)| *other != role);
+        written.iter().filter(|one| is_own(one.0)).for_each(|(role, one)| found.specify(one, &[*role]));
+        let heights = self.files.heights.iter().find(|file| Some(*file) != normal_bump);
+        let file = heights.map(|file| StoredHeight::File(self.file(file)));
         found.height = file.or(height);
         notes.extend(self.documents.iter().map(|one| Note::ListedBy { file: one.name.clone() }));
-        let is_unused = |note: &&Note| !matches!(note, Note::Unused { what, .. } if is_bound(what));
+        let is_used = |what: &String| is_bound(what) || Some(what) == normal_bump;
+        let is_unused = |note: &&Note| !matches!(note, Note::Unused { what, .. } if is_used(what));
         notes.extend(self.files.notes.iter().filter(is_unused).cloned());
         notes.append(&mut found.notes);
         Ok(StoredMaterial { notes, ..found })
+    }
+}
+
+/// Doubts a channel of metallic that is 1 everywhere: programs fill it so where a factor beside the picture tells it.
+fn doubt_filled_metallic(found: &mut StoredMaterial) {
+    let is_filled = |metallic: &StoredMap| {
+        let is_packed = !metallic.part.is_empty() && metallic.raster.size() != [1, 1];
+        is_packed && metallic.raster.channels[0].is_all(1.0)
+    };
+    if found.metallic.as_ref().is_some_and(is_filled) {
+        let why = Reason::FilledMetallic;
+        found.assumptions.push(Assumption::new(What::Layout, "metallic 1", why, Certainty::Unsure));
     }
 }
 
@@ -113,10 +125,10 @@ fn numbers_mislead(set: &Set, file: &str) -> Error {
     }
 }
 
-/// Adds the hints of the names of `set` to its material, whose colours `are_floats` and whose specular `is_glossy` in
-/// alpha.
-fn add_hints(found: &mut StoredMaterial, set: &Set, are_floats: bool, is_glossy: bool) {
-    found.inferred = inferred(set, are_floats);
+/// Adds the hints of the names of `set` to its material, whose specular `is_glossy` in alpha.
+fn add_hints(found: &mut StoredMaterial, set: &Set, is_glossy: bool) {
+    found.inferred = inferred(set);
+    found.infer_floats();
     if is_diffmat(&set.files.files, found) {
         let why = || StorageConvention::DiffMatNames.into();
         found.inferred.albedo = Some((Albedo::Gamma22, why(), Certainty::Likely));
@@ -149,9 +161,8 @@ fn is_diffmat(files: &[LabelledFile], found: &StoredMaterial) -> bool {
 }
 
 /// The inferences of the names about values.
-fn inferred(set: &Set, are_floats: bool) -> Inferences {
+fn inferred(set: &Set) -> Inferences {
     let files = &set.files.files;
-    let word = |role: Role| files.iter().find(|f| f.label.role == role).map(|f| f.label.word.as_str());
     let named = |f: &LabelledFile| {
         f.label.roughness().map(|r| (r, Reason::FileName { file: f.file.clone() }, Certainty::Sure))
     };
@@ -161,28 +172,31 @@ fn inferred(set: &Set, are_floats: bool) -> Inferences {
         normal_y.map(|(f, y)| (y, Reason::NormalName { file: f.file.clone(), y }, Certainty::Sure));
     let normal_y = normal_y.or_else(|| listed_y(set));
     let mut inferred = Inferences { roughness, normal_y, ..Inferences::default() };
-    if are_floats {
-        inferred.albedo = Some((Albedo::Linear, StorageConvention::Floats.into(), Certainty::Likely));
+    if set.word(Role::Normal) == Some("nom") && set.word(Role::Roughness) == Some("rgh") {
+        let why = || StorageConvention::MaterialGanNames.into();
+        inferred.roughness = Some((Roughness::Gamma22, why(), Certainty::Likely));
+        inferred.albedo = Some((Albedo::Gamma22, why(), Certainty::Likely));
         inferred.specular = inferred.albedo.clone();
         return inferred;
     }
-    let colour = word(Role::Diffuse).or(word(Role::Base)).unwrap_or_default();
-    let choice = if word(Role::Normal) == Some("nom") && word(Role::Roughness) == Some("rgh") {
-        let why = StorageConvention::MaterialGanNames;
-        inferred.roughness = Some((Roughness::Gamma22, why.into(), Certainty::Likely));
-        Some((Albedo::Gamma22, why, Certainty::Likely))
-    } else if colour == NUMBERED {
-        Some((Albedo::Gamma22, StorageConvention::NumberedResults, Certainty::Unsure))
-    } else if colour.contains("gammad") {
-        Some((Albedo::Gamma22, StorageConvention::GammadNames, Certainty::Sure))
-    } else if colour.starts_with("outputs") || colour.starts_with("targets") {
-        Some((Albedo::Linear, StorageConvention::DeschaintreNames, Certainty::Likely))
-    } else if word(Role::Specular) == Some("specular") && set.has_renderings {
-        Some((Albedo::Linear, StorageConvention::SurfaceNetFolder, Certainty::Likely))
-    } else {
-        None
-    };
-    inferred.albedo = choice.map(|(albedo, why, certainty)| (albedo, why.into(), certainty));
-    inferred.specular = inferred.albedo.clone();
+    inferred.albedo = by_word(set, set.word(Role::Diffuse).or(set.word(Role::Base)));
+    inferred.specular = by_word(set, set.word(Role::Specular));
     inferred
+}
+
+/// The encoding of a colour by the word that names it.
+fn by_word(set: &Set, word: Option<&str>) -> Inferred<Albedo> {
+    let word = word?;
+    let (albedo, why, certainty) = if word == NUMBERED {
+        (Albedo::Gamma22, StorageConvention::NumberedResults, Certainty::Unsure)
+    } else if word.contains("gammad") {
+        (Albedo::Gamma22, StorageConvention::GammadNames, Certainty::Sure)
+    } else if word.starts_with("outputs") || word.starts_with("targets") {
+        (Albedo::Linear, StorageConvention::DeschaintreNames, Certainty::Likely)
+    } else if set.word(Role::Specular) == Some("specular") && set.has_renderings {
+        (Albedo::Linear, StorageConvention::SurfaceNetFolder, Certainty::Likely)
+    } else {
+        return None;
+    };
+    Some((albedo, why.into(), certainty))
 }
