@@ -12,6 +12,7 @@ use svbrdf_files::Error as FilesError;
 
 use super::advice;
 use super::error::CommandError;
+use super::foreign;
 
 /// Bad input, or the work failed.
 const FAILED: u8 = 1;
@@ -75,10 +76,24 @@ fn escaped(unusual: &clap::Error) -> Option<String> {
     })
 }
 
-/// An unknown option that resembles no other is not meant as a value: the help lists those that there are.
+/// An unknown option with what does the same here, and without a guess that does not begin as it does. It is not meant as a value.
 fn with_tip(mut unusual: clap::Error) -> clap::Error {
-    if unusual.kind() == ErrorKind::UnknownArgument && unusual.get(ContextKind::SuggestedArg).is_none() {
+    let of = |kind| match unusual.get(kind) {
+        Some(ContextValue::String(text)) => Some(text.clone()),
+        _ => None,
+    };
+    let (unknown, guess) = (of(ContextKind::InvalidArg), of(ContextKind::SuggestedArg));
+    let (true, Some(unknown)) = (unusual.kind() == ErrorKind::UnknownArgument, unknown) else {
+        return unusual;
+    };
+    let begins = |text: &str| text.chars().take("--xx".len()).collect::<String>();
+    let advice = foreign::option(&unknown);
+    if advice.is_some() || guess.is_none_or(|guess| begins(&guess) != begins(&unknown)) {
+        unusual.remove(ContextKind::SuggestedArg);
         unusual.remove(ContextKind::Suggested);
+    }
+    if let Some(advice) = advice {
+        unusual.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![advice.into()]));
     }
     unusual
 }

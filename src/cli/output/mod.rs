@@ -4,6 +4,7 @@ pub mod advice;
 pub mod bar;
 pub mod error;
 pub mod exit;
+pub mod foreign;
 pub mod json;
 
 pub use bar::{watched, watched_on};
