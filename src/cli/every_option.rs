@@ -83,6 +83,7 @@ const MODES: &[&str] = &[
 /// Values of the options, by option, or by subcommand and option where it means another thing there.
 #[rustfmt::skip]
 const VALUES: &[(&str, &str)] = &[
+    ("adapter", "llvmpipe"),
     ("text-pt", "9"), ("width-mm", "120"), ("columns", "roughness"),
     ("convention", "guided-2020"), ("crop", "1,1,3,3"), ("depth", "16"),
     ("distance-tail", "0.001%"), ("distant", "5"), ("exposure", "1"), ("fail-above", "0.0001"),

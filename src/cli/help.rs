@@ -9,6 +9,7 @@ use svbrdf_evaluate::analyses::ANALYSES;
 
 use super::args::is_there;
 use super::args::reading::{PairReadingArgs, READING};
+use super::output::foreign;
 
 /// The commands in groups, after those of analyses, each with what it answers; below it stand its examples, without `svbrdf COMMAND`.
 const COMMANDS: &str = "\
@@ -48,6 +49,8 @@ convert: the same material as EXR, PNG, glTF or a folder
 conventions: lists the named conventions, or prints one
   svbrdf-estimation-2022
   loss
+adapters: lists the graphics adapters, that of the window first
+  > adapters.txt
 completions: completions for a shell
   bash > svbrdf.bash
 man: writes the man pages
@@ -91,7 +94,7 @@ const RARE: [(&str, &[&str]); 7] = [
     ("strip", &["fov", "results", "range", "lights", "pairs", "convention", "scenes"]),
     ("report", &["robust", "layout"]),
     ("metrics", &["fov"]),
-    ("view", &["target_error", "seed", "results"]),
+    ("view", &["target_error", "seed", "results", "adapter"]),
 ];
 
 /// The options of the headings of several commands.
@@ -113,6 +116,8 @@ const OF_ENVIRONMENT: &str = "\
 Environment:
   RUST_LOG      messages of window and graphics libraries: warn, info, debug, or wgpu=info
   WGPU_BACKEND  graphics interfaces that may be used: vulkan, metal, dx12, gl
+  WGPU_ADAPTER_NAME, WGPU_POWER_PREF=low
+                graphics adapter of this name, or one that saves power
 
 Exit codes:
    0  success
@@ -215,10 +220,12 @@ pub fn mistyped(word: &str) -> Option<String> {
         _ => None,
     };
     let similar = similar.filter(|name| name.chars().next() == word.chars().next());
-    Some(match similar {
-        Some(name) => format!("no file or command `{word}`; did you mean `{name}`?"),
-        None => format!("no file or command `{word}`; `svbrdf -h` lists the commands"),
-    })
+    let next = match (foreign::command(word), similar) {
+        (Some(advice), _) => advice.to_owned(),
+        (None, Some(name)) => format!("did you mean `{name}`?"),
+        (None, None) => "`svbrdf -h` lists the commands".to_owned(),
+    };
+    Some(format!("no file or command `{word}`; {next}"))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! The command line: one file per subcommand.
 
+mod adapters;
 mod analysis;
 mod args;
 mod conform;
@@ -77,6 +78,7 @@ enum Subcommands {
     Conventions(conventions::ConventionsArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
+    Adapters(adapters::AdaptersArgs),
     Completions(generate::CompletionsArgs),
     Man(generate::ManArgs),
 }
@@ -131,6 +133,7 @@ impl Cli {
         }
         match command {
             Subcommands::Conventions(args) => conventions::run(&args),
+            Subcommands::Adapters(args) => adapters::run(args),
             Subcommands::Completions(args) => generate::completions(&args, help::program(Self::command())),
             Subcommands::Man(args) => generate::man(&args, help::program(Self::command())),
             command => command.job(given)?.run(),
@@ -153,7 +156,7 @@ impl Subcommands {
             Self::Conform(args) => args.job(),
             Self::Info(args) => args.job(),
             Self::Convert(args) => args.job(),
-            Self::Conventions(_) | Self::Completions(_) | Self::Man(_) => {
+            Self::Conventions(_) | Self::Adapters(_) | Self::Completions(_) | Self::Man(_) => {
                 Err(Error::Internal("a command about the program has no job".to_owned()).into())
             }
         }

@@ -37,6 +37,10 @@ pub struct ViewArgs {
     #[arg(long, value_name = "NAME", value_parser = ChosenConvention::read)]
     convention: Option<ChosenConvention>,
 
+    /// Graphics adapter whose name has this part, of those that `svbrdf adapters` lists
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+
     #[command(flatten)]
     materials: MaterialArgs,
 }
@@ -93,6 +97,8 @@ impl ViewArgs {
         }
         Ok(Box::new(ViewJob {
             #[cfg(feature = "viewer")]
+            adapter: self.adapter.take(),
+            #[cfg(feature = "viewer")]
             options: self.options()?,
         }))
     }
@@ -100,6 +106,9 @@ impl ViewArgs {
 
 #[derive(Debug)]
 struct ViewJob {
+    /// A part of the name of the graphics adapter.
+    #[cfg(feature = "viewer")]
+    adapter: Option<String>,
     #[cfg(feature = "viewer")]
     options: svbrdf::ViewerOptions,
 }
@@ -107,6 +116,8 @@ struct ViewJob {
 /// Opens the window and returns when it is closed.
 impl Job for ViewJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
+        #[cfg(feature = "viewer")]
+        self.adapter.into_iter().for_each(svbrdf_gpu::choice::name);
         #[cfg(feature = "viewer")]
         let closed = svbrdf::open_viewer(self.options).map_err(CommandError::from);
         #[cfg(not(feature = "viewer"))]

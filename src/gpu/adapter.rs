@@ -1,9 +1,8 @@
-//! Choice of the graphics adapter, with its reason.
+//! What is known of a graphics adapter.
 
-use std::cmp::Reverse;
 use std::fmt;
 
-use wgpu::{Adapter, Backend, DeviceType, Surface, TextureFormat, TextureUsages};
+use wgpu::{Adapter, Backend, DeviceType, TextureFormat, TextureUsages};
 
 use svbrdf_core::error::Error;
 
@@ -25,7 +24,7 @@ pub struct AdapterReport {
     pub driver: String,
     /// Whether it computes on the CPU.
     pub software: bool,
-    /// Why this adapter, in a few words.
+    /// Why this adapter, in a few words; empty for one that is not taken.
     pub reason: String,
     /// What pass 1 writes: 32-bit floats where the adapter can.
     pub shading_format: TextureFormat,
@@ -39,7 +38,10 @@ impl fmt::Display for AdapterReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, backend, driver, reason, .. } = self;
         let kind = if self.software { "software" } else { HARDWARE };
-        write!(f, "{name} ({kind}, {backend}, driver {driver}): {reason}")?;
+        write!(f, "{name} ({kind}, {backend}, driver {driver})")?;
+        if !reason.is_empty() {
+            write!(f, ": {reason}")?;
+        }
         match &self.limits_note {
             Some(note) => write!(f, "; {note}"),
             None => Ok(()),
@@ -64,33 +66,6 @@ impl AdapterReport {
     }
 }
 
-/// The best of `adapters` that can present to `surface`, and why it is the best.
-pub(super) fn select(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Option<(Adapter, String)> {
-    let usable = |a: &&Adapter| surface.is_none_or(|s| a.is_surface_supported(s));
-    let usable: Vec<&Adapter> = adapters.iter().filter(usable).collect();
-    let best = usable.iter().min_by_key(|a| rank(a))?;
-    let among = if std::env::var_os("WGPU_BACKEND").is_some() { " that WGPU_BACKEND allows" } else { "" };
-    let reason = match usable.len() {
-        1 => format!("the only adapter{among}"),
-        n => {
-            format!("the best of {n} adapters{among} (hardware first, then Vulkan, Metal or DX12 before GL)")
-        }
-    };
-    Some(((*best).clone(), reason))
-}
-
-/// Sorts adapters, the best first.
-fn rank(adapter: &Adapter) -> (bool, bool, Reverse<u8>) {
-    let info = adapter.get_info();
-    let power = match info.device_type {
-        DeviceType::DiscreteGpu => 3,
-        DeviceType::IntegratedGpu => 2,
-        DeviceType::VirtualGpu => 1,
-        DeviceType::Other | DeviceType::Cpu => 0,
-    };
-    (info.device_type == DeviceType::Cpu, info.backend == Backend::Gl, Reverse(power))
-}
-
 /// What pass 1 writes on this adapter, and what is lost if that is not 32-bit floats.
 fn shading_format(adapter: &Adapter) -> Result<(TextureFormat, Option<String>), Error> {
     let renderable = |format: TextureFormat| {
@@ -110,7 +85,7 @@ fn shading_format(adapter: &Adapter) -> Result<(TextureFormat, Option<String>), 
     })
 }
 
-fn backend_name(backend: Backend) -> &'static str {
+pub(super) fn backend_name(backend: Backend) -> &'static str {
     match backend {
         Backend::Vulkan => "Vulkan",
         Backend::Metal => "Metal",

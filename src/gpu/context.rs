@@ -4,8 +4,9 @@ use wgpu::{Adapter, Backends, Device, DeviceDescriptor, InstanceDescriptor, Queu
 
 use svbrdf_core::error::Error;
 
-use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY, select};
+use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY};
 use super::backends;
+use super::choice::select;
 use super::fault::Faults;
 
 /// A graphics device, its queue, and what is known about it. Clones share the device.
@@ -18,15 +19,13 @@ pub struct Gpu {
 }
 
 impl Gpu {
-    /// The best adapter, with no window. `WGPU_BACKEND` (`vulkan`, `metal`, `dx12`, `gl`) narrows the choice.
+    /// The best adapter, with no window. `WGPU_BACKEND` (`vulkan`, `metal`, `dx12`, `gl`) narrows the choice, `WGPU_ADAPTER_NAME` and
+    /// [`choice::name`](super::choice::name) name one, and `WGPU_POWER_PREF=low` prefers one that saves power.
     ///
     /// # Errors
     /// [`Error::NoAdapter`] where there is none, [`Error::Gpu`] where its driver refuses.
     pub fn headless() -> Result<Self, Error> {
-        Self::check_environment()?;
-        let instance = wgpu::Instance::new(InstanceDescriptor::new_without_display_handle_from_env());
-        let adapters = pollster::block_on(instance.enumerate_adapters(Backends::all()));
-        let (adapter, reason) = select(&adapters, None).ok_or_else(|| no_adapter("none was found"))?;
+        let (adapter, reason) = select(&Self::all()?, None).map_err(|problem| no_adapter(&problem))?;
         let descriptor = Self::device_descriptor(&adapter);
         let (device, queue) =
             pollster::block_on(adapter.request_device(&descriptor)).map_err(|e| Error::Gpu {
@@ -34,6 +33,29 @@ impl Gpu {
                 remedy: "update its driver, or use the CPU",
             })?;
         Self::new(&adapter, device, queue, reason)
+    }
+
+    /// All adapters, that which is taken without a window first, with the reason.
+    ///
+    /// # Errors
+    /// As [`Gpu::headless`], and where none can render to floats.
+    pub fn adapters() -> Result<Vec<AdapterReport>, Error> {
+        let all = Self::all()?;
+        let (taken, reason) = select(&all, None).map_err(|problem| no_adapter(&problem))?;
+        let report = |adapter: &Adapter, reason| {
+            AdapterReport::new(adapter, reason, adapter.limits().max_texture_dimension_2d)
+        };
+        let taken = report(&taken, reason)?;
+        let others = all.iter().filter_map(|one| report(one, String::new()).ok());
+        let is_taken = |one: &AdapterReport| one.name == taken.name && one.backend == taken.backend;
+        let others: Vec<_> = others.filter(|one| !is_taken(one)).collect();
+        Ok([vec![taken], others].concat())
+    }
+
+    fn all() -> Result<Vec<Adapter>, Error> {
+        Self::check_environment()?;
+        let instance = wgpu::Instance::new(InstanceDescriptor::new_without_display_handle_from_env());
+        Ok(pollster::block_on(instance.enumerate_adapters(Backends::all())))
     }
 
     /// Checks that `WGPU_BACKEND` names graphics interfaces.
@@ -57,9 +79,10 @@ impl Gpu {
     /// # Errors
     /// In words, where there is none: the form that egui-wgpu's `native_adapter_selector` wants.
     pub fn select_adapter(adapters: &[Adapter], surface: Option<&Surface<'_>>) -> Result<Adapter, String> {
-        let (adapter, _) = select(adapters, surface)
-            .ok_or_else(|| no_adapter("none can present to a window").to_string())?;
-        Ok(adapter)
+        match select(adapters, surface) {
+            Ok((adapter, _)) => Ok(adapter),
+            Err(problem) => Err(no_adapter(&format!("{problem} that can present to a window")).to_string()),
+        }
     }
 
     /// Asks for all that the adapter can do in size, and for no feature that is not everywhere.

@@ -10,6 +10,7 @@
 
 mod adapter;
 mod backends;
+pub mod choice;
 mod codes;
 mod context;
 mod display;

@@ -51,6 +51,9 @@ fn open(options: ViewerOptions) -> Result<(), Error> {
     };
     let run = || eframe::run_native(NAME, native, Box::new(|cc| Ok(Box::new(create(cc)))));
     let result = panics::caught(|| Ok(run()));
+    if matches!(result, Ok(Err(eframe::Error::Wgpu(_)))) {
+        restart::with_another_interface();
+    }
     if guard.is_stopped() {
         return Err(CoreError::Cancelled.into());
     }

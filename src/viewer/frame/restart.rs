@@ -11,7 +11,7 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::disk::{atomic, own};
 use svbrdf_files::session::Session;
-use svbrdf_gpu::HARDWARE;
+use svbrdf_gpu::{HARDWARE, choice};
 
 use super::crash::DeviceLoss;
 use super::storage;
@@ -132,7 +132,9 @@ pub fn after_loss(DeviceLoss { reason, session, results }: &DeviceLoss) -> Resul
         Some(None) => return Ok(()),
         None => command.args(std::env::args_os().skip(1)),
     };
-    start(command.env(VARIABLE, restarts.text()));
+    // The interface that loses its device again and again comes last.
+    let failed = if restarts.number > 1 { choice::failed_with_taken() } else { None };
+    start(command.env(VARIABLE, restarts.text()).envs(failed.map(|failed| (choice::FAILED, failed))));
     Ok(())
 }
 
@@ -142,6 +144,14 @@ pub fn while_driver_is_gone() {
     if let (true, Ok(program)) = (is_recent, std::env::current_exe()) {
         std::thread::sleep(Duration::from_secs(1));
         start(Command::new(program).args(std::env::args_os().skip(1)));
+    }
+}
+
+/// Starts the program anew, as it was started, with another graphics interface than that which has just failed to open a window. Returns
+/// where each has failed.
+pub fn with_another_interface() {
+    if let (Some(failed), Ok(program)) = (choice::failed_with_taken(), std::env::current_exe()) {
+        start(Command::new(program).args(std::env::args_os().skip(1)).env(choice::FAILED, failed));
     }
 }
 
