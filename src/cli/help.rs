@@ -255,7 +255,7 @@ mod tests {
         for (name, _, examples) in entries {
             assert!((1..=3).contains(&examples.len()), "{name}");
             for example in examples {
-                let line = example.split(" > ").next().unwrap().replace('\'', "");
+                let line = example.split("> ").next().unwrap().replace('\'', "");
                 let words = ["svbrdf", name].into_iter().chain(line.split_whitespace());
                 let parsed = Cli::command().try_get_matches_from(words);
                 assert!(parsed.is_ok(), "{name} {example}: {parsed:?}");

@@ -1,8 +1,7 @@
 //! The distribution of a mean, from samples of what it is a mean of.
 //!
-//! Empirical distributions are put on a lattice; the characteristic function of a sum of independent draws is the product
-//! of theirs, each to the power of its count. So the quantiles need no bootstrap: they have no noise and depend on the
-//! samples alone.
+//! Each empirical distribution is put on a lattice. The characteristic function of a sum of independent draws is the product of those of
+//! the draws, each to the power of its count. Quantiles from it need no bootstrap, have no noise and depend on the samples alone.
 
 use std::f64::consts::TAU;
 
@@ -36,9 +35,8 @@ pub(super) struct SamplingDistribution {
 impl SamplingDistribution {
     /// The distribution of the sum of all `draws`.
     ///
-    /// The variance of each sample is only estimated. So the quantiles are as much wider as those of Student's t are than
-    /// those of the normal distribution; the degrees of freedom nu come from the variance of the variance,
-    /// var(s^2) = (m_4 - s^4) / n = 2 s^4 / nu (Satterthwaite 1946).
+    /// The variances are estimates, which makes the quantiles wider: by the ratio of Student's quantile to the normal one. Its degrees
+    /// of freedom nu follow from the variance of a variance, var(s^2) = (m_4 - s^4) / n = 2 s^4 / nu (Satterthwaite 1946).
     pub(super) fn of_sum(draws: &[Draws]) -> Self {
         let moments: Vec<SampleMoments> = draws.iter().map(SampleMoments::of).collect();
         let sum = |of: fn(&SampleMoments) -> f64, power| -> f64 {

@@ -7,7 +7,7 @@
 use super::convention::{Convention, Member};
 use crate::math::real::{Real, Vec3, Vector};
 
-/// One texel of a material: what is reflected, without where from and where to.
+/// One texel of a material: its reflectance, before there is a direction of light or view.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Texel<T: Real> {
     /// Unit normal in the frame of the surface (x right, y up, z out of it).

@@ -12,9 +12,9 @@ use svbrdf_core::statistics::quantile;
 /// Values of the ground truth and of the prediction, all of one channel before the next.
 type Pairs = Vec<[f64; 2]>;
 
-/// Names, and what they are of such values.
+/// Metrics of such pairs of values, by name.
 type Measures = &'static [(&'static str, fn(&[[f64; 2]]) -> f64)];
-/// The same of values that lie on a grid of (width, height) texels.
+/// Metrics of such pairs on a grid of (width, height) texels, by name.
 type Similarities = &'static [(&'static str, fn(&[[f64; 2]], [usize; 2]) -> Option<f64>)];
 
 const NORMAL_UNIT: Measures = &[("rmse_normal_unit", rmse)];
