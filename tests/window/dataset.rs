@@ -6,6 +6,7 @@ use svbrdf_evaluate::dataset::{DatasetReading, Evaluation, KnownLoss, Source};
 use svbrdf_viewer::OpenDataset;
 use svbrdf_viewer::jobs::dataset::summary::Summarize;
 use svbrdf_viewer::model::dataset::list::{Filter, ListView, Order};
+use svbrdf_viewer::widgets::numbers::significant;
 
 use super::observed::Observed;
 use super::*;
@@ -94,6 +95,14 @@ fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_a
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), None));
     assert_eq!(window.names(), ["a", "ours", "theirs"]);
+    // The exposure that the hand has not set is that of each material.
+    let exposure = window.view().exposure_ev;
+    edit(&mut window, |model| model.dataset.show(5, Vec::new()));
+    wait(&mut window, "another material", |app| app.names()[0] == "f");
+    window.run_steps(2);
+    assert_ne!(window.view().exposure_ev, exposure);
+    edit(&mut window, |model| model.dataset.show(0, Vec::new()));
+    wait(&mut window, "the first material", |app| app.names()[0] == "a");
     edit(&mut window, |model| endpoint::move_over_plane(&mut model.view.scene, Endpoint::Light, [0.4, -0.2]));
     edit(&mut window, |model| display::choose(model, 1));
     edit(&mut window, |model| display::step_exposure(model, 0.5));
@@ -123,10 +132,45 @@ fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_a
     assert!((large.centre[0] / 24.0 - small.centre[0] / 16.0).abs() < 1e-6);
     window.key_press(egui::Key::PageUp);
     wait(&mut window, "the one before", |app| app.names()[0] == "e");
-    assert!(window.model().dataset.problems.is_empty());
+    assert!(window.model().dataset.missing.is_empty());
     (0..3).for_each(|_| press(&mut window, egui::Key::PageUp));
     wait(&mut window, "b", |app| app.names()[0] == "b");
-    assert!(has(&window, "theirs: no prediction named b"));
+    // The empty pane has the reason, and the number and the place of its method.
+    assert!(has(&window, "no prediction named b") && has(&window, "2  theirs"));
+}
+
+/// A method has one number, one colour and one place on every material, and a pair has one loss in the window.
+#[needs(adapter)]
+fn a_method_has_one_number_and_place_and_a_pair_one_loss() {
+    let folder = tempfile::tempdir().unwrap();
+    let [gt, ours, theirs] = folders(folder.path());
+    // In the order theirs, ours: the first one fails.
+    let source = Source::folders(gt, vec![(None, theirs), (None, ours)]);
+    let open = OpenDataset::new(source, DatasetReading::default(), (0.02, 7), None).unwrap();
+    let mut window = on_dataset(&open);
+    window.run_steps(4);
+    let place = pane(&window, "2  ours");
+    for name in ["b", "c", "a"] {
+        let case = ["a", "b", "c"].iter().position(|one| *one == name).unwrap();
+        edit(&mut window, |model| model.dataset.show(case, Vec::new()));
+        wait_in(&mut window, name, |window| {
+            // In every frame, the loss in a title is that of the material below it, or there is none.
+            let case = window.model().dataset.shown.unwrap();
+            let title = window.get_by_label("Title 2  ours").accesskit_node().value();
+            let known = loss(window, case, 1).map(|known| known.estimate());
+            let expected = known.map(|one| format!("loss {}", significant(&one)[0]));
+            assert_eq!(title, expected, "{case}");
+            case == ["a", "b", "c"].iter().position(|one| *one == name).unwrap()
+        });
+        assert_eq!(pane(&window, "2  ours"), place, "{name}");
+        let known = significant(&loss(&window, case, 1).unwrap().estimate())[0].clone();
+        tab(&mut window, "Loss");
+        let seen = window.query_all_by_label(&known).count();
+        assert_eq!(seen, 1, "{name}: the panel has {known}");
+        press(&mut window, egui::Key::Num2);
+        assert_eq!(window.model().chosen_prediction().unwrap().slot, 2, "{name}");
+        assert!(has(&window, "1  theirs"), "{name}");
+    }
 }
 
 #[needs(adapter)]
@@ -271,7 +315,7 @@ fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_i
         loss(app, 0, 0).is_some_and(|now| now != before) && app.names().len() == 2
     });
     assert_eq!(loss(&window, 0, 1), None);
-    assert!(has(&window, "theirs: "));
+    assert!(has(&window, "2  theirs"));
     // Watched files are read again with their losses, without a key.
     edit(&mut window, |model| model.settings.watch = true);
     rest(&mut window, 20);
@@ -355,9 +399,9 @@ fn a_ground_truth_that_cannot_be_read_is_told_in_the_panes() {
     let dataset = Some(Box::new(dataset(folders, None)));
     let mut window = window(ViewerOptions { dataset, ..ViewerOptions::default() });
     press(&mut window, egui::Key::PageDown);
-    wait(&mut window, "the problem", |app| !app.parts.model.dataset.problems.is_empty());
+    wait(&mut window, "the problem", |app| !app.parts.model.dataset.missing.is_empty());
     window.run_steps(3);
-    let problem = window.model().dataset.problems[0].1.clone();
+    let problem = window.model().dataset.missing[0].problem.clone();
     assert!(problem.contains("b.png") && window.names().is_empty(), "{problem}");
     window.get_by_label(&problem);
     assert!(!has(&window, "Open a material with Ctrl+O, or drop files or folders here."));

@@ -134,11 +134,6 @@ impl MaterialsDrawer<'_> {
         let name = self.open.name(dataset.wanted);
         let mark = dataset.mark(name).cloned().unwrap_or_default();
         ui.separator();
-        for (method, problem) in dataset.problems.iter().filter(|_| !dataset.is_waiting()) {
-            let text = drawable(&line(&format!("{method}: {problem}")));
-            let label = egui::Label::new(RichText::new(&text).small().color(ui.visuals().error_fg_color));
-            ui.add(label.truncate()).on_hover_text(text);
-        }
         for note in &self.displayed.jobs.dataset.losses.notes {
             let label = egui::Label::new(RichText::new(note).small().color(ui.visuals().warn_fg_color));
             ui.add(label.truncate()).on_hover_text(note);

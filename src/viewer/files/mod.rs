@@ -52,7 +52,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
         let role = match index {
             0 if materials.len() == 1 => "MATERIAL".to_owned(),
             0 => "GROUND TRUTH".to_owned(),
-            prediction => format!("Prediction {prediction}"),
+            _ => format!("Prediction {}", material.slot),
         };
         // Its id changes whenever it is read again; what is unfolded stays unfolded.
         ui.push_id(index, |ui| section(ui, (index, &role), material, &findings, next));

@@ -86,5 +86,5 @@ pub(super) fn show(parts: &mut Parts) {
     let Some(open) = dataset.open.clone().filter(|_| dataset.is_waiting()) else { return };
     let Some(read) = parts.jobs.dataset.cases.get(dataset.wanted, &dataset.pinned()).cloned() else { return };
     read.uploads.iter().for_each(|(id, uploaded)| parts.jobs.uploads.add(*id, Some(uploaded.clone())));
-    case::show(&mut parts.model, &open, read.case, &read.materials, read.problems.clone());
+    case::show(&mut parts.model, &open, read.case, &read.materials, read.missing.clone());
 }

@@ -108,9 +108,11 @@ impl Drawer<'_> {
     }
 
     fn name(&self, ui: &mut egui::Ui, index: usize) {
-        let (text, colour) = match index {
-            0 => (format!("gt {}", self.materials[0].name()), theme::ground_truth(ui.visuals())),
-            _ => (format!("{index}  {}", self.materials[index].name()), ui.visuals().text_color()),
+        let material = &self.materials[index];
+        let text = format!("{}  {}", material.number(), material.name());
+        let colour = match material.slot {
+            0 => theme::ground_truth(ui.visuals()),
+            slot => theme::series(slot, ui.visuals().dark_mode),
         };
         ui.scope(|ui| {
             ui.set_max_width(NAME);

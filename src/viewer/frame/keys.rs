@@ -249,9 +249,9 @@ fn press(ctx: &egui::Context, model: &mut Model) {
         let presses = ctx.input_mut(|input| input.count_and_consume_key(modifiers, key));
         (0..presses).for_each(|_| run(model));
     }
-    for (prediction, key) in DIGITS.into_iter().enumerate() {
+    for (slot, key) in (1..).zip(DIGITS) {
         if ctx.input_mut(|input| input.consume_key(NONE, key)) {
-            display::choose(model, prediction);
+            display::choose_slot(model, slot);
         }
     }
     if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(NONE, Key::Escape)) {

@@ -29,7 +29,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
     scroll.auto_shrink([false, false]).show(ui, |ui| match tab {
         Tab::Loss => {
             loss::ui(ui, shown, next);
-            if model.materials.predictions().len() > 1 {
+            if model.materials.predictions().len() > 1 && model.dataset.open.is_none() {
                 let question =
                     || PredictionOrder::of(&model.materials.all, &model.view, &model.settings.loss);
                 loss::order::fold(ui, &mut next.asks_order, || shown.jobs.answers.get(&question()));

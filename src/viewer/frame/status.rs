@@ -70,8 +70,7 @@ impl StatusBar<'_> {
             self.photograph(ui, photographs, mono);
         }
         for index in self.order() {
-            let name = if index == 0 { "gt".to_owned() } else { index.to_string() };
-            let text = format!("{name} {}", self.numbers(index));
+            let text = format!("{} {}", self.read.materials[index].number(), self.numbers(index));
             let glyph = ui.fonts_mut(|fonts| fonts.glyph_width(&font, 'm'));
             let width = glyph * text.chars().count() as f32;
             if ui.available_width() < width + 12.0 {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::loss::{Request, Sampling};
+use svbrdf_core::loss::{Estimate, Request, Sampling};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
@@ -41,6 +41,21 @@ impl<'a> Displayed<'a> {
 
     fn view(self) -> &'a ViewState {
         &self.model.view
+    }
+
+    /// The loss of each prediction in the window, where it is known: of a data set, the same as in its list and its table.
+    pub fn losses(self) -> Vec<Option<Estimate>> {
+        let (model, jobs) = (self.model, self.jobs);
+        let predictions = model.materials.predictions();
+        if model.dataset.open.is_none() {
+            let found = jobs.loss.finished(&model.materials, &model.loss_query()).unwrap_or_default();
+            return (0..predictions.len()).map(|index| Some(found.get(index)?.estimate)).collect();
+        }
+        let known = |one: &LoadedMaterial| {
+            let (case, method) = model.dataset.place(one.slot)?;
+            (*jobs.dataset.losses.row(case)?.by_method.get(method)?).map(|known| known.estimate())
+        };
+        predictions.iter().map(known).collect()
     }
 
     /// The error maps of what the panes display, once they are there.

@@ -4,6 +4,7 @@ use super::Jobs;
 use super::answers::Answer;
 use super::dataset::DisplayedCases;
 use super::displayed::Displayed;
+use super::loss::LossJob;
 use super::panes::RangeKey;
 use super::panes::difference::Differences;
 use super::panes::photograph::{ComparePhotograph, ReadPhotograph};
@@ -39,6 +40,11 @@ impl Jobs {
 
     fn follow_losses(&mut self, model: &Model) {
         // A loss of materials that are not all there yet would be computed in vain.
+        if model.dataset.open.is_some() {
+            // Its losses are those of the data set.
+            self.loss = LossJob::default();
+            return;
+        }
         let auto = model.settings.auto_loss && !self.openings.expect_more();
         self.loss.follow(&self.answers, &model.materials, &model.loss_query(), auto);
     }

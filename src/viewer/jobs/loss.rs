@@ -162,6 +162,8 @@ impl LossJob {
             self.wanted = Some((wanted.clone(), Instant::now()));
         }
         self.stopped.take_if(|(stopped, _)| *stopped != wanted);
+        // Losses of other materials are none of these.
+        self.latest.take_if(|latest| latest.question.materials != wanted.materials);
         if auto && !self.goes_on(&wanted) {
             self.asked = self.stopped.is_none().then(|| (wanted, Instant::now()));
         }

@@ -6,10 +6,9 @@ use svbrdf_core::material::Grid;
 use svbrdf_files::session::window::Framing;
 
 use crate::model::Model;
-use crate::model::dataset::OpenDataset;
+use crate::model::dataset::{Missing, OpenDataset};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
-use crate::model::view::Exposed;
 
 /// Puts a material into the window, the ground truth first, with what is not there of it. What the hand has set stays: the view is
 /// at the same place, by shares of the size, and the chosen method is the same wherever it has a prediction.
@@ -17,8 +16,8 @@ pub fn show(
     model: &mut Model,
     open: &OpenDataset,
     case: usize,
-    materials: &[Arc<ReadMaterial>],
-    problems: Vec<(String, String)>,
+    materials: &[(usize, Arc<ReadMaterial>)],
+    missing: Vec<Missing>,
 ) {
     let before = model.materials.ground_truth().map(LoadedMaterial::grid);
     let predictions = model.materials.predictions();
@@ -44,12 +43,7 @@ pub fn show(
     }
     model.swapped = false;
     let is_first = model.dataset.shown.is_none();
-    let now = model.materials.ground_truth().map(|one| one.read.source.place.clone());
-    if let (Exposed::For { ground_truth, .. }, Some(now), false) = (&mut model.exposed, now, is_first) {
-        // The exposure stays as light and view do.
-        *ground_truth = now;
-    }
-    (model.dataset.shown, model.dataset.is_stale, model.dataset.problems) = (Some(case), false, problems);
+    (model.dataset.shown, model.dataset.is_stale, model.dataset.missing) = (Some(case), false, missing);
     if is_first && model.dataset.method.is_none() {
         model.dataset.method = open.methods().first().cloned();
     }

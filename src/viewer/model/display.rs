@@ -23,6 +23,13 @@ pub fn step_exposure(model: &mut Model, by: f32) {
     model.view.set_exposure(model.view.exposure_ev + by);
 }
 
+/// Chooses the prediction in this slot, where there is one.
+pub fn choose_slot(model: &mut Model, slot: usize) {
+    if let Some(prediction) = model.materials.predictions().iter().position(|one| one.slot == slot) {
+        model.view.choose(prediction);
+    }
+}
+
 /// Chooses a prediction, where there is one of this number.
 pub fn choose(model: &mut Model, prediction: usize) {
     if prediction < model.materials.predictions().len() {

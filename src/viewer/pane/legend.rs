@@ -49,7 +49,9 @@ pub struct LegendStrip<'a> {
     pub current: bool,
     /// Of the materials with a difference.
     pub names: Vec<&'a str>,
-    /// The slot of the first of them: 1, or 0 where they are compared with a photograph.
+    /// Their slots.
+    pub slots: Vec<usize>,
+    /// The place of the first of them: 1, or 0 where they are compared with a photograph.
     pub first: usize,
     /// The chosen one of them.
     pub chosen: usize,
@@ -73,6 +75,7 @@ impl<'a> LegendStrip<'a> {
             distributions: distributions.map(|(distributions, _)| distributions),
             current: distributions.is_some_and(|(_, current)| current),
             names: materials.iter().skip(first).map(LoadedMaterial::name).collect(),
+            slots: materials.iter().skip(first).map(|one| one.slot).collect(),
             first,
             chosen: (view.display.prediction + 1)
                 .min(materials.len().saturating_sub(1))

@@ -2,12 +2,13 @@
 
 use eframe::egui;
 
-use svbrdf_core::loss::Loss;
+use svbrdf_core::loss::Estimate;
 use svbrdf_gpu::DisplayMode;
 
 use crate::jobs::displayed::Displayed;
 use crate::jobs::panes::computed_maps::ComputedMaps;
 use crate::jobs::panes::photograph::DisplayedPhotograph;
+use crate::model::dataset::Missing;
 use crate::model::inspection::Inspection;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::{Layout, ViewState};
@@ -40,8 +41,10 @@ pub struct Scenery<'a> {
     pub photograph: Option<DisplayedPhotograph<'a>>,
     /// Pins and rectangle.
     pub inspection: &'a Inspection,
-    /// The losses of the predictions, where they are complete and up to date.
-    pub losses: Option<&'a [Loss]>,
+    /// The predictions that are not there, which have empty panes.
+    pub missing: &'a [Missing],
+    /// The loss of each prediction, where it is known.
+    pub losses: Vec<Option<Estimate>>,
 }
 
 /// The content of a pane: the index of the material that it displays, that of the material it is compared with, and how.
@@ -69,6 +72,10 @@ pub enum PhotographUse {
 impl<'a> Scenery<'a> {
     pub fn new(ctx: &egui::Context, shown: Displayed<'a>) -> Self {
         let model = shown.model;
+        let missing = &model.dataset.missing[..];
+        // The panel has the loss of a single prediction.
+        let is_repeated =
+            model.dataset.open.is_none() && model.materials.all.len() == 2 && model.side_panel();
         Self {
             materials: shown.materials(),
             state: &model.view,
@@ -77,12 +84,13 @@ impl<'a> Scenery<'a> {
             peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
             swapped: model.swapped,
             reading: !shown.jobs.openings.is_empty(),
-            problem: model.dataset.problems.first().map(|(_, problem)| problem.as_str()),
+            problem: missing.first().map(|one| one.problem.as_str()),
             range: shown.range(),
             computed_maps: shown.computed_maps(),
             photograph: shown.photograph(),
             inspection: &model.inspection,
-            losses: shown.jobs.loss.finished(&model.materials, &model.loss_query()),
+            missing,
+            losses: if is_repeated { Vec::new() } else { shown.losses() },
         }
     }
 
@@ -121,6 +129,23 @@ impl<'a> Scenery<'a> {
                 vec![content(chosen, ground_truth, DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0))]
             }
         }
+    }
+
+    /// The panes of predictions that are not there, side by side with the others.
+    pub fn empty(&self) -> impl Iterator<Item = (usize, &Missing)> {
+        let is_seen = self.state.display.layout == Layout::SideBySide;
+        let before = usize::from(self.photograph.is_some());
+        self.missing
+            .iter()
+            .filter(move |one| is_seen && one.slot > 0)
+            .map(move |one| (one.slot + before, one))
+    }
+
+    /// The place of pane `number`, which leaves the empty ones free.
+    pub fn place(&self, number: usize) -> usize {
+        let mut empty: Vec<usize> = self.empty().map(|(place, _)| place).collect();
+        empty.sort_unstable();
+        empty.into_iter().fold(number, |place, empty| place + usize::from(empty <= place))
     }
 
     /// The content of every pane beside a photograph: the photograph at the exposure of the chosen material, then every material.
@@ -180,7 +205,10 @@ impl<'a> Scenery<'a> {
         let (ground_truth, predictions) = labels.split_at(labels.len().min(1));
         match index.checked_sub(1) {
             None => format!("{}  {}", self.role(), shortened(ground_truth, most).concat()),
-            Some(prediction) => format!("{index}  {}", shortened(predictions, most)[prediction]),
+            Some(prediction) => {
+                let slot = self.materials[index].slot;
+                format!("{slot}  {}", shortened(predictions, most)[prediction])
+            }
         }
     }
 }

@@ -77,9 +77,9 @@ impl LegendStrip<'_> {
 
     /// The colour of the difference in place `index`: the colour of its prediction, or one of its own for the ground truth.
     pub fn series(&self, index: usize) -> usize {
-        match index + self.first {
-            0 => self.names.len().saturating_sub(1),
-            slot => slot - 1,
+        match self.slots.get(index).copied().unwrap_or(0) {
+            0 => self.slots.iter().max().map_or(1, |last| last + 1),
+            slot => slot,
         }
     }
 
@@ -93,7 +93,8 @@ impl LegendStrip<'_> {
     ) {
         let colour = theme::series(self.series(index), ui.visuals().dark_mode);
         let name = self.names.get(index).copied().unwrap_or_default();
-        let number = if index + self.first == 0 { "gt".to_owned() } else { (index + self.first).to_string() };
+        let slot = self.slots.get(index).copied().unwrap_or(0);
+        let number = if slot == 0 { "gt".to_owned() } else { slot.to_string() };
         let short = |most| format!("{number}  {}", names.shortened(index, most));
         let font = egui::TextStyle::Body.resolve(ui.style());
         let short = fitted(ui, &font, NAME, short).unwrap_or_else(|| short(FEWEST));

@@ -4,8 +4,11 @@ use eframe::egui::{self, FontId, Rect, Sense, vec2};
 
 use svbrdf_gpu::DisplayMode;
 
+use crate::model::dataset::Missing;
+use crate::model::material::loaded::drawable;
 use crate::model::view::Layout;
 use crate::model::{Model, display};
+use crate::pane::cells::TITLE;
 use crate::pane::scenery::{PaneContent, PhotographUse, Scenery};
 use crate::widgets::bounds::inset;
 use crate::widgets::names::{FEWEST, fitted};
@@ -48,12 +51,12 @@ pub fn title_bar(
     } else {
         ui.visuals().text_color()
     };
-    let swatch = prediction.map(|index| theme::series(index, ui.visuals().dark_mode));
+    let slot = prediction.map(|_| scenery.materials[content.index].slot);
+    let swatch = slot.map(|slot| theme::series(slot, ui.visuals().dark_mode));
     let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
-    if let Some(colour) = swatch {
-        let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
-        painter.rect_filled(Rect::from_center_size(middle, vec2(8.0, 8.0)), 0.0, colour);
-    }
+    let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
+    let mark = Rect::from_center_size(middle, vec2(8.0, 8.0));
+    painter.rect_filled(mark, 0.0, swatch.unwrap_or(egui::Color32::TRANSPARENT));
     let weak = ui.visuals().weak_text_color();
     let loss = loss.map(|loss| painter.layout_no_wrap(loss, FontId::monospace(12.0), weak));
     let button = if has_button { BACK } else { 0.0 };
@@ -91,6 +94,20 @@ pub fn title_bar(
     }
 }
 
+/// The pane of a prediction that is not there, with the reason.
+pub fn empty_pane(ui: &mut egui::Ui, scenery: &Scenery<'_>, missing: &Missing, cell: Rect) {
+    let (title, picture) = cell.split_top_bottom_at_y(cell.top() + TITLE);
+    let (colour, problem) = (theme::series(missing.slot, ui.visuals().dark_mode), drawable(&missing.problem));
+    ui.painter().rect_filled(picture, 0.0, theme::surround(scenery.dark));
+    let room = inset(title, vec2(8.0, 0.0));
+    ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| {
+        let name = format!("{}  {}", missing.slot, drawable(&missing.name));
+        ui.add(egui::Label::new(egui::RichText::new(name).size(13.5).color(colour)).truncate());
+    });
+    let room = inset(picture, vec2(12.0, 12.0));
+    ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| ui.label(problem));
+}
+
 /// The names and the quantity in this width: names lose what they have in common, and then their middles; where that is not enough,
 /// the quantity goes, which the legend has.
 fn short_in(
@@ -107,8 +124,8 @@ fn short_in(
 
 /// The loss of a prediction, where there may be room for it.
 fn loss_of(scenery: &Scenery<'_>, prediction: usize, title: Rect) -> Option<String> {
-    let loss = scenery.losses?.get(prediction).filter(|_| title.width() >= LEAST)?;
-    Some(format!("loss {}", significant(&loss.estimate)[0]))
+    let loss = scenery.losses.get(prediction)?.as_ref().filter(|_| title.width() >= LEAST)?;
+    Some(format!("loss {}", significant(loss)[0]))
 }
 
 /// The names, of at most `most` characters each, and the quantity of differences where there is room for it.

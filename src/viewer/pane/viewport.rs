@@ -21,7 +21,7 @@ use crate::pane::placed::Placed;
 use crate::pane::scale::PaneScale;
 use crate::pane::scenery::{Hovered, PaneContent, PhotographUse, Scenery, texels};
 use crate::pane::shaded::{ShadedPart, ShadingRequest};
-use crate::pane::title::title_bar;
+use crate::pane::title::{empty_pane, title_bar};
 use crate::pane::visible::shaded_part;
 use crate::widgets::paint::{note, paint_hint};
 use crate::widgets::readout::{self, Readout};
@@ -122,8 +122,9 @@ impl Viewport {
         let grid = scenery.materials[0].grid();
         // The strip comes and goes with the difference: the arrangement is that beside it.
         let beside_strip = if has_strip { area } else { area.with_max_y(area.bottom() - STRIP) };
-        let columns = columns(beside_strip, contents.len(), grid);
-        let cells = cells(area, contents.len(), columns, ui.pixels_per_point());
+        let count = contents.len() + scenery.empty().count();
+        let columns = columns(beside_strip, count, grid);
+        let cells = cells(area, count, columns, ui.pixels_per_point());
         if let Some(cell) = cells.first() {
             let pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
             if pixels != self.pane_pixels {
@@ -135,7 +136,11 @@ impl Viewport {
         if let Err(problem) = self.shade(ui, gpu, uploads, scenery, &contents) {
             return note(ui, area, &problem);
         }
-        let panes: Vec<(PaneContent, Rect)> = contents.into_iter().zip(cells).collect();
+        for (place, missing) in scenery.empty() {
+            cells.get(place).into_iter().for_each(|cell| empty_pane(ui, scenery, missing, *cell));
+        }
+        let cell = |(number, content)| Some((content, *cells.get(scenery.place(number))?));
+        let panes: Vec<(PaneContent, Rect)> = contents.into_iter().enumerate().filter_map(cell).collect();
         self.hovered = panes.iter().find_map(|(content, cell)| {
             let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());
             Hovered::in_pane(ui, scenery, *content, &placed)

@@ -86,7 +86,8 @@ impl DiagnosisSection<'_> {
             let ink = ui.visuals().text_color();
             let (font, painter) = (FontId::proportional(12.5), ui.painter());
             let left = pos2(area.left() + 4.0, area.center().y);
-            painter.text(left, Align2::LEFT_CENTER, format!("{}  {name}", index + 1), font.clone(), ink);
+            let name = format!("{}  {name}", self.predictions[index].slot);
+            painter.text(left, Align2::LEFT_CENTER, name, font.clone(), ink);
             let colour = match first {
                 // The others have too little contrast on the colour of the selection.
                 _ if is_chosen => ink,

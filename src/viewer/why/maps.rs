@@ -48,7 +48,8 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next:
             for (index, attributed) in all.iter().enumerate() {
                 let row = MapRow {
                     map,
-                    index,
+                    is_first: index == 0,
+                    slot: predictions.get(index).map_or(0, |one| one.slot),
                     name: predictions.get(index).map_or("", LoadedMaterial::name),
                     count: all.len(),
                     attributed: *attributed,
@@ -128,8 +129,9 @@ fn pane_choice(ui: &mut egui::Ui, only_right: &mut bool) {
 /// One map of one prediction.
 struct MapRow<'a> {
     map: Map,
-    /// The prediction, its name, and the number of predictions.
-    index: usize,
+    /// Whether the prediction is the first; its slot, its name, and the number of predictions.
+    is_first: bool,
+    slot: usize,
     name: &'a str,
     count: usize,
     attributed: Option<&'a Attribution>,
@@ -162,7 +164,7 @@ impl MapRow<'_> {
         }
         let ink = visuals.text_color();
         let (middle, font) = (area.center().y, FontId::monospace(12.0));
-        if self.index == 0 {
+        if self.is_first {
             let name = pos2(area.left() + 4.0, area.top() + 0.5 * ROW);
             painter.text(name, Align2::LEFT_CENTER, self.map.name(), FontId::proportional(13.0), ink);
         }
@@ -173,7 +175,7 @@ impl MapRow<'_> {
         if has_numbers {
             if self.count > 1 {
                 let at = pos2(row.left() + 4.0, middle);
-                painter.text(at, Align2::LEFT_CENTER, (self.index + 1).to_string(), font.clone(), ink);
+                painter.text(at, Align2::LEFT_CENTER, self.slot.to_string(), font.clone(), ink);
             }
             let value = share.map_or_else(|| "...".to_owned(), |share| format!("{:.4}", share.shapley.mean));
             painter.text(pos2(area.right() - 4.0, middle), Align2::RIGHT_CENTER, value, font.clone(), ink);
@@ -182,7 +184,7 @@ impl MapRow<'_> {
         let side = if only_right { "right" } else { "wrong" };
         let map = self.map.name();
         response.on_hover_ui(|ui| {
-            ui.strong(format!("{}  {}: {map}", self.index + 1, self.name));
+            ui.strong(format!("{}  {}: {map}", self.slot, self.name));
             if let Some(share) = share {
                 ui.label(numbers(share));
             }
@@ -200,7 +202,7 @@ impl MapRow<'_> {
         let half = (0.5 * area.height() - 1.0).min(4.0);
         let bar = Rect::from_x_y_ranges(zero.min(end)..=zero.max(end), middle - half..=middle + half);
         let painter = ui.painter();
-        painter.rect_filled(bar, 1.0, theme::series(self.index, ui.visuals().dark_mode));
+        painter.rect_filled(bar, 1.0, theme::series(self.slot, ui.visuals().dark_mode));
         let thin = Stroke::new(1.0, ui.visuals().weak_text_color());
         painter.line_segment([pos2(zero, area.top()), pos2(zero, area.bottom())], thin);
         if let Some([low, high]) = share.shapley.interval95 {

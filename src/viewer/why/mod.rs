@@ -78,7 +78,8 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
 
 /// A row per prediction, which stays where it is while its loss is computed.
 fn rows(ui: &mut egui::Ui, shown: Displayed<'_>, losses: Option<&[f64]>, next: &mut Model) {
-    let names: Vec<&str> = shown.model.materials.predictions().iter().map(LoadedMaterial::name).collect();
+    let predictions = shown.model.materials.predictions();
+    let names: Vec<&str> = predictions.iter().map(LoadedMaterial::name).collect();
     let most = losses.unwrap_or_default().iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     // Many rows are low ones.
     let is_long = names.len() > LONG;
@@ -89,7 +90,7 @@ fn rows(ui: &mut egui::Ui, shown: Displayed<'_>, losses: Option<&[f64]>, next: &
         let left = |ui: &mut egui::Ui| {
             ui.selectable_label(
                 index == shown.model.view.display.prediction,
-                format!("{}  {name}", index + 1),
+                format!("{}  {name}", predictions[index].slot),
             )
             .on_hover_text(names[index])
         };
@@ -108,7 +109,7 @@ fn rows(ui: &mut egui::Ui, shown: Displayed<'_>, losses: Option<&[f64]>, next: &
             area.min,
             vec2(area.width() * (loss.unwrap_or(&0.0) / most) as f32, area.height()),
         );
-        ui.painter().rect_filled(bar, 1.0, theme::series(index, ui.visuals().dark_mode));
+        ui.painter().rect_filled(bar, 1.0, theme::series(predictions[index].slot, ui.visuals().dark_mode));
     }
 }
 

@@ -48,6 +48,22 @@ pub fn significant(estimate: &Estimate) -> [String; 2] {
     [format!("{mean:.decimals$}"), format!("[{low:.more$}, {high:.more$}]")]
 }
 
+/// The means of neighbours, as [`significant`], with as many digits more as tell them apart, at most six decimals.
+pub fn means(estimates: &[&Estimate]) -> Vec<String> {
+    let mut texts: Vec<String> = estimates.iter().map(|one| significant(one)[0].clone()).collect();
+    for (place, pair) in estimates.windows(2).enumerate() {
+        let [a, b] = [pair[0].mean, pair[1].mean];
+        let apart = (3..=6).map(|decimals| [a, b].map(|mean| format!("{mean:.decimals$}")));
+        if a != b
+            && texts[place] == texts[place + 1]
+            && let Some([first, second]) = apart.into_iter().find(|[first, second]| first != second)
+        {
+            (texts[place], texts[place + 1]) = (first, second);
+        }
+    }
+    texts
+}
+
 /// Half the width of an interval, in two significant digits: what follows the sign ±.
 pub fn half_width(estimate: &Estimate) -> String {
     let Some([low, high]) = estimate.interval95 else { return "?".to_owned() };
@@ -111,6 +127,13 @@ mod tests {
         assert_eq!(of(0.5, None), ["0.5000", "[unknown]"]);
         assert_eq!(of(2.52e-5, Some([2.5123e-5, 2.5411e-5])), ["2.5e-5", "[2.51e-5, 2.54e-5]"]);
         assert_eq!(of(0.204_712_3, Some([0.204_712_2, 0.204_712_4])), ["0.2047", "[0.20471, 0.20471]"]);
+    }
+
+    #[test]
+    fn means_that_look_alike_have_the_digits_that_tell_them_apart() {
+        let of = |mean| Estimate { mean, standard_error: None, interval95: Some([mean - 0.01, mean + 0.01]) };
+        let all = [of(0.2301), of(0.2304), of(0.25), of(0.25)];
+        assert_eq!(means(&all.each_ref()), ["0.2301", "0.2304", "0.25", "0.25"]);
     }
 
     #[test]

@@ -37,15 +37,15 @@ pub const SERIES: usize = COLOURS.len();
 const COLOURS: [[u8; 3]; 6] =
     [[80, 190, 255], [240, 228, 66], [130, 90, 255], [40, 150, 110], [205, 255, 190], [110, 140, 0]];
 
-/// The colour of prediction `index` in histograms, bars and titles.
-pub fn series(index: usize, dark: bool) -> Color32 {
-    let [r, g, b] = COLOURS[index % SERIES];
+/// The colour of the prediction or method in a slot, from 1 on, in histograms, bars and titles.
+pub fn series(slot: usize, dark: bool) -> Color32 {
+    let [r, g, b] = COLOURS[slot.saturating_sub(1) % SERIES];
     Color32::from_rgb(r, g, b).lerp_to_gamma(Color32::BLACK, if dark { 0.0 } else { 0.45 })
 }
 
-/// The line of prediction `index` in histograms: dashed from the seventh on.
-pub fn series_line(points: &[egui::Pos2], index: usize, stroke: Stroke) -> Vec<egui::Shape> {
-    if index < SERIES {
+/// The line of the prediction in a slot in histograms: dashed from the seventh on.
+pub fn series_line(points: &[egui::Pos2], slot: usize, stroke: Stroke) -> Vec<egui::Shape> {
+    if slot <= SERIES {
         vec![egui::Shape::line(points.to_vec(), stroke)]
     } else {
         egui::Shape::dashed_line(points, stroke, 5.0, 3.0)
@@ -204,7 +204,7 @@ mod tests {
     #[test]
     fn predictions_are_told_apart_with_colour_vision_deficiencies_and_from_the_ground_truth() {
         for visuals in [dark(), light()] {
-            let mut all: Vec<Color32> = (0..SERIES).map(|i| series(i, visuals.dark_mode)).collect();
+            let mut all: Vec<Color32> = (1..=SERIES).map(|slot| series(slot, visuals.dark_mode)).collect();
             all.push(ground_truth(&visuals));
             let found = nearest(&all);
             assert!(found > 20.0, "{found:.1} in the {} theme", theme(&visuals));

@@ -12,7 +12,7 @@ use crate::jobs::reading::read::{MaterialReader, read_with_retries};
 use crate::jobs::reading::upload::Uploaded;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
-use crate::model::dataset::OpenDataset;
+use crate::model::dataset::{Missing, OpenDataset};
 use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
 
 /// Bytes of a texel in the memory of the machine and of the adapter.
@@ -26,18 +26,18 @@ pub struct ReadCase {
     pub case: usize,
     /// The predictions of a list that were asked for beside it.
     pub pinned: Vec<usize>,
-    /// The ground truth first; empty where it cannot be read.
-    pub materials: Vec<Arc<ReadMaterial>>,
+    /// With their slots, the ground truth first; empty where it cannot be read.
+    pub materials: Vec<(usize, Arc<ReadMaterial>)>,
     /// Of each material, where there is an adapter.
     pub uploads: Vec<(MaterialId, Arc<Uploaded>)>,
-    /// What is not there: the name of a method or of the ground truth, and why.
-    pub problems: Vec<(String, String)>,
+    pub missing: Vec<Missing>,
 }
 
 impl ReadCase {
     fn bytes(&self) -> usize {
-        let texels = |one: &Arc<ReadMaterial>| one.material().size().into_iter().product::<usize>();
-        self.materials.iter().map(texels).sum::<usize>() * TEXEL_BYTES
+        let texels =
+            self.materials.iter().map(|(_, one)| one.material().size().into_iter().product::<usize>());
+        texels.sum::<usize>() * TEXEL_BYTES
     }
 }
 
@@ -56,7 +56,7 @@ impl CaseJobs {
 
     /// Whether the maps of a material stay on the adapter.
     pub fn hold(&self, id: MaterialId) -> bool {
-        self.ready.iter().flat_map(|ready| &ready.materials).any(|one| one.id == id)
+        self.ready.iter().flat_map(|ready| &ready.materials).any(|(_, one)| one.id == id)
     }
 
     /// Reads a material again when it is wanted.
@@ -85,10 +85,11 @@ impl CaseJobs {
                 }
                 Err(problem) => {
                     // It is not tried again in every frame.
-                    let problems = vec![(open.name(*case).to_owned(), problem.to_string())];
+                    let name = open.name(*case).to_owned();
+                    let missing = vec![Missing { slot: 0, name, problem: problem.to_string() }];
                     let (case, pinned) = (*case, pinned.to_vec());
                     let (materials, uploads) = (Vec::new(), Vec::new());
-                    self.ready.push(Arc::new(ReadCase { case, pinned, materials, uploads, problems }));
+                    self.ready.push(Arc::new(ReadCase { case, pinned, materials, uploads, missing }));
                     error = Some(problem).filter(|problem| !problem.is_cancelled());
                 }
             }
@@ -132,18 +133,18 @@ struct CaseReading {
 impl CaseReading {
     /// Reads a material with its predictions, several at a time.
     fn read(&self, case: usize, progress: &Progress) -> ReadCase {
-        let (pinned, problems) = (self.pinned.clone(), Vec::new());
-        let mut found = ReadCase { case, pinned, materials: Vec::new(), uploads: Vec::new(), problems };
+        let (pinned, missing) = (self.pinned.clone(), Vec::new());
+        let mut found = ReadCase { case, pinned, materials: Vec::new(), uploads: Vec::new(), missing };
         let (truth, uploaded) = match self.column((case, 0), None, progress) {
             Ok(read) => read,
             Err(problem) => {
-                found.problems.push(("ground truth".to_owned(), problem));
+                found.missing.push(Missing { slot: 0, name: "ground truth".to_owned(), problem });
                 return found;
             }
         };
         let size = Some(truth.material().size());
         found.uploads.extend(uploaded.map(|uploaded| (truth.id, uploaded)));
-        found.materials.push(truth.clone());
+        found.materials.push((0, truth.clone()));
         let pinned = self.pinned.iter().filter(|pinned| **pinned != case).map(|pinned| (*pinned, 1));
         let columns: Vec<(usize, usize)> =
             (1..=self.open.methods().len()).map(|column| (case, column)).chain(pinned).collect();
@@ -167,9 +168,12 @@ impl CaseReading {
                 match of_size {
                     Ok((read, uploaded)) => {
                         found.uploads.extend(uploaded.map(|uploaded| (read.id, uploaded)));
-                        found.materials.push(read);
+                        found.materials.push((self.slot(*place), read));
                     }
-                    Err(problem) => found.problems.push((self.name(*place), problem)),
+                    Err(problem) => {
+                        let (slot, name) = (self.slot(*place), self.name(*place));
+                        found.missing.push(Missing { slot, name, problem });
+                    }
                 }
             }
         }
@@ -185,7 +189,7 @@ impl CaseReading {
     ) -> Column {
         let source = self.open.source(case, column)?;
         for known in &self.known {
-            if let Some(read) = known.materials.iter().find(|one| one.source == source) {
+            if let Some((_, read)) = known.materials.iter().find(|(_, one)| one.source == source) {
                 let uploaded = known.uploads.iter().find(|(id, _)| *id == read.id);
                 return Ok((read.clone(), uploaded.map(|(_, uploaded)| uploaded.clone())));
             }
@@ -195,6 +199,11 @@ impl CaseReading {
             read_with_retries(&source, &mut reader, &progress.part()).map_err(|error| error.to_string())?;
         let uploaded = self.gpu.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
         Ok((Arc::new(read), uploaded))
+    }
+
+    /// The slot of a prediction: that of its method, or its place among the predictions of one ground truth.
+    fn slot(&self, (case, column): (usize, usize)) -> usize {
+        if self.open.is_of_predictions() { case + 1 } else { column }
     }
 
     /// What a prediction is called.

@@ -77,7 +77,7 @@ impl Replace {
             uploads.add(read.id, uploaded.clone());
             let replaced = &mut displayed[view.display.prediction + 1];
             let name = of.replacement.name(replaced.name());
-            *replaced = LoadedMaterial::named(read.clone(), replaced.problem.take(), name);
+            replaced.replace(read.clone(), name);
         }
         displayed
     }

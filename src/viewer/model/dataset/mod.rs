@@ -128,14 +128,23 @@ pub struct DatasetState {
     pub shown: Option<usize>,
     /// Whether that is read again.
     pub is_stale: bool,
-    /// What of it is not in the window, and why: the name of a method or of the ground truth, and the problem.
-    pub problems: Vec<(String, String)>,
+    /// What of it is not in the window.
+    pub missing: Vec<Missing>,
     /// The method that was chosen last, which may have no prediction of the material in the window.
     pub method: Option<String>,
     pub list: ListView,
     /// Marks and notes, by the name of a material.
     pub marks: BTreeMap<String, SessionMark>,
     pub sheet: SheetState,
+}
+
+/// A ground truth, or a prediction of it, that is not there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Missing {
+    /// As that of a material in the window.
+    pub slot: usize,
+    pub name: String,
+    pub problem: String,
 }
 
 /// The contact sheet.
@@ -218,6 +227,12 @@ impl DatasetState {
         };
         let is_marked = |case: &usize| self.mark(open.name(*case)).is_some_and(|mark| mark.is_marked);
         (0..open.cases.len()).filter(is_marked).take(MOST_PINNED).collect()
+    }
+
+    /// The material and the method of a slot of the window.
+    pub fn place(&self, slot: usize) -> Option<(usize, usize)> {
+        let (open, slot) = (self.open.as_ref()?, slot.checked_sub(1)?);
+        Some(if open.is_of_predictions() { (slot, 0) } else { (self.shown?, slot) })
     }
 
     pub fn mark(&self, name: &str) -> Option<&SessionMark> {

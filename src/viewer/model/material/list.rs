@@ -91,10 +91,17 @@ impl MaterialList {
         self.ground_truth().filter(stays).map(|one| one.material().size())
     }
 
-    /// Puts these into the place of all others, the ground truth first; predictions have its size.
-    pub fn replace_all(&mut self, materials: &[Arc<ReadMaterial>]) {
-        self.all = materials.iter().cloned().map(LoadedMaterial::new).collect();
+    /// Puts these into the place of all others with their slots, the ground truth first; predictions have its size.
+    pub fn replace_all(&mut self, materials: &[(usize, Arc<ReadMaterial>)]) {
+        let one = |(slot, read): &(usize, Arc<ReadMaterial>)| LoadedMaterial::new(read.clone()).at(*slot);
+        self.all = materials.iter().map(one).collect();
         rename(&mut self.all);
+    }
+
+    /// Adds a material in the slot after all others.
+    fn push(&mut self, material: LoadedMaterial) {
+        let slot = self.all.last().map_or(0, |last| last.slot + 1);
+        self.all.push(material.at(slot));
     }
 
     /// Places a material; false where those after it are not wanted.
@@ -121,7 +128,7 @@ impl MaterialList {
                     self.all.clear();
                 }
                 match arrival {
-                    Arrival::Loaded(material) => self.all.push(material),
+                    Arrival::Loaded(material) => self.push(material),
                     Arrival::Read(read) => self.add(read, problems),
                     Arrival::Failed(..) => {}
                 }
@@ -148,7 +155,7 @@ impl MaterialList {
         if let Place::Path(path) = &read.source.place {
             self.read.push(path.clone());
         }
-        self.all.push(LoadedMaterial::new(read));
+        self.push(LoadedMaterial::new(read));
     }
 
     /// Replaces the material of this id. A ground truth of another size closes the predictions; a prediction of another size is
@@ -156,7 +163,7 @@ impl MaterialList {
     fn replace(&mut self, id: MaterialId, read: Arc<ReadMaterial>, problems: &mut Vec<MaterialProblem>) {
         let Some(index) = self.all.iter().position(|one| one.id() == id) else { return };
         self.read.push(read.path().to_owned());
-        let new = LoadedMaterial::new(read);
+        let new = LoadedMaterial::new(read).at(self.all[index].slot);
         if index == 0 {
             let mismatches = self.predictions().iter().filter_map(|one| mismatch(&new, &one.read));
             problems.extend(mismatches.map(|sizes| MaterialProblem::Closed(Box::new(sizes))));
@@ -202,10 +209,12 @@ impl MaterialList {
         Ok(self.again(index, |source| (source.options, source.chosen) = (ReadOptions::AUTO, None)))
     }
 
-    /// Closes the prediction at `index`.
+    /// Closes the prediction at `index`. Those after it move up, unless they are methods of a data set.
     pub fn close(&mut self, index: usize) {
         if index > 0 && index < self.all.len() {
+            let is_plain = self.all.iter().enumerate().all(|(place, one)| one.slot == place);
             self.all.remove(index);
+            self.all.iter_mut().skip(index).for_each(|one| one.slot -= usize::from(is_plain));
             rename(&mut self.all);
         }
     }
@@ -214,6 +223,7 @@ impl MaterialList {
     pub fn make_ground_truth(&mut self, index: usize) {
         if index < self.all.len() {
             self.all.swap(0, index);
+            self.all[index].slot = std::mem::take(&mut self.all[0].slot);
         }
     }
 }

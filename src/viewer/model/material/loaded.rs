@@ -14,6 +14,8 @@ use crate::model::material::read::{MaterialId, ReadMaterial};
 #[derive(Clone, Debug)]
 pub struct LoadedMaterial {
     pub read: Arc<ReadMaterial>,
+    /// Its number: 0 of the ground truth, n of the nth prediction or method. It stays whichever others are there.
+    pub slot: usize,
     /// Why it is stale: its files could not be read again.
     pub problem: Option<String>,
     /// Its name, unique in the window.
@@ -23,12 +25,23 @@ pub struct LoadedMaterial {
 impl LoadedMaterial {
     pub fn new(read: Arc<ReadMaterial>) -> Self {
         let name = drawable(read.material().name());
-        Self { read, problem: None, name }
+        Self { read, slot: 0, problem: None, name }
     }
 
-    /// A material made of others, with this name.
-    pub fn named(read: Arc<ReadMaterial>, problem: Option<String>, name: String) -> Self {
-        Self { read, problem, name }
+    /// The same material in another slot.
+    #[must_use]
+    pub fn at(self, slot: usize) -> Self {
+        Self { slot, ..self }
+    }
+
+    /// Shows a material made of it and others in its place, with this name.
+    pub fn replace(&mut self, read: Arc<ReadMaterial>, name: String) {
+        (self.read, self.name) = (read, name);
+    }
+
+    /// Its number in titles and tables.
+    pub fn number(&self) -> String {
+        if self.slot == 0 { "gt".to_owned() } else { self.slot.to_string() }
     }
 
     /// What identifies its maps: every reading of every version of its files has another one.
