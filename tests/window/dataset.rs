@@ -97,8 +97,8 @@ fn what_the_hand_has_set_stays_over_flips_and_nothing_of_two_materials_is_seen_a
     assert_eq!(window.names(), ["a", "ours", "theirs"]);
     // The exposure that the hand has not set is that of each material.
     let exposure = window.view().exposure_ev;
-    edit(&mut window, |model| model.dataset.show(5, Vec::new()));
-    wait(&mut window, "another material", |app| app.names()[0] == "f");
+    edit(&mut window, |model| model.dataset.show(4, Vec::new()));
+    wait(&mut window, "another material", |app| app.names()[0] == "e");
     window.run_steps(2);
     assert_ne!(window.view().exposure_ev, exposure);
     edit(&mut window, |model| model.dataset.show(0, Vec::new()));
@@ -275,6 +275,13 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
     tab(&mut window, "Methods");
     wait(&mut window, "the summary", |app| app.jobs().answers.latest(|_: &Summarize| true).is_some());
     see(&mut window, "theirs has 3 of 6 materials");
+    // Escape leaves the search, and shows all again.
+    press_with(&mut window, Modifiers::COMMAND, egui::Key::F);
+    window.event(egui::Event::Text("e".to_owned()));
+    window.run_steps(3);
+    assert!(has(&window, "1 of 6 materials"));
+    press(&mut window, egui::Key::Escape);
+    assert!(!has(&window, "1 of 6 materials") && window.model().dataset.list.search.is_empty());
     window.key_press(egui::Key::S);
     window.run_steps(3);
     wait_in(&mut window, "the cells", |window| {
@@ -282,6 +289,31 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
         let of = |case, column| svbrdf_viewer::jobs::dataset::cells::Cell { case, column };
         sheet.is_some_and(|sheet| sheet.part(of(0, 1)).is_some() && sheet.part(of(2, 2)).is_none())
     });
+    // A click on the name of a method sorts by its losses; again, the other way round.
+    let listed = |window: &Window<'_>| window.state().parts.ui.dataset.listed().to_vec();
+    let by_name = listed(&window);
+    for is_reversed in [false, true] {
+        window.get_by_label_contains("Sort by ours").click();
+        window.run_steps(4);
+        let list = window.model().dataset.list.clone();
+        assert_eq!((list.order, list.is_reversed), (Order::Loss(0), is_reversed));
+    }
+    assert_eq!(listed(&window).iter().rev().copied().collect::<Vec<_>>(), {
+        edit(&mut window, |model| model.dataset.list.is_reversed = false);
+        window.run_steps(2);
+        listed(&window)
+    });
+    edit(&mut window, |model| model.dataset.list = ListView::default());
+    window.run_steps(2);
+    assert_eq!(listed(&window), by_name);
+    // Differences of all cells have one range: that of the cell where it is largest.
+    edit(&mut window, |model| model.view.display.difference = true);
+    wait_in(&mut window, "the range", |window| window.jobs().dataset.range().is_some());
+    let of_open = window.difference_range();
+    let of_all = window.jobs().dataset.range().unwrap();
+    assert!(of_all > 1.5 * of_open, "{of_all} of all, {of_open} of the open one");
+    edit(&mut window, |model| model.view.display.difference = false);
+    wait_in(&mut window, "the values", |window| window.jobs().dataset.range().is_none());
     let before = window.jobs().dataset.sheet.as_deref().unwrap().picture.clone();
     let rect = window.get_by_label("Cell b, ours").rect();
     drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.75, 0.25));
@@ -316,7 +348,14 @@ fn a_file_that_was_replaced_is_read_again_with_its_losses_and_one_that_is_gone_i
     });
     assert_eq!(loss(&window, 0, 1), None);
     assert!(has(&window, "2  theirs"));
-    // Watched files are read again with their losses, without a key.
+    // A file that is newer than what is displayed is marked; one that is watched is read again with its losses.
+    std::thread::sleep(std::time::Duration::from_millis(1100));
+    std::fs::copy(all[2].join("f.png"), all[1].join("a.png")).unwrap();
+    see(&mut window, "(newer on disk: Ctrl+R)");
+    window.key_press_modifiers(Modifiers::COMMAND, egui::Key::R);
+    wait_in(&mut window, "the newer file", |window| !has(window, "newer on disk"));
+    let now = loss(&window, 0, 0);
+    wait(&mut window, "its loss", |app| loss(app, 0, 0).is_some() && loss(app, 0, 0) == now || now.is_none());
     edit(&mut window, |model| model.settings.watch = true);
     rest(&mut window, 20);
     let before = loss(&window, 0, 0).unwrap();

@@ -101,35 +101,25 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
 }
 
 #[needs(adapter)]
-fn every_pane_in_false_colours_has_a_scale_and_no_other() {
-    use svbrdf_viewer::pane::scale::PaneScale;
+fn a_pane_in_false_colours_has_a_scale_and_differences_have_that_of_the_legend() {
     let mut window = with_differences();
     let scales = |window: &Window<'_>| {
         let parts = &window.state().parts;
         let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
         let scenery = svbrdf_viewer::pane::scenery::Scenery::new(&window.ctx, displayed);
         let contents = scenery.contents();
-        contents.into_iter().map(|content| PaneScale::of(&scenery, content)).collect::<Vec<_>>()
+        contents
+            .into_iter()
+            .map(|one| svbrdf_viewer::pane::scale::has_scale(&scenery, one))
+            .collect::<Vec<_>>()
     };
-    let range = window.difference_range();
-    let log = PaneScale { is_signed: false, range, unit: "" };
-    assert_eq!(scales(&window), [None, Some(log.clone()), Some(log.clone())]);
-    press(&mut window, egui::Key::C);
-    assert_eq!(scales(&window), [Some(log)], "a wipe");
-    press(&mut window, egui::Key::C);
-    press(&mut window, egui::Key::C);
-    press(&mut window, egui::Key::M);
-    statistics(&mut window);
-    let angle = PaneScale { is_signed: false, range: window.difference_range(), unit: "\u{b0}" };
-    assert_eq!(scales(&window)[1], Some(angle));
+    assert_eq!(scales(&window), [false; 3], "the legend has the colours");
     press(&mut window, egui::Key::D);
-    assert_eq!(scales(&window), [None, None, None], "values have their own colours");
-    // The roughness itself, in false colours.
-    for key in [egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::V] {
+    for key in [egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::V] {
+        assert_eq!(scales(&window), [false; 3], "values have their own colours");
         press(&mut window, key);
     }
-    let roughness = PaneScale { is_signed: false, range: 1.0, unit: "" };
-    assert_eq!(scales(&window), vec![Some(roughness); 3]);
+    assert_eq!(scales(&window), [true; 3]);
 }
 
 /// The FLIP of both predictions in the scene and at the exposure of the window, as the mean of three equal channels.

@@ -101,3 +101,58 @@ fn escape_closes_an_open_drop_down_and_nothing_else() {
     press(&mut window, egui::Key::Escape);
     assert!(!window.model().help, "then the help");
 }
+
+/// What users of other viewers try first.
+#[needs(adapter)]
+fn the_keys_of_other_viewers_go_on_close_and_magnify() {
+    let mut window = built_in();
+    let prediction = |window: &Window<'_>| window.view().display.prediction;
+    for (key, expected) in [
+        (egui::Key::ArrowDown, 1),
+        (egui::Key::ArrowDown, 1),
+        (egui::Key::ArrowUp, 0),
+        (egui::Key::End, 1),
+        (egui::Key::Home, 0),
+        (egui::Key::PageDown, 1),
+    ] {
+        press(&mut window, key);
+        assert_eq!(prediction(&window), expected, "{key:?}");
+    }
+    press_with(&mut window, Modifiers::CTRL | Modifiers::SHIFT, egui::Key::Tab);
+    assert_eq!(prediction(&window), 0);
+    press_with(&mut window, Modifiers::CTRL, egui::Key::Tab);
+    assert_eq!(prediction(&window), 1);
+    press_with(&mut window, Modifiers::COMMAND, egui::Key::Num0);
+    assert_eq!(window.view().display.framing.unwrap().pixels_per_texel, 1.0);
+    assert_eq!(window.model().settings.ui_scale, 1.0);
+    press_with(&mut window, Modifiers::COMMAND, egui::Key::Plus);
+    assert!((window.model().settings.ui_scale - 1.1).abs() < 1e-6);
+    press_with(&mut window, Modifiers::COMMAND, egui::Key::Minus);
+    press_with(&mut window, Modifiers::COMMAND, egui::Key::W);
+    assert_eq!(window.names(), ["worn tiles", "blurred normals"]);
+    // Until the first drag a pane tells what it does.
+    let parts = &window.state().parts;
+    assert!(!parts.model.settings.has_dragged);
+    let rect = pane(&window, GROUND_TRUTH);
+    drag_primary(&mut window, rect, vec2(0.2, 0.2), vec2(0.3, 0.3));
+    assert!(window.model().settings.has_dragged);
+}
+
+#[needs(adapter)]
+fn shift_alone_shows_the_ground_truth_and_not_while_it_does_something_else() {
+    let mut window = built_in();
+    let count = |window: &Window<'_>| window.query_all_by_label("Pane GROUND TRUTH  worn tiles").count();
+    window.event(egui::Event::ModifiersChanged(Modifiers::SHIFT));
+    window.run_steps(2);
+    assert_eq!(count(&window), 3);
+    window.event(egui::Event::Key {
+        key: egui::Key::M,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::SHIFT,
+    });
+    window.step();
+    window.step();
+    assert_eq!(count(&window), 1, "Shift + M is another key");
+}

@@ -26,19 +26,19 @@ fn the_loss_button_yields_the_number_that_the_core_gives() {
     assert_eq!(window.losses().unwrap(), expected);
     for (index, loss) in expected.iter().enumerate() {
         let [low, high] = loss.estimate.interval95.unwrap();
-        window.get_by_label(&format!("{:.2}", loss.estimate.mean));
+        window.get_by_label(&format!("{:.3}", loss.estimate.mean));
         let title = window
             .get_by_label(&format!("Title {}  {}", index + 1, loss.prediction))
             .accesskit_node()
             .value();
-        assert_eq!(title, Some(format!("loss {:.2}", loss.estimate.mean)));
+        assert_eq!(title, Some(format!("loss {:.3}", loss.estimate.mean)));
         let half = 0.5 * (high - low);
         let half = if half < 0.1 { format!("±{half:.4}") } else { format!("±{half:.2}") };
         assert!(has(&window, &half), "no {half}");
     }
-    // Intervals of about ±20% have one digit more than their means.
+    // As many digits as the command line has, and one more in intervals.
     let [low, high] = expected[0].estimate.interval95.unwrap();
-    window.get_by_label(&format!("[{low:.3}, {high:.3}]"));
+    window.get_by_label(&format!("[{low:.4}, {high:.4}]"));
 }
 
 /// The picker has all that have a name; what the grammar alone renders is drawn and computed, too.

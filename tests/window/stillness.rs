@@ -44,6 +44,49 @@ fn the_magnified_texel_stays_at_the_centre_of_its_pane_whatever_opens_and_closes
     }
 }
 
+/// The legend, the drawer and the rectangle leave the panes where they are, also those that fit their pictures: a second press of I
+/// removes the pin.
+#[needs(adapter)]
+fn the_legend_and_the_drawer_move_no_pane() {
+    let mut window = built_in();
+    let panes = |window: &Window<'_>| {
+        [GROUND_TRUTH, PREDICTIONS[0], PREDICTIONS[1]].map(|title| {
+            let label = format!("Pane {title}");
+            window.query_all_by_label_contains(&label).map(|pane| pane.rect()).next().unwrap()
+        })
+    };
+    let (first, at) = (panes(&window), pane(&window, GROUND_TRUTH).center());
+    hover(&mut window, at);
+    let (texel, magnified) = (texel_read(&window), magnification(&window));
+    for key in [egui::Key::D, egui::Key::I, egui::Key::Q, egui::Key::D, egui::Key::I] {
+        press(&mut window, key);
+        window.run_steps(12);
+        assert_eq!((panes(&window), texel_read(&window)), (first, texel), "{key:?}");
+        assert_eq!(magnification(&window), magnified, "{key:?}");
+    }
+    assert!(window.model().inspection.pins.is_empty(), "the second press removes the pin of the first");
+}
+
+/// The side panel has the width that the hand gives it, also at the next start.
+#[needs(adapter)]
+fn the_side_panel_keeps_the_width_that_it_is_given() {
+    let mut window = built_in();
+    let before = window.model().settings.side_width;
+    let edge = egui::pos2(1200.0 - before, 400.0);
+    window.event(egui::Event::PointerMoved(edge));
+    window.run_steps(2);
+    window.event(primary(edge, true));
+    window.run_steps(2);
+    for by in [20.0, 60.0, 100.0] {
+        window.event(egui::Event::PointerMoved(edge - vec2(by, 0.0)));
+        window.run_steps(2);
+    }
+    window.event(primary(edge - vec2(100.0, 0.0), false));
+    window.run_steps(12);
+    let after = window.model().settings.side_width;
+    assert!((after - before - 100.0).abs() < 20.0, "{before} to {after}");
+}
+
 #[needs(adapter)]
 fn in_perspective_the_hand_turns_the_material_and_a_fit_brings_it_back() {
     let mut window = built_in();

@@ -21,7 +21,9 @@ use crate::widgets::{named, theme};
 pub const MARK: &str = " *";
 /// Height of the name, and height of the bar of a method, in points.
 const NAME: f32 = 17.0;
-const BAR: f32 = 5.0;
+const BAR: f32 = 12.0;
+/// Width of a loss beside its bar, in points.
+const NUMBER: f32 = 46.0;
 /// The most bars in a row: more methods are in the contact sheet.
 const MOST_BARS: usize = 12;
 
@@ -55,6 +57,12 @@ impl MaterialsDrawer<'_> {
                 .hint_text("Search")
                 .desired_width(f32::INFINITY);
             let search = ui.add(search);
+            if std::mem::take(&mut next.finds) {
+                search.request_focus();
+            }
+            if search.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+                next.list.search.clear();
+            }
             search.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Search materials"));
         });
         let list = &mut next.list;
@@ -119,9 +127,9 @@ impl MaterialsDrawer<'_> {
                 one(Order::Disagreement).on_hover_text("The largest difference of two methods first");
             }
             one(Order::State).on_hover_text("Failed first, then marked");
-            let pairs = (0..methods.len()).flat_map(|a| (0..methods.len()).map(move |b| (a, b)));
+            let pairs = (0..methods.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
             // All pairs of many methods would fill the window.
-            for (a, b) in pairs.filter(|(a, b)| a != b && methods.len() <= 5) {
+            for (a, b) in pairs.filter(|_| methods.len() <= 5) {
                 one(Order::Difference(a, b)).on_hover_text("Where the first is worse by the most, first");
             }
         });
@@ -165,6 +173,11 @@ impl MaterialsDrawer<'_> {
         let height = self.row_height();
         let wanted = self.displayed.model.dataset.wanted;
         let spacing = ui.spacing().item_spacing.y;
+        if self.rows.cases.is_empty() {
+            *self.in_sight = 0..0;
+            ui.weak(format!("No {} is like this.", self.open.noun()));
+            return;
+        }
         let mut area = egui::ScrollArea::vertical().auto_shrink([false, false]).id_salt("materials");
         // What is shown is in sight when it changes, and stays where it is otherwise.
         if *self.scrolled_to != Some(wanted)
@@ -184,9 +197,6 @@ impl MaterialsDrawer<'_> {
             rows
         });
         *self.in_sight = shown.inner;
-        if self.rows.cases.is_empty() {
-            ui.weak(format!("No {} is like this.", self.open.noun()));
-        }
     }
 
     fn bars(&self) -> usize {
@@ -218,30 +228,37 @@ impl MaterialsDrawer<'_> {
         painter.text(right.min, Align2::LEFT_TOP, text, FontId::proportional(13.0), visuals.text_color());
         let losses = jobs.losses.row(case);
         let bars = Rect::from_min_max(pos2(right.left(), right.top() + NAME), right.max);
-        self.paint_bars(ui, bars, losses);
+        self.paint_bars(ui, bars, case, losses);
         if response.clicked() {
             next.show(case, ahead);
         }
         response.on_hover_ui(|ui| self.hover(ui, name, losses));
     }
 
-    /// A bar a method, the chosen one in the accent, from the same zero to the same largest loss in every row.
-    fn paint_bars(&self, ui: &egui::Ui, area: Rect, losses: Option<&CaseLosses>) {
+    /// A bar a method in its colour with its loss, from the same zero to the same largest loss in every row.
+    fn paint_bars(&self, ui: &egui::Ui, area: Rect, case: usize, losses: Option<&CaseLosses>) {
         let Some(losses) = losses else { return };
         let largest = self.displayed.jobs.dataset.losses.largest.max(f64::MIN_POSITIVE);
         let chosen = chosen_method(self.displayed);
-        let is_alone = self.open.methods().len() == 1;
+        let of_predictions = self.open.is_of_predictions();
+        let texts = losses.texts();
+        let (font, painter) = (FontId::monospace(10.5), ui.painter());
         for (index, known) in losses.by_method.iter().take(MOST_BARS).enumerate() {
-            let top = area.top() + index as f32 * BAR;
-            let is_chosen = is_alone || self.open.methods().get(index).map(String::as_str) == chosen;
-            let colour = match known {
-                None => ui.visuals().error_fg_color,
-                Some(_) if is_chosen => theme::accent(ui.visuals()),
-                Some(_) => ui.visuals().text_color().gamma_multiply(0.45),
+            let line = Rect::from_min_size(area.min + vec2(0.0, index as f32 * BAR), vec2(area.width(), BAR));
+            let is_chosen = self.open.methods().get(index).map(String::as_str) == chosen;
+            let slot = if of_predictions { case + 1 } else { index + 1 };
+            let (text, ink, share) = match known {
+                None => ("none", theme::problem(ui.visuals()), 0.0),
+                Some(known) => {
+                    let strength =
+                        if is_chosen { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
+                    (texts[index].as_str(), strength, (known.loss / largest) as f32)
+                }
             };
-            let width = known.map_or(3.0, |known| area.width() * (known.loss / largest) as f32);
-            let bar = Rect::from_min_size(pos2(area.left(), top), vec2(width.max(1.0), BAR - 1.5));
-            ui.painter().rect_filled(bar, 0.0, colour);
+            painter.text(line.right_center(), Align2::RIGHT_CENTER, text, font.clone(), ink);
+            let room = line.with_max_x(line.right() - NUMBER).shrink2(vec2(0.0, 3.0));
+            let bar = room.with_max_x(room.left() + room.width() * share);
+            painter.rect_filled(bar, 0.0, theme::series(slot, ui.visuals().dark_mode));
         }
     }
 
@@ -262,7 +279,7 @@ impl MaterialsDrawer<'_> {
                     }
                     None => {
                         let problem = losses.problems.iter().find(|(of, _)| of == method);
-                        ui.colored_label(ui.visuals().error_fg_color, "none");
+                        ui.colored_label(theme::problem(ui.visuals()), "none");
                         ui.label(drawable(&line(problem.map_or("", |(_, problem)| problem))));
                     }
                 }

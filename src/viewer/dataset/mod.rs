@@ -35,24 +35,27 @@ pub struct DatasetUi {
 }
 
 impl DatasetUi {
-    /// Goes to the next or the previous material of the list, by the keys of pages.
+    /// Goes to another material of the list, or to another prediction without one, by the keys of pages and arrows.
     pub fn turn_pages(&mut self, ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
         self.rows.follow(Displayed::of(model, jobs));
-        let dataset = &mut model.dataset;
-        if dataset.open.is_none() || ctx.text_edit_focused() {
+        if ctx.text_edit_focused() {
             return;
         }
-        let pressed = |key| ctx.input_mut(|i| i.count_and_consume_key(egui::Modifiers::NONE, key));
-        let steps = pressed(egui::Key::PageDown) as isize - pressed(egui::Key::PageUp) as isize;
-        if steps != 0 && !dataset.sheet.is_open {
-            let now = self.rows.row(dataset.wanted);
-            let next = match now {
-                Some(row) => row.saturating_add_signed(steps).min(self.rows.cases.len().saturating_sub(1)),
-                None => 0,
-            };
-            if let Some((case, ahead)) = self.rows.at(next) {
-                dataset.show(case, ahead);
-            }
+        let steps = steps(ctx);
+        let dataset = &mut model.dataset;
+        if steps == 0 || dataset.sheet.is_open {
+            return;
+        }
+        if dataset.open.is_none() {
+            let (now, last) =
+                (model.view.display.prediction, model.materials.predictions().len().saturating_sub(1));
+            return model.view.choose(now.saturating_add_signed(steps).min(last));
+        }
+        let now = self.rows.row(dataset.wanted);
+        let last = self.rows.cases.len().saturating_sub(1);
+        let next = now.map_or(0, |row| row.saturating_add_signed(steps).min(last));
+        if let Some((case, ahead)) = self.rows.at(next) {
+            dataset.show(case, ahead);
         }
     }
 
@@ -106,6 +109,23 @@ impl DatasetUi {
         ContactSheet { displayed, open, rows: &self.rows, textures, in_sight }.ui(ui, next);
         true
     }
+}
+
+/// How many materials on the keys of this frame go.
+fn steps(ctx: &egui::Context) -> isize {
+    use egui::{Key, Modifiers};
+    let is_free = ctx.memory(|memory| memory.focused()).is_none();
+    let pressed = |modifiers, key| ctx.input_mut(|i| i.count_and_consume_key(modifiers, key)) as isize;
+    let pages = pressed(Modifiers::NONE, Key::PageDown) - pressed(Modifiers::NONE, Key::PageUp);
+    let both = Modifiers::CTRL.plus(Modifiers::SHIFT);
+    let tabs = -pressed(both, Key::Tab) + pressed(Modifiers::CTRL, Key::Tab);
+    if !is_free {
+        return pages + tabs;
+    }
+    let arrows = pressed(Modifiers::NONE, Key::ArrowDown) - pressed(Modifiers::NONE, Key::ArrowUp);
+    let most = isize::MAX / 4;
+    let ends = pressed(Modifiers::NONE, Key::End) - pressed(Modifiers::NONE, Key::Home);
+    pages + tabs + arrows + most * ends
 }
 
 /// The summary of a data set: what `svbrdf rank --dataset` prints.

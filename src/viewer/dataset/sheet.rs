@@ -15,6 +15,7 @@ use crate::jobs::dataset::DisplayedCases;
 use crate::jobs::dataset::cells::Cell;
 use crate::jobs::displayed::Displayed;
 use crate::model::dataset::OpenDataset;
+use crate::model::dataset::list::{CaseLosses, Order};
 use crate::model::material::loaded::drawable;
 use crate::model::{Model, endpoint};
 use crate::widgets::names::Names;
@@ -26,7 +27,7 @@ use crate::widgets::{names, theme};
 const NAMES: f32 = 104.0;
 /// Room before the names, in points.
 const INDENT: f32 = 8.0;
-const HEAD: f32 = 20.0;
+const HEAD: f32 = 36.0;
 const GAP: f32 = 4.0;
 /// The change of the size of a cell by a step of the wheel, per point of its motion.
 const WHEEL: f32 = 0.004;
@@ -56,7 +57,7 @@ impl ContactSheet<'_> {
         let scroll = egui::ScrollArea::horizontal().id_salt("columns").auto_shrink([false, false]);
         scroll.show(ui, |ui| {
             ui.set_min_width(width.max(area.width()));
-            self.head(ui, cell);
+            self.head(ui, cell, next);
             ui.spacing_mut().item_spacing.y = GAP;
             let rows = egui::ScrollArea::vertical().id_salt("rows").auto_shrink([false, false]);
             // Over the pictures the wheel sizes them.
@@ -70,10 +71,11 @@ impl ContactSheet<'_> {
         self.in_sight.pixels = (cell * ui.pixels_per_point()).round() as usize;
     }
 
-    /// The names of the columns.
-    fn head(&self, ui: &mut egui::Ui, cell: f32) {
+    /// The names of the columns with the means of the methods; a click sorts by the losses of one.
+    fn head(&self, ui: &mut egui::Ui, cell: f32, next: &mut Model) {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
-        self.legend(ui, rect.with_max_x(rect.left() + NAMES));
+        self.legend(ui, rect.with_max_x(rect.left() + NAMES).with_max_y(rect.top() + 0.5 * HEAD));
+        let losses = &self.displayed.jobs.dataset.losses;
         let methods: Vec<&str> = self.open.methods().iter().map(String::as_str).collect();
         let all = Names::new(&methods);
         let font = FontId::proportional(12.0);
@@ -88,25 +90,37 @@ impl ContactSheet<'_> {
                 }
             };
             let is_chosen = column > 0 && methods.get(column - 1).copied() == chosen;
-            let colour = if is_chosen { theme::accent(ui.visuals()) } else { ui.visuals().text_color() };
+            let dark = ui.visuals().dark_mode;
+            let colour =
+                if column == 0 { theme::ground_truth(ui.visuals()) } else { theme::series(column, dark) };
             let room = Rect::from_min_size(pos2(left, rect.top()), vec2(cell, HEAD));
             let painter = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
-            painter.text(
-                pos2(left, rect.center().y),
-                Align2::LEFT_CENTER,
-                text.unwrap_or_default(),
-                font.clone(),
-                colour,
-            );
+            let line = |share: f32| pos2(left, rect.top() + share * HEAD);
+            painter.text(line(0.28), Align2::LEFT_CENTER, text.unwrap_or_default(), font.clone(), colour);
+            let Some(method) = column.checked_sub(1) else { continue };
+            let order = Order::Loss(method);
+            let arrow = match (next.dataset.list.order == order, next.dataset.list.is_reversed) {
+                (false, _) => "",
+                (true, false) => " \u{2193}",
+                (true, true) => " \u{2191}",
+            };
+            let mean = losses.mean(method).map_or_else(String::new, |mean| format!("mean {}", digits(mean)));
+            let ink = if is_chosen { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
+            let mean = format!("{mean}{arrow}");
+            painter.text(line(0.74), Align2::LEFT_CENTER, &mean, FontId::monospace(11.0), ink);
+            let response = ui.interact(room, ui.scope_id().with(("head", method)), Sense::click());
+            let name = format!("Sort by {}: {mean}", methods[method]);
+            response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &name));
+            if response.on_hover_text("The largest losses of this method first; again: the least").clicked() {
+                next.dataset.list.sort_by(order);
+            }
         }
     }
 
     /// The colours of differences, which all cells share, between the numbers of both ends.
     fn legend(&self, ui: &egui::Ui, area: Rect) {
-        let (display, range) = (&self.displayed.model.view.display, self.displayed.range());
-        if !display.difference {
-            return;
-        }
+        let (display, range) = (&self.displayed.model.view.display, self.displayed.jobs.dataset.range());
+        let Some(range) = range.filter(|_| display.difference) else { return };
         let (kind, _) = display.differences.pointwise(display.quantity);
         let least = if kind.is_signed() { -1.0 } else { 0.0 };
         let (font, ink) = (FontId::monospace(10.0), ui.visuals().text_color());
@@ -134,6 +148,7 @@ impl ContactSheet<'_> {
         let galley = ui.painter().layout(text, FontId::proportional(12.0), colour, names.width());
         let painter = ui.painter().with_clip_rect(names.intersect(ui.clip_rect()));
         painter.galley(names.min, galley, colour);
+        let texts = self.displayed.jobs.dataset.losses.row(case).map(CaseLosses::texts).unwrap_or_default();
         for column in 0..columns {
             let left = rect.left() + NAMES + column as f32 * (cell + GAP);
             let square = Rect::from_min_size(pos2(left, rect.top()), vec2(cell, cell));
@@ -145,6 +160,7 @@ impl ContactSheet<'_> {
             let id = ui.scope_id().with(("cell", case, column));
             let response = ui.interact(square, id, Sense::click_and_drag());
             let shown = self.paint(ui, square, at);
+            self.paint_loss(ui, square, at, &texts);
             response.widget_info(|| {
                 WidgetInfo::labeled(egui::Role::Button, true, format!("Cell {name}, {}", self.column(column)))
             });
@@ -175,17 +191,25 @@ impl ContactSheet<'_> {
             return Some((at, size));
         }
         ui.painter().rect_filled(square, 2.0, ui.visuals().faint_bg_color);
-        if let Some(Err(_)) = jobs.cells.get(cell) {
-            let colour = ui.visuals().error_fg_color;
-            ui.painter().text(
-                square.center(),
-                Align2::CENTER_CENTER,
-                "none",
-                FontId::proportional(12.0),
-                colour,
-            );
+        if let Some(Err(problem)) = jobs.cells.get(cell) {
+            let (colour, width) = (theme::problem(ui.visuals()), square.width() - 8.0);
+            let text = drawable(&line(problem));
+            let galley = ui.painter().layout(text, FontId::proportional(11.0), colour, width);
+            let painter = ui.painter().with_clip_rect(square.intersect(ui.clip_rect()));
+            painter.galley(square.min + vec2(4.0, 4.0), galley, colour);
         }
         None
+    }
+
+    /// Prints the loss of a cell into its lower left corner.
+    fn paint_loss(&self, ui: &egui::Ui, square: Rect, cell: Cell, texts: &[String]) {
+        let text = cell.column.checked_sub(1).and_then(|method| texts.get(method));
+        let Some(text) = text.filter(|text| !text.is_empty()) else { return };
+        let painter = ui.painter().with_clip_rect(square.intersect(ui.clip_rect()));
+        let galley = painter.layout_no_wrap(text.clone(), FontId::monospace(11.0), egui::Color32::WHITE);
+        let at = Align2::LEFT_BOTTOM.anchor_size(square.left_bottom(), galley.size() + vec2(6.0, 2.0));
+        painter.rect_filled(at, 0.0, egui::Color32::from_black_alpha(170));
+        painter.galley(at.min + vec2(3.0, 1.0), galley, egui::Color32::WHITE);
     }
 
     /// A drag moves light or view in all cells, as in a pane; a click opens the material.
@@ -229,11 +253,11 @@ impl ContactSheet<'_> {
                 Some((None, losses)) => {
                     let of = |(of, _): &&(String, String)| of == self.column(cell.column);
                     let problem = losses.problems.iter().find(of).map_or("", |(_, problem)| problem);
-                    ui.colored_label(ui.visuals().error_fg_color, drawable(&line(problem)));
+                    ui.colored_label(theme::problem(ui.visuals()), drawable(&line(problem)));
                 }
             }
         } else if let Some(Err(problem)) = jobs.cells.get(cell) {
-            ui.colored_label(ui.visuals().error_fg_color, drawable(&line(problem)));
+            ui.colored_label(theme::problem(ui.visuals()), drawable(&line(problem)));
         }
     }
 }

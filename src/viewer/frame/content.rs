@@ -16,6 +16,8 @@ use crate::widgets::numbers::digits;
 
 /// Height of the caption of a picture that is saved, in points.
 pub const CAPTION: f32 = 20.0;
+/// Height of a row of the statistics, in points.
+const ROWS: f32 = 19.0;
 
 /// Draws the panes and what is below them.
 pub fn ui(
@@ -31,14 +33,20 @@ pub fn ui(
         let panel = bare(egui::Panel::bottom("caption"), ui).exact_size(CAPTION).resizable(false);
         panel.show(ui, |ui| caption(ui, shown.model, magnification));
     }
-    let has_legend = shown.model.view.display.difference && compares(shown);
-    if has_legend {
-        let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(STRIP).resizable(false);
+    let height = legend_height(shown);
+    if height > 0.0 {
+        let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(height).resizable(false);
         panel.show(ui, |ui| LegendStrip::new(shown).ui(ui, next));
+    } else {
+        // Its room stays: the panes do not move as it comes.
+        bare(egui::Panel::bottom("no strip"), ui)
+            .exact_size(reserve(shown))
+            .resizable(false)
+            .show(ui, |_| ());
     }
     egui::CentralPanel::no_frame().show(ui, |ui| {
         let scenery = Scenery::new(ui.ctx(), shown);
-        viewport.ui(ui, &scenery, next, gpu, &shown.jobs.uploads, has_legend);
+        viewport.ui(ui, &scenery, next, gpu, &shown.jobs.uploads);
     });
 }
 
@@ -62,6 +70,21 @@ fn caption(ui: &mut egui::Ui, model: &Model, magnification: Option<f32>) {
         ui.add_space(8.0);
         ui.add(egui::Label::new(egui::RichText::new(text).small()).truncate());
     });
+}
+
+/// The height of the legend, 0 without one. A picture that is saved has every row of the statistics.
+pub fn legend_height(shown: Displayed<'_>) -> f32 {
+    match shown.model.view.display.difference && compares(shown) {
+        true if shown.is_picture => STRIP.max(ROWS * (shown.materials().len() + 2) as f32),
+        true => STRIP,
+        false => 0.0,
+    }
+}
+
+/// The room that is left free for the legend below the panes of the window.
+pub fn reserve(shown: Displayed<'_>) -> f32 {
+    let is_free = compares(shown) && !shown.is_picture && legend_height(shown) == 0.0;
+    if is_free { STRIP } else { 0.0 }
 }
 
 /// Whether there is something to compare: predictions, or a photograph.

@@ -23,11 +23,7 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
     take_saved(parts);
     take_browsed(parts);
     take_scene_file(parts);
-    if parts.model.settings.watch {
-        follow_files(parts);
-    } else {
-        parts.jobs.watch.stop();
-    }
+    follow_files(parts);
 }
 
 fn take_materials(parts: &mut Parts) {
@@ -64,9 +60,13 @@ fn report_problems(parts: &mut Parts, problems: Vec<MaterialProblem>) {
     }
 }
 
-/// Reads files that have changed again.
+/// Reads files that have changed again where they are watched, and otherwise marks their materials.
 fn follow_files(parts: &mut Parts) {
     for index in parts.jobs.watch.poll(&parts.jobs.waker, &parts.model.materials) {
+        if !parts.model.settings.watch {
+            parts.model.materials.all[index].is_newer = true;
+            continue;
+        }
         if let Some(case) = parts.model.dataset.shown {
             // With its losses, all of it in one frame.
             parts.model.dataset.is_stale = true;

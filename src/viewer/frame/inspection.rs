@@ -1,8 +1,8 @@
-//! Drawer below the panes, with a handle between: every number of the pinned texels.
+//! Drawer over the lower end of the panes: every number of the pinned texels.
 
 use std::ops::Range;
 
-use eframe::egui::{self, FontId, RichText, TextStyle};
+use eframe::egui::{self, FontId, Rect, RichText, TextStyle};
 
 use crate::jobs::displayed::Displayed;
 use crate::model::Model;
@@ -10,15 +10,12 @@ use crate::model::inspection::{self, HEADS, Inspection};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::ViewState;
 use crate::widgets::readout::in_width;
-use crate::widgets::{bare, theme};
+use crate::widgets::theme;
 
 /// Width of a name, and between columns, in points.
 const NAME: f32 = 110.0;
 const SPACING: f32 = 8.0;
-/// Least height of the drawer, and of what is left to the panes, in points.
-const LEAST: f32 = 48.0;
-const PANES: f32 = 140.0;
-/// The share of the height that the drawer takes at most, unless it is dragged.
+/// The share of the height that the drawer takes at most.
 const SHARE: f32 = 0.4;
 /// Size of the numbers, in points.
 const NUMBERS: f32 = 11.0;
@@ -29,18 +26,22 @@ const COLOURS: [usize; 5] = [0, 1, 2, 4, 7];
 /// The column from which on a second table has the columns where one is too wide: the terms of the rendering.
 const TERMS: usize = 5;
 
-/// The drawer at the lower end of `ui`; the panes have the room above it.
-pub fn drawer(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+/// The drawer over the lower end of the panes in `area`, which stay where they are.
+pub fn drawer(ui: &mut egui::Ui, area: Rect, shown: Displayed<'_>, next: &mut Model) {
     let (pins, state) = (&shown.model.inspection.pins, &shown.model.view);
     let drawer = Drawer { pins, materials: shown.materials(), state };
     let tables = tables(ui);
-    let (height, room) = (drawer.height(tables.len()), ui.available_height());
-    // Other contents have a height of their own, until it is dragged.
-    let panel = bare(egui::Panel::bottom(("drawer", height as u32)), ui).resizable(true);
-    let panel = panel.default_size(height.min(SHARE * room));
-    panel.size_range(LEAST..=(room - PANES).max(LEAST)).show(ui, |ui| {
-        egui::ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
-            drawer.pins(ui, &tables, &mut next.inspection);
+    let height = drawer.height(tables.len()).min(SHARE * area.height());
+    let over = area.with_min_y(area.bottom() - height);
+    let drawn = egui::Area::new(ui.scope_id().with("drawer")).order(egui::Order::Middle).fixed_pos(over.min);
+    drawn.constrain(false).show(ui.ctx(), |ui| {
+        ui.set_clip_rect(over);
+        let background = ui.allocate_rect(over, egui::Sense::click_and_drag()).rect;
+        ui.painter().rect_filled(background, 0.0, ui.visuals().panel_fill);
+        ui.scope_builder(egui::UiBuilder::new().max_rect(over.shrink(6.0)), |ui| {
+            egui::ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
+                drawer.pins(ui, &tables, &mut next.inspection);
+            });
         });
     });
 }

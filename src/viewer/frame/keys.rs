@@ -6,6 +6,7 @@ use eframe::egui::{self, Key, Modifiers};
 
 use svbrdf_files::read::ReadOptions;
 
+use crate::frame::monitor;
 use crate::model::dataset::DatasetState;
 use crate::model::dialogs::{OpenDialog, SaveDialog, SaveKind};
 use crate::model::effect::Effect;
@@ -81,7 +82,14 @@ pub const HELP: &[(&str, &[Line])] = &[
             line("wheel", "zoom at the pointer", &[]),
             line("middle-drag, Space + left-drag", "pan", &[]),
             line("F", "fit the material", &[(NONE, Key::F, |m| m.view.fit())]),
-            line("0", "one texel per pixel", &[(NONE, Key::Num0, |m| display::magnify(m, 1.0))]),
+            line(
+                "0, Ctrl + 0",
+                "one texel per pixel",
+                &[
+                    (NONE, Key::Num0, |m| display::magnify(m, 1.0)),
+                    (COMMAND, Key::Num0, |m| display::magnify(m, 1.0)),
+                ],
+            ),
             line(
                 "R",
                 "reset light, view, zoom, exposure and clipping marks",
@@ -101,7 +109,8 @@ pub const HELP: &[(&str, &[Line])] = &[
                     (COMMAND, Key::ArrowDown, |m| display::step_prediction(m, 1)),
                 ],
             ),
-            line("G (hold)", "show the ground truth in every pane", &[]),
+            line("Down / Up, Ctrl + Tab", "next / previous prediction; Home / End: first / last", &[]),
+            line("G or Shift (hold)", "show the ground truth in every pane", &[]),
             line("X", "swap prediction and ground truth", &[(NONE, Key::X, |m| m.swapped ^= true)]),
             line("C", "layout: side by side, wipe, single", &[(NONE, Key::C, display::cycle_layout)]),
             line(
@@ -164,7 +173,12 @@ pub const HELP: &[(&str, &[Line])] = &[
     (
         "Data set",
         &[
-            line("Page down / Page up", "next / previous material of the list", &[]),
+            line(
+                "Page down / Page up",
+                "next / previous material of the list, as Down and Up; Home / End: first / last",
+                &[],
+            ),
+            line("Ctrl + F", "find a material by its name; Esc shows all", &[(COMMAND, Key::F, find)]),
             line(
                 "A / S",
                 "list of materials / contact sheet, on / off",
@@ -195,6 +209,11 @@ pub const HELP: &[(&str, &[Line])] = &[
                 &[(COMMAND, Key::S, SAVE), (BOTH, Key::C, COPY_PICTURE)],
             ),
             line("Ctrl + R", "read all files again", &[(COMMAND, Key::R, opening::reload)]),
+            line(
+                "Ctrl + W",
+                "close the chosen prediction",
+                &[(COMMAND, Key::W, |m| opening::close(m, m.view.display.prediction + 1))],
+            ),
             line("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene", &[]),
         ],
     ),
@@ -212,7 +231,15 @@ pub const HELP: &[(&str, &[Line])] = &[
                 &[],
             ),
             line("B", "side panel, on / off", &[(NONE, Key::B, Model::toggle_side_panel)]),
-            line("Ctrl + plus / minus / 0", "size of text and controls", &[]),
+            line(
+                "Ctrl + plus / minus",
+                "size of text and controls",
+                &[
+                    (COMMAND, Key::Plus, |m| monitor::step(m, 1.0)),
+                    (COMMAND, Key::Equals, |m| monitor::step(m, 1.0)),
+                    (COMMAND, Key::Minus, |m| monitor::step(m, -1.0)),
+                ],
+            ),
             line("double-click a number", "reset it to its default", &[]),
             line("?, F1", "this help", &[(NONE, Key::F1, |m| m.help = true)]),
         ],
@@ -224,6 +251,11 @@ pub fn pin_here(model: &mut Model) {
     if let Some(texel) = model.geometry.texel {
         model.inspection.toggle_pin(texel);
     }
+}
+
+/// Shows the list of the data set with the focus in its search.
+fn find(model: &mut Model) {
+    of_dataset(model, |dataset| (dataset.list.is_open, dataset.finds) = (true, true));
 }
 
 /// Edits the data set, where there is one and nothing is before it.

@@ -20,8 +20,8 @@ use crate::pane::viewport::Viewport;
 use crate::widgets::paint::PanelTextures;
 use crate::widgets::{bare, fixed};
 
-/// Width of the side panel, in points.
-const SIDE: f32 = 320.0;
+/// Least and greatest width of the side panel, in points.
+const SIDE: std::ops::RangeInclusive<f32> = 260.0..=720.0;
 /// Width of a window, in points, below which the side panel is closed until it is asked for.
 const NARROW: f32 = 900.0;
 
@@ -33,8 +33,6 @@ pub struct WindowUi {
     pub dataset: DatasetUi,
     /// Size of the panes and the legend, in pixels.
     picture_size: [u32; 2],
-    /// Whether the drawer is there.
-    has_drawer: bool,
 }
 
 impl WindowUi {
@@ -74,29 +72,30 @@ impl WindowUi {
         bare(egui::Panel::bottom("status"), ui).show(ui, |ui| status::ui(ui, shown, &self.viewport, next));
         let was_open = model.side_panel();
         let mut is_open = was_open;
-        bare(egui::Panel::right("side"), ui).exact_size(SIDE).resizable(false).show_collapsible(
+        let panel = bare(egui::Panel::right("side"), ui).resizable(true).size_range(SIDE);
+        let panel = panel.default_size(model.settings.side_width).show_collapsible(
             ui,
             &mut is_open,
             // Contents that are too wide are cut off: the panel does not grow.
             |ui| fixed(ui, |ui| side::ui(ui, shown, next, &mut self.textures)),
         );
+        if let Some(panel) = panel.filter(|_| was_open && is_open) {
+            next.settings.side_width = panel.response.rect.width();
+        }
         if is_open != was_open {
             next.toggle_side_panel();
         }
         self.dataset.drawer(ui, shown, next);
-        // Panes stay where they are in a drag.
-        if !ui.input(|i| i.pointer.any_down()) {
-            self.has_drawer = !model.inspection.pins.is_empty();
-        }
-        if self.has_drawer && !model.dataset.sheet.is_open && model.materials.ground_truth().is_some() {
-            inspection::drawer(ui, shown, next);
-        }
         let area = ui.available_rect_before_wrap();
-        self.picture_size = [area.width(), area.height()].map(|side| (side * ui.pixels_per_point()) as u32);
+        let height = area.height() - content::reserve(shown);
+        self.picture_size = [area.width(), height].map(|side| (side * ui.pixels_per_point()) as u32);
         let panes = if self.dataset.sheet(ui, shown, next, &mut self.textures) {
             area
         } else {
             content::ui(ui, shown, next, &mut self.viewport, gpu);
+            if !model.inspection.pins.is_empty() && model.materials.ground_truth().is_some() {
+                inspection::drawer(ui, self.viewport.area, shown, next);
+            }
             self.viewport.area
         };
         messages::ui(ui.ctx(), panes, &model.messages, next);
@@ -132,7 +131,9 @@ impl WindowUi {
         let mut viewport = self.viewport.exact();
         let scale = ctx.pixels_per_point();
         let [width, height] = self.picture_size;
-        let size = [width, height + (CAPTION * scale) as u32];
+        let added = CAPTION + content::legend_height(displayed)
+            - content::legend_height(Displayed { is_picture: false, ..displayed });
+        let size = [width, height + (added * scale) as u32];
         Ok(snapshot(&state, &gpu, (size, scale), dark, |ui| {
             content::ui(ui, displayed, &mut displayed.model.clone(), &mut viewport, Some(view));
         })?)

@@ -27,17 +27,17 @@ pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
             }
         }
     });
-    let hover = "Size of text and controls (Ctrl with plus, minus; Ctrl+0 for 100%)";
+    let hover = "Size of text and controls (Ctrl with plus, minus)";
     scales.response.on_hover_text(hover);
 }
 
 /// The parts of the window that only a data set has; `noun` is what it lists.
 fn of_dataset(ui: &mut egui::Ui, noun: &str, next: &mut Model) {
     let dataset = &mut next.dataset;
-    ui.toggle_value(&mut dataset.list.is_open, format!("List of {noun}s"))
-        .on_hover_text("Beside the panes (A)");
-    let label = ui.selectable_label(dataset.sheet.is_open, "Contact sheet");
-    if label.on_hover_text(format!("All {noun}s under the present light (S)")).clicked() {
+    ui.toggle_value(&mut dataset.list.is_open, format!("List of {noun}s  (A)"))
+        .on_hover_text("Beside the panes");
+    let label = ui.selectable_label(dataset.sheet.is_open, "Contact sheet  (S)");
+    if label.on_hover_text(format!("All {noun}s under the present light")).clicked() {
         dataset.show_sheet(!dataset.sheet.is_open);
         ui.close();
     }

@@ -130,6 +130,7 @@ impl App {
         events::take_results(&mut self.parts, &ctx);
         let before = self.parts.model.view.clone();
         self.parts.ui.input(&ctx, &mut self.parts.model, &self.parts.jobs);
+        ctx.set_zoom_factor(self.parts.model.settings.ui_scale);
         self.settle(&ctx, &before);
         dataset::show(&mut self.parts);
         exposure::follow(&mut self.parts.model);

@@ -2,7 +2,17 @@
 
 use eframe::egui;
 
+use crate::model::Model;
 use crate::model::ranges::UI_SCALE;
+
+/// A step of the scale by a key.
+const STEP: f32 = 0.1;
+
+/// Changes the scale of text and controls by this many steps.
+pub fn step(model: &mut Model, steps: f32) {
+    let scale = (model.settings.ui_scale + steps * STEP).clamp(*UI_SCALE.start(), *UI_SCALE.end());
+    model.settings.ui_scale = (scale / STEP).round() * STEP;
+}
 
 /// Chooses the scale of text and controls at the first start: systems without one of their own draw text of 2 mm on a 4K screen.
 pub fn suit(ctx: &egui::Context, is_to_be_chosen: &mut bool) {
@@ -18,7 +28,7 @@ fn scale_of_monitor(height: f32) -> f32 {
     ((height / 1080.0 * 4.0).floor() / 4.0).clamp(1.0, 3.0)
 }
 
-/// The scale of text and controls, which Ctrl with plus, minus or 0 changes, too.
+/// The scale of text and controls that the context has.
 pub fn scale_in_range(ctx: &egui::Context) -> f32 {
     let scale = ctx.zoom_factor().clamp(*UI_SCALE.start(), *UI_SCALE.end());
     ctx.set_zoom_factor(scale);

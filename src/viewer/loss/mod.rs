@@ -77,7 +77,7 @@ fn of_dataset(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
         let (prediction, loss, is_stale) = (Some(index), Ok(loss?), one.is_stale());
         Some(ResultRow { slot, prediction, name, loss, difference: None, is_stale })
     });
-    let missing = dataset.missing.iter().map(|one| {
+    let missing = dataset.missing.iter().filter(|one| one.slot > 0).map(|one| {
         let (slot, name, loss) = (one.slot, one.name.clone(), Err(one.problem.clone()));
         ResultRow { slot, prediction: None, name, loss, difference: None, is_stale: false }
     });

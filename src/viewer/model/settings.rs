@@ -37,6 +37,10 @@ impl Tab {
 pub struct Settings {
     pub dark: bool,
     pub side_panel: bool,
+    /// Whether a drag in a pane has ever done something.
+    pub has_dragged: bool,
+    /// Width of the side panel, in points.
+    pub side_width: f32,
     /// Whether a left-drag moves the highlight under the pointer, instead of the light.
     pub highlight_follows: bool,
     /// Size of the window's text and controls: 1 is the size of the system.
@@ -59,6 +63,8 @@ impl Default for Settings {
         Self {
             dark: true,
             side_panel: true,
+            has_dragged: false,
+            side_width: 320.0,
             highlight_follows: false,
             ui_scale: 1.0,
             window: None,

@@ -186,6 +186,7 @@ pub fn act(
         let origin = ctx.input(|i| i.pointer.press_origin()).filter(|_| response.drag_started());
         // A frame may have movements from before the press, too.
         let delta = origin.map_or(response.drag_delta(), |origin| pos - origin);
+        model.settings.has_dragged = true;
         carry_on(model, placed, gesture, pos, delta);
     }
     if response.drag_stopped() {

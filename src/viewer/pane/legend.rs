@@ -147,7 +147,12 @@ impl<'a> LegendStrip<'a> {
             }
             let is_held = self.set_range.is_some();
             let choices = [
-                (!is_held, "Auto", None, "The 99th percentile, of the prediction where it is largest"),
+                (
+                    !is_held,
+                    "Auto",
+                    None,
+                    "Of all panes: the 99th percentile, of the prediction where it is largest",
+                ),
                 (
                     is_held,
                     "Held",
@@ -171,6 +176,15 @@ impl<'a> LegendStrip<'a> {
         match &self.error_map {
             Some(summary) => format!("mean {} of {} scenes", self.kind.unit(), summary.scenes),
             None => self.kind.unit().to_owned(),
+        }
+    }
+
+    /// What the axis has: FLIP is a quantity without a unit.
+    fn quantity_name(&self) -> String {
+        if self.kind == Difference::Flip && self.error_map.is_none() {
+            self.kind.name().to_owned()
+        } else {
+            self.unit()
         }
     }
 
@@ -216,7 +230,7 @@ impl<'a> LegendStrip<'a> {
         self.paint_numbers(&painter, area, [low, high], ink);
         let weak = ui.visuals().weak_text_color();
         let at = area.right_top() + vec2(-3.0, 1.0);
-        painter.text(at, Align2::RIGHT_TOP, axes(&self.unit()), FontId::proportional(11.0), weak);
+        painter.text(at, Align2::RIGHT_TOP, axes(&self.quantity_name()), FontId::proportional(11.0), weak);
         let value = |pos: Pos2| low + f64::from((pos.x - area.left()) / area.width()) * (high - low);
         if let Some(range) = dragged(response, value) {
             next.set_range(self.quantity, Some(range));

@@ -25,6 +25,8 @@ pub struct Scenery<'a> {
     pub dark: bool,
     /// Whether this is in a picture that is saved, which has no buttons.
     pub is_picture: bool,
+    /// Whether a drag in a pane has ever done something.
+    pub has_dragged: bool,
     /// Whether every pane shows the ground truth, as long as a key is held.
     pub peek: bool,
     /// Whether the chosen prediction and the ground truth are swapped.
@@ -81,7 +83,8 @@ impl<'a> Scenery<'a> {
             state: &model.view,
             dark: model.settings.dark,
             is_picture: shown.is_picture,
-            peek: ctx.input(|i| i.key_down(egui::Key::G)) && !ctx.text_edit_focused(),
+            has_dragged: model.settings.has_dragged,
+            peek: !shown.is_picture && peeks(ctx),
             swapped: model.swapped,
             reading: !shown.jobs.openings.is_empty(),
             problem: missing.first().map(|one| one.problem.as_str()),
@@ -211,6 +214,16 @@ impl<'a> Scenery<'a> {
             }
         }
     }
+}
+
+/// Whether the key of the ground truth is held: G, or Shift alone, which with the wheel, a button or another key does other things.
+fn peeks(ctx: &egui::Context) -> bool {
+    let (is_held, is_shift) = ctx.input(|i| {
+        let is_used =
+            !i.keys_down.is_empty() || i.pointer.any_down() || i.smooth_scroll_delta != egui::Vec2::ZERO;
+        (i.key_down(egui::Key::G), i.modifiers.shift_only() && !is_used)
+    });
+    (is_held || is_shift) && !ctx.text_edit_focused()
 }
 
 /// What a pane draws and what it compares that with; a hint in its place where that is not there yet.

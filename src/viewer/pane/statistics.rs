@@ -50,7 +50,8 @@ impl LegendStrip<'_> {
         let heads =
             [("mean", mean), ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
         let short = Names::new(&self.names);
-        egui::ScrollArea::vertical().max_height(HISTOGRAM + BAR + 14.0).show(ui, |ui| {
+        let height = if self.is_picture { f32::INFINITY } else { HISTOGRAM + BAR + 14.0 };
+        egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
             // Low rows: three of them are seen at once.
             let grid = egui::Grid::new("difference statistics").num_columns(5).min_row_height(0.0);
             grid.spacing([10.0, 2.0]).show(ui, |ui| {

@@ -16,13 +16,12 @@ use crate::pane::cells::{TITLE, cells, columns, picture_rect};
 use crate::pane::draft_policy::{DraftPolicy, PAUSE, PaneView};
 use crate::pane::gestures::{self, Gesture};
 use crate::pane::gpu_view::GpuView;
-use crate::pane::handles;
 use crate::pane::placed::Placed;
-use crate::pane::scale::PaneScale;
 use crate::pane::scenery::{Hovered, PaneContent, PhotographUse, Scenery, texels};
 use crate::pane::shaded::{ShadedPart, ShadingRequest};
 use crate::pane::title::{empty_pane, title_bar};
 use crate::pane::visible::shaded_part;
+use crate::pane::{handles, scale};
 use crate::widgets::paint::{note, paint_hint};
 use crate::widgets::readout::{self, Readout};
 use crate::widgets::theme;
@@ -97,7 +96,7 @@ impl Viewport {
         }
     }
 
-    /// Draws the panes, which may have a strip below them.
+    /// Draws the panes.
     pub fn ui(
         &mut self,
         ui: &mut egui::Ui,
@@ -105,7 +104,6 @@ impl Viewport {
         next: &mut Model,
         gpu: Option<&mut GpuView>,
         uploads: &Uploads,
-        has_strip: bool,
     ) {
         let area = ui.available_rect_before_wrap();
         self.area = area;
@@ -120,10 +118,8 @@ impl Viewport {
         }
         let contents = scenery.contents();
         let grid = scenery.materials[0].grid();
-        // The strip comes and goes with the difference: the arrangement is that beside it.
-        let beside_strip = if has_strip { area } else { area.with_max_y(area.bottom() - STRIP) };
         let count = contents.len() + scenery.empty().count();
-        let columns = columns(beside_strip, count, grid);
+        let columns = columns(area, count, grid);
         let cells = cells(area, count, columns, ui.pixels_per_point());
         if let Some(cell) = cells.first() {
             let pixels = picture_rect(ui, *cell).size() * ui.pixels_per_point();
@@ -216,8 +212,8 @@ impl Viewport {
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
         }
-        if let Some(scale) = PaneScale::of(scenery, content) {
-            scale.paint(&painter, rect);
+        if scale::has_scale(scenery, content) {
+            scale::paint(&painter, rect);
         }
         if let (2.., Some(one)) = (gpu.reduction(), scenery.materials.first()) {
             let grid = one.grid();
@@ -350,8 +346,11 @@ fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<String> {
     let [x, y, z] = state.scene.view;
     let steep = z > STEEP * (x * x + y * y + z * z).sqrt();
     let perspective = state.display.projection == Projection::Perspective;
-    let text = "Perspective from straight above: right-drag to tilt";
-    (perspective && steep).then(|| text.to_owned())
+    if perspective && steep {
+        return Some("Perspective from straight above: right-drag to tilt".to_owned());
+    }
+    let is_new = !scenery.has_dragged && !scenery.is_picture && state.display.quantity == Quantity::Rendering;
+    is_new.then(|| "left-drag moves the light, Space + left-drag pans".to_owned())
 }
 
 /// Says why there is no material.

@@ -6,6 +6,8 @@ use svbrdf_core::loss::Estimate;
 
 /// Numbers below this have an exponent.
 const TINY: f64 = 1e-3;
+/// The fewest decimals of an estimate.
+const FEWEST: f64 = 3.0;
 
 /// A number in about four significant digits and at most seven characters after its sign: with an exponent below 0.001 and
 /// from 10,000 on.
@@ -34,8 +36,8 @@ pub fn aligned(values: &[f64]) -> Vec<String> {
     texts.iter().map(padded).collect()
 }
 
-/// An estimate as text: its mean in significant digits only, and its 95% interval with one digit more; at most five decimals,
-/// and exponents below 0.001.
+/// An estimate as text: its mean in significant digits, and its 95% interval with one digit more; three to five decimals, and
+/// exponents below 0.001.
 pub fn significant(estimate: &Estimate) -> [String; 2] {
     let Estimate { mean, interval95, .. } = *estimate;
     let Some([low, high]) = interval95 else { return [digits(mean), "[unknown]".to_owned()] };
@@ -43,7 +45,7 @@ pub fn significant(estimate: &Estimate) -> [String; 2] {
         return [format!("{mean:.1e}"), format!("[{low:.2e}, {high:.2e}]")];
     }
     let half = 0.5 * (high - low);
-    let decimals = if half > 0.0 { (-half.log10().floor()).clamp(0.0, 4.0) as usize } else { 4 };
+    let decimals = if half > 0.0 { (-half.log10().floor()).clamp(FEWEST, 4.0) as usize } else { 4 };
     let more = decimals + usize::from(half > 0.0);
     [format!("{mean:.decimals$}"), format!("[{low:.more$}, {high:.more$}]")]
 }
@@ -121,7 +123,7 @@ mod tests {
     fn means_have_their_significant_digits_and_intervals_one_more() {
         let of = |mean, interval95| significant(&Estimate { mean, standard_error: None, interval95 });
         assert_eq!(of(0.321_814, Some([0.319_551, 0.324_195])), ["0.322", "[0.3196, 0.3242]"]);
-        assert_eq!(of(0.371_2, Some([0.284, 0.473])), ["0.37", "[0.284, 0.473]"]);
+        assert_eq!(of(0.371_2, Some([0.284, 0.473])), ["0.371", "[0.2840, 0.4730]"]);
         assert_eq!(of(-0.117, Some([-0.119_365, -0.114_891])), ["-0.117", "[-0.1194, -0.1149]"]);
         assert_eq!(of(0.0, Some([0.0, 0.0])), ["0.0000", "[0.0000, 0.0000]"]);
         assert_eq!(of(0.5, None), ["0.5000", "[unknown]"]);

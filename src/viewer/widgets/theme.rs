@@ -72,6 +72,8 @@ pub fn install(ctx: &egui::Context) {
     ctx.set_visuals_of(Theme::Dark, dark());
     ctx.set_visuals_of(Theme::Light, light());
     egui_material_icons::initialize(ctx);
+    // Ctrl+0 is one texel per pixel, as in other viewers of pictures.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
     ctx.all_styles_mut(|style| {
         style.spacing.item_spacing = egui::vec2(8.0, 5.0);
         style.spacing.button_padding = egui::vec2(7.0, 3.0);

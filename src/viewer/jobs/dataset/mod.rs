@@ -46,6 +46,11 @@ pub struct DisplayedCases {
 }
 
 impl DatasetJobs {
+    /// The difference that has the last colour in the cells in sight.
+    pub fn range(&self) -> Option<f64> {
+        self.sheet.as_ref().and_then(|sheet| sheet.range)
+    }
+
     /// Computes everything again.
     pub fn restart(&mut self) {
         *self = Self { opening: self.opening.take(), ..Self::default() };
@@ -58,7 +63,6 @@ impl DatasetJobs {
         gpu: Option<&Gpu>,
         model: &Model,
         displayed: &DisplayedCases,
-        range: f64,
     ) -> Vec<Error> {
         let Some(open) = &model.dataset.open else {
             if self.of.is_some() {
@@ -78,7 +82,7 @@ impl DatasetJobs {
             self.cases.follow(waker, gpu, open, model.materials.rules, (&wanted, &model.dataset.pinned())),
             self.cells.follow(waker, open, &displayed.cells, displayed.pixels),
         ];
-        let wanted = DrawSheet::of(&self.cells, &displayed.cells, &model.view, range);
+        let wanted = DrawSheet::of(&self.cells, &displayed.cells, &model.view);
         self.sheet = wanted.and_then(|wanted| answers.get(&wanted).ready().or(self.sheet.take()));
         errors.into_iter().flatten().collect()
     }

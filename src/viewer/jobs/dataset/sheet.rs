@@ -11,6 +11,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::picture::difference::DifferenceParams;
+use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_core::progress::Progress;
 
 use super::cells::{Cell, CellJobs};
@@ -38,6 +39,8 @@ pub struct DrawSheet {
 pub struct SheetPicture {
     pub picture: Arc<Picture>,
     parts: HashMap<Cell, [[usize; 2]; 2]>,
+    /// The difference that has the last colour in all cells, where they show differences.
+    pub range: Option<f64>,
 }
 
 impl SheetPicture {
@@ -50,11 +53,13 @@ impl SheetPicture {
 }
 
 impl DrawSheet {
-    /// The small materials in sight, where there are some, in the view of the window; differences have this range.
-    pub fn of(cells: &CellJobs, in_sight: &[Cell], view: &ViewState, range: f64) -> Option<Self> {
+    /// The small materials in sight, where there are some, in the view of the window. Differences have the range that is set, or the
+    /// automatic one of all cells.
+    pub fn of(cells: &CellJobs, in_sight: &[Cell], view: &ViewState) -> Option<Self> {
         let quantity = view.display.quantity;
         let (kind, _) = view.display.differences.pointwise(quantity);
-        let difference = view.display.difference.then_some(ColouredDifference { kind, range: Some(range) });
+        let range = view.display.differences.range(quantity);
+        let difference = view.display.difference.then_some(ColouredDifference { kind, range });
         // Differences are from the ground truth, whether it is in sight or not.
         let truths = in_sight.iter().map(|cell| Cell { column: 0, ..*cell });
         let of = |cell: Cell| Some((cell, cells.get(cell)?.as_ref().ok()?.clone()));
@@ -101,9 +106,33 @@ fn render(
         .filter(|(cell, _)| cell.column == 0)
         .filter_map(|(cell, image)| Some((cell.case, image.as_ref()?)))
         .collect();
-    let picture = |(cell, image): (&Cell, &Option<Image<f32>>)| colours(key, *cell, image.as_ref()?, &truths);
+    let params = DifferenceParams { epsilon: key.convention.epsilon, exposure_ev: key.exposure_ev };
+    let key = &DrawSheet { content: with_range(key, &values, &truths, params), ..key.clone() };
+    let picture =
+        |(cell, image): (&Cell, &Option<Image<f32>>)| colours(key, *cell, image.as_ref()?, &truths, params);
     let pictures: Vec<Option<Picture>> = key.cells.par_iter().zip(&values).map(picture).collect();
-    Ok(together(&key.cells, pictures))
+    let range = key.content.difference.and_then(|difference| difference.range);
+    Ok(SheetPicture { range, ..together(&key.cells, pictures) })
+}
+
+/// The content with the automatic range of all cells, where none is set: they share one legend.
+fn with_range(
+    key: &DrawSheet,
+    values: &[Option<Image<f32>>],
+    truths: &HashMap<usize, &Image<f32>>,
+    params: DifferenceParams,
+) -> PictureContent {
+    let Some(difference) = key.content.difference.filter(|one| one.range.is_none()) else {
+        return key.content;
+    };
+    let of = |(cell, image): (&Cell, &Option<Image<f32>>)| {
+        let (truth, image) = (truths.get(&cell.case)?, image.as_ref().filter(|_| cell.column > 0)?);
+        let is_of_size = (truth.width, truth.height) == (image.width, image.height);
+        is_of_size.then(|| difference.kind.of_images(truth, image, params))
+    };
+    let all: Vec<_> = key.cells.par_iter().zip(values).filter_map(of).collect();
+    let range = Some(Distributions::of(&all, difference.kind.is_signed()).auto_range);
+    PictureContent { difference: Some(ColouredDifference { range, ..difference }), ..key.content }
 }
 
 /// The colours of a cell: the value of the ground truth, and the value or the difference of a prediction, where both have one size.
@@ -112,6 +141,7 @@ fn colours(
     cell: Cell,
     image: &Image<f32>,
     truths: &HashMap<usize, &Image<f32>>,
+    params: DifferenceParams,
 ) -> Option<Picture> {
     let value = PictureContent { difference: None, ..key.content };
     let (content, difference) = match key.content.difference.filter(|_| cell.column > 0) {
@@ -119,7 +149,6 @@ fn colours(
         Some(difference) => {
             let truth = truths.get(&cell.case)?;
             let is_of_size = (truth.width, truth.height) == (image.width, image.height);
-            let params = DifferenceParams { epsilon: key.convention.epsilon, exposure_ev: key.exposure_ev };
             (key.content, Some(is_of_size.then(|| difference.kind.picture(truth, image, params))?))
         }
     };
@@ -145,7 +174,7 @@ fn together(cells: &[Cell], pictures: Vec<Option<Picture>>) -> SheetPicture {
         }
         parts.insert(*cell, [least, one.size]);
     }
-    SheetPicture { picture: Arc::new(picture), parts }
+    SheetPicture { picture: Arc::new(picture), parts, range: None }
 }
 
 #[cfg(test)]

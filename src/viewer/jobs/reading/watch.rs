@@ -43,11 +43,6 @@ impl FileWatch {
         let index = |id| materials.all.iter().position(|one| one.id() == id);
         changes.filter_map(index).collect()
     }
-
-    /// Ends the checks.
-    pub fn stop(&mut self) {
-        *self = Self::default();
-    }
 }
 
 /// The thread that checks; it ends when this is dropped.

@@ -4,6 +4,8 @@ use std::cmp::Ordering;
 
 use svbrdf_evaluate::dataset::KnownLoss;
 
+use crate::widgets::numbers::means;
+
 /// The losses of one material, by method.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CaseLosses {
@@ -22,6 +24,13 @@ impl CaseLosses {
             (least.min(loss), most.max(loss))
         });
         (self.by_method.iter().flatten().count() > 1).then_some(most - least)
+    }
+
+    /// The losses as text, with the digits that tell neighbours apart; nothing of a method without one.
+    pub fn texts(&self) -> Vec<String> {
+        let known: Vec<_> = self.by_method.iter().flatten().map(KnownLoss::estimate).collect();
+        let mut texts = means(&known.iter().collect::<Vec<_>>()).into_iter();
+        self.by_method.iter().map(|one| one.and_then(|_| texts.next()).unwrap_or_default()).collect()
     }
 
     fn loss(&self, method: usize) -> Option<f64> {
@@ -115,6 +124,12 @@ impl ListView {
             rows.reverse();
         }
         rows.into_iter().map(|(row, _)| row).collect()
+    }
+
+    /// Sorts by `order`, or the other way round where it is sorted so.
+    pub fn sort_by(&mut self, order: Order) {
+        self.is_reversed = self.order == order && !self.is_reversed;
+        self.order = order;
     }
 
     fn lists(&self, one: &Listed<'_>, search: &str) -> bool {

@@ -133,6 +133,8 @@ pub struct DatasetState {
     /// The method that was chosen last, which may have no prediction of the material in the window.
     pub method: Option<String>,
     pub list: ListView,
+    /// Whether the search of the list is to have the focus.
+    pub finds: bool,
     /// Marks and notes, by the name of a material.
     pub marks: BTreeMap<String, SessionMark>,
     pub sheet: SheetState,

@@ -16,6 +16,8 @@ pub struct LoadedMaterial {
     pub read: Arc<ReadMaterial>,
     /// Its number: 0 of the ground truth, n of the nth prediction or method. It stays whichever others are there.
     pub slot: usize,
+    /// Whether its files were written since it was read.
+    pub is_newer: bool,
     /// Why it is stale: its files could not be read again.
     pub problem: Option<String>,
     /// Its name, unique in the window.
@@ -25,7 +27,7 @@ pub struct LoadedMaterial {
 impl LoadedMaterial {
     pub fn new(read: Arc<ReadMaterial>) -> Self {
         let name = drawable(read.material().name());
-        Self { read, slot: 0, problem: None, name }
+        Self { read, slot: 0, is_newer: false, problem: None, name }
     }
 
     /// The same material in another slot.
@@ -68,7 +70,11 @@ impl LoadedMaterial {
 
     /// Its name, marked where it is stale.
     pub fn label(&self) -> String {
-        let mark = if self.is_stale() { "  (stale)" } else { "" };
+        let mark = match (self.is_stale(), self.is_newer) {
+            (true, _) => "  (stale)",
+            (false, true) => "  (newer on disk: Ctrl+R)",
+            (false, false) => "",
+        };
         format!("{}{mark}", self.name)
     }
 }
