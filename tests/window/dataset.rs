@@ -4,6 +4,7 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_evaluate::dataset::{DatasetReading, Evaluation, KnownLoss, Source};
 use svbrdf_viewer::OpenDataset;
+use svbrdf_viewer::jobs::dataset::sheet::DrawSheet;
 use svbrdf_viewer::jobs::dataset::summary::Summarize;
 use svbrdf_viewer::model::dataset::list::{Filter, ListView, Order};
 use svbrdf_viewer::widgets::numbers::significant;
@@ -285,10 +286,40 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
     window.key_press(egui::Key::S);
     window.run_steps(3);
     wait_in(&mut window, "the cells", |window| {
-        let sheet = window.jobs().dataset.sheet.as_deref();
+        let sheet = DrawSheet::latest(&window.jobs().answers);
         let of = |case, column| svbrdf_viewer::jobs::dataset::cells::Cell { case, column };
-        sheet.is_some_and(|sheet| sheet.part(of(0, 1)).is_some() && sheet.part(of(2, 2)).is_none())
+        sheet.as_deref().is_some_and(|sheet| sheet.part(of(0, 1)).is_some() && sheet.part(of(2, 2)).is_none())
     });
+    let before = DrawSheet::latest(&window.jobs().answers).unwrap().picture.clone();
+    let rect = window.get_by_label("Cell b, ours").rect();
+    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.75, 0.25));
+    let light = window.scene().light;
+    assert!((light[0] - 0.5).abs() < 0.05 && (light[1] - 0.5).abs() < 0.05, "{light:?}");
+    wait_in(&mut window, "other pictures", |window| {
+        let sheet = DrawSheet::latest(&window.jobs().answers);
+        sheet.is_some_and(|sheet| !Arc::ptr_eq(&sheet.picture, &before) && sheet.picture != before)
+    });
+    assert_eq!(window.names()[0], "a", "a drag opens nothing");
+    click(&mut window, "Cell e, theirs");
+    wait(&mut window, "the material", |app| app.names()[0] == "e");
+    assert!(!window.model().dataset.sheet.is_open);
+    press(&mut window, egui::Key::Escape);
+    assert!(window.model().dataset.sheet.is_open);
+    edit(&mut window, opening::open_built_in);
+    wait(&mut window, "the built-in materials", |app| app.names()[0] == "worn tiles");
+    assert!(!has(&window, "Tab Methods"), "another comparison closes it");
+}
+
+/// The range of the latest cells.
+fn range(window: &Window<'_>) -> Option<f64> {
+    DrawSheet::latest(&window.jobs().answers)?.range
+}
+
+#[needs(adapter)]
+fn the_sheet_has_losses_sorts_by_its_heads_and_has_one_range() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = on_dataset(&dataset(folders(folder.path()), None));
+    press(&mut window, egui::Key::S);
     // A click on the name of a method sorts by its losses; again, the other way round.
     let listed = |window: &Window<'_>| window.state().parts.ui.dataset.listed().to_vec();
     let by_name = listed(&window);
@@ -308,30 +339,12 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
     assert_eq!(listed(&window), by_name);
     // Differences of all cells have one range: that of the cell where it is largest.
     edit(&mut window, |model| model.view.display.difference = true);
-    wait_in(&mut window, "the range", |window| window.jobs().dataset.range().is_some());
+    wait_in(&mut window, "the range", |window| range(window).is_some());
     let of_open = window.difference_range();
-    let of_all = window.jobs().dataset.range().unwrap();
+    let of_all = range(&window).unwrap();
     assert!(of_all > 1.5 * of_open, "{of_all} of all, {of_open} of the open one");
     edit(&mut window, |model| model.view.display.difference = false);
-    wait_in(&mut window, "the values", |window| window.jobs().dataset.range().is_none());
-    let before = window.jobs().dataset.sheet.as_deref().unwrap().picture.clone();
-    let rect = window.get_by_label("Cell b, ours").rect();
-    drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.75, 0.25));
-    let light = window.scene().light;
-    assert!((light[0] - 0.5).abs() < 0.05 && (light[1] - 0.5).abs() < 0.05, "{light:?}");
-    wait_in(&mut window, "other pictures", |window| {
-        let sheet = window.jobs().dataset.sheet.as_deref();
-        sheet.is_some_and(|sheet| !Arc::ptr_eq(&sheet.picture, &before) && sheet.picture != before)
-    });
-    assert_eq!(window.names()[0], "a", "a drag opens nothing");
-    click(&mut window, "Cell e, theirs");
-    wait(&mut window, "the material", |app| app.names()[0] == "e");
-    assert!(!window.model().dataset.sheet.is_open);
-    press(&mut window, egui::Key::Escape);
-    assert!(window.model().dataset.sheet.is_open);
-    edit(&mut window, opening::open_built_in);
-    wait(&mut window, "the built-in materials", |app| app.names()[0] == "worn tiles");
-    assert!(!has(&window, "Tab Methods"), "another comparison closes it");
+    wait_in(&mut window, "the values", |window| range(window).is_none());
 }
 
 #[needs(adapter)]

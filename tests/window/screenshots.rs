@@ -114,7 +114,8 @@ fn the_picture_of_a_data_set() {
     wait(&mut window, "the summary", |app| app.jobs().answers.latest(|_: &Summarize| true).is_some());
     let cell = svbrdf_viewer::jobs::dataset::cells::Cell { case: 4, column: 2 };
     wait(&mut window, "the cells", |app| {
-        app.parts.jobs.dataset.sheet.as_deref().is_some_and(|sheet| sheet.part(cell).is_some())
+        svbrdf_viewer::jobs::dataset::sheet::DrawSheet::latest(&app.parts.jobs.answers)
+            .is_some_and(|sheet| sheet.part(cell).is_some())
     });
     rest(&mut window, 40);
     write(&mut window, "dataset.jpg");

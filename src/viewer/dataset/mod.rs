@@ -12,7 +12,6 @@ use crate::dataset::list::MaterialsDrawer;
 use crate::dataset::rows::Rows;
 use crate::dataset::sheet::ContactSheet;
 use crate::jobs::Jobs;
-use crate::jobs::dataset::DisplayedCases;
 use crate::jobs::dataset::summary::Summarize;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::order::MethodOrder;
@@ -26,8 +25,8 @@ use crate::widgets::{bare, report_table};
 #[derive(Debug, Default)]
 pub struct DatasetUi {
     rows: Rows,
-    /// What the last frame displayed.
-    pub displayed: DisplayedCases,
+    /// The materials that the last frame had in sight.
+    pub cases_in_sight: Vec<usize>,
     /// The first row of the list in sight, and how many are.
     in_sight: std::ops::Range<usize>,
     /// The material that the list has scrolled to.
@@ -75,7 +74,7 @@ impl DatasetUi {
     /// The list, at the left.
     pub fn drawer(&mut self, ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
         self.rows.follow(shown);
-        self.displayed = DisplayedCases::default();
+        self.cases_in_sight.clear();
         let dataset = &shown.model.dataset;
         let Some(open) = dataset.open.as_deref().filter(|_| dataset.list.is_open) else { return };
         // In a narrow window the panes keep most of the room.
@@ -91,8 +90,7 @@ impl DatasetUi {
             };
             drawer.ui(ui, &mut next.dataset);
         });
-        self.displayed.cases =
-            self.rows.cases.get(self.in_sight.clone()).map(<[usize]>::to_vec).unwrap_or_default();
+        self.cases_in_sight.extend(self.rows.cases.get(self.in_sight.clone()).unwrap_or_default());
     }
 
     /// The contact sheet, in place of the panes; false where it is closed.
@@ -104,8 +102,8 @@ impl DatasetUi {
         textures: &mut PanelTextures,
     ) -> bool {
         let dataset = &displayed.model.dataset;
-        let Some(open) = dataset.open.as_deref().filter(|_| dataset.sheet.is_open) else { return false };
-        let in_sight = &mut self.displayed;
+        let Some(open) = dataset.open.as_ref().filter(|_| dataset.sheet.is_open) else { return false };
+        let in_sight = &mut self.cases_in_sight;
         ContactSheet { displayed, open, rows: &self.rows, textures, in_sight }.ui(ui, next);
         true
     }

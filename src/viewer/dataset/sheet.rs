@@ -1,5 +1,8 @@
 //! Contact sheet: a row a material, a column a method, all under the light and view of the window.
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use eframe::egui::scroll_area::ScrollSource;
 use eframe::egui::{
     self, Align2, FontId, PointerButton, Rect, Response, Sense, TextureOptions, WidgetInfo, pos2, vec2,
@@ -11,8 +14,9 @@ use svbrdf_core::text::line;
 
 use crate::dataset::list::MARK;
 use crate::dataset::rows::{Rows, chosen_method};
-use crate::jobs::dataset::DisplayedCases;
-use crate::jobs::dataset::cells::Cell;
+use crate::jobs::answers::Answered;
+use crate::jobs::dataset::cells::{Cell, ReadRow, Reduced};
+use crate::jobs::dataset::sheet::{DrawSheet, SheetPicture, SheetRow};
 use crate::jobs::displayed::Displayed;
 use crate::model::dataset::OpenDataset;
 use crate::model::dataset::list::{CaseLosses, Order};
@@ -32,14 +36,28 @@ const GAP: f32 = 4.0;
 /// The change of the size of a cell by a step of the wheel, per point of its motion.
 const WHEEL: f32 = 0.004;
 
+/// What was read and drawn of the rows in sight.
+struct Drawn {
+    rows: Vec<SheetRow>,
+    pictures: Option<Arc<Answered<SheetPicture>>>,
+}
+
+impl Drawn {
+    /// Why there is no material in a cell.
+    fn problem(&self, cell: Cell) -> Option<&str> {
+        let (_, row) = self.rows.iter().find(|(case, _)| *case == cell.case)?;
+        row.get(cell.column).and_then(|one: &Reduced| one.as_ref().err()).map(String::as_str)
+    }
+}
+
 /// The sheet in the place of the panes.
 #[derive(Debug)]
 pub struct ContactSheet<'a> {
     pub displayed: Displayed<'a>,
-    pub open: &'a OpenDataset,
+    pub open: &'a Arc<OpenDataset>,
     pub rows: &'a Rows,
     pub textures: &'a mut PanelTextures,
-    pub in_sight: &'a mut DisplayedCases,
+    pub in_sight: &'a mut Vec<usize>,
 }
 
 impl ContactSheet<'_> {
@@ -63,12 +81,27 @@ impl ContactSheet<'_> {
             // Over the pictures the wheel sizes them.
             let rows = rows.scroll_source(ScrollSource { mouse_wheel: !is_over, ..ScrollSource::SCROLL_BAR });
             rows.show_rows(ui, cell, self.rows.cases.len(), |ui, range| {
+                let drawn = self.drawn((cell * ui.pixels_per_point()).round() as usize, range.clone());
                 for row in range {
-                    self.row(ui, row, cell, next);
+                    self.row(ui, (row, cell), &drawn, next);
                 }
             });
         });
-        self.in_sight.pixels = (cell * ui.pixels_per_point()).round() as usize;
+    }
+
+    /// What is drawn of these rows, which are asked for from the first on.
+    fn drawn(&mut self, pixels: usize, rows: Range<usize>) -> Drawn {
+        let (jobs, model) = (self.displayed.jobs, self.displayed.model);
+        let cases = self.rows.cases.get(rows).unwrap_or_default();
+        self.in_sight.extend(cases);
+        let read_again = jobs.dataset.losses.read_again;
+        let read = |case: &usize| {
+            let row = ReadRow::of(self.open, *case, pixels, read_again);
+            Some((*case, jobs.answers.get(&row).ready()?))
+        };
+        let rows: Vec<SheetRow> = cases.iter().filter_map(read).collect();
+        let pictures = DrawSheet::of(rows.clone(), &model.view).drawn(&jobs.answers);
+        Drawn { rows, pictures }
     }
 
     /// The names of the columns with the means of the methods; a click sorts by the losses of one.
@@ -117,9 +150,14 @@ impl ContactSheet<'_> {
         }
     }
 
+    /// The range of the latest pictures.
+    fn latest_range(&self) -> Option<f64> {
+        DrawSheet::latest(&self.displayed.jobs.answers)?.range
+    }
+
     /// The colours of differences, which all cells share, between the numbers of both ends.
     fn legend(&self, ui: &egui::Ui, area: Rect) {
-        let (display, range) = (&self.displayed.model.view.display, self.displayed.jobs.dataset.range());
+        let (display, range) = (&self.displayed.model.view.display, self.latest_range());
         let Some(range) = range.filter(|_| display.difference) else { return };
         let (kind, _) = display.differences.pointwise(display.quantity);
         let least = if kind.is_signed() { -1.0 } else { 0.0 };
@@ -135,7 +173,7 @@ impl ContactSheet<'_> {
         ui.painter().add(colour_bar(bar, [least as f32, 1.0], kind.is_signed()));
     }
 
-    fn row(&mut self, ui: &mut egui::Ui, row: usize, cell: f32, next: &mut Model) {
+    fn row(&mut self, ui: &mut egui::Ui, (row, cell): (usize, f32), drawn: &Drawn, next: &mut Model) {
         let Some((case, ahead)) = self.rows.at(row) else { return };
         let columns = self.open.methods().len() + 1;
         let (rect, _) =
@@ -156,16 +194,15 @@ impl ContactSheet<'_> {
                 continue;
             }
             let at = Cell { case, column };
-            self.in_sight.cells.push(at);
             let id = ui.scope_id().with(("cell", case, column));
             let response = ui.interact(square, id, Sense::click_and_drag());
-            let shown = self.paint(ui, square, at);
+            let shown = self.paint(ui, square, at, drawn);
             self.paint_loss(ui, square, at, &texts);
             response.widget_info(|| {
                 WidgetInfo::labeled(egui::Role::Button, true, format!("Cell {name}, {}", self.column(column)))
             });
             self.gesture(&response, shown, (case, &ahead), next);
-            response.on_hover_ui(|ui| self.hover(ui, &name, at));
+            response.on_hover_ui(|ui| self.hover(ui, &name, at, drawn));
         }
     }
 
@@ -177,9 +214,14 @@ impl ContactSheet<'_> {
     }
 
     /// Draws a cell; where its picture is, and its size in texels.
-    fn paint(&mut self, ui: &egui::Ui, square: Rect, cell: Cell) -> Option<(Rect, [usize; 2])> {
-        let jobs = &self.displayed.jobs.dataset;
-        if let Some(sheet) = jobs.sheet.as_deref()
+    fn paint(
+        &mut self,
+        ui: &egui::Ui,
+        square: Rect,
+        cell: Cell,
+        drawn: &Drawn,
+    ) -> Option<(Rect, [usize; 2])> {
+        if let Some(sheet) = &drawn.pictures
             && let Some(([least, most], size)) = sheet.part(cell)
         {
             let texture = self.textures.id(ui.ctx(), &sheet.picture, TextureOptions::LINEAR);
@@ -191,7 +233,7 @@ impl ContactSheet<'_> {
             return Some((at, size));
         }
         ui.painter().rect_filled(square, 2.0, ui.visuals().faint_bg_color);
-        if let Some(Err(problem)) = jobs.cells.get(cell) {
+        if let Some(problem) = drawn.problem(cell) {
             let (colour, width) = (theme::problem(ui.visuals()), square.width() - 8.0);
             let text = drawable(&line(problem));
             let galley = ui.painter().layout(text, FontId::proportional(11.0), colour, width);
@@ -239,7 +281,7 @@ impl ContactSheet<'_> {
         }
     }
 
-    fn hover(&self, ui: &mut egui::Ui, name: &str, cell: Cell) {
+    fn hover(&self, ui: &mut egui::Ui, name: &str, cell: Cell, drawn: &Drawn) {
         ui.strong(format!("{name}, {}", drawable(self.column(cell.column))));
         let jobs = &self.displayed.jobs.dataset;
         let losses = jobs.losses.row(cell.case);
@@ -256,7 +298,7 @@ impl ContactSheet<'_> {
                     ui.colored_label(theme::problem(ui.visuals()), drawable(&line(problem)));
                 }
             }
-        } else if let Some(Err(problem)) = jobs.cells.get(cell) {
+        } else if let Some(problem) = drawn.problem(cell) {
             ui.colored_label(theme::problem(ui.visuals()), drawable(&line(problem)));
         }
     }

@@ -63,7 +63,6 @@ pub(super) fn read_again(parts: &mut Parts, case: usize) {
     }
     jobs.cases.forget(case);
     jobs.losses.forget(case);
-    jobs.cells.forget(case);
 }
 
 /// Takes over a data set that has been matched.

@@ -2,7 +2,6 @@
 
 use super::Jobs;
 use super::answers::Answer;
-use super::dataset::DisplayedCases;
 use super::displayed::Displayed;
 use super::loss::LossJob;
 use super::panes::RangeKey;
@@ -22,15 +21,15 @@ pub struct JobFindings {
 
 impl Jobs {
     /// Takes over results, and computes what `model` needs now, with `in_sight` of a data set.
-    pub fn follow(&mut self, model: &Model, in_sight: &DisplayedCases) -> JobFindings {
+    pub fn follow(&mut self, model: &Model, in_sight: &[usize]) -> JobFindings {
         let mut findings = JobFindings::default();
         self.follow_losses(model);
         if let Some(gpu) = &self.gpu {
             self.uploads.send_missing(&self.waker, gpu, &model.materials.all);
         }
         self.ask_about_panes(model, &mut findings);
-        let Self { waker, answers, gpu, dataset, .. } = self;
-        findings.errors.extend(dataset.follow((waker, answers), gpu.as_ref(), model, in_sight));
+        let Self { waker, gpu, dataset, .. } = self;
+        findings.errors.extend(dataset.follow(waker, gpu.as_ref(), model, in_sight));
         let Self { uploads, openings, panes, dataset, .. } = self;
         let is_here = |id| model.materials.all.iter().chain(&panes.displayed).any(|one| one.id() == id);
         uploads.keep_only(|id| is_here(id) || openings.hold(id) || dataset.cases.hold(id));

@@ -97,7 +97,8 @@ impl DatasetLosses {
         if self.convention != *convention || self.results.len() != open.cases.len() {
             let count = open.cases.len();
             let generation = self.generation + 1;
-            *self = Self { convention: convention.clone(), generation, ..Self::default() };
+            let read_again = self.read_again;
+            *self = Self { convention: convention.clone(), generation, read_again, ..Self::default() };
             (self.results, self.rows) = (vec![None; count], vec![None; count]);
         }
         *self.first.lock().unwrap_or_else(PoisonError::into_inner) = first.to_vec();
