@@ -210,6 +210,8 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     assert!(list.contains(&format!("\n{name},true,'{FORMULA},{known},")), "{list}");
     assert_eq!(list.lines().count(), 7, "{list}");
 
+    let list = ListView { order: Order::Disagreement, filter: Filter::Marked, ..ListView::default() };
+    edit(&mut window, |model| model.dataset.list = list.clone());
     let path = folder.path().join("all.svbrdf-session.json");
     edit(&mut window, |model| {
         model.effects.push(Effect::Save(SaveRequest { kind: SaveKind::Session, path: path.clone() }))
@@ -222,6 +224,7 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     wait(&mut other, "the marked one", |app| app.parts.model.dataset.shown == Some(case));
     let mark = other.model().dataset.mark(name).cloned().unwrap();
     assert!(mark.is_marked && mark.note == FORMULA);
+    assert_eq!(other.model().dataset.list, list);
     assert_eq!(loss(&other, case, 0), loss(&window, case, 0));
 }
 
@@ -460,4 +463,36 @@ fn a_ground_truth_that_cannot_be_read_is_told_in_the_panes() {
     press(&mut window, egui::Key::PageDown);
     wait(&mut window, "the next material", |app| app.names().first().is_some_and(|name| name == "c"));
     assert!(!has(&window, &problem));
+}
+
+/// Predictions that are the centre of their ground truths are seen on that part, with the loss of `svbrdf rank`.
+#[needs(adapter)]
+fn predictions_of_a_registered_method_are_seen_on_their_part_of_the_ground_truth() {
+    let folder = tempfile::tempdir().unwrap();
+    let [gt, whole, crop] = ["gt", "whole", "crop"].map(|name| folder.path().join(name));
+    [&gt, &whole, &crop].into_iter().for_each(|folder| std::fs::create_dir(folder).unwrap());
+    let noise = |x: u32, y: u32| (x.wrapping_mul(73) ^ y.wrapping_mul(151)).wrapping_mul(2_654_435_761) >> 25;
+    for name in ["a", "b", "c"] {
+        let written = |folder: &Path, side, from: u32| {
+            write_packed(&folder.join(format!("{name}.png")), side, |tile, x, y| {
+                let shade = (40 + noise(x + from, y + from)) as u8;
+                [[shade, 255 - shade, 200], [shade; 3], [shade; 3], [20; 3]][tile as usize]
+            });
+        };
+        written(&gt, 48, 0);
+        written(&whole, 48, 0);
+        written(&crop, 32, 8);
+    }
+    let mut window = built_in();
+    drop_files(&mut window, [gt, whole, crop]);
+    wait(&mut window, "the data set", |app| app.names() == ["a", "whole", "crop"]);
+    wait(&mut window, "all losses", |app| app.jobs().dataset.losses.count() == 3);
+    assert!(window.materials().all(|one| one.size() == [32, 32]));
+    let materials: Vec<_> = window.materials().cloned().collect();
+    let same =
+        |a: &Material<f32>, b: &Material<f32>| (0..32 * 32).all(|texel| a.texel(texel) == b.texel(texel));
+    assert!(same(&materials[0], &materials[1]) && same(&materials[0], &materials[2]));
+    assert_eq!(loss(&window, 0, 1).unwrap().loss, 0.0);
+    tab(&mut window, "Files");
+    assert!(has(&window, "crop: registration "));
 }

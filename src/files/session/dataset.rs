@@ -34,6 +34,9 @@ pub struct SessionDataset {
     pub read_methods: BTreeMap<String, ReadOptions>,
     /// The name of the material in the window.
     pub shown: String,
+    /// How the list of its materials is sorted and filtered, in the terms of the window.
+    #[serde(default, skip_serializing_if = "serde_json::Value::is_null")]
+    pub list: serde_json::Value,
     /// Marks and notes by the name of a material.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub marks: BTreeMap<String, SessionMark>,

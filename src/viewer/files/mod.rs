@@ -16,6 +16,7 @@ use crate::files::read_options::{is_offered, read_options, remedy_button};
 use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::questions::known_diagnosis;
+use crate::model::dataset::OpenDataset;
 use crate::model::effect::Effect;
 use crate::model::material::loaded::{LoadedMaterial, drawable};
 use crate::model::{Model, opening};
@@ -42,6 +43,9 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
             next.effects.push(Effect::CancelReading(opening.number()));
         }
     }
+    if let Some(open) = &shown.model.dataset.open {
+        decisions(ui, open);
+    }
     let pairs = ComparedPair::all(materials, &shown.model.view);
     for (index, material) in materials.iter().enumerate() {
         ui.separator();
@@ -56,6 +60,22 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
         };
         // Its id changes whenever it is read again; what is unfolded stays unfolded.
         ui.push_id(index, |ui| section(ui, (index, &role), material, &findings, next));
+    }
+}
+
+/// How the methods of a data set are read and lie on their ground truths, and what that rests on.
+fn decisions(ui: &mut egui::Ui, open: &OpenDataset) {
+    let reading = &open.reading;
+    if reading.registrations.is_empty() && reading.decisions.is_empty() {
+        return;
+    }
+    ui.separator();
+    ui.label(RichText::new("DATA SET").small());
+    for (method, registration) in &reading.registrations {
+        ui.label(RichText::new(format!("{}: registration {registration}", drawable(method))).size(12.5));
+    }
+    for decision in &reading.decisions {
+        ui.label(RichText::new(drawable(decision)).small());
     }
 }
 

@@ -28,7 +28,9 @@ pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
 pub(super) fn restore(parts: &mut Parts, session: SessionDataset, results: Option<PathBuf>) {
     let strict = parts.model.materials.rules.strict;
     parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
-        let SessionDataset { ground_truths, methods, predictions, shown, marks, .. } = session;
+        let SessionDataset { ground_truths, methods, predictions, shown, list, marks, .. } = session;
+        // Another version may have had other terms.
+        let list = serde_json::from_value(list).unwrap_or_default();
         let named = |all: Vec<SessionMethod>| -> Vec<Method> {
             all.into_iter().map(|one| Method { name: one.name, path: one.path }).collect()
         };
@@ -49,7 +51,7 @@ pub(super) fn restore(parts: &mut Parts, session: SessionDataset, results: Optio
         let mut open = OpenDataset::new(source, reading, (session.target_error, session.seed), results)?;
         open.settings.diagnose = session.diagnose;
         let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
-        Ok(DatasetState::of(Arc::new(open), wanted, marks))
+        Ok(DatasetState { list, ..DatasetState::of(Arc::new(open), wanted, marks) })
     }));
 }
 

@@ -154,6 +154,7 @@ impl Model {
             read: open.reading.ground_truths,
             read_predictions: open.reading.predictions,
             read_methods: open.reading.methods.clone(),
+            list: serde_json::to_value(&self.dataset.list).unwrap_or_default(),
             shown: open.name(self.dataset.wanted).to_owned(),
             marks: self.dataset.marks.clone(),
         }

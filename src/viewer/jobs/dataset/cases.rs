@@ -117,8 +117,11 @@ impl CaseJobs {
     }
 }
 
-/// A material that was read and sent to the adapter, or why not.
-type Column = Result<(Arc<ReadMaterial>, Option<Arc<Uploaded>>), String>;
+/// A material that was read and sent to the adapter.
+type Present = (Arc<ReadMaterial>, Option<Arc<Uploaded>>);
+
+/// The same, or why there is none.
+type Column = Result<Present, String>;
 
 /// What reads a material with its predictions.
 struct CaseReading {
@@ -143,41 +146,81 @@ impl CaseReading {
             }
         };
         let size = Some(truth.material().size());
-        found.uploads.extend(uploaded.map(|uploaded| (truth.id, uploaded)));
-        found.materials.push((0, truth.clone()));
         let pinned = self.pinned.iter().filter(|pinned| **pinned != case).map(|pinned| (*pinned, 1));
-        let columns: Vec<(usize, usize)> =
+        let places: Vec<(usize, usize)> =
             (1..=self.open.methods().len()).map(|column| (case, column)).chain(pinned).collect();
         let threads = thread::available_parallelism().map_or(1, usize::from).min(4);
-        for group in columns.chunks(threads) {
-            let read: Vec<Column> = thread::scope(|scope| {
+        let mut columns: Vec<Column> = Vec::new();
+        for group in places.chunks(threads) {
+            columns.extend(thread::scope(|scope| {
                 let start = |place: &(usize, usize)| {
                     let place = *place;
                     scope.spawn(move || self.column(place, size, progress))
                 };
                 let started: Vec<_> = group.iter().map(start).collect();
                 let failed = |_| Err("its reading has failed".to_owned());
-                started.into_iter().map(|one| one.join().unwrap_or_else(failed)).collect()
+                started.into_iter().map(|one| one.join().unwrap_or_else(failed)).collect::<Vec<_>>()
+            }));
+        }
+        let whole = (truth, uploaded);
+        let (truth, uploaded) = self.registered(&whole, &places, &mut columns).unwrap_or(whole);
+        found.uploads.extend(uploaded.map(|uploaded| (truth.id, uploaded)));
+        found.materials.push((0, truth.clone()));
+        for (place, one) in places.into_iter().zip(columns) {
+            let of_size = one.and_then(|(read, uploaded)| {
+                check_same_size(truth.material(), read.material()).map_err(|problem| problem.to_string())?;
+                Ok((read, uploaded))
             });
-            for (place, one) in group.iter().zip(read) {
-                let of_size = one.and_then(|(read, uploaded)| {
-                    check_same_size(truth.material(), read.material())
-                        .map_err(|problem| problem.to_string())?;
-                    Ok((read, uploaded))
-                });
-                match of_size {
-                    Ok((read, uploaded)) => {
-                        found.uploads.extend(uploaded.map(|uploaded| (read.id, uploaded)));
-                        found.materials.push((self.slot(*place), read));
-                    }
-                    Err(problem) => {
-                        let (slot, name) = (self.slot(*place), self.name(*place));
-                        found.missing.push(Missing { slot, name, problem });
-                    }
+            match of_size {
+                Ok((read, uploaded)) => {
+                    found.uploads.extend(uploaded.map(|uploaded| (read.id, uploaded)));
+                    found.materials.push((self.slot(place), read));
+                }
+                Err(problem) => {
+                    let (slot, name) = (self.slot(place), self.name(place));
+                    found.missing.push(Missing { slot, name, problem });
                 }
             }
         }
         found
+    }
+
+    /// Brings the ground truth, which it returns, and the predictions to the part and the size of the first method whose registration is
+    /// known and whose prediction has another size; `None` without one.
+    fn registered(
+        &self,
+        (truth, _): &Present,
+        places: &[(usize, usize)],
+        columns: &mut [Column],
+    ) -> Option<Present> {
+        let of = |place: &(usize, usize)| {
+            self.open.reading.registrations.get(self.open.methods().get(place.1.checked_sub(1)?)?).copied()
+        };
+        let size = truth.material().size();
+        let sample = |(place, one): (&(usize, usize), &Column)| {
+            let (read, _) = one.as_ref().ok().filter(|(read, _)| read.material().size() != size)?;
+            Some((of(place)?, read.clone()))
+        };
+        let (registration, sample) = places.iter().zip(&*columns).find_map(sample)?;
+        let part = |whole: &ReadMaterial| registration.applied([whole.material(), sample.material()]);
+        let present = |read: &ReadMaterial, material| {
+            let read = Arc::new(read.part(material));
+            let uploaded = self.gpu.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
+            (read, uploaded)
+        };
+        let [cut, _] = part(truth).ok()?;
+        for (place, one) in places.iter().zip(columns) {
+            let Ok((read, _)) = one else { continue };
+            let material = if read.material().size() == size {
+                part(read).map(|[cut, _]| cut)
+            } else if of(place) == Some(registration) {
+                registration.applied([truth.material(), read.material()]).map(|[_, prediction]| prediction)
+            } else {
+                continue;
+            };
+            *one = material.map(|material| present(read, material)).map_err(|problem| problem.to_string());
+        }
+        Some(present(truth, cut))
     }
 
     /// The ground truth of a material, in column 0, or a prediction of it.

@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use serde::{Deserialize, Serialize};
+
 use svbrdf_evaluate::dataset::KnownLoss;
 
 use crate::widgets::numbers::means;
@@ -39,7 +41,7 @@ impl CaseLosses {
 }
 
 /// What the list is sorted by.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Order {
     #[default]
     Name,
@@ -54,7 +56,7 @@ pub enum Order {
 }
 
 /// Which materials are listed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Filter {
     #[default]
     All,
@@ -77,7 +79,8 @@ impl Filter {
 }
 
 /// How the list is looked at.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct ListView {
     pub is_open: bool,
     pub order: Order,

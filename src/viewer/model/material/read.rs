@@ -69,6 +69,13 @@ impl ReadMaterial {
         self.record.files.iter().cloned().zip(self.stamps.iter().copied()).collect()
     }
 
+    /// The part of it, or it in another size, that is compared; it is read from the same files.
+    pub fn part(&self, material: Material<f32>) -> Self {
+        let record = Read { material, ..self.record.clone() };
+        let (source, storage, stamps) = (self.source.clone(), self.storage.clone(), self.stamps.clone());
+        Self { id: MaterialId::new(&[]), source, record, storage, stamps }
+    }
+
     /// This material with other maps, which no file holds.
     pub fn with_material(&self, material: Material<f32>) -> Self {
         let record = Read {
