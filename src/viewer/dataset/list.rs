@@ -6,15 +6,12 @@ use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, WidgetInfo, pos2
 
 use egui_material_icons::icons;
 
-use svbrdf_core::text::line;
-
 use crate::dataset::rows::{Rows, chosen_method};
 use crate::jobs::displayed::Displayed;
 use crate::model::dataset::list::{CaseLosses, Filter, ListView, Order};
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::material::loaded::drawable;
 use crate::widgets::names::shortened;
-use crate::widgets::numbers::significant;
 use crate::widgets::{named, theme};
 
 /// The sign of a material that is marked, after its name.
@@ -232,7 +229,6 @@ impl MaterialsDrawer<'_> {
         if response.clicked() {
             next.show(case, ahead);
         }
-        response.on_hover_ui(|ui| self.hover(ui, name, losses));
     }
 
     /// A bar a method in its colour with its loss, from the same zero to the same largest loss in every row.
@@ -260,31 +256,5 @@ impl MaterialsDrawer<'_> {
             let bar = room.with_max_x(room.left() + room.width() * share);
             painter.rect_filled(bar, 0.0, theme::series(slot, ui.visuals().dark_mode));
         }
-    }
-
-    fn hover(&self, ui: &mut egui::Ui, name: &str, losses: Option<&CaseLosses>) {
-        ui.strong(drawable(name));
-        let Some(losses) = losses else {
-            ui.weak("Its losses are not known yet.");
-            return;
-        };
-        egui::Grid::new("losses").spacing([10.0, 1.0]).show(ui, |ui| {
-            for (method, known) in self.open.methods().iter().zip(&losses.by_method) {
-                ui.label(drawable(method));
-                match known {
-                    Some(known) => {
-                        let [loss, interval] = significant(&known.estimate());
-                        ui.monospace(loss);
-                        ui.label(RichText::new(interval).monospace().weak());
-                    }
-                    None => {
-                        let problem = losses.problems.iter().find(|(of, _)| of == method);
-                        ui.colored_label(theme::problem(ui.visuals()), "none");
-                        ui.label(drawable(&line(problem.map_or("", |(_, problem)| problem))));
-                    }
-                }
-                ui.end_row();
-            }
-        });
     }
 }

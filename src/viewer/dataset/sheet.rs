@@ -23,7 +23,7 @@ use crate::model::dataset::list::{CaseLosses, Order};
 use crate::model::material::loaded::drawable;
 use crate::model::{Model, endpoint};
 use crate::widgets::names::Names;
-use crate::widgets::numbers::{digits, significant};
+use crate::widgets::numbers::digits;
 use crate::widgets::paint::{PanelTextures, colour_bar};
 use crate::widgets::{names, theme};
 
@@ -202,7 +202,6 @@ impl ContactSheet<'_> {
                 WidgetInfo::labeled(egui::Role::Button, true, format!("Cell {name}, {}", self.column(column)))
             });
             self.gesture(&response, shown, (case, &ahead), next);
-            response.on_hover_ui(|ui| self.hover(ui, &name, at, drawn));
         }
     }
 
@@ -278,28 +277,6 @@ impl ContactSheet<'_> {
             endpoint::move_over_plane(scene, Endpoint::Light, point);
         } else if response.dragged_by(PointerButton::Secondary) {
             endpoint::move_over_plane(scene, Endpoint::View, point);
-        }
-    }
-
-    fn hover(&self, ui: &mut egui::Ui, name: &str, cell: Cell, drawn: &Drawn) {
-        ui.strong(format!("{name}, {}", drawable(self.column(cell.column))));
-        let jobs = &self.displayed.jobs.dataset;
-        let losses = jobs.losses.row(cell.case);
-        if let Some(method) = cell.column.checked_sub(1) {
-            match losses.map(|losses| (losses.by_method.get(method).copied().flatten(), losses)) {
-                None => drop(ui.weak("Its loss is not known yet.")),
-                Some((Some(known), _)) => {
-                    let [loss, interval] = significant(&known.estimate());
-                    ui.monospace(format!("loss {loss} {interval}"));
-                }
-                Some((None, losses)) => {
-                    let of = |(of, _): &&(String, String)| of == self.column(cell.column);
-                    let problem = losses.problems.iter().find(of).map_or("", |(_, problem)| problem);
-                    ui.colored_label(theme::problem(ui.visuals()), drawable(&line(problem)));
-                }
-            }
-        } else if let Some(problem) = drawn.problem(cell) {
-            ui.colored_label(theme::problem(ui.visuals()), drawable(&line(problem)));
         }
     }
 }

@@ -7,6 +7,8 @@ use svbrdf_evaluate::dataset::{DatasetReading, Method, Source, decided};
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 
 use crate::frame::layout::Parts;
+use crate::jobs::answers::Answered;
+use crate::jobs::dataset::cases::ReadCase;
 use crate::jobs::work::job::Job;
 use crate::model::case;
 use crate::model::dataset::{DatasetState, OpenDataset, TARGET_ERROR};
@@ -63,7 +65,7 @@ pub(super) fn read_again(parts: &mut Parts, case: usize) {
         jobs.restart();
         return;
     }
-    jobs.cases.forget(case);
+    jobs.cases.clear();
     jobs.losses.forget(case);
 }
 
@@ -85,7 +87,9 @@ pub(super) fn take(parts: &mut Parts) {
 pub(super) fn show(parts: &mut Parts) {
     let dataset = &parts.model.dataset;
     let Some(open) = dataset.open.clone().filter(|_| dataset.is_waiting()) else { return };
-    let Some(read) = parts.jobs.dataset.cases.get(dataset.wanted, &dataset.pinned()).cloned() else { return };
+    let is_wanted =
+        |read: &&Arc<Answered<ReadCase>>| read.case == dataset.wanted && read.pinned == dataset.pinned();
+    let Some(read) = parts.jobs.dataset.cases.iter().find(is_wanted).cloned() else { return };
     read.uploads.iter().for_each(|(id, uploaded)| parts.jobs.uploads.add(*id, Some(uploaded.clone())));
     case::show(&mut parts.model, &open, read.case, &read.materials, read.missing.clone());
 }

@@ -1,8 +1,6 @@
 //! Drawer over the lower end of the panes: every number of the pinned texels.
 
-use std::ops::Range;
-
-use eframe::egui::{self, FontId, Rect, RichText, TextStyle};
+use eframe::egui::{self, Rect, RichText};
 
 use crate::jobs::displayed::Displayed;
 use crate::model::Model;
@@ -21,17 +19,12 @@ const SHARE: f32 = 0.4;
 const NUMBERS: f32 = 11.0;
 /// Characters of a number in the columns of [`HEADS`].
 const WIDTHS: [usize; HEADS.len()] = [6, 6, 6, 6, 6, 7, 7, 6, 6, 6, 6, 6, 6, 6];
-/// Which columns of [`HEADS`] have three numbers.
-const COLOURS: [usize; 5] = [0, 1, 2, 4, 7];
-/// The column from which on a second table has the columns where one is too wide: the terms of the rendering.
-const TERMS: usize = 5;
 
 /// The drawer over the lower end of the panes in `area`, which stay where they are.
 pub fn drawer(ui: &mut egui::Ui, area: Rect, shown: Displayed<'_>, next: &mut Model) {
     let (pins, state) = (&shown.model.inspection.pins, &shown.model.view);
     let drawer = Drawer { pins, materials: shown.materials(), state };
-    let tables = tables(ui);
-    let height = drawer.height(tables.len()).min(SHARE * area.height());
+    let height = drawer.height().min(SHARE * area.height());
     let over = area.with_min_y(area.bottom() - height);
     let drawn = egui::Area::new(ui.scope_id().with("drawer")).order(egui::Order::Middle).fixed_pos(over.min);
     drawn.constrain(false).show(ui.ctx(), |ui| {
@@ -40,7 +33,7 @@ pub fn drawer(ui: &mut egui::Ui, area: Rect, shown: Displayed<'_>, next: &mut Mo
         ui.painter().rect_filled(background, 0.0, ui.visuals().panel_fill);
         ui.scope_builder(egui::UiBuilder::new().max_rect(over.shrink(6.0)), |ui| {
             egui::ScrollArea::both().auto_shrink([false, false]).show(ui, |ui| {
-                drawer.pins(ui, &tables, &mut next.inspection);
+                drawer.pins(ui, &mut next.inspection);
             });
         });
     });
@@ -56,12 +49,12 @@ struct Drawer<'a> {
 
 impl Drawer<'_> {
     /// The height of all contents.
-    fn height(&self, tables: usize) -> f32 {
+    fn height(&self) -> f32 {
         let rows = (self.materials.len() + 1) as f32;
-        46.0 + self.pins.len() as f32 * tables as f32 * (19.0 * rows + 5.0)
+        46.0 + self.pins.len() as f32 * (19.0 * rows + 5.0)
     }
 
-    fn pins(&self, ui: &mut egui::Ui, tables: &[Range<usize>], next: &mut Inspection) {
+    fn pins(&self, ui: &mut egui::Ui, next: &mut Inspection) {
         ui.horizontal(|ui| {
             ui.strong("Pinned texels").on_hover_text("Computed in f64 under the light and view of now");
             if ui.small_button("Remove all pins").clicked() {
@@ -71,39 +64,31 @@ impl Drawer<'_> {
         for (number, pin) in self.pins.iter().enumerate() {
             let materials = self.materials.iter().map(LoadedMaterial::material);
             let rows = inspection::rows(materials, *pin, &self.state.scene, &self.state.convention());
-            for columns in tables {
-                let grid = egui::Grid::new(("pin", number, columns.start)).num_columns(columns.len() + 1);
-                grid.min_col_width(0.0).spacing([SPACING, 2.0]).striped(true).show(ui, |ui| {
-                    self.pin_heading(ui, number, columns, next);
-                    for (index, row) in rows.iter().enumerate() {
-                        self.name(ui, index);
-                        row.cells()[columns.clone()].iter().zip(columns.clone()).for_each(
-                            |(cell, column)| {
-                                numbers(ui, cell, WIDTHS[column]);
-                            },
-                        );
-                        ui.end_row();
-                    }
-                });
-            }
+            let grid = egui::Grid::new(("pin", number)).num_columns(HEADS.len() + 1);
+            grid.min_col_width(0.0).spacing([SPACING, 2.0]).striped(true).show(ui, |ui| {
+                self.pin_heading(ui, number, next);
+                for (index, row) in rows.iter().enumerate() {
+                    self.name(ui, index);
+                    row.cells().iter().zip(WIDTHS).for_each(|(cell, width)| numbers(ui, cell, width));
+                    ui.end_row();
+                }
+            });
         }
     }
 
-    /// The names of the columns; before those of the first table, the place of the pin.
-    fn pin_heading(&self, ui: &mut egui::Ui, index: usize, columns: &Range<usize>, next: &mut Inspection) {
+    /// The names of the columns after the place of the pin.
+    fn pin_heading(&self, ui: &mut egui::Ui, index: usize, next: &mut Inspection) {
         let pin = self.pins[index];
         ui.horizontal(|ui| {
             ui.set_min_width(NAME);
-            if columns.start == 0 {
-                let name = format!("{}: {},{}", index + 1, pin[0], pin[1]);
-                let button = ui.small_button(RichText::new(&name).monospace());
-                if button.on_hover_text("Remove this pin").clicked() {
-                    next.toggle_pin(pin);
-                }
+            let name = format!("{}: {},{}", index + 1, pin[0], pin[1]);
+            let button = ui.small_button(RichText::new(&name).monospace());
+            if button.on_hover_text("Remove this pin").clicked() {
+                next.toggle_pin(pin);
             }
         });
-        for (name, meaning) in &HEADS[columns.clone()] {
-            ui.label(RichText::new(*name).small().weak()).on_hover_text(*meaning);
+        for (name, meaning) in HEADS {
+            ui.label(RichText::new(name).small().weak()).on_hover_text(meaning);
         }
         ui.end_row();
     }
@@ -120,23 +105,6 @@ impl Drawer<'_> {
             ui.add(egui::Label::new(RichText::new(text).small().color(colour)).truncate());
         });
     }
-}
-
-/// The columns of each table of pins: of one where it fits into the width, otherwise of two below each other.
-fn tables(ui: &egui::Ui) -> Vec<Range<usize>> {
-    let all = 0..HEADS.len();
-    let small = TextStyle::Small.resolve(ui.style());
-    let needed = ui.fonts_mut(|fonts| {
-        let glyph = fonts.glyph_width(&FontId::monospace(NUMBERS), '0');
-        let columns = all.clone().map(|column| {
-            let count = if COLOURS.contains(&column) { 3 * WIDTHS[column] + 2 } else { WIDTHS[column] };
-            let name: f32 = HEADS[column].0.chars().map(|c| fonts.glyph_width(&small, c)).sum();
-            name.max(glyph * count as f32) + SPACING
-        });
-        NAME + columns.sum::<f32>()
-    });
-    let room = ui.available_width() - ui.spacing().scroll.allocated_width();
-    if needed <= room { vec![all] } else { vec![0..TERMS, TERMS..HEADS.len()] }
 }
 
 /// The numbers of a cell, each in `width` characters; in full under the pointer.

@@ -28,11 +28,11 @@ impl Jobs {
             self.uploads.send_missing(&self.waker, gpu, &model.materials.all);
         }
         self.ask_about_panes(model, &mut findings);
-        let Self { waker, gpu, dataset, .. } = self;
-        findings.errors.extend(dataset.follow(waker, gpu.as_ref(), model, in_sight));
+        let Self { waker, answers, gpu, dataset, .. } = self;
+        findings.errors.extend(dataset.follow((waker, answers), gpu.as_ref(), model, in_sight));
         let Self { uploads, openings, panes, dataset, .. } = self;
         let is_here = |id| model.materials.all.iter().chain(&panes.displayed).any(|one| one.id() == id);
-        uploads.keep_only(|id| is_here(id) || openings.hold(id) || dataset.cases.hold(id));
+        uploads.keep_only(|id| is_here(id) || openings.hold(id) || dataset.hold(id));
         findings
     }
 

@@ -8,10 +8,11 @@ use svbrdf_core::progress::Progress;
 use svbrdf_gpu::Gpu;
 
 use crate::error::Error;
+use crate::jobs::answers::content::Given;
+use crate::jobs::answers::{Answered, Answers, Question, Work};
 use crate::jobs::reading::read::{MaterialReader, read_with_retries};
 use crate::jobs::reading::upload::Uploaded;
-use crate::jobs::work::job::Job;
-use crate::jobs::work::waker::Waker;
+use crate::model::Model;
 use crate::model::dataset::{Missing, OpenDataset};
 use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
 
@@ -41,79 +42,64 @@ impl ReadCase {
     }
 }
 
-/// The materials that are read.
-#[derive(Debug, Default)]
-pub struct CaseJobs {
-    ready: Vec<Arc<ReadCase>>,
-    running: Option<(usize, Job<ReadCase>)>,
+/// The materials of a data set that the window has, the one that is waited for first, then those ahead.
+pub type ReadCases = Vec<Arc<Answered<ReadCase>>>;
+
+/// Asks for the material that was asked for, and for those ahead once it is there. `known` are those of the frame before.
+pub fn ask(
+    answers: &Answers,
+    gpu: Option<&Gpu>,
+    model: &Model,
+    (read_again, known): (u64, ReadCases),
+) -> ReadCases {
+    let dataset = &model.dataset;
+    let Some(open) = &dataset.open else { return Vec::new() };
+    // All predictions of one ground truth have it in common.
+    let known = if open.is_of_predictions() { known } else { Vec::new() };
+    let question = |case: usize| AskCase {
+        case,
+        pinned: dataset.pinned(),
+        open: open.clone(),
+        read_again,
+        rules: model.materials.rules,
+        gpu: Given(gpu.cloned()),
+        known: Given(known.clone()),
+    };
+    let mut cases: ReadCases = answers.get(&question(dataset.wanted)).ready().into_iter().collect();
+    if cases.iter().any(|case| case.bytes() <= AHEAD) {
+        cases.extend(dataset.ahead.iter().filter_map(|case| answers.get_later(&question(*case)).ready()));
+    }
+    cases
 }
 
-impl CaseJobs {
-    /// A material, once it has been read, with these predictions beside it.
-    pub fn get(&self, case: usize, pinned: &[usize]) -> Option<&Arc<ReadCase>> {
-        self.ready.iter().find(|ready| ready.case == case && ready.pinned == pinned)
-    }
+/// A material with its predictions, and predictions of a list beside it.
+#[derive(Clone, Debug)]
+struct AskCase {
+    open: Arc<OpenDataset>,
+    case: usize,
+    pinned: Vec<usize>,
+    /// How often files were read again.
+    read_again: u64,
+    rules: Rules,
+    gpu: Given<Option<Gpu>>,
+    /// What has the ground truth of all, and the pinned predictions, once they are read.
+    known: Given<ReadCases>,
+}
 
-    /// Whether the maps of a material stay on the adapter.
-    pub fn hold(&self, id: MaterialId) -> bool {
-        self.ready.iter().flat_map(|ready| &ready.materials).any(|(_, one)| one.id == id)
+impl PartialEq for AskCase {
+    fn eq(&self, other: &Self) -> bool {
+        let of = |one: &Self| (Arc::as_ptr(&one.open).addr(), one.case, one.read_again);
+        of(self) == of(other) && self.pinned == other.pinned && self.rules == other.rules
     }
+}
 
-    /// Reads a material again when it is wanted.
-    pub fn forget(&mut self, case: usize) {
-        self.ready.retain(|ready| ready.case != case);
-        self.running.take_if(|(running, _)| *running == case);
-    }
+impl Question for AskCase {
+    type Answer = ReadCase;
+    // What is not asked for may be large.
+    const KEPT: usize = 0;
 
-    /// Takes over what has been read, and reads what is missing of `wanted`, whose first one is waited for.
-    pub(super) fn follow(
-        &mut self,
-        waker: &Waker,
-        gpu: Option<&Gpu>,
-        open: &Arc<OpenDataset>,
-        rules: Rules,
-        (wanted, pinned): (&[usize], &[usize]),
-    ) -> Option<Error> {
-        let mut error = None;
-        if let Some((case, job)) = &self.running
-            && let Some(read) = job.poll()
-        {
-            match read {
-                Ok(read) => {
-                    self.ready.retain(|ready| ready.case != read.case);
-                    self.ready.push(Arc::new(read));
-                }
-                Err(problem) => {
-                    // It is not tried again in every frame.
-                    let name = open.name(*case).to_owned();
-                    let missing = vec![Missing { slot: 0, name, problem: problem.to_string() }];
-                    let (case, pinned) = (*case, pinned.to_vec());
-                    let (materials, uploads) = (Vec::new(), Vec::new());
-                    self.ready.push(Arc::new(ReadCase { case, pinned, materials, uploads, missing }));
-                    error = Some(problem).filter(|problem| !problem.is_cancelled());
-                }
-            }
-            self.running = None;
-        }
-        self.ready.retain(|ready| wanted.contains(&ready.case));
-        let is_ready = |case: &usize| self.get(*case, pinned).is_some();
-        let is_first_ready = wanted.first().is_none_or(is_ready);
-        let is_small = self.ready.iter().all(|ready| ready.bytes() <= AHEAD);
-        let count = if is_first_ready && is_small { wanted.len() } else { 1 };
-        let next = wanted.iter().take(count).find(|case| !is_ready(case)).copied();
-        if self.running.as_ref().is_some_and(|(running, _)| {
-            !wanted.contains(running) || (!is_first_ready && wanted.first() != Some(running))
-        }) {
-            self.running = None;
-        }
-        if let Some(case) = next.filter(|_| self.running.is_none()) {
-            let known = if open.is_of_predictions() { self.ready.clone() } else { Vec::new() };
-            let reading =
-                CaseReading { open: open.clone(), gpu: gpu.cloned(), rules, pinned: pinned.to_vec(), known };
-            let job = Job::start(waker, move |progress| Ok(reading.read(case, progress)));
-            self.running = Some((case, job));
-        }
-        error
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<ReadCase, Error> {
+        Ok(self.read(work.progress()))
     }
 }
 
@@ -123,19 +109,10 @@ type Present = (Arc<ReadMaterial>, Option<Arc<Uploaded>>);
 /// The same, or why there is none.
 type Column = Result<Present, String>;
 
-/// What reads a material with its predictions.
-struct CaseReading {
-    open: Arc<OpenDataset>,
-    gpu: Option<Gpu>,
-    rules: Rules,
-    pinned: Vec<usize>,
-    /// What has the ground truth of all, and the pinned predictions, once they are read.
-    known: Vec<Arc<ReadCase>>,
-}
-
-impl CaseReading {
+impl AskCase {
     /// Reads a material with its predictions, several at a time.
-    fn read(&self, case: usize, progress: &Progress) -> ReadCase {
+    fn read(&self, progress: &Progress) -> ReadCase {
+        let case = self.case;
         let (pinned, missing) = (self.pinned.clone(), Vec::new());
         let mut found = ReadCase { case, pinned, materials: Vec::new(), uploads: Vec::new(), missing };
         let (truth, uploaded) = match self.column((case, 0), None, progress) {
@@ -205,7 +182,7 @@ impl CaseReading {
         let part = |whole: &ReadMaterial| registration.applied([whole.material(), sample.material()]);
         let present = |read: &ReadMaterial, material| {
             let read = Arc::new(read.part(material));
-            let uploaded = self.gpu.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
+            let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
             (read, uploaded)
         };
         let [cut, _] = part(truth).ok()?;
@@ -231,7 +208,7 @@ impl CaseReading {
         progress: &Progress,
     ) -> Column {
         let source = self.open.source(case, column)?;
-        for known in &self.known {
+        for known in &self.known.0 {
             if let Some((_, read)) = known.materials.iter().find(|(_, one)| one.source == source) {
                 let uploaded = known.uploads.iter().find(|(id, _)| *id == read.id);
                 return Ok((read.clone(), uploaded.map(|(_, uploaded)| uploaded.clone())));
@@ -240,7 +217,7 @@ impl CaseReading {
         let mut reader = MaterialReader { rules: self.rules, size, retries: false };
         let read =
             read_with_retries(&source, &mut reader, &progress.part()).map_err(|error| error.to_string())?;
-        let uploaded = self.gpu.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
+        let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
         Ok((Arc::new(read), uploaded))
     }
 

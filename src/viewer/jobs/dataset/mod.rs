@@ -13,9 +13,11 @@ use svbrdf_gpu::Gpu;
 use super::work::job::Job;
 use super::work::waker::Waker;
 use crate::error::Error;
+use crate::jobs::answers::Answers;
 use crate::model::Model;
 use crate::model::dataset::{DatasetState, OpenDataset};
-use cases::CaseJobs;
+use crate::model::material::read::MaterialId;
+use cases::ReadCases;
 use losses::DatasetLosses;
 
 /// The work for the data set of the window.
@@ -26,7 +28,8 @@ pub struct DatasetJobs {
     /// The data set that everything else is of.
     of: Option<Arc<OpenDataset>>,
     pub losses: DatasetLosses,
-    pub cases: CaseJobs,
+    /// The materials that are there, the first the one that was asked for.
+    pub cases: ReadCases,
 }
 
 impl DatasetJobs {
@@ -37,31 +40,28 @@ impl DatasetJobs {
         self.losses.read_again = read_again;
     }
 
+    /// Whether the maps of a material stay on the adapter.
+    pub fn hold(&self, id: MaterialId) -> bool {
+        self.cases.iter().flat_map(|case| &case.materials).any(|(_, one)| one.id == id)
+    }
+
     /// Takes over results, and computes what is displayed of the materials `in_sight`, then the rest.
     pub fn follow(
         &mut self,
-        waker: &Waker,
+        (waker, answers): (&Waker, &Answers),
         gpu: Option<&Gpu>,
         model: &Model,
         in_sight: &[usize],
-    ) -> Vec<Error> {
-        let Some(open) = &model.dataset.open else {
-            if self.of.is_some() {
-                self.restart();
-            }
-            return Vec::new();
-        };
-        if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, open)) {
+    ) -> Option<Error> {
+        let of = &model.dataset.open;
+        if self.of.as_ref().map(Arc::as_ptr) != of.as_ref().map(Arc::as_ptr) {
             self.restart();
-            self.of = Some(open.clone());
+            self.of.clone_from(of);
         }
-        let wanted: Vec<usize> =
-            std::iter::once(model.dataset.wanted).chain(model.dataset.ahead.iter().copied()).collect();
-        let first: Vec<usize> = wanted[..1].iter().chain(in_sight).copied().collect();
-        let errors = [
-            self.losses.follow(waker, open, &model.view.convention, &first),
-            self.cases.follow(waker, gpu, open, model.materials.rules, (&wanted, &model.dataset.pinned())),
-        ];
-        errors.into_iter().flatten().collect()
+        let known = std::mem::take(&mut self.cases);
+        self.cases = cases::ask(answers, gpu, model, (self.losses.read_again, known));
+        let first: Vec<usize> =
+            std::iter::once(model.dataset.wanted).chain(in_sight.iter().copied()).collect();
+        self.losses.follow(waker, of.as_ref()?, &model.view.convention, &first)
     }
 }

@@ -5,13 +5,10 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use svbrdf_core::image::Image;
-use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
-use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
-use svbrdf_core::picture::difference::DifferenceParams;
-use svbrdf_core::picture::statistics::Distributions;
+use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
+use svbrdf_core::progress::Progress;
 
 use super::cells::{Cell, Reduced};
 use crate::error::Error;
@@ -75,16 +72,6 @@ impl DrawSheet {
         }
     }
 
-    /// The cells that are there.
-    fn cells(&self) -> impl Iterator<Item = (Cell, &Material<f32>)> {
-        self.rows.iter().flat_map(|(case, row)| {
-            let cell = |(column, one): (usize, _)| {
-                Some((Cell { case: *case, column }, &**Reduced::as_ref(one).ok()?))
-            };
-            row.iter().enumerate().filter_map(cell)
-        })
-    }
-
     /// The pictures, or the latest ones while these are drawn.
     pub fn drawn(&self, answers: &Answers) -> Option<Arc<Answered<SheetPicture>>> {
         answers.get(self).ready().or_else(|| Self::latest(answers))
@@ -102,66 +89,46 @@ impl Question for DrawSheet {
     const KEPT: usize = 1;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<SheetPicture, Error> {
-        let image = |(cell, material): (Cell, &Material<f32>)| {
-            let quantity = self.content.quantity;
-            Ok((cell, quantity.image(material, &self.scene, &self.convention, &work.progress().part())?))
+        let row = |row: &SheetRow| self.row(row, work.progress());
+        let rows: Vec<Vec<(Cell, Pictures)>> = self.rows.par_iter().map(row).collect::<Result<_, _>>()?;
+        let all: Vec<(Cell, Pictures)> = rows.into_iter().flatten().collect();
+        // All cells share one legend.
+        let ranges = all.iter().filter_map(|(_, pictures)| pictures.content.difference?.range);
+        let range =
+            ranges.fold(None, |most: Option<f64>, range| Some(most.map_or(range, |most| most.max(range))));
+        let colours = |(cell, pictures): &(Cell, Pictures)| {
+            let difference = pictures.content.difference.map(|one| ColouredDifference { range, ..one });
+            let (content, image) =
+                (PictureContent { difference, ..pictures.content }, pictures.images.first()?);
+            let pixels =
+                image.pixels.iter().map(|rgb| Picture::opaque(content.colour(*rgb, self.exposure_ev)));
+            Some((*cell, Picture { size: [image.width, image.height], pixels: pixels.collect() }))
         };
-        let cells: Vec<(Cell, &Material<f32>)> = self.cells().collect();
-        let values: Vec<(Cell, Image<f32>)> =
-            cells.into_par_iter().map(image).collect::<Result<_, Error>>()?;
-        let truths =
-            values.iter().filter(|(cell, _)| cell.column == 0).map(|(cell, image)| (cell.case, image));
-        let truths: HashMap<usize, &Image<f32>> = truths.collect();
-        let params = DifferenceParams { epsilon: self.convention.epsilon, exposure_ev: self.exposure_ev };
-        let content = with_range(self.content, &values, &truths, params);
-        let picture = |(cell, image): &(Cell, Image<f32>)| {
-            Some((*cell, colours(content, (*cell, image), truths.get(&cell.case).copied()?, params)?))
-        };
-        let pictures: Vec<(Cell, Picture)> = values.par_iter().filter_map(picture).collect();
-        let range = content.difference.and_then(|difference| difference.range);
+        let pictures: Vec<(Cell, Picture)> = all.par_iter().filter_map(colours).collect();
         Ok(SheetPicture { range, ..together(&pictures) })
     }
 }
 
-/// The content with the automatic range of all cells, where none is set: they share one legend.
-fn with_range(
-    content: PictureContent,
-    values: &[(Cell, Image<f32>)],
-    truths: &HashMap<usize, &Image<f32>>,
-    params: DifferenceParams,
-) -> PictureContent {
-    let Some(difference) = content.difference.filter(|one| one.range.is_none()) else { return content };
-    let of = |(cell, image): &(Cell, Image<f32>)| {
-        let truth = truths.get(&cell.case).filter(|truth| cell.column > 0 && are_of_size(truth, image))?;
-        Some(difference.kind.of_images(truth, image, params))
-    };
-    let all: Vec<_> = values.par_iter().filter_map(of).collect();
-    let range = Some(Distributions::of(&all, difference.kind.is_signed()).auto_range);
-    PictureContent { difference: Some(ColouredDifference { range, ..difference }), ..content }
-}
-
-fn are_of_size(a: &Image<f32>, b: &Image<f32>) -> bool {
-    (a.width, a.height) == (b.width, b.height)
-}
-
-/// The colours of a cell: the value of the ground truth, and the value or the difference of a prediction, where both have one size.
-fn colours(
-    content: PictureContent,
-    (cell, image): (Cell, &Image<f32>),
-    truth: &Image<f32>,
-    params: DifferenceParams,
-) -> Option<Picture> {
-    let value = PictureContent { difference: None, ..content };
-    let (content, difference) = match content.difference.filter(|_| cell.column > 0) {
-        None => (value, None),
-        Some(difference) if are_of_size(truth, image) => {
-            (content, Some(difference.kind.picture(truth, image, params)))
+impl DrawSheet {
+    /// The value of the ground truth of a row, and the value or the difference of each prediction, where both have one size.
+    fn row(&self, (case, row): &SheetRow, progress: &Progress) -> Result<Vec<(Cell, Pictures)>, Error> {
+        let Some(Ok(truth)) = row.first() else { return Ok(Vec::new()) };
+        let value = PictureContent { difference: None, ..self.content };
+        let mut all = Vec::new();
+        for (column, material) in row.iter().enumerate() {
+            let Ok(material) = material else { continue };
+            let is_compared = column > 0 && self.content.difference.is_some();
+            let (content, materials) = match is_compared {
+                true if material.size() == truth.size() => (self.content, vec![&**truth, &**material]),
+                true => continue,
+                false => (value, vec![&**material]),
+            };
+            let (scene, ev) = (&self.scene, self.exposure_ev);
+            let pictures = content.pictures(&materials, scene, &self.convention, ev, &progress.part())?;
+            all.push((Cell { case: *case, column }, pictures));
         }
-        Some(_) => return None,
-    };
-    let shown = difference.as_ref().unwrap_or(image);
-    let pixels = shown.pixels.iter().map(|rgb| Picture::opaque(content.colour(*rgb, params.exposure_ev)));
-    Some(Picture { size: [shown.width, shown.height], pixels: pixels.collect() })
+        Ok(all)
+    }
 }
 
 /// All pictures in one, in cells of the size of the largest.
