@@ -108,12 +108,7 @@ impl MaterialsDrawer<'_> {
         let text = |order: Order| match order {
             Order::Name => "by name".to_owned(),
             Order::Loss(method) => format!("loss of {}", names.get(method).map_or("", String::as_str)),
-            Order::Difference(a, b) => {
-                let name = |of: usize| names.get(of).map_or("", String::as_str);
-                format!("{} \u{2212} {}", name(a), name(b))
-            }
             Order::Disagreement => "disagreement".to_owned(),
-            Order::State => "state".to_owned(),
         };
         let combo = egui::ComboBox::from_id_salt("order").selected_text(text(list.order)).width(112.0);
         let combo = combo.show_ui(ui, |ui| {
@@ -122,12 +117,6 @@ impl MaterialsDrawer<'_> {
             (0..methods.len()).for_each(|method| drop(one(Order::Loss(method))));
             if methods.len() > 1 {
                 one(Order::Disagreement).on_hover_text("The largest difference of two methods first");
-            }
-            one(Order::State).on_hover_text("Failed first, then marked");
-            let pairs = (0..methods.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
-            // All pairs of many methods would fill the window.
-            for (a, b) in pairs.filter(|_| methods.len() <= 5) {
-                one(Order::Difference(a, b)).on_hover_text("Where the first is worse by the most, first");
             }
         });
         named(&combo.response, "Order of the materials");
@@ -226,6 +215,10 @@ impl MaterialsDrawer<'_> {
         let losses = jobs.losses.row(case);
         let bars = Rect::from_min_max(pos2(right.left(), right.top() + NAME), right.max);
         self.paint_bars(ui, bars, case, losses);
+        let response = match losses {
+            Some(losses) => response.on_hover_text(losses.lines(self.open.methods())),
+            None => response,
+        };
         if response.clicked() {
             next.show(case, ahead);
         }

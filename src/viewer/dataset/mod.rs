@@ -18,6 +18,7 @@ use crate::jobs::order::MethodOrder;
 use crate::loss::order;
 use crate::model::Model;
 use crate::model::material::loaded::drawable;
+use crate::widgets::numbers::significant;
 use crate::widgets::paint::PanelTextures;
 use crate::widgets::{bare, report_table};
 
@@ -130,6 +131,14 @@ fn steps(ctx: &egui::Context) -> isize {
 pub fn summary(ui: &mut egui::Ui, displayed: Displayed<'_>, next: &mut Model) {
     let Some(open) = displayed.model.dataset.open.as_ref() else { return };
     let (answers, losses) = (&displayed.jobs.answers, &displayed.jobs.dataset.losses);
+    if open.is_of_predictions() {
+        for (one, loss) in displayed.model.materials.predictions().iter().zip(displayed.losses()) {
+            let loss = loss.map_or_else(|| "...".to_owned(), |loss| significant(&loss).join("  "));
+            ui.label(format!("{}  {}  {loss}", one.slot, one.name()));
+        }
+        ui.label(RichText::new(losses.settings(open).accuracy()).small().weak());
+        return;
+    }
     let Some(report) = Summarize::drawn(open, losses, answers) else {
         ui.weak("No loss is known yet.");
         return;

@@ -36,9 +36,4 @@ fn of_dataset(ui: &mut egui::Ui, noun: &str, next: &mut Model) {
     let dataset = &mut next.dataset;
     ui.toggle_value(&mut dataset.list.is_open, format!("List of {noun}s  (A)"))
         .on_hover_text("Beside the panes");
-    let label = ui.selectable_label(dataset.sheet.is_open, "Contact sheet  (S)");
-    if label.on_hover_text(format!("All {noun}s under the present light")).clicked() {
-        dataset.show_sheet(!dataset.sheet.is_open);
-        ui.close();
-    }
 }

@@ -24,19 +24,22 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
             .on_hover_text("The scene of the panes, and the convention of renderings and loss");
     });
     photograph::ui(ui, shown, next);
-    let tab = model.tab();
+    let tab = model.settings.tab;
     let scroll = egui::ScrollArea::vertical().id_salt(tab as usize);
     scroll.auto_shrink([false, false]).show(ui, |ui| match tab {
+        Tab::Loss if model.dataset.open.is_some() => {
+            dataset::summary(ui, shown, next);
+            unsure_reading(ui, shown, &mut next.settings.tab);
+        }
         Tab::Loss => {
             loss::ui(ui, shown, next);
-            if model.materials.predictions().len() > 1 && model.dataset.open.is_none() {
+            if model.materials.predictions().len() > 1 {
                 let question =
                     || PredictionOrder::of(&model.materials.all, &model.view, &model.settings.loss);
                 loss::order::fold(ui, &mut next.asks_order, || shown.jobs.answers.get(&question()));
             }
             unsure_reading(ui, shown, &mut next.settings.tab);
         }
-        Tab::Methods => dataset::summary(ui, shown, next),
         Tab::Why => why::ui(ui, shown, next, textures),
         Tab::Files => files::ui(ui, shown, next),
     });
@@ -47,16 +50,18 @@ fn tabs(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Tab) {
     let unsure = unsure_guesses(shown);
     ui.horizontal(|ui| {
         let has_methods = model.has_methods();
-        for (tab, name, question) in
-            Tab::ALL.into_iter().filter(|(tab, ..)| has_methods || *tab != Tab::Methods)
-        {
+        for (tab, name, question) in Tab::ALL {
+            let (name, question) = match tab {
+                Tab::Loss if has_methods => ("Methods", "Which method is better over the data set?"),
+                _ => (name, question),
+            };
             let text = match tab {
                 Tab::Files if unsure > 0 => {
                     RichText::new(format!("{name} ({unsure}?)")).color(ui.visuals().warn_fg_color)
                 }
                 _ => RichText::new(name),
             };
-            let label = ui.selectable_label(model.tab() == tab, text.size(14.5));
+            let label = ui.selectable_label(model.settings.tab == tab, text.size(14.5));
             label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Tab, true, format!("Tab {name}")));
             let hover = match tab {
                 Tab::Files if unsure > 0 => format!("{question} {unsure} guesses are unsure"),

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_core::loss::{Ask, FileScenes, Loss, LossSettings, Request, Texels};
+use svbrdf_core::loss::{Ask, FileScenes, LossSettings, Request, Texels};
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::analyses::SampledScenes;
@@ -16,7 +16,7 @@ use svbrdf_evaluate::report::Report as _;
 
 use crate::jobs::displayed::Displayed;
 use crate::jobs::loss::{ComputedLosses, LossJob};
-use crate::loss::results::{ResultRow, Results};
+use crate::loss::results::Results;
 use crate::model::Model;
 use crate::model::dialogs::OpenDialog;
 use crate::model::effect::Effect;
@@ -32,9 +32,6 @@ const MILLISECONDS: std::ops::RangeInclusive<u64> = 16..=10_000;
 
 /// Draws the section.
 pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
-    if shown.model.dataset.open.is_some() {
-        return of_dataset(ui, shown, next);
-    }
     let (materials, job) = (&shown.model.materials, &shown.jobs.loss);
     let mut asks_for_file = false;
     request(ui, &mut next.settings.loss, &mut asks_for_file);
@@ -58,85 +55,12 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
             if is_stale {
                 ui.set_opacity(0.5);
             }
-            Results { rows: rows(latest, shown), chosen: chosen(shown), scenes: scenes_of(latest) }
-                .ui(ui, next);
-            ui.add_space(4.0);
-            ui.label(RichText::new(summary(latest)).weak().small());
+            let chosen = shown.model.view.display.prediction;
+            let slots = materials.predictions().iter().map(|one| one.slot).collect();
+            let results = Results { latest, chosen, slots, stale: materials.stale_predictions() };
+            results.ui(ui, next);
         });
     }
-}
-
-/// The losses of the material in the window: those of the list and the table of its data set.
-fn of_dataset(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
-    let dataset = &shown.model.dataset;
-    let Some(open) = &dataset.open else { return };
-    let settings = shown.jobs.dataset.losses.settings(open);
-    let predictions = shown.model.materials.predictions();
-    let present = predictions.iter().zip(shown.losses()).enumerate().filter_map(|(index, (one, loss))| {
-        let (slot, name) = (one.slot, one.name().to_owned());
-        let (prediction, loss, is_stale) = (Some(index), Ok(loss?), one.is_stale());
-        Some(ResultRow { slot, prediction, name, loss, difference: None, is_stale })
-    });
-    let missing = dataset.missing.iter().filter(|one| one.slot > 0).map(|one| {
-        let (slot, name, loss) = (one.slot, one.name.clone(), Err(one.problem.clone()));
-        ResultRow { slot, prediction: None, name, loss, difference: None, is_stale: false }
-    });
-    let rows: Vec<ResultRow> = present.chain(missing).collect();
-    let (about, count) = (settings.accuracy(), rows.len());
-    Results { rows, chosen: chosen(shown), scenes: about.clone() }.ui(ui, next);
-    if count < predictions.len() + dataset.missing.len() {
-        ui.weak("Computing...");
-    }
-    ui.add_space(4.0);
-    let convention = settings.convention.convention.name;
-    ui.label(RichText::new(format!("convention {convention}, {about}")).weak().small());
-}
-
-/// The slot of the chosen prediction.
-fn chosen(shown: Displayed<'_>) -> usize {
-    shown.model.chosen_prediction().map_or(0, |one| one.slot)
-}
-
-/// A row for each loss that was computed.
-fn rows(latest: &ComputedLosses, shown: Displayed<'_>) -> Vec<ResultRow> {
-    let materials = &shown.model.materials;
-    let stale = materials.stale_predictions();
-    let chosen = shown.model.view.display.prediction;
-    let row = |(index, loss): (usize, &Loss)| ResultRow {
-        slot: materials.predictions().get(index).map_or(index + 1, |one| one.slot),
-        prediction: Some(index),
-        name: loss.prediction.clone(),
-        loss: Ok(loss.estimate),
-        difference: latest.differences.get(chosen).and_then(|all| all.get(index)).copied(),
-        is_stale: stale.get(index).is_some_and(|is_stale| *is_stale),
-    };
-    let mut rows: Vec<ResultRow> = latest.report.outcome.losses.iter().enumerate().map(row).collect();
-    if let [one] = &mut rows[..] {
-        one.difference = None;
-    }
-    rows
-}
-
-fn scenes_of(latest: &ComputedLosses) -> String {
-    let SampledScenes { near, distant, .. } = latest.report.sampled;
-    format!("{near} near-field and {distant} distant scenes")
-}
-
-fn summary(latest: &ComputedLosses) -> String {
-    let report = &latest.report;
-    let sampler = match report.sampled.sampler {
-        Some(Sampler::Sobol) => "scrambled Sobol",
-        Some(Sampler::Random) => "random",
-        None => "listed",
-    };
-    format!(
-        "convention {}, epsilon {}, {sampler} scenes{}, {}",
-        report.convention,
-        report.epsilon,
-        // The one that was asked for: a first estimate has scenes of another one.
-        latest.request.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
-        report.precision,
-    )
 }
 
 fn controls(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {

@@ -2,9 +2,11 @@
 
 use eframe::egui::{self, Color32, RichText, Sense, Stroke, pos2, vec2};
 
-use svbrdf_core::loss::Estimate;
+use svbrdf_core::loss::{Estimate, Loss};
+use svbrdf_core::model::sampler::Sampler;
+use svbrdf_evaluate::analyses::SampledScenes;
 
-use crate::model::material::loaded::drawable;
+use crate::jobs::loss::ComputedLosses;
 use crate::model::{Model, display};
 use crate::widgets::names::{FEWEST, Names, fitted};
 use crate::widgets::numbers::{half_width, means, signed, significant};
@@ -27,67 +29,51 @@ const NUMBERS: f32 = 11.5;
 /// What follows the number of a prediction whose loss is stale.
 const STALE_MARK: &str = " (stale)";
 
-/// The loss of a prediction.
-#[derive(Debug)]
-pub struct ResultRow {
-    pub slot: usize,
-    /// Its place among the predictions in the window.
-    pub prediction: Option<usize>,
-    pub name: String,
-    /// The loss, or why there is none.
-    pub loss: Result<Estimate, String>,
-    /// The loss - the loss of the chosen prediction, on the same scenes.
-    pub difference: Option<Estimate>,
-    /// Whether its files or those of the ground truth hold something else by now.
-    pub is_stale: bool,
-}
-
 /// What the rows show.
 #[derive(Debug)]
-pub struct Results {
-    pub rows: Vec<ResultRow>,
-    /// The slot of the chosen prediction.
+pub struct Results<'a> {
+    pub latest: &'a ComputedLosses,
     pub chosen: usize,
-    /// The scenes of the losses.
-    pub scenes: String,
+    /// The slot of each prediction.
+    pub slots: Vec<usize>,
+    /// Of each prediction, whether its files or those of the ground truth hold something else by now.
+    pub stale: Vec<bool>,
 }
 
-impl Results {
-    /// A row for each prediction, the least loss first; a click chooses it.
+impl Results<'_> {
+    /// A row for each prediction; a click chooses it.
     pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
-        let filter = if self.rows.len() > MANY { filter(ui) } else { String::new() };
-        let names: Vec<&str> = self.rows.iter().map(|row| row.name.as_str()).collect();
+        let losses = &self.latest.report.outcome.losses;
+        let filter = if losses.len() > MANY { filter(ui) } else { String::new() };
+        let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
         let short = Names::new(&names);
         // 15 predictions are seen at once in a window of 860 points.
         ui.spacing_mut().item_spacing.y = 2.0;
         ui.spacing_mut().button_padding.y = 1.0;
         ui.spacing_mut().interact_size.y = LINE;
         self.heads(ui);
-        let order = order(&self.rows);
-        let means =
-            means(&order.iter().filter_map(|index| self.rows[*index].loss.as_ref().ok()).collect::<Vec<_>>());
-        for (place, index) in order.into_iter().enumerate() {
-            let row = &self.rows[index];
-            if !row.name.to_lowercase().contains(&filter) {
+        let order = order(losses);
+        let means = means(&order.iter().map(|index| &losses[*index].estimate).collect::<Vec<_>>());
+        for (index, mean) in order.into_iter().zip(means) {
+            if !names[index].to_lowercase().contains(&filter) {
                 continue;
             }
-            let mark = if row.is_stale { STALE_MARK } else { "" };
-            let name = |most| format!("{}{mark}  {}", row.slot, short.shortened(index, most));
-            let response = match &row.loss {
-                Ok(estimate) => self.row(ui, row, (estimate, &means[place]), &name),
-                Err(problem) => failed(ui, &name, problem),
-            };
-            if let Some(prediction) = row.prediction.filter(|_| response.clicked()) {
-                display::choose(next, prediction);
+            let is_stale = self.stale.get(index).is_some_and(|is_stale| *is_stale);
+            let mark = if is_stale { STALE_MARK } else { "" };
+            let name = |most| format!("{}{mark}  {}", self.slot(index), short.shortened(index, most));
+            if self.row(ui, index, (&losses[index], &mean), &name).clicked() {
+                display::choose(next, index);
             }
-            if let (true, Ok(estimate)) = (row.slot == self.chosen, &row.loss) {
-                self.interval(ui, estimate);
+            if index == self.chosen {
+                self.interval(ui, &losses[index]);
             }
         }
+        ui.add_space(4.0);
+        ui.label(RichText::new(summary(self.latest)).weak().small());
     }
 
-    fn has_differences(&self) -> bool {
-        self.rows.iter().any(|row| row.difference.is_some())
+    fn slot(&self, index: usize) -> usize {
+        self.slots.get(index).copied().unwrap_or(index + 1)
     }
 
     fn heads(&self, ui: &mut egui::Ui) {
@@ -97,7 +83,11 @@ impl Results {
             let small = |text: String| RichText::new(text).small().weak();
             cell(ui, MEAN, small("loss".to_owned()));
             cell(ui, HALF, small("±".to_owned())).on_hover_text("Half the width of the 95% interval");
-            let versus = if self.has_differences() { format!("vs {}", self.chosen) } else { String::new() };
+            let versus = if self.latest.differences.len() > 1 {
+                format!("vs {}", self.slot(self.chosen))
+            } else {
+                String::new()
+            };
             cell(ui, DIFFERENCE, small(versus))
                 .on_hover_text("The loss - the loss of the chosen prediction, on the same scenes");
         });
@@ -107,34 +97,43 @@ impl Results {
     fn row(
         &self,
         ui: &mut egui::Ui,
-        row: &ResultRow,
-        (estimate, mean): (&Estimate, &str),
+        index: usize,
+        (loss, mean): (&Loss, &str),
         name: &dyn Fn(usize) -> String,
     ) -> egui::Response {
         let line = ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = GAP;
-            let left = name_button(ui, row.slot == self.chosen, name);
-            cell(ui, MEAN, RichText::new(mean).monospace().strong()).on_hover_text(self.in_full(estimate));
-            let half = format!("±{}", half_width(estimate));
+            let size = vec2(name_width(ui), ui.spacing().interact_size.y);
+            let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_justify(true);
+            let chosen = index == self.chosen;
+            let font = egui::TextStyle::Button.resolve(ui.style());
+            let room = size.x - 2.0 * ui.spacing().button_padding.x;
+            let name = fitted(ui, &font, room, name).unwrap_or_else(|| name(FEWEST));
+            let left = ui.allocate_ui_with_layout(size, layout.with_main_align(egui::Align::Min), |ui| {
+                ui.add(egui::Button::selectable(chosen, name).truncate())
+            });
+            cell(ui, MEAN, RichText::new(mean).monospace().strong())
+                .on_hover_text(self.in_full(&loss.estimate));
+            let half = format!("±{}", half_width(&loss.estimate));
             cell(ui, HALF, RichText::new(half).monospace().size(NUMBERS).weak())
-                .on_hover_text(self.in_full(estimate));
-            self.difference(ui, row);
-            left.on_hover_text(format!("{}\nClick to choose this prediction", row.name))
+                .on_hover_text(self.in_full(&loss.estimate));
+            self.difference(ui, index);
+            left.inner.on_hover_text(format!("{}\nClick to choose this prediction", loss.prediction))
         });
-        self.bar(ui, row.slot, estimate);
+        self.bar(ui, index, &loss.estimate);
         line.inner
     }
 
     /// The loss as a share of the largest one, with its interval as a line.
-    fn bar(&self, ui: &mut egui::Ui, slot: usize, estimate: &Estimate) {
+    fn bar(&self, ui: &mut egui::Ui, index: usize, estimate: &Estimate) {
         let end = |estimate: &Estimate| estimate.interval95.map_or(estimate.mean, |[_, high]| high);
-        let losses = self.rows.iter().filter_map(|row| row.loss.as_ref().ok());
-        let most = losses.map(end).fold(f64::MIN_POSITIVE, f64::max);
+        let losses = &self.latest.report.outcome.losses;
+        let most = losses.iter().map(|loss| end(&loss.estimate)).fold(f64::MIN_POSITIVE, f64::max);
         // Close below its line.
         ui.add_space(1.0 - ui.spacing().item_spacing.y);
         let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), BAR), Sense::hover());
         let x = |value: f64| area.left() + area.width() * (value / most).clamp(0.0, 1.0) as f32;
-        let colour = theme::series(slot, ui.visuals().dark_mode);
+        let colour = theme::series(self.slot(index), ui.visuals().dark_mode);
         ui.painter().rect_filled(area.with_max_x(x(estimate.mean)), 0.0, colour);
         if let Some([low, high]) = estimate.interval95 {
             let line = [pos2(x(low), area.center().y), pos2(x(high).max(x(low) + 1.0), area.center().y)];
@@ -143,57 +142,43 @@ impl Results {
     }
 
     /// The loss - the loss of the chosen prediction, and whether the difference is significant.
-    fn difference(&self, ui: &mut egui::Ui, row: &ResultRow) {
-        if row.slot == self.chosen {
-            let text = if self.has_differences() { "chosen" } else { "" };
+    fn difference(&self, ui: &mut egui::Ui, index: usize) {
+        if index == self.chosen {
+            let text = if self.latest.differences.len() > 1 { "chosen" } else { "" };
             cell(ui, DIFFERENCE, RichText::new(text).small().weak());
             return;
         }
-        let Some(estimate) = &row.difference else { return };
+        let of_chosen = self.latest.differences.get(self.chosen);
+        let Some(estimate) = of_chosen.and_then(|all| all.get(index)) else { return };
         let verdict = Verdict::of(estimate);
         let [mean, interval] = significant(estimate);
         let text = format!("{} {}", signed(&mean), verdict.arrow());
         let text = RichText::new(text).monospace().size(NUMBERS).color(verdict.colour(ui.visuals()));
         let response = cell(ui, DIFFERENCE, text);
-        let meaning = verdict.meaning(row.slot, self.chosen);
+        let meaning = verdict.meaning(self.slot(index), self.slot(self.chosen));
         let full = format!("{} {interval} {}", signed(&mean), verdict.text());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &full));
         response.on_hover_text(format!("95% interval {interval}\n{meaning}\n{}", self.in_full(estimate)));
     }
 
     /// Below the chosen prediction: its interval.
-    fn interval(&self, ui: &mut egui::Ui, estimate: &Estimate) {
-        let [_, interval] = significant(estimate);
+    fn interval(&self, ui: &mut egui::Ui, loss: &Loss) {
+        let [_, interval] = significant(&loss.estimate);
         ui.horizontal(|ui| {
             ui.add_space(10.0);
-            ui.label(RichText::new(interval).monospace().size(NUMBERS)).on_hover_text(self.in_full(estimate));
+            ui.label(RichText::new(interval).monospace().size(NUMBERS))
+                .on_hover_text(self.in_full(&loss.estimate));
         });
     }
 
     /// Every digit, the standard error and the scenes.
     fn in_full(&self, estimate: &Estimate) -> String {
         let [mean, error, interval] = estimate.texts();
-        format!("{mean} ± {error} (standard error)\n95% interval {interval}\n{}", self.scenes)
+        let SampledScenes { near, distant, .. } = self.latest.report.sampled;
+        format!(
+            "{mean} ± {error} (standard error)\n95% interval {interval}\n{near} near-field and {distant} distant scenes"
+        )
     }
-}
-
-/// The name of a prediction, which is chosen by a click.
-fn name_button(ui: &mut egui::Ui, is_chosen: bool, name: &dyn Fn(usize) -> String) -> egui::Response {
-    let size = vec2(name_width(ui), ui.spacing().interact_size.y);
-    let layout = egui::Layout::left_to_right(egui::Align::Center).with_main_justify(true);
-    let font = egui::TextStyle::Button.resolve(ui.style());
-    let room = size.x - 2.0 * ui.spacing().button_padding.x;
-    let name = fitted(ui, &font, room, name).unwrap_or_else(|| name(FEWEST));
-    let left = ui.allocate_ui_with_layout(size, layout.with_main_align(egui::Align::Min), |ui| {
-        ui.add(egui::Button::selectable(is_chosen, name).truncate())
-    });
-    left.inner
-}
-
-/// The row of a prediction that has no loss, with the reason.
-fn failed(ui: &mut egui::Ui, name: &dyn Fn(usize) -> String, problem: &str) -> egui::Response {
-    ui.label(name(usize::MAX));
-    ui.label(RichText::new(drawable(problem)).small().color(theme::problem(ui.visuals())))
 }
 
 /// The room that the columns of numbers leave for a name, in points.
@@ -221,11 +206,10 @@ fn filter(ui: &mut egui::Ui) -> String {
     filter.to_lowercase()
 }
 
-/// The indices of the rows, the least loss first and those without one last.
-fn order(rows: &[ResultRow]) -> Vec<usize> {
-    let mean = |row: &ResultRow| row.loss.as_ref().map_or(f64::INFINITY, |loss| loss.mean);
-    let mut order: Vec<usize> = (0..rows.len()).collect();
-    order.sort_by(|a, b| mean(&rows[*a]).total_cmp(&mean(&rows[*b])));
+/// The indices of the losses, the least first.
+fn order(losses: &[Loss]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..losses.len()).collect();
+    order.sort_by(|a, b| losses[*a].estimate.mean.total_cmp(&losses[*b].estimate.mean));
     order
 }
 
@@ -278,6 +262,23 @@ impl Verdict {
             Self::NotSignificant => "The 95% interval includes 0: use more scenes".to_owned(),
         }
     }
+}
+
+fn summary(latest: &ComputedLosses) -> String {
+    let report = &latest.report;
+    let sampler = match report.sampled.sampler {
+        Some(Sampler::Sobol) => "scrambled Sobol",
+        Some(Sampler::Random) => "random",
+        None => "listed",
+    };
+    format!(
+        "convention {}, epsilon {}, {sampler} scenes{}, {}",
+        report.convention,
+        report.epsilon,
+        // The one that was asked for: a first estimate has scenes of another one.
+        latest.request.seed().map_or(String::new(), |seed| format!(" of seed {seed}")),
+        report.precision,
+    )
 }
 
 #[cfg(test)]

@@ -109,14 +109,6 @@ impl Model {
         self.dialogs.is_open() || self.help
     }
 
-    /// The tab of the side panel that is open.
-    pub fn tab(&self) -> settings::Tab {
-        match self.settings.tab {
-            settings::Tab::Methods if !self.has_methods() => settings::Tab::Loss,
-            tab => tab,
-        }
-    }
-
     /// Whether methods are compared over materials.
     pub fn has_methods(&self) -> bool {
         self.dataset.open.as_ref().is_some_and(|open| !open.is_of_predictions())

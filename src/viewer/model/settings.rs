@@ -10,22 +10,20 @@ use svbrdf_core::model::convention::Convention;
 /// The questions that the side panel answers, one at a time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Tab {
-    /// Which prediction is better?
+    /// Which prediction is better? Of a data set: which method?
     #[default]
+    #[serde(alias = "Methods")]
     Loss,
     /// Where and by what is it wrong?
     Why,
     /// Is each material read rightly?
     Files,
-    /// Which method is better? Of a data set.
-    Methods,
 }
 
 impl Tab {
     /// Every tab with its name and its question.
-    pub const ALL: [(Self, &'static str, &'static str); 4] = [
+    pub const ALL: [(Self, &'static str, &'static str); 3] = [
         (Self::Loss, "Loss", "Which prediction is better?"),
-        (Self::Methods, "Methods", "Which method is better over the data set?"),
         (Self::Why, "Why", "Where and by what is a prediction wrong?"),
         (Self::Files, "Files", "Is each material read rightly?"),
     ];

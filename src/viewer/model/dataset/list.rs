@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use svbrdf_evaluate::dataset::KnownLoss;
 
-use crate::widgets::numbers::means;
+use crate::model::material::loaded::drawable;
+use crate::widgets::numbers::{means, significant};
 
 /// The losses of one material, by method.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +36,19 @@ impl CaseLosses {
         self.by_method.iter().map(|one| one.and_then(|_| texts.next()).unwrap_or_default()).collect()
     }
 
+    /// A line for each of `methods`: its loss with the interval, or why there is none.
+    pub fn lines(&self, methods: &[String]) -> String {
+        let line = |(method, known): (&String, &Option<KnownLoss>)| match known {
+            Some(known) => format!("{method}  {}", significant(&known.estimate()).join("  ")),
+            None => {
+                let problem = self.problems.iter().find(|(of, _)| of == method);
+                format!("{method}  {}", problem.map_or("", |(_, problem)| problem))
+            }
+        };
+        let lines = methods.iter().zip(&self.by_method).map(line);
+        lines.map(|line| drawable(&line)).collect::<Vec<_>>().join("\n")
+    }
+
     fn loss(&self, method: usize) -> Option<f64> {
         self.by_method.get(method).copied().flatten().map(|known| known.loss)
     }
@@ -47,12 +61,8 @@ pub enum Order {
     Name,
     /// Of this method, the largest first.
     Loss(usize),
-    /// Of the first method less the second, the largest first.
-    Difference(usize, usize),
     /// The largest difference of two methods, the largest first.
     Disagreement,
-    /// Those that failed, those that are marked, the others.
-    State,
 }
 
 /// Which materials are listed.
@@ -151,12 +161,7 @@ impl ListView {
         match self.order {
             Order::Name => None,
             Order::Loss(method) => one.losses?.loss(method),
-            Order::Difference(a, b) => Some(one.losses?.loss(a)? - one.losses?.loss(b)?),
             Order::Disagreement => one.losses?.disagreement(),
-            Order::State => {
-                let has_failed = one.losses.is_some_and(|losses| !losses.problems.is_empty());
-                Some(f64::from(2 * u8::from(has_failed) + u8::from(one.is_marked)))
-            }
         }
     }
 
@@ -202,10 +207,7 @@ mod tests {
         assert_eq!(rows(ListView { is_reversed: true, ..ListView::default() }), [3, 2, 1, 0]);
         assert_eq!(rows(by(Order::Loss(0))), [0, 3, 1, 2]);
         assert_eq!(rows(ListView { is_reversed: true, ..by(Order::Loss(0)) }), [1, 3, 0, 2]);
-        assert_eq!(rows(by(Order::Difference(0, 1))), [0, 1, 2, 3]);
-        assert_eq!(rows(by(Order::Difference(1, 0))), [1, 0, 2, 3]);
         assert_eq!(rows(by(Order::Disagreement)), [1, 0, 2, 3]);
-        assert_eq!(rows(by(Order::State)), [3, 1, 0, 2]);
         assert_eq!(rows(ListView { search: "BRICK".to_owned(), ..ListView::default() }), [0, 2]);
         let only = |filter| rows(ListView { filter, ..ListView::default() });
         assert_eq!([only(Filter::Marked), only(Filter::Failed)], [vec![1], vec![3]]);
