@@ -6,7 +6,7 @@ use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, WidgetInfo, pos2
 
 use egui_material_icons::icons;
 
-use crate::dataset::rows::{Rows, chosen_method};
+use crate::dataset::rows::{Rows, chosen_method, lines, texts};
 use crate::jobs::displayed::Displayed;
 use crate::model::dataset::list::{CaseLosses, Filter, ListView, Order};
 use crate::model::dataset::{DatasetState, OpenDataset};
@@ -216,7 +216,7 @@ impl MaterialsDrawer<'_> {
         let bars = Rect::from_min_max(pos2(right.left(), right.top() + NAME), right.max);
         self.paint_bars(ui, bars, case, losses);
         let response = match losses {
-            Some(losses) => response.on_hover_text(losses.lines(self.open.methods())),
+            Some(losses) => response.on_hover_text(lines(losses, self.open.methods())),
             None => response,
         };
         if response.clicked() {
@@ -230,7 +230,7 @@ impl MaterialsDrawer<'_> {
         let largest = self.displayed.jobs.dataset.losses.largest.max(f64::MIN_POSITIVE);
         let chosen = chosen_method(self.displayed);
         let of_predictions = self.open.is_of_predictions();
-        let texts = losses.texts();
+        let texts = texts(losses);
         let (font, painter) = (FontId::monospace(10.5), ui.painter());
         for (index, known) in losses.by_method.iter().take(MOST_BARS).enumerate() {
             let line = Rect::from_min_size(area.min + vec2(0.0, index as f32 * BAR), vec2(area.width(), BAR));

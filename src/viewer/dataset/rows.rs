@@ -2,8 +2,12 @@
 
 use std::sync::Arc;
 
+use svbrdf_evaluate::dataset::KnownLoss;
+
 use crate::jobs::displayed::Displayed;
-use crate::model::dataset::list::{ListView, Listed};
+use crate::model::dataset::list::{CaseLosses, ListView, Listed};
+use crate::model::material::loaded::drawable;
+use crate::widgets::numbers::{means, significant};
 
 /// The materials that are listed, in their order.
 #[derive(Debug, Default)]
@@ -61,6 +65,26 @@ impl Rows {
         let around = [row.checked_add(1), row.checked_sub(1)].into_iter().flatten();
         Some((case, around.filter_map(|row| self.cases.get(row)).copied().collect()))
     }
+}
+
+/// The losses of a material as text, with the digits that tell neighbours apart; nothing of a method without one.
+pub fn texts(losses: &CaseLosses) -> Vec<String> {
+    let known: Vec<_> = losses.by_method.iter().flatten().map(KnownLoss::estimate).collect();
+    let mut texts = means(&known.iter().collect::<Vec<_>>()).into_iter();
+    losses.by_method.iter().map(|one| one.and_then(|_| texts.next()).unwrap_or_default()).collect()
+}
+
+/// A line for each of `methods`: its loss with the interval, or why there is none.
+pub fn lines(losses: &CaseLosses, methods: &[String]) -> String {
+    let line = |(method, known): (&String, &Option<KnownLoss>)| match known {
+        Some(known) => format!("{method}  {}", significant(&known.estimate()).join("  ")),
+        None => {
+            let problem = losses.problems.iter().find(|(of, _)| of == method);
+            format!("{method}  {}", problem.map_or("", |(_, problem)| problem))
+        }
+    };
+    let lines = methods.iter().zip(&losses.by_method).map(line);
+    lines.map(|line| drawable(&line)).collect::<Vec<_>>().join("\n")
 }
 
 /// The chosen method: that of the chosen prediction, or the one that was chosen before the material in the window.

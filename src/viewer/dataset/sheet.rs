@@ -13,13 +13,14 @@ use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::text::line;
 
 use crate::dataset::list::MARK;
-use crate::dataset::rows::{Rows, chosen_method};
+use crate::dataset::rows::{Rows, chosen_method, texts};
 use crate::jobs::answers::Answered;
 use crate::jobs::dataset::cells::{Cell, ReadRow, Reduced};
 use crate::jobs::dataset::sheet::{DrawSheet, SheetPicture, SheetRow};
+use crate::jobs::dataset::summary::Summarize;
 use crate::jobs::displayed::Displayed;
 use crate::model::dataset::OpenDataset;
-use crate::model::dataset::list::{CaseLosses, Order};
+use crate::model::dataset::list::Order;
 use crate::model::material::loaded::drawable;
 use crate::model::{Model, endpoint};
 use crate::widgets::names::Names;
@@ -108,7 +109,8 @@ impl ContactSheet<'_> {
     fn head(&self, ui: &mut egui::Ui, cell: f32, next: &mut Model) {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
         self.legend(ui, rect.with_max_x(rect.left() + NAMES).with_max_y(rect.top() + 0.5 * HEAD));
-        let losses = &self.displayed.jobs.dataset.losses;
+        let jobs = self.displayed.jobs;
+        let report = Summarize::drawn(self.open, &jobs.dataset.losses, &jobs.answers);
         let methods: Vec<&str> = self.open.methods().iter().map(String::as_str).collect();
         let all = Names::new(&methods);
         let font = FontId::proportional(12.0);
@@ -137,7 +139,9 @@ impl ContactSheet<'_> {
                 (true, false) => " \u{2193}",
                 (true, true) => " \u{2191}",
             };
-            let mean = losses.mean(method).map_or_else(String::new, |mean| format!("mean {}", digits(mean)));
+            let summary =
+                report.as_ref().and_then(|all| all.methods.iter().find(|one| one.method == methods[method]));
+            let mean = summary.map_or_else(String::new, |one| format!("mean {}", digits(one.mean)));
             let ink = if is_chosen { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
             let mean = format!("{mean}{arrow}");
             painter.text(line(0.74), Align2::LEFT_CENTER, &mean, FontId::monospace(11.0), ink);
@@ -186,7 +190,7 @@ impl ContactSheet<'_> {
         let galley = ui.painter().layout(text, FontId::proportional(12.0), colour, names.width());
         let painter = ui.painter().with_clip_rect(names.intersect(ui.clip_rect()));
         painter.galley(names.min, galley, colour);
-        let texts = self.displayed.jobs.dataset.losses.row(case).map(CaseLosses::texts).unwrap_or_default();
+        let texts = self.displayed.jobs.dataset.losses.row(case).map(texts).unwrap_or_default();
         for column in 0..columns {
             let left = rect.left() + NAMES + column as f32 * (cell + GAP);
             let square = Rect::from_min_size(pos2(left, rect.top()), vec2(cell, cell));

@@ -24,9 +24,6 @@ impl Jobs {
     pub fn follow(&mut self, model: &Model, in_sight: &[usize]) -> JobFindings {
         let mut findings = JobFindings::default();
         self.follow_losses(model);
-        if let Some(gpu) = &self.gpu {
-            self.uploads.send_missing(&self.waker, gpu, &model.materials.all);
-        }
         self.ask_about_panes(model, &mut findings);
         let Self { waker, answers, gpu, dataset, .. } = self;
         findings.errors.extend(dataset.follow((waker, answers), gpu.as_ref(), model, in_sight));

@@ -57,16 +57,6 @@ impl DatasetLosses {
         self.results.iter().flatten().count()
     }
 
-    /// The mean of a method over the materials whose losses are known.
-    pub fn mean(&self, method: usize) -> Option<f64> {
-        let rows = self.rows.iter().flatten();
-        let losses: Vec<f64> = rows
-            .filter_map(|row| row.by_method.get(method).copied().flatten())
-            .map(|known| known.loss)
-            .collect();
-        (!losses.is_empty()).then(|| losses.iter().sum::<f64>() / losses.len() as f64)
-    }
-
     pub fn results(&self) -> impl Iterator<Item = &Arc<MaterialResult>> {
         self.results.iter().flatten()
     }

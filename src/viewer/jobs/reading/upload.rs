@@ -6,18 +6,12 @@ use std::sync::{Arc, OnceLock};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use eframe::wgpu;
-
 use svbrdf_core::material::Material;
-use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 use svbrdf_files::disk::memory::{self, Reserved};
 use svbrdf_gpu::{Gpu, MaterialTextures};
 
-use crate::jobs::work::job::Job;
-use crate::jobs::work::waker::Waker;
-use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::read::{MaterialId, ReadMaterial};
+use crate::model::material::read::MaterialId;
 
 /// Texels that a slow adapter sends and shades within a frame.
 pub const BAND: usize = 1 << 19;
@@ -39,7 +33,6 @@ pub struct DraftTextures {
 /// The maps of a material on the adapter.
 #[derive(Debug)]
 pub struct Uploaded {
-    device: wgpu::Device,
     draft: Option<DraftTextures>,
     /// All texels, or why the adapter cannot hold them.
     whole: OnceLock<Result<DraftTextures, String>>,
@@ -52,19 +45,13 @@ pub struct Uploaded {
 impl Uploaded {
     /// Sends all of `material`.
     pub fn all(gpu: &Gpu, material: &Material<f32>) -> Self {
-        let uploaded = Self::new(gpu, None);
+        let uploaded = Self::new(None);
         uploaded.complete(gpu, material);
         uploaded
     }
 
-    fn new(gpu: &Gpu, draft: Option<DraftTextures>) -> Self {
-        Self {
-            device: gpu.device.clone(),
-            draft,
-            whole: OnceLock::new(),
-            reduced: OnceLock::new(),
-            frames: AtomicUsize::new(0),
-        }
+    fn new(draft: Option<DraftTextures>) -> Self {
+        Self { draft, whole: OnceLock::new(), reduced: OnceLock::new(), frames: AtomicUsize::new(0) }
     }
 
     /// Sends a draft where `material` is large and the adapter computes on the CPU: the rest, which takes a while there, is for
@@ -75,7 +62,7 @@ impl Uploaded {
         if !gpu.report.software || stride <= 1 {
             return Self::all(gpu, material);
         }
-        Self::new(gpu, send(gpu, material, stride).ok())
+        Self::new(send(gpu, material, stride).ok())
     }
 
     /// Waits until the draft is on the screen: an adapter that computes on the CPU would draw it after what is sent. No longer than a
@@ -101,7 +88,7 @@ impl Uploaded {
 
     /// As [`Uploaded::complete`] on an adapter that has no room for all texels.
     pub fn too_large(gpu: &Gpu, material: &Material<f32>) -> Self {
-        let uploaded = Self::new(gpu, None);
+        let uploaded = Self::new(None);
         uploaded.complete_by(|stride| match stride {
             1 => Err(Error::Internal("no room".to_owned())),
             stride => send(gpu, material, stride),
@@ -157,8 +144,6 @@ pub fn reserve_for(gpu: &Gpu, texels: usize, bytes: u64) -> Result<Option<Reserv
 #[derive(Debug, Default)]
 pub struct Uploads {
     all: HashMap<MaterialId, Arc<Uploaded>>,
-    /// Those that a lost device had, sent to the new one.
-    again: Option<Job<(), (MaterialId, Arc<Uploaded>)>>,
 }
 
 impl Uploads {
@@ -170,28 +155,6 @@ impl Uploads {
     /// Those of a material.
     pub fn get(&self, id: MaterialId) -> Option<&Arc<Uploaded>> {
         self.all.get(&id)
-    }
-
-    /// Sends the maps of `materials` that the device of `gpu` does not have: after another one was lost.
-    pub fn send_missing(&mut self, waker: &Waker, gpu: &Gpu, materials: &[LoadedMaterial]) {
-        for (id, uploaded) in self.again.iter().flat_map(Job::updates) {
-            self.all.insert(id, uploaded);
-        }
-        self.all.retain(|_, one| one.device == gpu.device);
-        if self.again.as_ref().is_some_and(|job| job.poll().is_none()) {
-            return;
-        }
-        self.again = None;
-        let missing: Vec<_> =
-            materials.iter().filter(|one| self.get(one.id()).is_none()).map(|one| one.read.clone()).collect();
-        if missing.is_empty() {
-            return;
-        }
-        let gpu = gpu.clone();
-        self.again = Some(Job::stream(waker, Progress::default(), move |worker| {
-            let send = |read: &Arc<ReadMaterial>| Arc::new(Uploaded::all(&gpu, read.material()));
-            missing.iter().try_for_each(|read| worker.report((read.id, send(read))))
-        }));
     }
 
     /// Frees those of all other materials.
@@ -227,7 +190,7 @@ mod tests {
         let gpu = Gpu::headless().unwrap();
         let material: Material<f32> = samples::load().unwrap().ground_truth.material;
         for fitting in [1, 2, 4, 32, 33] {
-            let uploaded = Uploaded::new(&gpu, None);
+            let uploaded = Uploaded::new(None);
             uploaded.complete_by(|stride| match stride {
                 small if small < fitting => Err(Error::Internal("planted".to_owned())),
                 stride => send(&gpu, &material, stride),

@@ -6,9 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use svbrdf_evaluate::dataset::KnownLoss;
 
-use crate::model::material::loaded::drawable;
-use crate::widgets::numbers::{means, significant};
-
 /// The losses of one material, by method.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CaseLosses {
@@ -27,26 +24,6 @@ impl CaseLosses {
             (least.min(loss), most.max(loss))
         });
         (self.by_method.iter().flatten().count() > 1).then_some(most - least)
-    }
-
-    /// The losses as text, with the digits that tell neighbours apart; nothing of a method without one.
-    pub fn texts(&self) -> Vec<String> {
-        let known: Vec<_> = self.by_method.iter().flatten().map(KnownLoss::estimate).collect();
-        let mut texts = means(&known.iter().collect::<Vec<_>>()).into_iter();
-        self.by_method.iter().map(|one| one.and_then(|_| texts.next()).unwrap_or_default()).collect()
-    }
-
-    /// A line for each of `methods`: its loss with the interval, or why there is none.
-    pub fn lines(&self, methods: &[String]) -> String {
-        let line = |(method, known): (&String, &Option<KnownLoss>)| match known {
-            Some(known) => format!("{method}  {}", significant(&known.estimate()).join("  ")),
-            None => {
-                let problem = self.problems.iter().find(|(of, _)| of == method);
-                format!("{method}  {}", problem.map_or("", |(_, problem)| problem))
-            }
-        };
-        let lines = methods.iter().zip(&self.by_method).map(line);
-        lines.map(|line| drawable(&line)).collect::<Vec<_>>().join("\n")
     }
 
     fn loss(&self, method: usize) -> Option<f64> {
