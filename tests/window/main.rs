@@ -103,6 +103,8 @@ fn guarded_window<'a>(options: ViewerOptions, guard: CrashGuard, scale: f32) -> 
         .wgpu()
         .build_eframe(|cc| App::new(cc, options, Storage::default()).guarded(guard));
     window.set_render_cursor(false);
+    // Otherwise a pane tells what a drag does.
+    window.state_mut().parts.model.settings.has_dragged = true;
     wait(&mut window, "the materials to be read", |app| {
         !app.is_reading() && (!app.names().is_empty() || !app.messages().is_empty())
     });

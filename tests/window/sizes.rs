@@ -101,7 +101,7 @@ fn dialogs_messages_and_photographs_are_drawn_at_every_size_and_scale() {
 }
 
 #[needs(adapter)]
-fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_brings_it_back() {
+fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_magnifies() {
     let mut window = built_in();
     for (key, expected) in [(egui::Key::Plus, 4.0), (egui::Key::Minus, 0.75)] {
         for _ in 0..60 {
@@ -112,5 +112,6 @@ fn ctrl_and_plus_keep_the_scale_within_its_range_and_ctrl_0_brings_it_back() {
         assert_eq!([window.ctx.zoom_factor(), window.model().settings.ui_scale], [expected; 2]);
     }
     press_with(&mut window, Modifiers::COMMAND, egui::Key::Num0);
-    assert_eq!(window.model().settings.ui_scale, 1.0);
+    assert_eq!(window.model().settings.ui_scale, 0.75);
+    assert_eq!(window.view().display.framing.unwrap().pixels_per_texel, 1.0);
 }

@@ -57,9 +57,6 @@ impl MaterialsDrawer<'_> {
             if std::mem::take(&mut next.finds) {
                 search.request_focus();
             }
-            if search.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
-                next.list.search.clear();
-            }
             search.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Search materials"));
         });
         let list = &mut next.list;

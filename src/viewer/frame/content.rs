@@ -16,8 +16,8 @@ use crate::widgets::numbers::digits;
 
 /// Height of the caption of a picture that is saved, in points.
 pub const CAPTION: f32 = 20.0;
-/// Height of a row of the statistics, in points.
-const ROWS: f32 = 19.0;
+/// Height of a row of the statistics, in points; three of them are in the legend of the window.
+const ROW: f32 = 19.0;
 
 /// Draws the panes and what is below them.
 pub fn ui(
@@ -37,7 +37,7 @@ pub fn ui(
     if height > 0.0 {
         let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(height).resizable(false);
         panel.show(ui, |ui| LegendStrip::new(shown).ui(ui, next));
-    } else {
+    } else if reserve(shown) > 0.0 {
         // Its room stays: the panes do not move as it comes.
         bare(egui::Panel::bottom("no strip"), ui)
             .exact_size(reserve(shown))
@@ -75,7 +75,7 @@ fn caption(ui: &mut egui::Ui, model: &Model, magnification: Option<f32>) {
 /// The height of the legend, 0 without one. A picture that is saved has every row of the statistics.
 pub fn legend_height(shown: Displayed<'_>) -> f32 {
     match shown.model.view.display.difference && compares(shown) {
-        true if shown.is_picture => STRIP.max(ROWS * (shown.materials().len() + 2) as f32),
+        true if shown.is_picture => STRIP + ROW * shown.materials().len().saturating_sub(4) as f32,
         true => STRIP,
         false => 0.0,
     }

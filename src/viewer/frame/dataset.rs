@@ -65,7 +65,7 @@ pub(super) fn read_again(parts: &mut Parts, case: usize) {
         jobs.restart();
         return;
     }
-    jobs.cases.clear();
+    jobs.forget_cases();
     jobs.losses.forget(case);
 }
 

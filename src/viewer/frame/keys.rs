@@ -318,6 +318,7 @@ fn escape(model: &mut Model) {
         () if *help => *help = false,
         () if dialogs.open.is_some() => dialogs.open = None,
         () if dialogs.save.is_some() => dialogs.save = None,
+        () if !dataset.list.search.is_empty() => dataset.list.search.clear(),
         () if dataset.sheet.is_open => dataset.show_sheet(false),
         () if inspection.is_armed => inspection.is_armed = false,
         () if inspection.region.is_some() => inspection.region = None,

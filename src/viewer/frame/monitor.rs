@@ -10,8 +10,8 @@ const STEP: f32 = 0.1;
 
 /// Changes the scale of text and controls by this many steps.
 pub fn step(model: &mut Model, steps: f32) {
-    let scale = (model.settings.ui_scale + steps * STEP).clamp(*UI_SCALE.start(), *UI_SCALE.end());
-    model.settings.ui_scale = (scale / STEP).round() * STEP;
+    let scale = (model.settings.ui_scale / STEP + steps).round() * STEP;
+    model.settings.ui_scale = scale.clamp(*UI_SCALE.start(), *UI_SCALE.end());
 }
 
 /// Chooses the scale of text and controls at the first start: systems without one of their own draw text of 2 mm on a 4K screen.

@@ -222,7 +222,7 @@ impl Viewport {
                 rect,
                 &reduced(gpu.reduction(), grid, gpu.gpu.report.max_texture_side as usize),
             );
-        } else if let Some(text) = hint(scenery, self.pane_pixels()) {
+        } else if let Some(text) = hint(scenery, content, self.pane_pixels()) {
             paint_hint(&painter, rect, &text);
         }
     }
@@ -333,7 +333,7 @@ fn reduced(stride: usize, grid: Grid, limit: usize) -> String {
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.
-fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<String> {
+fn hint(scenery: &Scenery<'_>, content: PaneContent, pane: [f32; 2]) -> Option<String> {
     let state = scenery.state;
     let grid = scenery.materials.first()?.grid();
     if framing::visible_share(state, grid, pane) < framing::NEARLY_LOST {
@@ -349,7 +349,10 @@ fn hint(scenery: &Scenery<'_>, pane: [f32; 2]) -> Option<String> {
     if perspective && steep {
         return Some("Perspective from straight above: right-drag to tilt".to_owned());
     }
-    let is_new = !scenery.has_dragged && !scenery.is_picture && state.display.quantity == Quantity::Rendering;
+    let is_new = content.index == 0
+        && !scenery.has_dragged
+        && !scenery.is_picture
+        && state.display.quantity == Quantity::Rendering;
     is_new.then(|| "left-drag moves the light, Space + left-drag pans".to_owned())
 }
 

@@ -45,17 +45,17 @@ impl ReadCase {
 /// The materials of a data set that the window has, the one that is waited for first, then those ahead.
 pub type ReadCases = Vec<Arc<Answered<ReadCase>>>;
 
-/// Asks for the material that was asked for, and for those ahead once it is there. `known` are those of the frame before.
+/// Asks for the material that was asked for, and for those ahead once it is there. `known` are the latest that were.
 pub fn ask(
     answers: &Answers,
     gpu: Option<&Gpu>,
     model: &Model,
-    (read_again, known): (u64, ReadCases),
+    (read_again, known): (u64, &ReadCases),
 ) -> ReadCases {
     let dataset = &model.dataset;
     let Some(open) = &dataset.open else { return Vec::new() };
     // All predictions of one ground truth have it in common.
-    let known = if open.is_of_predictions() { known } else { Vec::new() };
+    let known = if open.is_of_predictions() { known.clone() } else { Vec::new() };
     let question = |case: usize| AskCase {
         case,
         pinned: dataset.pinned(),

@@ -30,6 +30,8 @@ pub struct DatasetJobs {
     pub losses: DatasetLosses,
     /// The materials that are there, the first the one that was asked for.
     pub cases: ReadCases,
+    /// The latest that were there, of which others take what they have in common.
+    known: ReadCases,
 }
 
 impl DatasetJobs {
@@ -38,6 +40,11 @@ impl DatasetJobs {
         let (opening, read_again) = (self.opening.take(), self.losses.read_again + 1);
         *self = Self { opening, ..Self::default() };
         self.losses.read_again = read_again;
+    }
+
+    /// Drops the materials that are there: files have changed.
+    pub fn forget_cases(&mut self) {
+        (self.cases, self.known) = Default::default();
     }
 
     /// Whether the maps of a material stay on the adapter.
@@ -58,8 +65,10 @@ impl DatasetJobs {
             self.restart();
             self.of.clone_from(of);
         }
-        let known = std::mem::take(&mut self.cases);
-        self.cases = cases::ask(answers, gpu, model, (self.losses.read_again, known));
+        self.cases = cases::ask(answers, gpu, model, (self.losses.read_again, &self.known));
+        if !self.cases.is_empty() {
+            self.known.clone_from(&self.cases);
+        }
         let first: Vec<usize> =
             std::iter::once(model.dataset.wanted).chain(in_sight.iter().copied()).collect();
         self.losses.follow(waker, of.as_ref()?, &model.view.convention, &first)
