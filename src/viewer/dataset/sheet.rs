@@ -141,7 +141,9 @@ impl ContactSheet<'_> {
             };
             let summary =
                 report.as_ref().and_then(|all| all.methods.iter().find(|one| one.method == methods[method]));
-            let mean = summary.map_or_else(String::new, |one| format!("mean {}", digits(one.mean)));
+            let mean = summary
+                .filter(|one| one.mean.is_finite())
+                .map_or_else(String::new, |one| format!("mean {}", digits(one.mean)));
             let ink = if is_chosen { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
             let mean = format!("{mean}{arrow}");
             painter.text(line(0.74), Align2::LEFT_CENTER, &mean, FontId::monospace(11.0), ink);
