@@ -11,7 +11,7 @@ use graph::{Arrow, CRATES, Source, arrows, circles};
 
 /// From the bottom to the top. A module belongs to the longest name that it begins with; files of one layer may use one
 /// another.
-const LAYERS: [&[&str]; 21] = [
+const LAYERS: [&[&str]; 22] = [
     &["core/choices", "core/error", "core/parallel", "core/progress", "core/text"],
     &["core/math"],
     &["core/statistics"],
@@ -24,6 +24,7 @@ const LAYERS: [&[&str]; 21] = [
     &["core/lib"],
     &["files"],
     &["evaluate/error"],
+    &["evaluate/registration"],
     &["evaluate/diagnose", "evaluate/metrics", "evaluate/rank", "evaluate/why"],
     &["evaluate"],
     &["page"],

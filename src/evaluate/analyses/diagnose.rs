@@ -123,7 +123,7 @@ impl Diagnosis {
 fn cell(value: &Value) -> Cell {
     match value {
         Value::Number(number) => (*number).into(),
-        Value::Numbers(numbers) => format!("{numbers:?}").into(),
+        Value::Numbers(numbers) | Value::Placement(numbers) => format!("{numbers:?}").into(),
         Value::Displacement(displacement) => format!("{displacement:?}").into(),
         Value::Name(name) => (*name).into(),
     }

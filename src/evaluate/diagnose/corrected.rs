@@ -2,13 +2,11 @@
 
 use rayon::prelude::*;
 
+use super::alignment::Interior;
 use super::pair::{Pair, SampledPair};
-use super::samples::Samples;
-use super::shift::Interior;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
-use svbrdf_files::changes::Change;
-use svbrdf_files::changes::Reading;
+use svbrdf_files::changes::{Change, Placement, Reading, interpolated};
 
 /// A prediction with changes applied, and its ground truth where that is changed.
 #[derive(Clone, Debug)]
@@ -34,19 +32,7 @@ impl Corrected {
         let size = pair.prediction.size();
         let mut changes = changes.to_vec();
         changes.sort_by_key(order);
-        let moves = changes.iter().any(|change| matches!(change, Change::Symmetry(_) | Change::Shift(_)));
-        let before = |texel: usize| changes.iter().rev().fold(texel, |texel, one| one.before(texel, size));
-        let material = match samples {
-            _ if !moves => samples.map_or(pair.prediction, |samples| &samples.prediction).clone(),
-            Some(SampledPair { samples: Samples { texels, .. }, .. }) => {
-                let before: Vec<_> = texels.par_iter().map(|&texel| before(texel)).collect();
-                pair.prediction.gathered(&before, [texels.len(), 1])
-            }
-            None => {
-                let before: Vec<_> = (0..size[0] * size[1]).into_par_iter().map(before).collect();
-                pair.prediction.gathered(&before, size)
-            }
-        };
+        let material = moved(pair, samples, &changes)?;
         let mut corrected =
             Self { material, ground_truth: None, interior: None, changes: Vec::new(), stops: None };
         for change in changes {
@@ -59,8 +45,9 @@ impl Corrected {
                     let truth = samples.map_or(pair.ground_truth, |samples| &samples.ground_truth);
                     corrected.ground_truth = Some(reading.applied(truth, pair.storages[0])?);
                 }
-                Change::Shift(by) => corrected.interior = Some(Interior::new(size, by.map(|by| -by))),
-                Change::Symmetry(_) | Change::Reading(_) => {}
+                Change::Shift(by) => corrected.interior = Some(Interior::new(size, Placement::moved(by))),
+                Change::Placement(placement) => corrected.interior = Some(Interior::new(size, placement)),
+                _ => {}
             }
             corrected.material = change.of_values(&corrected.material, pair.storages[1])?;
             corrected.changes.push(change);
@@ -69,13 +56,36 @@ impl Corrected {
     }
 }
 
+/// The prediction, or the samples of it, with their texels where `changes` move them.
+fn moved(pair: &Pair<'_>, samples: Option<&SampledPair>, changes: &[Change]) -> Result<Material<f32>, Error> {
+    let size = pair.prediction.size();
+    let placement = changes.iter().find_map(|change| match change {
+        Change::Placement(placement) => Some(*placement),
+        _ => None,
+    });
+    let moves = changes.iter().any(|change| matches!(change, Change::Symmetry(_) | Change::Shift(_)));
+    if !moves && placement.is_none() {
+        return Ok(samples.map_or(pair.prediction, |samples| &samples.prediction).clone());
+    }
+    let before = |texel: usize| changes.iter().rev().fold(texel, |texel, one| one.before(texel, size));
+    let of = |samples: &SampledPair| (samples.samples.texels.clone(), [samples.samples.texels.len(), 1]);
+    let (texels, shape) = samples.map_or_else(|| ((0..size[0] * size[1]).collect::<Vec<_>>(), size), of);
+    let Some(placement) = placement else {
+        let before: Vec<_> = texels.par_iter().map(|&texel| before(texel)).collect();
+        return Ok(pair.prediction.gathered(&before, shape));
+    };
+    let taps = |&texel: &usize| placement.taps(texel, size).map(|(tap, weight)| (before(tap), weight));
+    interpolated(pair.prediction, &texels.par_iter().map(taps).collect::<Vec<_>>(), shape)
+}
+
 /// Diffuse is scaled by specular as that is decoded.
 fn order(change: &Change) -> usize {
     match change {
         Change::Reading(Reading::Unscaled | Reading::Scaled) => 1,
         Change::Reading(_) | Change::GroundTruth(_) => 0,
-        Change::Symmetry(_) => 2,
-        Change::Shift(_) => 3,
-        Change::Exposure(_) => 4,
+        Change::DiffuseFactor(_) | Change::SpecularFactor(_) => 2,
+        Change::Symmetry(_) => 3,
+        Change::Shift(_) | Change::Placement(_) => 4,
+        Change::Exposure(_) => 5,
     }
 }

@@ -20,8 +20,14 @@ svbrdf_core::choices! {
     ExposureRgb = "exposure_rgb",
     /// A displacement by whole texels.
     Shift = "shift",
+    /// A displacement by parts of a texel, in another scale.
+    Placement = "placement",
     /// Maps mirrored or turned.
     Symmetry = "symmetry",
+    /// A factor on diffuse.
+    DiffuseFactor = "diffuse_factor",
+    /// A factor on specular.
+    SpecularFactor = "specular_factor",
     NormalY = "normal_y",
     NormalX = "normal_x",
     AlbedoEncoding = "albedo_encoding",
@@ -52,7 +58,7 @@ impl Hypothesis {
     pub fn unit(self) -> Option<&'static str> {
         match self {
             Self::Exposure | Self::ExposureRgb => Some("stops"),
-            Self::Shift => Some("texels"),
+            Self::Shift | Self::Placement => Some("texels"),
             _ => None,
         }
     }
@@ -69,6 +75,8 @@ pub enum Value {
     Numbers([f64; 3]),
     /// How far the prediction is displaced to the right and down.
     Displacement([f64; 2]),
+    /// How much larger the prediction is, and how far it is displaced to the right and down about its centre.
+    Placement([f64; 3]),
     /// What would have to be done with the prediction, or how it would have to be read.
     Name(&'static str),
 }
@@ -80,6 +88,7 @@ impl fmt::Display for Value {
             Self::Number(number) => f.write_str(&hundredths(*number)),
             Self::Numbers(numbers) => f.write_str(&numbers.map(hundredths).join(" ")),
             Self::Displacement([x, y]) => write!(f, "{x} {y}"),
+            Self::Placement([scale, x, y]) => write!(f, "{scale:.4}, {} {}", hundredths(*x), hundredths(*y)),
             Self::Name(name) => f.write_str(name),
         }
     }
@@ -89,6 +98,14 @@ impl fmt::Display for Value {
 fn hundredths(number: f64) -> String {
     let text = format!("{number:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }
+}
+
+/// Another change in place of one that is marked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alternative {
+    pub change: Change,
+    /// Whether it explains 5% of the loss more.
+    pub explains_more: bool,
 }
 
 /// The loss under a hypothesis.
@@ -115,9 +132,9 @@ pub struct Finding {
     /// Whether the marked findings explain the whole loss, and no other change in place of this one does.
     #[serde(skip)]
     pub certain: bool,
-    /// Another change in place of this one that explains as much.
+    /// Another change in place of this one that explains as much, or more.
     #[serde(skip)]
-    pub alternative: Option<Change>,
+    pub alternative: Option<Alternative>,
     /// The option of reading that corrects it; a report writes it as an option of the command line.
     #[serde(skip)]
     pub remedy: Option<Remedy>,

@@ -1,15 +1,14 @@
 //! Marking: the findings of an explanation that hold in the scenes of the evaluation.
 
 use super::evaluation::one_sided;
-use super::explanation::{LEAST_SHARE, alternatives, changes};
-use super::finding::Diagnosis;
+use super::explanation::{LEAST_SHARE, TRUTH_SHARE, alternatives, fitted};
+use super::finding::{Alternative, Diagnosis, Hypothesis};
 use super::holm::holm;
 use super::proposals::Proposal;
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::model::sampler::Sampler;
-use svbrdf_files::changes::Change;
 
 /// The probability of any mark where nothing explains the loss.
 const LEVEL: f64 = 0.05;
@@ -43,7 +42,7 @@ impl Marking<'_> {
     ) -> Result<(), Error> {
         while !proposals.is_empty() {
             let together = self.together(&proposals)?;
-            let Some(weakest) = self.weakest(&together) else {
+            let Some(weakest) = self.weakest(&proposals, &together) else {
                 let is_whole = together.left <= resolvable.max(EXPLAINED);
                 diagnosis.explained = Some(1.0 - together.left);
                 let others = alternatives(self.search, &proposals)?;
@@ -58,11 +57,15 @@ impl Marking<'_> {
     }
 
     fn together(&self, proposals: &[Proposal]) -> Result<Together, Error> {
+        let changes = |proposals: Vec<Proposal>| {
+            let fitted = fitted(self.pilot, proposals)?;
+            Ok(fitted.iter().filter_map(|proposal| proposal.change).collect::<Vec<_>>())
+        };
         let without = |place: usize| {
             let rest = proposals.iter().enumerate().filter(|(other, _)| *other != place);
-            changes(self.pilot, &rest.map(|(_, proposal)| proposal.clone()).collect::<Vec<_>>())
+            changes(rest.map(|(_, proposal)| proposal.clone()).collect())
         };
-        let trials = std::iter::once(changes(self.pilot, proposals)).chain((0..proposals.len()).map(without));
+        let trials = std::iter::once(changes(proposals.to_vec())).chain((0..proposals.len()).map(without));
         let losses = self.evaluation.losses(&trials.collect::<Result<Vec<_>, Error>>()?)?;
         let relative = |paired: &Paired| {
             let before = mean(&paired.before).max(f64::MIN_POSITIVE);
@@ -79,7 +82,11 @@ impl Marking<'_> {
     }
 
     /// The proposal that explains least, if it explains too little, or not significantly.
-    fn weakest(&self, together: &Together) -> Option<usize> {
+    fn weakest(&self, proposals: &[Proposal], together: &Together) -> Option<usize> {
+        let truth = proposals.iter().position(|one| one.hypothesis == Hypothesis::GroundTruth);
+        if truth.is_some() && together.left > 1.0 - TRUTH_SHARE {
+            return truth;
+        }
         let mut p: Vec<f64> = together.falls.iter().map(one_sided).collect();
         p.resize(self.hypotheses.max(p.len()), 1.0);
         let p = holm(&p);
@@ -89,7 +96,7 @@ impl Marking<'_> {
     }
 }
 
-fn mark(diagnosis: &mut Diagnosis, proposal: &Proposal, alternative: Option<Change>, is_whole: bool) {
+fn mark(diagnosis: &mut Diagnosis, proposal: &Proposal, alternative: Option<Alternative>, is_whole: bool) {
     let of_hypothesis = diagnosis.findings.iter_mut().find(|one| one.hypothesis == proposal.hypothesis);
     if let Some(finding) = of_hypothesis {
         finding.marked = true;

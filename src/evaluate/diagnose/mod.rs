@@ -1,6 +1,6 @@
-//! Diagnosis: whether an error of exposure, alignment or reading explains a loss, and how far the ground truth resolves it.
+//! Diagnosis: whether an error of exposure, alignment, scale or reading explains a loss, and how far the ground truth resolves it.
 //!
-//! Free values (stops, texels, a symmetry) are fitted in the scenes of a pilot and evaluated in other scenes, so that their intervals
+//! Free values (stops, factors, placements) are fitted in the scenes of a pilot and evaluated in other scenes, so that their intervals
 //! are valid after the search. `docs/diagnose.md` describes each line.
 //!
 //! ```
@@ -19,11 +19,13 @@
 //! # Ok::<(), svbrdf_evaluate::Error>(())
 //! ```
 
+mod alignment;
 mod corrected;
 mod dither;
 mod evaluation;
 mod explanation;
 mod exposure;
+mod factor;
 mod finding;
 mod floor;
 mod holm;
@@ -34,16 +36,17 @@ mod radiances;
 mod samples;
 mod search;
 mod sentence;
-mod shift;
 mod trials;
 
 #[cfg(test)]
 pub(crate) mod tests;
 
 pub use dither::dithered;
-pub use finding::{Diagnosis, Finding, Hypothesis, Value};
+pub use finding::{Alternative, Diagnosis, Finding, Hypothesis, Value};
 pub use floor::floor;
 pub use holm::holm;
 pub use search::{SCENES, diagnose};
 pub use sentence::{sentence, sentence_of};
-pub use svbrdf_files::changes::{Change, Reading, Remedy, Storage, StoredEncoding, Symmetry, shifted};
+pub use svbrdf_files::changes::{
+    Change, Placement, Reading, Remedy, Storage, StoredEncoding, Symmetry, shifted,
+};

@@ -1,14 +1,10 @@
 //! Proposals: each hypothesis with the value that fits best in the scenes of a pilot.
 
+use super::alignment::Alignments;
 use super::finding::{Hypothesis, Value};
-use super::shift::{ShiftFit, candidates};
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
-use svbrdf_files::changes::Change;
-use svbrdf_files::changes::Reading;
-use svbrdf_files::changes::Remedy;
-use svbrdf_files::changes::Symmetry;
-use svbrdf_files::changes::{Storage, StoredEncoding};
+use svbrdf_files::changes::{Change, Placement, Reading, Remedy, Storage, StoredEncoding, Symmetry};
 
 /// A hypothesis with the value that was fitted.
 #[derive(Clone, Debug)]
@@ -25,21 +21,42 @@ impl Proposal {
         Self { hypothesis, value, change: Some(change), remedy: None }
     }
 
-    /// All hypotheses in the order of their lines, with the values that have the least loss in `pilot`. `fits` are those of the pair of
-    /// `pilot`.
-    pub(super) fn all(pilot: &Trials<'_>, fits: &[ShiftFit]) -> Result<Vec<Self>, Error> {
-        let shift = shift(pilot, fits)?;
+    /// All hypotheses in the order of their lines, with the values that have the least loss in `pilot`.
+    pub(super) fn all(pilot: &Trials<'_>, alignments: &Alignments) -> Result<Vec<Self>, Error> {
         let fitted = |hypothesis| -> Result<Self, Error> {
             Ok(Self::exposure(pilot.best_exposure(&[], hypothesis == Hypothesis::ExposureRgb)?, hypothesis))
         };
-        let first =
-            [fitted(Hypothesis::Exposure)?, fitted(Hypothesis::ExposureRgb)?, shift, symmetry(pilot)?];
-        let mut all = first.to_vec();
+        let [diffuse, specular] = pilot.best_factors(&[])?;
+        let mut all = vec![
+            fitted(Hypothesis::Exposure)?,
+            fitted(Hypothesis::ExposureRgb)?,
+            shift(pilot, &alignments.shifts)?,
+            Self::placement(alignments.placement),
+            symmetry(pilot)?,
+            Self::diffuse_factor(diffuse),
+            Self::specular_factor(specular),
+        ];
         for mut readings in Self::readings(pilot.pair.storages).into_iter().filter(|some| !some.is_empty()) {
             let best = best(pilot, readings.iter().filter_map(|reading| reading.change))?;
             all.push(readings.swap_remove(best));
         }
         Ok(all)
+    }
+
+    /// `None`: where it is.
+    pub(super) fn placement(placement: Option<Placement>) -> Self {
+        let Placement { scale, by: [right, down] } = placement.unwrap_or(Placement::NONE);
+        let value = Value::Placement([scale, right, down]);
+        let change = placement.map(Change::Placement);
+        Self { hypothesis: Hypothesis::Placement, value, change, remedy: None }
+    }
+
+    pub(super) fn diffuse_factor(factor: f64) -> Self {
+        Self::new(Hypothesis::DiffuseFactor, Value::Number(factor), Change::DiffuseFactor(factor))
+    }
+
+    pub(super) fn specular_factor(factor: f64) -> Self {
+        Self::new(Hypothesis::SpecularFactor, Value::Number(factor), Change::SpecularFactor(factor))
     }
 
     pub(super) fn exposure(stops: [f64; 3], hypothesis: Hypothesis) -> Self {
@@ -116,11 +133,10 @@ fn best(pilot: &Trials<'_>, changes: impl Iterator<Item = Change>) -> Result<usi
 }
 
 /// The displacement of the prediction by whole texels with the least loss.
-fn shift(pilot: &Trials<'_>, fits: &[ShiftFit]) -> Result<Proposal, Error> {
-    let candidates = candidates(fits);
-    let ratios = ratios(pilot, &candidates)?;
-    let least = candidates.into_iter().zip(ratios).min_by(|a, b| a.1.total_cmp(&b.1));
-    Ok(Proposal::shift(least.filter(|(_, ratio)| *ratio < 1.0).map_or([0, 0], |(shift, _)| shift)))
+fn shift(pilot: &Trials<'_>, candidates: &[[i32; 2]]) -> Result<Proposal, Error> {
+    let ratios = ratios(pilot, candidates)?;
+    let least = candidates.iter().zip(ratios).min_by(|a, b| a.1.total_cmp(&b.1));
+    Ok(Proposal::shift(least.filter(|(_, ratio)| *ratio < 1.0).map_or([0, 0], |(shift, _)| *shift)))
 }
 
 /// The losses after shifts by the losses before, on the texels that both have.

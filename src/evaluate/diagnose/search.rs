@@ -1,12 +1,12 @@
 //! The diagnosis of a prediction: values fitted in a pilot, evaluated in other scenes, and marked.
 
+use super::alignment::Alignments;
 use super::evaluation::findings;
 use super::explanation::explain;
 use super::finding::Diagnosis;
 use super::marking::Marking;
 use super::pair::Pair;
 use super::proposals::Proposal;
-use super::shift::Correlations;
 use super::trials::Trials;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Estimate, check_same_size};
@@ -48,15 +48,14 @@ pub fn diagnose(
     let trials = |size, seed| Trials::new(pair, convention, size, seed, progress);
     let (pilot, evaluation) = (trials(PILOT, seed ^ PILOT_SEED)?, trials(EVALUATION, seed)?);
     let search = trials(SEARCH, seed ^ PILOT_SEED)?;
-    let correlations = Correlations::new([ground_truth, prediction], pilot.sampling.seed);
-    let fits = correlations.fits(None)?;
-    let mut proposals = Proposal::all(&pilot, &fits)?;
+    let alignments = Alignments::of([ground_truth, prediction], pilot.sampling.seed)?;
+    let mut proposals = Proposal::all(&pilot, &alignments)?;
     progress.step()?;
     let unchanged = evaluation.unchanged()?;
     let loss = Estimate::of_sampled(Sampler::Sobol, &evaluation.scenes, &unchanged.before);
     let resolvable = floor / loss.mean.max(f64::MIN_POSITIVE);
     let explained = if resolvable < 1.0 {
-        explain([&search, &pilot], (&correlations, &fits), resolvable)?
+        explain([&search, &pilot], &alignments, &proposals, resolvable)?
     } else {
         Vec::new()
     };

@@ -1,6 +1,6 @@
 //! A diagnosis in words.
 
-use super::finding::{Diagnosis, Finding, Hypothesis, Value};
+use super::finding::{Alternative, Diagnosis, Finding, Hypothesis, Value};
 use svbrdf_core::loss::Estimate;
 use svbrdf_files::changes::Change;
 use svbrdf_files::changes::Remedy;
@@ -8,6 +8,10 @@ use svbrdf_files::changes::displacement;
 
 /// Least share of the loss, in percent, from which a cause is named.
 const LIKELY_CAUSE: f64 = 50.0;
+
+/// What was searched, where nothing of it explains the loss. The ranges are those of the alignments.
+const NOTHING: &str = "No exposure, displacement up to a quarter of a side, scale from 0.8 to 1.25, symmetry, factor on diffuse or \
+    specular, or other reading of the files explains 10% of the loss.";
 
 /// What explains the loss, in one or more sentences: the marked findings, the largest share first. `floor`: the loss that the ground
 /// truth resolves.
@@ -24,7 +28,7 @@ pub fn sentence(diagnosis: &Diagnosis, floor: Option<&Estimate>) -> String {
     }
     let marked: Vec<&Finding> = diagnosis.marked().collect();
     match marked[..] {
-        [] => "No error of exposure, alignment or reading explains 10% of the loss.".to_owned(),
+        [] => NOTHING.to_owned(),
         [one] => sentence_of(one),
         _ => together(&marked, 100.0 * diagnosis.explained.unwrap_or(0.0)),
     }
@@ -56,7 +60,9 @@ fn together(marked: &[&Finding], share: f64) -> String {
 
 /// Another change that explains as much, and that no option corrects a reading.
 fn notes(finding: &Finding) -> String {
-    let other = finding.alternative.map(|other| format!(" Another change that explains as much: {other}."));
+    let other = finding.alternative.map(|Alternative { change, explains_more }| {
+        format!(" Another change that explains {}: {change}.", if explains_more { "more" } else { "as much" })
+    });
     let is_reading = matches!(finding.change, Some(Change::Reading(_) | Change::GroundTruth(_)));
     let none = if is_reading && finding.remedy.is_none() {
         " No option corrects this reading: change the maps."
@@ -83,6 +89,9 @@ fn correction(finding: &Finding) -> String {
         (Hypothesis::Shift, Value::Displacement([right, down])) => {
             format!("Moving the prediction {}", displacement([-right, -down]))
         }
+        (Hypothesis::Placement, _) => finding.change.map_or_else(String::new, placed),
+        (Hypothesis::DiffuseFactor, Value::Number(factor)) => format!("Multiplying diffuse by {factor:.3}"),
+        (Hypothesis::SpecularFactor, Value::Number(factor)) => format!("Multiplying specular by {factor:.3}"),
         (Hypothesis::Symmetry, _) => format!("The transformation {name} of the prediction"),
         (Hypothesis::NormalY, _) => format!("Reading the normals with Y {}", direction(finding)),
         (Hypothesis::NormalX, _) => "Reading the normals with X flipped".to_owned(),
@@ -101,12 +110,19 @@ fn correction(finding: &Finding) -> String {
     }
 }
 
+/// A placement as the subject of a sentence: `The prediction scaled by 0.9000`.
+fn placed(change: Change) -> String {
+    format!("The prediction {change}")
+}
+
 /// What the correction suggests; "probably" unless it is certain.
 fn cause(finding: &Finding) -> Option<String> {
     let cause = match finding.hypothesis {
         Hypothesis::Exposure => "its exposure ~differs",
         Hypothesis::ExposureRgb => "its white balance ~differs",
-        Hypothesis::Shift => "it is ~misaligned",
+        Hypothesis::Shift | Hypothesis::Placement => "it is ~misaligned",
+        Hypothesis::DiffuseFactor => "its diffuse ~has another scale",
+        Hypothesis::SpecularFactor => "its specular ~has another scale",
         Hypothesis::Symmetry => "its rows, columns or axes ~differ from those of the ground truth",
         Hypothesis::NormalY if direction(finding) == "up" => "the file is ~OpenGL",
         Hypothesis::NormalY => "the file is ~DirectX",

@@ -2,12 +2,13 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::alignment::Interior;
 use super::corrected::Corrected;
 use super::exposure;
+use super::factor;
 use super::pair::{Pair, SampledPair};
 use super::radiances::{Radiances, radiances};
 use super::samples::{Samples, subset};
-use super::shift::Interior;
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Compute as _, Request, Sampling, Texels};
 use svbrdf_core::material::Material;
@@ -245,6 +246,18 @@ impl<'a> Trials<'a> {
         let radiances = Arc::new(radiances);
         *latest() = Some((corrected.changes.clone(), radiances.clone()));
         Ok(radiances)
+    }
+
+    /// The factors on diffuse and on specular of the prediction that bring them closest to those of the ground truth, after `changes`.
+    pub(super) fn best_factors(&self, changes: &[Change]) -> Result<[f64; 2], Error> {
+        let corrected = self.corrected(changes)?;
+        let is_inside = |texel: &usize| match (&self.samples, &corrected.interior) {
+            (None, Some(interior)) => interior.contains(*texel),
+            _ => true,
+        };
+        let [truth, _] = self.materials();
+        let truth = corrected.ground_truth.as_ref().unwrap_or(truth);
+        Ok(factor::best_factors([truth, &corrected.material], is_inside))
     }
 
     /// The stops of red, green and blue with the least loss, each or all together, after `changes` other than exposures.

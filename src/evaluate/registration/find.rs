@@ -37,6 +37,14 @@ pub fn found(truth: &Material<f32>, prediction: &Material<f32>) -> Option<Found>
     resized.into_iter().chain(crops).max_by(|a, b| a.correlation.total_cmp(&b.correlation))
 }
 
+/// The place of `part` in a larger ground truth, and how well the maps correlate there.
+pub(crate) fn place(truth: &Material<f32>, part: &Material<f32>) -> Option<([usize; 2], f64)> {
+    match best_crop(&[truth, part].map(Planes::of), 1)? {
+        Found { registration: Registration::Crop { x, y, .. }, correlation } => Some(([x, y], correlation)),
+        _ => None,
+    }
+}
+
 /// The registration that all `pairs` have in common, one of `allowed` or, where that is empty, any, with their mean correlation; `None` where
 /// they correlate no better than maps that have nothing to do with each other.
 pub fn common(pairs: &[[&Material<f32>; 2]], allowed: &[Registration]) -> Option<Found> {

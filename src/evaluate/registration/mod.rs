@@ -14,8 +14,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::material::resize::Kernel;
 
-pub(crate) use find::correlation;
 pub use find::{Found, common, found};
+pub(crate) use find::{correlation, place};
 
 /// How a prediction lies on its ground truth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -5,8 +5,9 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::error::Error;
-use svbrdf_core::material::Material;
+use svbrdf_core::material::{Material, Planes};
 
+use super::placement::Placement;
 use super::reading::Reading;
 use super::storage::Storage;
 use super::symmetry::Symmetry;
@@ -19,7 +20,13 @@ pub enum Change {
     Exposure([f64; 3]),
     /// It is moved back from this displacement (right, down), in texels.
     Shift([i32; 2]),
+    /// It is moved back by parts of a texel, from another scale.
+    Placement(Placement),
     Symmetry(Symmetry),
+    /// Its diffuse times this.
+    DiffuseFactor(f64),
+    /// Its specular times this.
+    SpecularFactor(f64),
     Reading(Reading),
     /// The ground truth in another reading; the prediction stays as it is.
     GroundTruth(Reading),
@@ -32,7 +39,8 @@ impl Change {
         match self {
             Self::Exposure(_) | Self::GroundTruth(_) => false,
             Self::Symmetry(symmetry) => Symmetry::of(size).any(|of_size| of_size == symmetry),
-            Self::Shift(_) | Self::Reading(_) => true,
+            Self::Shift(_) | Self::Placement(_) | Self::Reading(_) => true,
+            Self::DiffuseFactor(_) | Self::SpecularFactor(_) => true,
         }
     }
 
@@ -46,17 +54,21 @@ impl Change {
             _ if !self.fits(prediction.size()) => Ok(prediction.clone()),
             Self::Exposure(_) | Self::GroundTruth(_) => Ok(prediction.clone()),
             Self::Shift(by) => Ok(shifted(prediction, by.map(i32::saturating_neg))),
+            Self::Placement(placement) => placement.applied(prediction),
             Self::Symmetry(symmetry) => symmetry.applied(prediction),
-            Self::Reading(reading) => reading.applied(prediction, storage),
+            Self::Reading(_) | Self::DiffuseFactor(_) | Self::SpecularFactor(_) => {
+                self.of_values(prediction, storage)
+            }
         }
     }
 
-    /// Where the texel was that is at `texel` of a prediction of `size` (width, height) after the change, as row * width + column.
+    /// Where the texel was that is at `texel` of a prediction of `size` (width, height) after the change, as row * width + column. A
+    /// placement is between texels, and leaves them.
     pub fn before(self, texel: usize, size: [usize; 2]) -> usize {
         match self {
             Self::Shift(by) => before_shift(texel, by.map(i32::saturating_neg), size),
             Self::Symmetry(symmetry) => symmetry.before(texel, size),
-            Self::Exposure(_) | Self::Reading(_) | Self::GroundTruth(_) => texel,
+            _ => texel,
         }
     }
 
@@ -68,9 +80,22 @@ impl Change {
         match self {
             Self::Symmetry(symmetry) => symmetry.turned(texels),
             Self::Reading(reading) => reading.applied(texels, storage),
-            Self::Shift(_) | Self::Exposure(_) | Self::GroundTruth(_) => Ok(texels.clone()),
+            Self::DiffuseFactor(factor) => scaled(texels, factor, |planes| &mut planes.diffuse),
+            Self::SpecularFactor(factor) => scaled(texels, factor, |planes| &mut planes.specular),
+            _ => Ok(texels.clone()),
         }
     }
+}
+
+/// Values of a map times `factor`, as far as they stay in [0, 1].
+fn scaled(
+    material: &Material<f32>,
+    factor: f64,
+    map: fn(&mut Planes<f32>) -> &mut [Vec<f32>; 3],
+) -> Result<Material<f32>, Error> {
+    let (mut planes, factor) = (material.planes().clone(), factor.clamp(0.0, f64::from(f32::MAX)) as f32);
+    map(&mut planes).iter_mut().flatten().for_each(|value| *value = (*value * factor).min(1.0));
+    Material::new(material.name(), material.width(), material.height(), planes)
 }
 
 /// `moved 3 texels left`, `rotated by 180 degrees`, `Y of normals flipped`.
@@ -84,6 +109,18 @@ impl fmt::Display for Change {
                 write!(f, "exposure {red:+.2} {green:+.2} {blue:+.2} stops")
             }
             Self::Shift(by) => write!(f, "moved {}", displacement(by.map(|by| -f64::from(by)))),
+            Self::Placement(placement) => {
+                let Placement { scale, by } = placement.inverse();
+                // Where it is found within a 64th of a texel.
+                let by = displacement(by.map(|by| (by * 20.0).round() / 20.0));
+                match (by.as_str(), (scale - 1.0).abs() < 5e-5) {
+                    ("", _) => write!(f, "scaled by {scale:.4}"),
+                    (_, true) => write!(f, "moved {by}"),
+                    (_, false) => write!(f, "scaled by {scale:.4} and moved {by}"),
+                }
+            }
+            Self::DiffuseFactor(factor) => write!(f, "diffuse times {factor:.3}"),
+            Self::SpecularFactor(factor) => write!(f, "specular times {factor:.3}"),
             Self::Symmetry(symmetry) => f.write_str(symmetry.words()),
             Self::Reading(reading) => f.write_str(reading.words()),
             Self::GroundTruth(reading) => write!(f, "ground truth with {}", reading.words()),
@@ -131,6 +168,9 @@ mod tests {
         let changes = Symmetry::ALL.map(Change::Symmetry).into_iter().chain([
             Change::Exposure([0.5, 0.0, -1.0]),
             Change::Shift([i32::MIN, i32::MAX]),
+            Change::Placement(Placement { scale: 1.01, by: [0.5, -1e300] }),
+            Change::SpecularFactor(-1e300),
+            Change::DiffuseFactor(1e300),
             Change::Reading(Reading::Gloss),
             Change::Reading(Reading::Colours(StoredEncoding::Srgb)),
         ]);
@@ -152,6 +192,9 @@ mod tests {
         let words = [
             (Change::Shift([3, -1]), "moved 3 texels left and 1 texel down"),
             (Change::Shift([0, 2]), "moved 2 texels up"),
+            (Change::Placement(Placement { scale: 1.0, by: [0.5, 0.0] }), "moved 0.5 texels left"),
+            (Change::Placement(Placement { scale: 1.25, by: [0.0; 2] }), "scaled by 0.8000"),
+            (Change::SpecularFactor(2.5), "specular times 2.500"),
             (Change::Exposure([-0.25; 3]), "exposure -0.25 stops"),
             (Change::Symmetry(Symmetry::ALL[2]), "rotated by 180 degrees"),
             (Change::Reading(Reading::NormalY), "Y of normals flipped"),

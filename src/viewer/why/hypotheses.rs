@@ -173,7 +173,7 @@ fn value_text(finding: &Finding) -> String {
 /// The value with its unit where there is room.
 fn value(finding: &Finding) -> String {
     match (finding.hypothesis, finding.unit) {
-        (Hypothesis::ExposureRgb, _) | (_, None) => value_text(finding),
+        (Hypothesis::ExposureRgb | Hypothesis::Placement, _) | (_, None) => value_text(finding),
         (_, Some(unit)) => format!("{} {unit}", value_text(finding)),
     }
 }
@@ -194,7 +194,10 @@ pub fn label(hypothesis: Hypothesis) -> &'static str {
         Hypothesis::Exposure => "Exposure",
         Hypothesis::ExposureRgb => "Exposure, RGB",
         Hypothesis::Shift => "Shift",
+        Hypothesis::Placement => "Placement",
         Hypothesis::Symmetry => "Symmetry",
+        Hypothesis::DiffuseFactor => "Diffuse factor",
+        Hypothesis::SpecularFactor => "Specular factor",
         Hypothesis::NormalY => "Normal Y",
         Hypothesis::NormalX => "Normal X",
         Hypothesis::AlbedoEncoding => "Colour encoding",

@@ -94,7 +94,7 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
     window.get_by_label_contains("Diagnosis of flipped: Normal Y ");
     click(&mut window, other);
     assert_eq!(window.view().display.prediction, 1);
-    window.get_by_label("No error of exposure, alignment or reading explains 10% of the loss.");
+    window.get_by_label_contains("other reading of the files explains 10% of the loss.");
     assert!(!has(&window, "Read with"));
     let found = window.diagnosis().unwrap();
     let shares = found.findings.iter().map(|finding| finding.share);

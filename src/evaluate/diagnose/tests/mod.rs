@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, reason = "a test reads its own files")]
 
+mod causes;
 mod floors;
 pub(crate) mod materials;
 mod planted;
