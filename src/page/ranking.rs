@@ -72,9 +72,9 @@ fn overall(report: &DatasetReport) -> String {
         return format!("{name} has losses of {count} materials; no other method is compared.");
     }
     let least = format!("{name} has the least mean loss over {count} materials");
-    if count < FEWEST {
+    if count < FEWEST && worse.is_empty() {
         return format!(
-            "{least}, before {ties}; fewer than {FEWEST} materials tell of no significant difference."
+            "{least}, before {ties}; the materials are too few to tell of a significant difference."
         );
     }
     match (worse.is_empty(), ties.is_empty()) {
@@ -127,7 +127,7 @@ fn verdict(summary: &MethodSummary) -> &'static str {
         _ if summary.materials == 0 => "no losses",
         _ if !summary.compared => "lacks materials",
         (None, _) => "best",
-        (Some(_), true) if summary.to_best_interval95_materials.is_none() => "too few materials",
+        (Some(_), true) if summary.worse_on.is_some_and(|[_, all]| all < FEWEST) => "too few materials",
         (Some(_), true) => "no significant difference",
         (Some(_), false) => "worse",
     }

@@ -1,19 +1,23 @@
 //! Metrics of maps over the materials of a ranking, and their tables beside those of the losses.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
 
 use crate::protocols::{Aggregate, Row};
 use crate::report::{Cell, Table, bold, escaped, latex};
 use svbrdf_core::statistics::median;
 
-use super::bootstrap::{interval_of_mean, interval_of_positive_mean};
+use super::bootstrap::{interval_of_mean_within, may_be_0};
 use super::pick::counted;
 use super::record::MaterialResult;
-use super::summary::{DatasetReport, MethodSummary, MetricSummary};
+use super::summary::{DatasetReport, FEW, MethodSummary, MetricSummary};
 
 /// The beginnings of the names of what is of all materials together, before those of the metric.
 const POOLED: &str = "psnr_pooled_";
 const POOLED_ROOT: &str = "rmse_pooled_";
+
+/// Words of the maps in the names of metrics, whose values are in [0, 1].
+const MAPS: [&str; 6] = ["_normal", "_diffuse", "_specular", "_roughness", "_base", "_metallic"];
 
 /// How values of a metric are averaged: as errors, of which less is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,12 +65,24 @@ impl Scale {
         }
     }
 
-    fn interval_of(self, errors: &[f64]) -> Option<[f64; 2]> {
-        let interval = match self {
-            Self::Decibel => interval_of_mean(errors),
-            _ => interval_of_positive_mean(errors),
-        };
-        interval.and_then(|ends| self.interval(ends))
+    /// The range of the errors of a metric by name.
+    fn range(self, metric: &str) -> RangeInclusive<f64> {
+        let is_of = |what: &str| metric.contains(what);
+        let of_map =
+            MAPS.iter().any(|map| is_of(map)) && ["rmse_", "l1_"].iter().any(|one| metric.starts_with(one));
+        match self {
+            Self::Similarity => 0.0..=2.0,
+            Self::Decibel => f64::NEG_INFINITY..=0.0,
+            Self::Pooled | Self::PooledRoot => 0.0..=1.0,
+            Self::Error if metric.starts_with("angle_") => 0.0..=180.0,
+            Self::Error if of_map && (is_of("_minus1_to_1") || is_of("_unit")) => 0.0..=2.0,
+            Self::Error if of_map => 0.0..=1.0,
+            Self::Error => 0.0..=f64::INFINITY,
+        }
+    }
+
+    fn interval_of(self, metric: &str, errors: &[f64]) -> Option<[f64; 2]> {
+        self.interval(interval_of_mean_within(errors, &self.range(metric))?)
     }
 
     /// The interval of values, from that of errors.
@@ -86,7 +102,7 @@ pub(super) fn summarize_metrics(
         let summary = MetricSummary {
             mean: scale.value(mean(&errors)),
             infinite: all.iter().filter(|error| error.is_infinite()).count(),
-            interval95_materials: scale.interval_of(&finite(&errors)),
+            interval95_materials: scale.interval_of(&name, &finite(&errors)),
             median: scale.value(median(&mut all).unwrap_or(f64::NAN)),
         };
         (name, summary)
@@ -166,7 +182,7 @@ fn ties(errors: &BTreeMap<usize, f64>, best: &BTreeMap<usize, f64>) -> bool {
         paired.map(|difference| if difference.is_nan() { 0.0 } else { difference }).collect();
     let (known, infinite): (Vec<f64>, Vec<f64>) = paired.iter().partition(|one| one.is_finite());
     let worse = infinite.iter().filter(|difference| **difference > 0.0).count();
-    2 * worse <= paired.len() && interval_of_mean(&known).is_none_or(|[low, _]| low <= 0.0)
+    2 * worse <= paired.len() && may_be_0(&known)
 }
 
 /// The mean of the finite errors, or of all where none is: maps that are equal for every material have an infinite PSNR.
@@ -224,7 +240,10 @@ pub(super) fn metrics_table(report: &DatasetReport) -> Option<Table> {
     let row = |row: MetricRow| {
         let cells = report.methods.iter().flat_map(|summary| {
             let known = row.value(summary);
-            [Cell::or(known.map(|known| known.0), "-"), Cell::or(known.and_then(|known| known.1), "-")]
+            [
+                Cell::or(known.map(|known| known.0), "-"),
+                Cell::or(known.and_then(|known| known.1), known.map_or("-", |_| FEW)),
+            ]
         });
         [row.title().into()].into_iter().chain(cells).collect()
     };

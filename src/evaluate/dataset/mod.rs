@@ -24,7 +24,7 @@ mod scenes;
 mod summary;
 mod witness;
 
-pub use bootstrap::{FEWEST, interval_of_mean, interval_of_positive_mean};
+pub use bootstrap::{FEWEST, interval_of_mean, interval_of_mean_within, interval_of_median};
 pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{DatasetResults, Evaluation, run};
 pub use list::{Shard, cases_of_folders, cases_of_table};

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use svbrdf_core::statistics::median;
 
-use super::bootstrap::{interval_of_mean, interval_of_positive_mean};
+use super::bootstrap::{interval_of_mean, interval_of_mean_within, may_be_0};
 use super::pick::{Pick, counted_loss};
 use super::record::{KnownLoss, MaterialResult};
 use super::summary::MethodSummary;
@@ -43,10 +43,12 @@ pub(super) fn ranked(
         let common = summary.compared.then_some(&common);
         let differences = best.filter(|_| place > 0).and_then(|best| differences(losses, best, common));
         let interval = differences.as_deref().and_then(interval_of_mean);
+        let signs = |all: &Vec<f64>| [all.iter().filter(|one| **one > 0.0).count(), all.len()];
         MethodSummary {
+            worse_on: differences.as_ref().map(signs),
+            ties_with_best: summary.compared && differences.as_deref().is_none_or(may_be_0),
             to_best: differences.map(|all| all.iter().sum::<f64>() / all.len() as f64),
             to_best_interval95_materials: interval,
-            ties_with_best: summary.compared && interval.is_none_or(|[low, _]| low <= 0.0),
             ..summary
         }
     };
@@ -96,11 +98,12 @@ fn summary(method: &str, losses: &Losses, common: Option<&BTreeSet<usize>>) -> M
         materials: losses.len(),
         failures: 0,
         mean,
-        interval95_materials: interval_of_positive_mean(&values),
+        interval95_materials: interval_of_mean_within(&values, &(0.0..=f64::INFINITY)),
         median: median(&mut values).unwrap_or(f64::NAN),
         interval95_scenes: around(mean, reach),
         to_best: None,
         to_best_interval95_materials: None,
+        worse_on: None,
         ties_with_best: false,
         reading: None,
         metrics: BTreeMap::new(),

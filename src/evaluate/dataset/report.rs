@@ -15,7 +15,7 @@ use super::ranking::ranked;
 use super::record::{DatasetReading, DatasetSettings, MaterialResult, Method, PredictionResult, Source};
 use super::remark::Remark;
 use super::repetition;
-use super::summary::{DatasetReport, MethodSummary};
+use super::summary::{DatasetReport, FEW, MethodSummary};
 
 /// The columns of the methods.
 const METHODS: [Field<MethodSummary>; 9] = [
@@ -23,13 +23,12 @@ const METHODS: [Field<MethodSummary>; 9] = [
     ("", "materials", |summary| summary.count().into()),
     ("", "failed", |summary| summary.failures.into()),
     ("", "mean loss", |summary| Cell::or(known(summary.mean), "none")),
-    ("", "95% over materials", |summary| Cell::or(summary.interval95_materials, "-")),
+    ("", "95% over materials", |summary| Cell::or(summary.interval95_materials, FEW)),
     ("", "95% over scenes", |summary| Cell::or(known(summary.mean).map(|_| summary.interval95_scenes), "-")),
     ("", "median", |summary| Cell::or(known(summary.median), "none")),
     ("", "- best", |summary| summary.to_best.into()),
     ("", "95% over materials", |summary| {
-        let missing = if summary.to_best.is_some() { "-" } else { "" };
-        Cell::or(summary.to_best_interval95_materials, missing)
+        summary.to_best_interval95_materials.map_or_else(|| summary.signs().into(), Cell::from)
     }),
 ];
 
@@ -155,7 +154,7 @@ impl DatasetReport {
             )
         }));
         if self.methods.iter().all(|summary| summary.interval95_materials.is_none()) {
-            lines.push(format!("intervals over materials and significance need {FEWEST} materials"));
+            lines.push(format!("intervals over materials need {FEWEST} materials"));
         }
         lines
     }
@@ -207,7 +206,7 @@ impl DatasetReport {
             let mean = bold(&number(summary.mean), summary.ties_with_best);
             let interval = summary
                 .interval95_materials
-                .map_or("--".to_owned(), |[low, high]| format!("[{low:.4}, {high:.4}]"));
+                .map_or(FEW.to_owned(), |[low, high]| format!("[{low:.4}, {high:.4}]"));
             let method = escaped(&summary.method);
             format!(
                 "{method} & {mean} & {interval} & {} & {} \\\\\n",
@@ -245,11 +244,13 @@ impl DatasetReport {
 impl Report for DatasetReport {
     fn heading(&self) -> String {
         let DatasetSettings { convention, materials, .. } = &self.settings;
+        // Those that means are over, where any are compared.
+        let over = if self.common.is_empty() { self.results.len() } else { self.common.len() };
         let protocol = self.settings.protocol.as_ref();
         let protocol = protocol.map_or(String::new(), |protocol| format!("protocol {protocol}\n"));
         format!(
             "rendering loss over {} of {} materials\n{protocol}convention {convention}, {}, pick {}\n",
-            self.results.len(),
+            over,
             materials.len(),
             self.settings.accuracy(),
             self.pick,

@@ -6,7 +6,7 @@ use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error as FilesError;
 
-use super::bootstrap::{FEWEST, interval_of_mean};
+use super::bootstrap::interval_of_median;
 use super::evaluate::Evaluation;
 use super::opened::Opened;
 use super::record::{Case, DatasetReading, DatasetSettings};
@@ -57,6 +57,9 @@ pub fn robust(
 /// Questions are asked about all methods in the same scenes and texels.
 const OTHER_SIZE: &str = "its predictions have another size than their ground truths";
 
+/// The fewest materials whose signs can be significant.
+const FEWEST: usize = 6;
+
 /// Refuses fewer than [`FEWEST`] materials.
 fn enough(count: usize, settings: &DatasetSettings) -> Result<(), FilesError> {
     if count >= FEWEST {
@@ -76,7 +79,7 @@ fn over_materials(all: &[Vec<Scores>]) -> Vec<Scores> {
         let scores = || all.iter().map(|material| &material[place].scores);
         let mean = |a: usize| scores().map(|one| one[a]).sum::<f64>() / all.len() as f64;
         let paired = |a: usize, b: usize| scores().map(|one| one[a] - one[b]).collect::<Vec<_>>();
-        let interval = |a, b| interval_of_mean(&paired(a, b));
+        let interval = |a, b| interval_of_median(&paired(a, b));
         Scores::new(first.question.clone(), (0..first.scores.len()).map(mean).collect(), interval)
     };
     all.first().into_iter().flatten().enumerate().map(over).collect()

@@ -10,6 +10,9 @@ use super::doubts::ReadingSummary;
 use super::pick::Pick;
 use super::record::{DatasetReading, DatasetSettings, MaterialResult};
 
+/// In place of an interval over fewer materials than have one.
+pub(super) const FEW: &str = "few materials";
+
 /// The losses of methods over a data set.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -54,7 +57,7 @@ pub struct MethodSummary {
     /// Over the materials of the mean.
     #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub median: f64,
-    /// The 95% interval of the mean over all materials like these; `None` for fewer than 5.
+    /// The 95% interval of the mean over all materials like these; `None` for fewer than 25.
     pub interval95_materials: Option<[f64; 2]>,
     /// The 95% interval of the mean over these materials, due to the sampling of scenes alone.
     #[cfg_attr(feature = "schema", schemars(with = "[Option<f64>; 2]"))]
@@ -62,6 +65,8 @@ pub struct MethodSummary {
     /// The mean difference to the best method over the materials of both; `None` for the best, and where nothing is compared.
     pub to_best: Option<f64>,
     pub to_best_interval95_materials: Option<[f64; 2]>,
+    /// Of the materials of both, how many it is worse on than the best method, and how many there are.
+    pub worse_on: Option<[usize; 2]>,
     /// Whether it is compared, and the materials cannot separate it from the best: tables set it in bold.
     pub ties_with_best: bool,
     /// How its predictions were read; `None` where there are none.
@@ -76,6 +81,12 @@ pub struct MethodSummary {
 }
 
 impl MethodSummary {
+    /// What takes the place of an interval of the difference to the best that too few materials have.
+    pub fn signs(&self) -> String {
+        let signs = self.worse_on.map(|[worse, all]| format!("few materials, worse on {worse} of {all}"));
+        signs.unwrap_or_default()
+    }
+
     /// The number of materials with a loss, and of how many where it lacks some.
     pub fn count(&self) -> String {
         match self.failures {
@@ -98,7 +109,7 @@ pub struct MetricSummary {
     pub infinite: usize,
     #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
     pub median: f64,
-    /// The 95% interval of the mean over all materials like these; `None` for fewer than 5, and where the mean is infinite.
+    /// The 95% interval of the mean over all materials like these; `None` for fewer than 25, and where the mean is infinite.
     pub interval95_materials: Option<[f64; 2]>,
 }
 
