@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use svbrdf_core::model::grammar::words::{Fresnel, Shadowing, Weight};
 use svbrdf_core::model::grammar::{Point, RendererTerms};
-use svbrdf_evaluate::conform::VerdictKind;
+use svbrdf_evaluate::conform::{RenderedPoints, VerdictKind, lobe_factors};
 
 use super::{judged, points, single};
 
@@ -210,4 +210,28 @@ fn no_renderer_outside_of_the_grammar_has_a_name_and_what_they_are_made_from_has
         assert_eq!(kind(of), VerdictKind::Unknown, "{name}");
     }
     assert_eq!(kind(|point, _| base().radiance(point, true)), VerdictKind::Conforms);
+}
+
+/// The commonest deviations: no 1/pi in one lobe, no 1/4 in the other. What differs otherwise has no factors.
+#[test]
+fn factors_on_the_lobes_are_found() {
+    let points = points();
+    let found = |of: Renderer| {
+        let radiance = points.iter().map(|point| single(of(point, &angles(point)))).collect();
+        lobe_factors(&RenderedPoints { points: points.clone(), radiance, metallic: Some(false) }, &base())
+    };
+    let planted: [(Renderer, [f64; 2]); 4] = [
+        (|p, _| sum(times(diffuse(p), PI), specular(p)), [PI, 1.0]),
+        (|p, _| sum(diffuse(p), times(specular(p), 4.0)), [1.0, 4.0]),
+        (|p, _| sum(diffuse(p), times(specular(p), PI)), [1.0, PI]),
+        (|p, _| sum(times(diffuse(p), 2.0 * PI), times(specular(p), 2.0)), [2.0 * PI, 2.0]),
+    ];
+    for (of, expected) in planted {
+        let factors = found(of).unwrap();
+        let off = factors.iter().zip(expected).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-5, "{factors:?} {expected:?}");
+    }
+    for (name, of) in ALL.iter().filter(|(name, _)| *name != "diffuse without 1/pi") {
+        assert_eq!(found(*of), None, "{name}");
+    }
 }

@@ -5,6 +5,7 @@
 
 mod alternatives;
 mod fit;
+mod lobes;
 mod points;
 mod search;
 mod verdict;
@@ -15,6 +16,7 @@ use svbrdf_core::statistics::sort_by_number;
 
 pub use fit::Fit;
 use fit::Problem;
+pub use lobes::lobe_factors;
 pub use points::{RenderedPoints, probes};
 pub use verdict::{TermGap, Verdict, VerdictKind, verdict};
 

@@ -40,7 +40,7 @@ pub struct ConformReport {
     renderer: Option<TermsByKey>,
     /// The terms of the nearest member of the grammar, where the verdict is unknown; otherwise `None`.
     nearest: Option<TermsByKey>,
-    /// Differences from the convention; of the nearest member, where the verdict is unknown.
+    /// Differences from the convention; none where the verdict is unknown.
     differences: Vec<TermGap>,
     /// Root mean square of the differences of radiances that remain, relative to the radiances.
     residual: f64,
@@ -48,6 +48,8 @@ pub struct ConformReport {
     storage: &'static str,
     /// The number of points.
     points: usize,
+    /// Factors on the diffuse and the specular lobe of the convention, where these alone differ: they are no terms of the grammar.
+    lobe_factors: Option<[f64; 2]>,
     /// The renderer as a convention, with the loss and the scenes of the expected one.
     #[serde(skip)]
     found: Description,
@@ -57,8 +59,20 @@ impl ConformReport {
     /// The report on an answer, compared with the convention `asked`.
     pub fn new(answer: &RenderedPoints, asked: &Description) -> Self {
         let identified = conform::identify(answer);
-        let verdict = conform::verdict(&identified, asked);
+        let mut verdict = conform::verdict(&identified, asked);
         let is_known = verdict.kind != VerdictKind::Unknown;
+        let mut lobe_factors = None;
+        if !is_known {
+            let light = asked.terms.light.factor * asked.terms.light.intensity[0];
+            lobe_factors = conform::lobe_factors(answer, &asked.terms)
+                .map(|factors| factors.map(|factor| factor / light));
+            let lobes = ["diffuse lobe", "specular lobe"].into_iter().zip(lobe_factors.into_iter().flatten());
+            let lobes = lobes.filter(|(_, factor)| (factor - 1.0).abs() > 1e-4);
+            verdict.differences = lobes.map(|(lobe, factor)| lobe_gap(lobe, factor)).collect();
+        }
+        if lobe_factors.is_some() {
+            (verdict.kind, verdict.residual) = (VerdictKind::Differs, 0.0);
+        }
         let is_same =
             |other: &&Description| conform::verdict(&identified, other).kind == VerdictKind::Conforms;
         let same: Vec<String> = match is_known {
@@ -78,7 +92,8 @@ impl ConformReport {
             convention: asked.name.clone(),
             same_as: same,
             renderer: is_known.then(|| terms.clone()),
-            nearest: (!is_known).then_some(terms),
+            nearest: (!is_known && lobe_factors.is_none()).then_some(terms),
+            lobe_factors,
             differences: verdict.differences,
             residual: verdict.residual,
             storage: if identified.is_single { "float32" } else { "float64" },
@@ -94,7 +109,7 @@ impl ConformReport {
 
     /// The convention that was found, with the loss and the scenes of the one it was compared with; `None` where it is unknown.
     pub fn found(&self) -> Option<&Description> {
-        (self.verdict != VerdictKind::Unknown).then_some(&self.found)
+        self.renderer.is_some().then_some(&self.found)
     }
 
     fn sentence(&self) -> String {
@@ -105,12 +120,22 @@ impl ConformReport {
             VerdictKind::Conforms => format!("The renderer conforms to `{convention}`."),
             VerdictKind::Differs => format!("As `{convention}`, but {}.", listed(&differences)),
             VerdictKind::Unknown => format!(
-                "The renderer is none of this grammar: {} of every radiance remains at the nearest member, which is no name for it. \
-                That is as `{convention}`, but {}.",
-                percent(self.residual),
-                listed(&differences)
+                "The renderer is none of this grammar, nor `{convention}` with a factor on either lobe: {} of every radiance remains at \
+                the nearest member.",
+                percent(self.residual)
             ),
         }
+    }
+}
+
+/// A factor on a lobe of the convention.
+fn lobe_gap(lobe: &str, factor: f64) -> TermGap {
+    let gap = Some((factor - 1.0).abs());
+    TermGap {
+        term: lobe.to_owned(),
+        found: format!("{factor:.4} times as large"),
+        expected: "1".to_owned(),
+        gap,
     }
 }
 
