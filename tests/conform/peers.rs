@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use svbrdf_core::model::grammar::{Description, Point};
+use svbrdf_core::model::named_conventions as named;
 use svbrdf_evaluate::conform::{RenderedPoints, VerdictKind, identify, verdict};
 use svbrdf_files::arrays::{self, Array, Arrays};
 use svbrdf_needs::needs;
@@ -76,5 +77,14 @@ fn every_peer_is_found_and_no_other_renderer_has_a_name() {
         let wrong: Vec<_> = terms.filter(|term| !OF_THE_PROBES.contains(&term.as_str())).collect();
         assert_ne!(verdict.kind, VerdictKind::Unknown, "{name}: {:?}", verdict.residual);
         assert!(wrong.is_empty(), "{name}: {wrong:?}");
+        // Normals as stored are not reproduced.
+        let Some(own) = named::all().iter().find(|own| own.name == convention) else { continue };
+        let terms: Vec<_> = svbrdf_evaluate::conform::verdict(&found, own)
+            .differences
+            .into_iter()
+            .map(|one| one.term)
+            .collect();
+        let others = terms.iter().filter(|term| !OF_THE_PROBES.contains(&term.as_str()) && *term != "normal");
+        assert_eq!(others.collect::<Vec<_>>(), Vec::<&String>::new(), "{name} and our {convention}");
     }
 }

@@ -71,7 +71,8 @@ impl From<&Convention> for Description {
     fn from(c: &Convention) -> Self {
         let mut terms = RendererTerms::BASE;
         terms.material.r_min = c.roughness_floor;
-        terms.specular.nh_clamped = c.clamp_n_dot_h;
+        // The released codes that clamp n.h clip maps to [0, 1], too, where the kernel gets no others.
+        (terms.specular.nh_clamped, terms.material.clip_maps) = (c.clamp_n_dot_h, c.clamp_n_dot_h);
         terms.specular.d_den_min = c.d_floor;
         terms.specular.g_den_min = c.g_floor;
         terms.light.lz = Some(c.light_z_floor);
