@@ -80,11 +80,11 @@ impl ScenesReport {
 }
 
 fn distribution(prediction: &str, d: &Distribution) -> String {
-    let Distribution { least, median, percentile95, largest, worst_tenth } = d;
+    let Distribution { least, median, percentile95, largest, scenes: [all, worst], of_worst } = d;
     format!(
         "{prediction}: from {least:.3} to {largest:.3}, median {median:.3}, 95th percentile {percentile95:.3}; \
-         the worst tenth of the scenes adds {:.0}% of the loss\n",
-        100.0 * worst_tenth
+         the worst {worst} of {all} scenes add {:.0}% of the loss\n",
+        100.0 * of_worst
     )
 }
 

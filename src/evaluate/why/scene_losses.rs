@@ -104,8 +104,10 @@ pub struct Distribution {
     pub median: f64,
     pub percentile95: f64,
     pub largest: f64,
-    /// The share of the loss that the worst tenth of the scenes adds.
-    pub worst_tenth: f64,
+    /// The number of scenes, and of the worst ones: a tenth, rounded up.
+    pub scenes: [usize; 2],
+    /// The share of the loss that the worst ones add.
+    pub of_worst: f64,
 }
 
 impl Distribution {
@@ -122,7 +124,8 @@ impl Distribution {
             median: median(&mut sorted)?,
             percentile95: quantile(&mut sorted, 0.95)?,
             largest,
-            worst_tenth: if total > 0.0 { worst / total } else { 0.0 },
+            scenes: [sorted.len(), tenth],
+            of_worst: if total > 0.0 { worst / total } else { 0.0 },
         })
     }
 }
@@ -161,8 +164,8 @@ mod tests {
         let losses: Vec<f64> = (0..=20).rev().map(f64::from).collect();
         let d = Distribution::of(&losses).unwrap();
         assert_eq!([d.least, d.median, d.percentile95, d.largest], [0.0, 10.0, 19.0, 20.0]);
-        // The worst tenth of 21 scenes are 3.
-        assert!((d.worst_tenth - (20.0 + 19.0 + 18.0) / 210.0).abs() < 1e-15);
+        assert_eq!(d.scenes, [21, 3]);
+        assert!((d.of_worst - (20.0 + 19.0 + 18.0) / 210.0).abs() < 1e-15);
         assert_eq!(Distribution::of(&[]), None);
     }
 }
