@@ -142,6 +142,8 @@ struct AskedQuestion {
     tau: f64,
     /// The predictions, the best first.
     order: Vec<String>,
+    /// The score of each, in this order: differences that are not significant are no changes.
+    scores: Vec<f64>,
 }
 
 /// A pair of predictions that changes sides.
@@ -196,6 +198,7 @@ impl RobustReport {
             question: answer.question.clone(),
             tau: default.tau(answer),
             order: order(&answer.scores).into_iter().map(name).collect(),
+            scores: order(&answer.scores).into_iter().map(|index| answer.scores[index]).collect(),
         };
         let questions = answers.iter().map(question).collect();
         Self { compared, materials, sentence: sentence(names, answers, &changes), questions, changes }
@@ -233,10 +236,14 @@ fn sentence(names: &[String], answers: &[Scores], changes: &[Change]) -> String 
     format!("{} beats {} under {under}", names[order[0]], names[order[1]])
 }
 
-const FIELDS: [Field<AskedQuestion>; 3] = [
+const FIELDS: [Field<AskedQuestion>; 4] = [
     ("question", "question", |row| row.question.as_str().into()),
     ("tau", "tau", |row| Cell::Digits(2, row.tau)),
-    ("order", "order", |row| row.order.join(" < ").into()),
+    ("order", "", |row| row.order.join(" < ").into()),
+    ("", "order and scores", |row| {
+        let scored = row.order.iter().zip(&row.scores).map(|(name, score)| format!("{name} {score:.4}"));
+        scored.collect::<Vec<_>>().join(" < ").into()
+    }),
 ];
 
 impl Report for RobustReport {
