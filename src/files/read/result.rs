@@ -190,7 +190,8 @@ impl fmt::Display for MapContent {
             write!(f, ", curl correlation {curl:+.2}")?;
         }
         if let Some(median) = self.specular_median {
-            write!(f, ", median {median:.3}")?;
+            let of = if self.channels == 1 { "" } else { " of the least channel" };
+            write!(f, ", median{of} {median:.3}")?;
         }
         Ok(())
     }
