@@ -4,6 +4,8 @@
 const MOST_TEXELS = 16;
 // Footprints of up to one texel show the nearest texel, crisply. A little more than 1: at 1:1 rounding must not blur.
 const MAGNIFIED = 1.001f;
+// The share of a footprint that rounding may add at either end.
+const ROUNDING = 0.0009765625f;
 
 struct Span {
     low: f32,
@@ -19,8 +21,10 @@ fn span(centre: f32, extent: f32, count: u32) -> Span {
     if extent <= MAGNIFIED {
         return Span(nearest, nearest + 1.0, i32(nearest), i32(nearest), 1);
     }
-    let low = clamp(centre - 0.5 * extent, 0.0, nearest);
-    let high = clamp(centre + 0.5 * extent, nearest + 1.0, f32(count));
+    // Adapters round positions and derivatives differently. A texel that is covered by less would double the stride of the others.
+    let rounding = ROUNDING * extent;
+    let low = clamp(centre - 0.5 * extent + rounding, 0.0, nearest);
+    let high = clamp(centre + 0.5 * extent - rounding, nearest + 1.0, f32(count));
     return strided(centre - 0.5 * extent, centre + 0.5 * extent, i32(floor(low)), i32(ceil(high)) - 1);
 }
 
