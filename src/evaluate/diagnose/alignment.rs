@@ -8,7 +8,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
 
-use crate::registration::{correlation, place};
+use crate::registration::find::{correlation, place};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::statistics::sort_by_number;

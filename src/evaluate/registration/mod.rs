@@ -3,7 +3,7 @@
 //! Methods crop and reduce: the centre 256 x 256 of 288 x 288, or 512 of a scan of 4096. The part is found by the maps themselves, and held
 //! by all materials of a method.
 
-mod find;
+pub(crate) mod find;
 
 use std::fmt;
 use std::str::FromStr;
@@ -14,8 +14,8 @@ use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::material::resize::Kernel;
 
+pub(crate) use find::correlation;
 pub use find::{Found, common, found};
-pub(crate) use find::{correlation, place};
 
 /// How a prediction lies on its ground truth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
