@@ -152,7 +152,9 @@ fn a_protocol_gives_the_numbers_of_the_code_that_it_follows() {
     for material in 0..MATERIALS {
         let [truth, ours] = [(LINEAR, None), (gamma, Some(0.8))]
             .map(|(curve, level)| move |at| texel(material, at, curve, level));
-        strip(&path("gt", format!("0{material};Oak_{material}.png")), [0, SIDE], truth);
+        // The number of one is that of a size in texels.
+        let number = format!("000006{material}");
+        strip(&path("gt", format!("{number};Oak_{material}.png")), [0, SIDE], truth);
         let map = |index: usize| move |x, y| Rgb(ours([at + x, at + y])[index]);
         let save = |name: String, index| {
             fs::create_dir_all(path("ours", String::new())).unwrap();
@@ -161,8 +163,8 @@ fn a_protocol_gives_the_numbers_of_the_code_that_it_follows() {
         ["N", "D", "R", "S"]
             .iter()
             .enumerate()
-            .for_each(|(index, map)| save(format!("0{material}_{map}out.png"), index));
-        save(format!("0{material}_input.png"), 1);
+            .for_each(|(index, map)| save(format!("{number}_{map}out.png"), index));
+        save(format!("{number}_input.png"), 1);
         save(format!("gt_N_{material}.png"), 0);
         let value = |code: u8| f64::from(code) / 255.0;
         let read = |index: usize, [truth, ours]: [u8; 2]| match index {

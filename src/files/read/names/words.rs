@@ -43,7 +43,9 @@ pub(crate) fn size(name: &str) -> Option<u32> {
 fn size_of(word: &str) -> Option<u32> {
     let thousands = word.strip_suffix('k').and_then(|number| number.parse::<u32>().ok());
     let texels = word.strip_suffix("px").unwrap_or(word).parse::<u32>().ok();
-    let is_side = |n: &u32| word.ends_with("px") || (*n >= 64 && n.is_power_of_two());
+    // 0000064 is the 64th material.
+    let is_side =
+        |n: &u32| word.ends_with("px") || (*n >= 64 && n.is_power_of_two() && !word.starts_with('0'));
     thousands.and_then(|number| number.checked_mul(1024)).or(texels.filter(is_side))
 }
 
@@ -79,8 +81,8 @@ mod tests {
     fn sizes_and_formats_are_no_names() {
         assert_eq!(telling_words("rock-2K-JPG_16bit_LOD0_1001_512px_1024_4x"), ["rock", "4x"]);
         assert_eq!(
-            ["a_2k.png", "a_1024", "a_64px", "a_1001", "a_3"].map(size),
-            [Some(2048), Some(1024), Some(64), None, None]
+            ["a_2k.png", "a_1024", "a_64px", "a_1001", "a_3", "0064_a"].map(size),
+            [Some(2048), Some(1024), Some(64), None, None, None]
         );
         assert!(is_named_as("brick_2k.png", &["brick".to_owned()]));
     }
