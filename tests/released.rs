@@ -12,6 +12,7 @@ use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, Pick, Source, best_by_metric, decided, run,
 };
 use svbrdf_evaluate::protocols::{Mask, Protocol};
+use svbrdf_files::arrays::{Array, Arrays};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::read::{Albedo, ReadOptions};
 
@@ -197,6 +198,60 @@ fn a_protocol_gives_the_numbers_of_the_code_that_it_follows() {
     }
     let command = report.repetition.to_string();
     assert!(command.contains("--protocol weiyi") && !command.contains("--read"), "{command}");
+}
+
+#[test]
+fn a_batch_of_arrays_is_as_many_materials() {
+    const SIDE: usize = 12;
+    let folder = TempDir::new().unwrap();
+    let channel = |map: usize, c: usize, material: usize, at: usize, level: f64| {
+        let wave = (0.37 * at as f64 + 1.3 * material as f64 + map as f64).sin();
+        match (map, c) {
+            (0, 2) => 1.0,
+            (0, _) => 0.2 * wave,
+            _ => level * (0.4 + 0.2 * wave + 0.05 * c as f64),
+        }
+    };
+    let arrays = |materials: std::ops::Range<usize>, level: f64, is_batch: bool| {
+        let of = |map: usize, name: &str, channels: usize| {
+            let texels =
+                materials.clone().flat_map(|material| (0..SIDE * SIDE).map(move |at| (material, at)));
+            let values = texels
+                .flat_map(|(material, at)| (0..channels).map(move |c| channel(map, c, material, at, level)));
+            let shape = [materials.len(), SIDE, SIDE, channels];
+            let shape = &shape[usize::from(!is_batch)..shape.len() - usize::from(channels == 1)];
+            (name.to_owned(), Array::new(shape, values.collect()))
+        };
+        let all = [("normal", 3), ("diffuse", 3), ("specular", 3), ("roughness", 1)];
+        let all = all.into_iter().enumerate().map(|(map, (name, channels))| of(map, name, channels));
+        all.collect::<Arrays>()
+    };
+    let write = |path: &str, arrays: &Arrays| {
+        let path = folder.path().join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        svbrdf_files::arrays::write(&path, arrays, &Progress::default()).unwrap();
+    };
+    for (name, level) in [("gt", 1.0), ("ours", 0.8)] {
+        write(&format!("batch/{name}.npz"), &arrays(0..3, level, true));
+        for material in 0..3 {
+            let file = format!("single/{name}/000{}.npz", material + 1);
+            write(&file, &arrays(material..material + 1, level, false));
+        }
+    }
+    let of = |truths: &str, ours: &str| {
+        let [truths, ours] = [truths, ours].map(|path| folder.path().join(path));
+        let source = Source::folders(truths, vec![(None, ours)]);
+        let cases = source.cases().unwrap();
+        let settings = DatasetSettings::new(source, ChosenConvention::default(), 0.05, 0, &cases);
+        let found = run(&cases, &settings, &DatasetReading::default(), None, &Progress::default()).unwrap();
+        let one = |result: &svbrdf_evaluate::dataset::MaterialResult| {
+            (result.material.clone(), result.predictions[0].known.map(|known| known.loss))
+        };
+        (settings.methods, found.results.iter().map(one).collect::<Vec<_>>())
+    };
+    let expected = of("single/gt", "single/ours");
+    assert!(expected.1.iter().all(|(_, loss)| loss.is_some()), "{expected:?}");
+    assert_eq!(of("batch/gt.npz", "batch/ours.npz"), expected);
 }
 
 #[test]

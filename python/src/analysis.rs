@@ -60,6 +60,7 @@ fn report<'py, T: Precise>(
         paths: asked.paths.clone(),
         convention: asked.convention()?,
         question: analysis.question(&scenes, None).map_err(exception)?,
+        mask: None,
     };
     // A report is no value of several threads.
     let (views, arrays) = work::run(py, progress, |progress| {

@@ -53,6 +53,8 @@ def predictions(report: svbrdf.DatasetReport) -> list[svbrdf.PredictionResult]:
     [
         (["--pick", "mean", "--metrics"], {"pick": "mean", "metrics": True}),
         (["--pick", "best", "--diagnose"], {"pick": "best", "diagnose": True}),
+        (["--protocol", "marigold-iid"], {"protocol": "marigold-iid"}),
+        (["--metrics=rmse_roughness,psnr"], {"metrics": ["rmse_roughness", "psnr"]}),
         ([], {}),
     ],
 )

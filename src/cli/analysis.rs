@@ -8,9 +8,10 @@ use svbrdf_core::loss::{Precision, Question};
 use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis, Precise};
 use svbrdf_evaluate::report::{AnalysisOption, OptionValue};
 
+use super::args::protocol::PairArgs;
 use super::args::scenes;
 use super::args::values::{count, percent, stops, triple};
-use super::args::{ComparisonArgs, Specified, offered};
+use super::args::{ComparisonArgs, Specified, offered, refuse};
 use super::job::{self, ComparisonJob, Job, NewJob};
 use super::output::{CommandError, ReportFormat, exit, warn_of, watched};
 use super::picture_file::{PictureArgs, PictureFile};
@@ -18,9 +19,13 @@ use super::picture_file::{PictureArgs, PictureFile};
 /// The analyses that have a command with further arguments.
 const OTHERS: [&str; 1] = ["rank"];
 
+/// The analyses that follow a protocol, and compare predictions of another size and the texels of a mask.
+const PAIRED: [&str; 2] = ["loss", "metrics"];
+
 /// The arguments of the command of an analysis.
 #[derive(Debug)]
 pub struct AnalysisArgs {
+    pair: PairArgs,
     analysis: &'static AnyAnalysis,
     matches: ArgMatches,
     output: Output<PictureArgs>,
@@ -58,6 +63,7 @@ fn command(analysis: &AnyAnalysis) -> Command {
         .args(scenes::arguments(analysis.scenes).into_iter().map(with_help));
     let session = if analysis.takes_settings() { " A session has settings of its own." } else { "" };
     let command = if analysis.pictures { command } else { FormatArgs::augment_args(command) };
+    let command = if PAIRED.contains(name) { PairArgs::augment_args(command) } else { command };
     // What is flattened into it would bring its own words.
     ComparisonArgs::augment_args(command)
         .about(*about)
@@ -123,7 +129,9 @@ impl FromArgMatches for AnalysisArgs {
             false => Output::Printed(FormatArgs::from_arg_matches(matches)?.format),
         };
         let comparison = ComparisonArgs::from_arg_matches(matches)?;
-        Ok(Self { analysis, matches: matches.clone(), output, comparison })
+        let is_paired = PAIRED.contains(&analysis.name);
+        let pair = if is_paired { PairArgs::from_arg_matches(matches)? } else { PairArgs::default() };
+        Ok(Self { analysis, matches: matches.clone(), output, comparison, pair })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), ClapError> {
@@ -134,16 +142,28 @@ impl FromArgMatches for AnalysisArgs {
 
 impl AnalysisArgs {
     pub fn job(self, given: &Specified) -> NewJob {
-        let Self { analysis, matches, output, comparison } = self;
-        let comparison = ComparisonJob::with_predictions(&comparison, given)?;
+        let Self { analysis, matches, output, comparison: args, pair } = self;
+        let mut comparison = ComparisonJob::with_predictions(&args, given)?;
         let precision = scenes::value(&matches, "precision").unwrap_or_default();
-        let scenes = scenes::options(&matches)?;
+        let typed = scenes::options(&matches)?;
+        let (convention, scenes) = pair.protocol.decided(args.convention.as_ref(), typed, given)?;
+        if let Some(chosen) = convention {
+            comparison.convention = chosen.convention;
+        }
         let own = |AnalysisOption { name, value, .. }: &AnalysisOption| {
             let mut found = matches.get_many(name)?.cloned();
             let is_list = matches!(value, OptionValue::Words(_));
             Some(((*name).to_owned(), if is_list { found.collect() } else { found.next()? }))
         };
-        let options: Value = analysis.options.iter().filter_map(own).collect::<Map<_, _>>().into();
+        let mut options: Map<_, _> = analysis.options.iter().filter_map(own).collect();
+        if let Some(protocol) = &pair.protocol.protocol
+            && analysis.name == "metrics"
+        {
+            refuse(options.contains_key("metrics"), "metrics", "the protocol decides the metrics")?;
+            options.insert("metrics".to_owned(), Vec::from(protocol.selection()).into());
+        }
+        let options = Value::from(options);
+        comparison.materials.compare(&pair);
         analysis.check(&options, &scenes)?;
         let saved = comparison.session.as_ref().and_then(|session| session.loss.as_ref());
         let question = analysis.question(&scenes, saved)?;

@@ -89,7 +89,7 @@ const VALUES: &[(&str, &str)] = &[
     ("distance-tail", "0.001%"), ("distant", "5"), ("exposure", "1"), ("fail-above", "0.0001"),
     ("figures", "worst:1"), ("fixed", "0.1,0.2,1"), ("format", "json"), ("fov", "30"),
     ("layout", "wipe"), ("light", "0.1,0.2,1"), ("lights", "flash"), ("like", "gao"),
-    ("map", "roughness=@gray.png"), ("mask", "alpha"), ("max-size", "1kB"), ("metrics metrics", "psnr"), ("near", "3"), ("output", "@y.png"),
+    ("map", "roughness=@gray.png"), ("mask", "alpha"), ("max-size", "1kB"), ("materials", "m"), ("metrics metrics", "psnr"), ("rank metrics", "psnr"), ("protocol", "deschaintre"), ("rank output", "@y.json"), ("near", "3"), ("output", "@y.png"),
     ("over", "lights"), ("photo", "@photo.png"), ("pick", "mean"), ("plot", "@x.svg"), ("precision", "f64"),
     ("preset", "gao"), ("range", "0.125"), ("read", "albedo=gamma2.2"), ("register", "crop=1,2"),
     ("render difference", ""), ("resize-to", "6"),
@@ -173,7 +173,8 @@ fn options(mode: &str) -> BTreeSet<(String, String)> {
         let value = value(mode, option);
         let is_flag = matches!(argument.get_action(), ArgAction::SetTrue);
         assert!(is_flag || value.is_some(), "{mode}: --{option} has no value in this test");
-        (option.to_owned(), format!("--{option} {}", value.filter(|_| !is_flag).unwrap_or_default()))
+        let value = value.filter(|value| !is_flag && !value.is_empty());
+        (option.to_owned(), value.map_or(format!("--{option}"), |value| format!("--{option}={value}")))
     })
     .collect()
 }

@@ -32,6 +32,8 @@ Compare
 photo: how renderings differ from photographs
   photo.png a.png b.png --view 0,0,2.4 --light 0,0,2.4
   card_blue/capture.json a.png b.png
+verify: whether a table of a ranking is what its files give
+  table.tex
 conform: whose renderer yours is
   --points probe.npz
   answer.npz --convention svbrdf-estimation-2022

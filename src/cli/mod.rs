@@ -21,6 +21,7 @@ mod report;
 mod strip;
 mod strip_methods;
 mod study;
+mod verify;
 mod version;
 mod view;
 
@@ -70,6 +71,7 @@ enum Subcommands {
     Strip(strip::StripArgs),
     Report(report::ReportArgs),
     Rank(rank::RankArgs),
+    Verify(verify::VerifyArgs),
     #[command(flatten)]
     Analysis(analysis::AnalysisArgs),
     Photo(photo::PhotoArgs),
@@ -120,6 +122,14 @@ fn print_version() -> Result<(), CommandError> {
     Ok(put(&version::text(std::env::args().any(is_verbose)))?)
 }
 
+/// The ranking of the words of a command line, where they are one.
+fn parsed(words: Vec<String>) -> verify::Parsed {
+    let matches = help::program(Cli::command()).try_get_matches_from(words)?;
+    let command = Cli::from_arg_matches(&matches)?.command;
+    let rank = if let Some(Subcommands::Rank(rank)) = command { Some(rank) } else { None };
+    Ok(rank.map(|rank| (rank, Specified::of(&matches))))
+}
+
 impl Cli {
     /// Prints what is asked of the program itself, or runs a command.
     fn run(self, given: &Specified) -> Result<(), CommandError> {
@@ -134,6 +144,7 @@ impl Cli {
         match command {
             Subcommands::Conventions(args) => conventions::run(&args),
             Subcommands::Adapters(args) => adapters::run(args),
+            Subcommands::Verify(args) => verify::run(&args, parsed),
             Subcommands::Completions(args) => generate::completions(&args, help::program(Self::command())),
             Subcommands::Man(args) => generate::man(&args, help::program(Self::command())),
             command => command.job(given)?.run(),
@@ -156,7 +167,11 @@ impl Subcommands {
             Self::Conform(args) => args.job(),
             Self::Info(args) => args.job(),
             Self::Convert(args) => args.job(),
-            Self::Conventions(_) | Self::Adapters(_) | Self::Completions(_) | Self::Man(_) => {
+            Self::Conventions(_)
+            | Self::Verify(_)
+            | Self::Adapters(_)
+            | Self::Completions(_)
+            | Self::Man(_) => {
                 Err(Error::Internal("a command about the program has no job".to_owned()).into())
             }
         }

@@ -53,6 +53,10 @@ pub struct StripArgs {
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
 
+    /// Shows these materials of a data set only, in this order
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    materials: Vec<String>,
+
     /// Columns: rendering, normal, diffuse, specular, roughness; with a colon and a kind, or a colon alone, differences:
     /// rendering:log, normal:; of a session, the difference that was chosen in its window
     /// [default: normal,diffuse,roughness,specular,rendering,rendering:; of a data set: rendering]
@@ -104,10 +108,21 @@ impl StripArgs {
             let columns = columns(&self, None)?;
             self.refuse_unused(&columns, given)?;
             let look = Look { columns, exposure_ev: self.rendering.exposure, crops: self.crops, paper };
-            return strip_methods::job(&self.comparison, self.pairs, look, self.results, self.output);
+            return strip_methods::job(
+                &self.comparison,
+                (self.pairs, &self.materials),
+                look,
+                self.results,
+                self.output,
+            );
         }
         let reason = "losses below cells are those of --dataset or --pairs";
         refuse(self.results.is_some(), "results", reason)?;
+        refuse(
+            !self.materials.is_empty(),
+            "materials",
+            "all materials are shown without --dataset or --pairs",
+        )?;
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         let session = comparison.session.as_ref();
         let columns = columns(&self, session)?;

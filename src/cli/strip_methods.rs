@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
+use svbrdf_core::text::line;
 use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetResults, DatasetSettings, MaterialResult, Pick, counted_loss,
 };
@@ -46,7 +47,7 @@ pub struct Look {
 /// The job of the figure of a data set, which shows one column in each cell; GT may be a table of pairs.
 pub fn job(
     comparison: &ComparisonArgs,
-    is_table: bool,
+    (is_table, chosen): (bool, &[String]),
     look: Look,
     results: Option<PathBuf>,
     output: PathBuf,
@@ -66,11 +67,12 @@ pub fn job(
     };
     let source = cases::source(&comparison.materials, is_table)?;
     let cases = source.cases()?;
-    let chosen = comparison.convention.clone().unwrap_or_default();
-    let convention = chosen.convention;
-    let settings = DatasetSettings::new(source, chosen, TARGET_ERROR, 0, &cases);
+    let chosen_convention = comparison.convention.clone().unwrap_or_default();
+    let convention = chosen_convention.convention;
+    let settings = DatasetSettings::new(source, chosen_convention, TARGET_ERROR, 0, &cases);
     let reading = cases::reading(given, &settings.methods, &[])?;
     let reading = dataset::decided(&cases, reading, &Progress::default())?;
+    let cases = if chosen.is_empty() { cases } else { of_names(cases, chosen)? };
     let mut content = column.content;
     if let Some(difference) = &mut content.difference {
         difference.range = Some(difference.range.unwrap_or_else(|| difference.kind.default_range()));
@@ -79,6 +81,24 @@ pub fn job(
     let strip = MethodStrip { content, scene, convention, exposure_ev, crops, paper, dpi: DPI };
     Ok(Box::new(MethodsJob { settings, reading, cases, results, output, destination, strip }))
 }
+
+/// The cases of these materials, in their order.
+fn of_names(cases: Vec<Case>, names: &[String]) -> Result<Vec<Case>, CommandError> {
+    let of = |name: &String| {
+        let missing = || {
+            let known: Vec<&str> = cases.iter().map(|case| case.material.as_str()).collect();
+            CommandError::Usage(format!(
+                "--materials: there is no material {name}; the names are {}",
+                line(&known.join(", "))
+            ))
+        };
+        cases.iter().find(|case| case.material == *name).cloned().ok_or_else(missing)
+    };
+    names.iter().map(of).collect()
+}
+
+/// The most height of a figure on a page, in millimetres.
+const PAGE_MM: f64 = 230.0;
 
 /// Reads the materials, looks up or computes the losses where they are asked for, and writes the figure.
 impl Job for MethodsJob {
@@ -103,10 +123,19 @@ impl MethodsJob {
                 (results, unkept)
             }
         };
-        let (methods, materials) = (&settings.methods, &settings.materials);
+        let methods = &settings.methods;
+        let materials: &Vec<String> = &cases.iter().map(|case| case.material.clone()).collect();
         let row = |index: usize| self.row(&cases[index], losses.get(index));
         let figure =
             watched_on(progress, "rendering", |progress| strip.figure(methods, materials, row, progress))?;
+        let height_mm = figure.size[1] * 25.4 / 72.0;
+        if height_mm > PAGE_MM {
+            exit::tell(&format!(
+                "note: the figure is {height_mm:.0} mm high, more than the {PAGE_MM} mm of a page; choose some of the \
+                 {} materials by --materials",
+                materials.len()
+            ));
+        }
         destination.write(&figure, &strip.entries(methods, materials), progress)?;
         unkept.map_or(Ok(()), |problem| Err(CommandError::NotKept(problem)))
     }

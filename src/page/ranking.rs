@@ -52,8 +52,14 @@ fn heading(report: &DatasetReport, is_robust: bool) -> String {
         Pick::Fixed => String::new(),
         pick => format!(", of several predictions of a material the {pick}"),
     };
+    let files: String =
+        report.files.iter().map(|(whose, sha256)| format!("sha256 {sha256} {}\n", escaped(whose))).collect();
+    let files = match files.is_empty() {
+        true => files,
+        false => format!("<details><summary>Files</summary><pre>{files}</pre></details>"),
+    };
     format!(
-        "Convention {convention}, {accuracy}{pick}. {}. Repeat with <code>{}</code>",
+        "Convention {convention}, {accuracy}{pick}. {}. Repeat with <code>{}</code>{files}",
         report.repetition.software,
         escaped(&report.repetition.command) + if is_robust { " --robust" } else { "" }
     )

@@ -49,12 +49,38 @@ fn a_ranking_of_a_data_set_has_metrics_of_the_maps() {
     assert!(table.contains("metric, mean over materials") && table.contains("rmse_roughness"), "{table}");
     let latex = succeed(folder.path(), &format!("{rank} --format latex"));
     // The PSNR of equal maps is infinite. Theirs lacks a material, and is compared with nothing.
-    assert_has(&latex, &["psnr\\_normal\\_stored $\\uparrow$ & \\textbf{$\\infty$} & $\\infty$ \\\\"]);
-    assert!(latex.contains("psnr\\_roughness $\\uparrow$ & \\textbf{30.0690} & 16.0896 \\\\"), "{latex}");
+    assert_has(
+        &latex,
+        &["PSNR of normal, as stored (dB) $\\uparrow$ & \\textbf{$\\infty$} & $\\infty$ \\\\"],
+    );
+    assert!(
+        latex.contains("PSNR of roughness (dB) $\\uparrow$ & \\textbf{30.0690} & 16.0896 \\\\"),
+        "{latex}"
+    );
     assert_eq!(latex.matches("\\begin{tabular}").count(), 2, "{latex}");
     // The roughness of theirs is worse in every material, the normals are the same.
-    assert!(latex.contains("rmse\\_roughness $\\downarrow$ & \\textbf{0.0314} & 0.1569 \\\\"), "{latex}");
-    assert!(latex.contains("degrees $\\downarrow$ & \\textbf{0.0000} & 0.0000 \\\\"), "{latex}");
+    assert!(latex.contains("RMSE of roughness $\\downarrow$ & \\textbf{0.0314} & 0.1569 \\\\"), "{latex}");
+    assert!(latex.contains("(degrees) $\\downarrow$ & \\textbf{0.0000} & 0.0000 \\\\"), "{latex}");
+    // Theirs is marked, and with --common compared over the materials of both.
+    assert_has(
+        &latex,
+        &[
+            "\\caption{Rendering loss over 6 materials: convention printed, epsilon 0.01",
+            "theirs (5 of 6 materials)",
+        ],
+    );
+    assert!(table.contains("theirs (5 of 6 materials)"), "{table}");
+    let common = json_of(folder.path(), &format!("{rank} --common"));
+    assert_eq!(common["compared_materials"].as_array().unwrap().len(), 5);
+    assert!(common["methods"].as_array().unwrap().iter().all(|method| method["compared"] == true));
+    assert!(common["repetition"]["command"].as_str().unwrap().contains("--common"));
+    let few = rank.replace("--metrics", "--metrics=rmse_roughness,psnr_roughness");
+    let few = json_of(folder.path(), &few);
+    let names: Vec<&String> = few["methods"][0]["metrics"].as_object().unwrap().keys().collect();
+    assert_eq!(names.iter().filter(|name| !name.contains("roughness")).count(), 0, "{names:?}");
+    assert!(
+        few["repetition"]["command"].as_str().unwrap().contains("--metrics=rmse_roughness,psnr_roughness")
+    );
     let rows = rows_of(folder.path(), rank);
     assert_eq!((rows.len(), rows.iter().filter(|row| row["l1_roughness"].is_empty()).count()), (12, 1));
     // Metrics are kept with results, an infinite one, too.

@@ -70,6 +70,7 @@ pub fn page() -> String {
         seed: 0,
         materials: names.map(str::to_owned).to_vec(),
         methods: vec!["ours".to_owned(), HOSTILE.to_owned()],
+        common: false,
         protocol: None,
         metrics: Some(MetricSelection::default()),
         diagnose: true,

@@ -22,7 +22,9 @@ def rank_dataset(
     convention: str = "printed",
     pick: Literal["fixed", "mean", "best"] = "fixed",
     strict: bool = False,
-    metrics: bool = False,
+    metrics: bool | Sequence[str] = False,
+    protocol: Source | None = None,
+    common: bool = False,
     diagnose: bool = False,
     results: Source | None = None,
     read_ground_truth: ReadOptions | None = None,
@@ -44,7 +46,11 @@ def rank_dataset(
         convention: A name of `svbrdf.CONVENTIONS`.
         pick: Which of several predictions counts: the first, the mean of their losses, or the best.
         strict: Whether guesses in reading are errors.
-        metrics: Whether to compute metrics of the maps, too: RMSE, L1, angles and SSIM. docs/metrics.md defines them.
+        metrics: Whether to compute metrics of the maps, too: RMSE, L1, angles and SSIM; or words of their names, such as
+            `["rmse_normal", "psnr"]`. docs/metrics.md defines them.
+        protocol: The name of a protocol, such as "weiyi", or its .toml file. It decides reading, registration, mask, scenes,
+            convention and metrics; what `read_ground_truth` and the like specify counts before it.
+        common: Whether to compare all methods over the materials that all have.
         diagnose: Whether to mark what an error of exposure, alignment or reading explains of each loss, as
             `svbrdf.diagnose` does, and the losses that the ground truth does not resolve.
         results: A folder of losses: those that are in it are used, and the others are added as they come. It is the
@@ -79,7 +85,9 @@ def rank_dataset(
         "convention": convention,
         "pick": pick,
         "strict": strict,
-        "metrics": metrics,
+        "metrics": None if metrics is False else [] if metrics is True else list(metrics),
+        "protocol": None if protocol is None else os.fspath(protocol),
+        "common": common,
         "diagnose": diagnose,
         "results": results,
         "read": [options_json(given or {}) for given in (read_ground_truth, read_predictions)],

@@ -3,6 +3,7 @@
 pub mod comparison;
 pub mod named_path;
 pub mod offered;
+pub mod protocol;
 pub mod reading;
 pub mod scenes;
 pub mod specified;

@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use svbrdf_core::error::Error as CoreError;
+use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::text::quoted;
 use svbrdf_evaluate::dataset::{self, Case, Method};
 use svbrdf_evaluate::diagnose::Storage;
+use svbrdf_evaluate::registration::{self, Registration};
 use svbrdf_evaluate::report::distinct_names;
 use svbrdf_files::Error;
 use svbrdf_files::disk::memory::Reserved;
@@ -19,6 +21,7 @@ use svbrdf_files::scene_file;
 use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
 
+use crate::cli::args::protocol::PairArgs;
 use crate::cli::args::reading::{PairReadingArgs, ReadingArgs, ResizeTo};
 use crate::cli::args::{MaterialArgs, NamedPath, Specified};
 use crate::cli::output::{CommandError, advice, exit, watched};
@@ -36,6 +39,11 @@ pub struct MaterialJob {
     /// The paths on the command line: those of the sources, or that of a session; none for the built-in materials.
     pub paths: Vec<PathBuf>,
     resize_to: Option<ResizeTo>,
+    /// How predictions of another size may lie on the ground truth; empty: they are refused.
+    ways: Vec<Registration>,
+    is_masked: bool,
+    /// Factor and offset on the roughness of the ground truth, and of predictions.
+    roughness: [Option<[f64; 2]>; 2],
     /// Whether a guess in reading, or an accuracy that is not reached, is an error.
     pub strict: bool,
     verbose: bool,
@@ -63,7 +71,25 @@ impl MaterialJob {
             }
         };
         let PairReadingArgs { resize_to, both: ReadingArgs { strict, verbose, .. }, .. } = args.reading;
-        Ok(Self { sources, paths: args.paths().cloned().collect(), resize_to, strict, verbose })
+        let paths = args.paths().cloned().collect();
+        let (ways, is_masked, roughness) = (Vec::new(), false, [None; 2]);
+        Ok(Self { sources, paths, resize_to, ways, is_masked, roughness, strict, verbose })
+    }
+
+    /// Takes over how pairs are compared.
+    pub fn compare(&mut self, PairArgs { protocol, register, mask }: &PairArgs) {
+        self.is_masked = mask.is_some();
+        self.ways.extend(*register);
+        let Some(protocol) = &protocol.protocol else { return };
+        let sides = [&protocol.ground_truths, &protocol.predictions];
+        self.roughness = sides.map(|side| side.roughness);
+        for (index, source) in self.sources.iter_mut().enumerate() {
+            source.options = source.options.over(sides[index.min(1)].read);
+        }
+        self.is_masked |= protocol.mask.is_some();
+        if register.is_none() {
+            self.ways.clone_from(&protocol.registration);
+        }
     }
 
     /// The number of predictions.
@@ -98,21 +124,34 @@ impl MaterialJob {
         let storages = read.iter().map(Read::storage).collect();
         let memory = read.iter().map(|read| read.memory.clone()).collect();
         let readings = read.iter().map(reading).collect();
+        let mask = read.first().and_then(|truth| truth.mask.clone()).filter(|_| self.is_masked);
         for ((mut read, name), source) in read.into_iter().zip(names).zip(&self.sources) {
             read.material = read.material.renamed(name);
-            let material = noted(read, self.verbose);
+            let mut material = noted(read, self.verbose);
+            if let Some(change) = self.roughness[usize::from(!materials.is_empty())] {
+                material = material.with_roughness(change);
+            }
             let size = materials.first().map_or_else(|| material.size(), Material::size);
             materials.push(if source.fit { material.resized(size)? } else { material });
         }
         if let Some(to) = self.resize_to {
             materials = resized(materials, to)?;
         }
+        if !self.ways.is_empty() {
+            materials = registered(materials, &self.ways)?;
+        }
         let mut materials = materials.into_iter();
         // There is a source at least.
         let Some(ground_truth) = materials.next() else {
             return Err(Error::Internal("there is no ground truth".to_owned()).into());
         };
+        let [width, height] = ground_truth.size();
+        if self.is_masked && mask.as_ref().is_none_or(|mask| mask.len() != width * height) {
+            let problem = "no alpha of the ground truth is a mask of its texels, 0 or 1 nearly everywhere; leave out --mask";
+            return Err(CommandError::usage(problem));
+        }
         Ok(OpenedMaterials {
+            mask,
             ground_truth,
             predictions: materials.collect(),
             storages,
@@ -136,6 +175,8 @@ impl MaterialJob {
 pub struct OpenedMaterials<T> {
     pub ground_truth: Material<T>,
     pub predictions: Vec<Material<T>>,
+    /// Which texels are compared, where not all are.
+    pub mask: Option<Arc<[bool]>>,
     /// How each is stored, the ground truth first.
     pub storages: Vec<Storage>,
     /// For each material the assumptions and notes of reading it.
@@ -295,6 +336,34 @@ fn resized<T: Real>(materials: Vec<Material<T>>, to: ResizeTo) -> Result<Vec<Mat
         Ok(material.resized(size)?)
     };
     materials.into_iter().map(bring).collect()
+}
+
+/// The part of the ground truth that predictions of another size are compared with, and these, in one of these `ways`: the only one, or the
+/// one in which the maps correlate best.
+fn registered<T: Real>(
+    materials: Vec<Material<T>>,
+    ways: &[Registration],
+) -> Result<Vec<Material<T>>, CommandError> {
+    let [truth, predictions @ ..] = materials.as_slice() else { return Ok(materials) };
+    let others: Vec<_> = predictions.iter().filter(|one| one.size() != truth.size()).collect();
+    let Some(first) = others.first() else { return Ok(materials) };
+    let single: Vec<_> = others.iter().map(|one| [truth.cast::<f32>(), one.cast()]).collect();
+    let pairs: Vec<[&Material<f32>; 2]> = single.iter().map(|pair| pair.each_ref()).collect();
+    let found = || registration::common(&pairs, ways).map(|found| found.registration);
+    let Some(way) = (if let [way] = ways { Some(*way) } else { found() }) else {
+        return Err(check_same_size(truth, first).err().map_or_else(
+            || CommandError::usage("the predictions cannot be registered"),
+            CommandError::from,
+        ));
+    };
+    let ([w, h], [width, height]) = (truth.size(), first.size());
+    exit::tell(&format!("note: {way} of a ground truth of {w} x {h} to predictions of {width} x {height}"));
+    let [part, _] = way.applied([truth, first])?;
+    let lie = |one: &Material<T>| {
+        Ok(if one.size() == truth.size() { one.clone() } else { way.applied([truth, one])?[1].clone() })
+    };
+    let all: Vec<Material<T>> = predictions.iter().map(lie).collect::<Result<_, CoreError>>()?;
+    Ok(std::iter::once(part).chain(all).collect())
 }
 
 /// Whether a material of this size can be expected to fit into memory.

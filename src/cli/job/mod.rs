@@ -75,5 +75,6 @@ pub fn input<'a, T: Real>(
         paths: materials.paths.iter().map(|path| Some(path.display().to_string())).collect(),
         convention,
         question,
+        mask: opened.mask.clone(),
     }
 }

@@ -25,6 +25,12 @@ pub enum CommandError {
     )]
     NothingRanked { failed: usize, name: String, problem: String },
 
+    /// A table is not what its files give.
+    #[error(
+        "{table} differs in {places} places from what is computed; correct it, or find the files that it is of"
+    )]
+    Differs { table: String, places: usize },
+
     /// Losses were computed, and printed, but could not be added to the results folder.
     #[error("{0}")]
     NotKept(String),

@@ -7,7 +7,6 @@ use svbrdf_core::text::printable;
 use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::dataset::{Pick, Shard};
 use svbrdf_evaluate::metrics::MetricSelection;
-use svbrdf_evaluate::protocols::Protocol;
 use svbrdf_evaluate::registration::Registration;
 use svbrdf_evaluate::report::Report;
 use svbrdf_files::Error;
@@ -15,6 +14,7 @@ use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::{check_place, write_text};
 use svbrdf_page::Figures;
 
+use crate::cli::args::protocol::{ProtocolArgs, WAYS};
 use crate::cli::args::scenes::{FixedNumber, SceneArgs};
 use crate::cli::args::{ComparisonArgs, Specified, offered, values};
 use crate::cli::output::{CommandError, exit, stoppable};
@@ -78,36 +78,38 @@ pub struct DataSetArgs {
 
     /// How predictions of another size lie on their ground truths [default: found by the maps]
     ///
-    /// resize, centre-crop, crop=X,Y, or crop=X,Y/N of ground truths reduced by N; after NAME: for one method only. May be given
+    /// resize, resize=cubic, centre-crop, crop=X,Y, or crop=X,Y/N of ground truths reduced by N; after NAME: for one method only. May be given
     /// several times.
     #[arg(long, value_name = "[METHOD:]WAY", hide_short_help = true)]
-    #[arg(value_parser = offered(registered, ["resize", "centre-crop", "crop=16,16", "crop=0,0/4"]), hide_possible_values = true)]
+    #[arg(value_parser = offered(registered, WAYS), hide_possible_values = true)]
     pub register: Vec<(Option<String>, Registration)>,
 
     /// Compares only the texels that are opaque in the alpha of the ground truth of a data set
     #[arg(long, value_name = "alpha", value_parser = ["alpha"], hide_possible_values = true, hide_short_help = true)]
     pub mask: Option<String>,
 
-    /// Adds metrics of a data set: all of the maps, or those whose names have these words, such as =rmse_normal,psnr
+    /// Adds metrics of the maps of a data set, or those of these words
     ///
-    /// RMSE, L1, angles and SSIM of each material, and their means; of renderings where they are named, in --near, --distant, --lights
+    /// Of names such as =rmse_normal,psnr: RMSE, L1, angles and SSIM of each material, and their means; of renderings where they are named, in --near, --distant, --lights
     /// or --scenes.
     #[arg(long, value_name = "WORDS,...", num_args = 0..=1, require_equals = true, value_delimiter = ',', hide_possible_values = true)]
-    #[arg(value_parser = offered(word, MetricSelection::words()), default_missing_value = "")]
+    #[arg(value_parser = offered(word, MetricSelection::words()), default_missing_value = "", conflicts_with = "protocol")]
     pub metrics: Option<Vec<String>>,
 
-    /// Compares as a paper does: the name of a protocol, or a .toml file
+    #[command(flatten)]
+    pub protocol: ProtocolArgs,
+
+    /// Compares all methods over the materials that all of them have
     ///
-    /// It decides reading, registration, mask, scenes, convention and metrics with their means; --read and --register count before it.
-    #[arg(long, value_name = "NAME|FILE", value_parser = offered(|text| Protocol::read(text).map(Box::new), Protocol::names()), hide_possible_values = true)]
-    #[arg(conflicts_with = "metrics")]
-    pub protocol: Option<Box<Protocol>>,
+    /// Without it, those with the most materials are compared, and the others stand below.
+    #[arg(long, hide_short_help = true)]
+    pub common: bool,
 
     /// Adds the marks of `svbrdf diagnose` to a data set
     ///
     /// How many materials of each method have which error of exposure, alignment or reading, and how many losses the ground truth
     /// does not resolve.
-    #[arg(long)]
+    #[arg(long, hide_short_help = true)]
     pub diagnose: bool,
 }
 
@@ -152,27 +154,48 @@ impl OutputArgs {
     }
 
     /// Checks where the output goes, before anything is computed.
-    pub fn check<P: AsRef<Path>>(&self, inputs: impl IntoIterator<Item = P>) -> Result<(), Error> {
+    pub fn check<P: AsRef<Path>>(&self, inputs: impl IntoIterator<Item = P>) -> Result<(), CommandError> {
         let Some(path) = &self.output else { return Ok(()) };
         check_output_of(path, inputs)?;
-        check_place(path)
+        let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+        let is_known = |extension: &std::ffi::OsStr| KNOWN.iter().any(|known| extension == *known);
+        if self.format.is_none() && extension.is_some_and(|extension| !is_known(&extension)) {
+            let path = path.display();
+            return Err(CommandError::Usage(format!(
+                "{path}: a ranking is written as .txt, .json, .csv, .tex or .html; spreadsheets open .csv"
+            )));
+        }
+        Ok(check_place(path)?)
     }
 
-    /// Writes `report` in its format: to the file, or to stdout. `latex` makes the table for a paper.
-    pub fn put<R: Report>(&self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<(), Error> {
-        let text = match self.format() {
+    /// In this format, to no file.
+    pub fn printed(format: RankFormat) -> Self {
+        Self { format: Some(format), output: None }
+    }
+
+    /// A report in its format.
+    pub fn text<R: Report>(&self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<String, Error> {
+        Ok(match self.format() {
             RankFormat::Text => printable(&report.text()),
             RankFormat::Json => report.json()?,
             RankFormat::Csv => report.csv()?,
             RankFormat::Latex => latex(report),
             RankFormat::Html => return Err(Error::Internal("HTML is not printed".to_owned())),
-        };
+        })
+    }
+
+    /// Writes `report` in its format: to the file, or to stdout. `latex` makes the table for a paper.
+    pub fn put<R: Report>(&self, report: &R, latex: impl FnOnce(&R) -> String) -> Result<(), Error> {
+        let text = self.text(report, latex)?;
         match &self.output {
             Some(path) => stoppable(|progress| write_text(path, &text, progress)),
             None => exit::put(&text),
         }
     }
 }
+
+/// Endings of names of rankings.
+const KNOWN: [&str; 7] = ["txt", "md", "json", "csv", "tex", "html", "htm"];
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum RankFormat {

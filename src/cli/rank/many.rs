@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use svbrdf_core::loss::LossOptions;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
     Pick, Shard,
@@ -13,14 +11,12 @@ use svbrdf_evaluate::metrics::MetricSelection;
 use svbrdf_evaluate::protocols::{Mask, Protocol};
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_evaluate::robust::RobustReport;
-use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_page::{Figures, check_destination, material_views, ranking};
 
 use super::args::{DataSetArgs, OutputArgs, RankArgs, RankFormat, check_limit, refuse_scenes};
 use super::cases::{reading, source};
-use crate::cli::args::scenes::{FixedNumber, SceneArgs};
-use crate::cli::args::{ComparisonArgs, Specified, refuse};
+use crate::cli::args::{Specified, refuse};
 use crate::cli::job::{Job, NewJob};
 use crate::cli::output::{CommandError, exit, stoppable, warn_of, watched_on};
 
@@ -48,6 +44,25 @@ enum Output {
 }
 
 pub fn job(args: RankArgs, given: &Specified) -> NewJob {
+    Ok(Box::new(new(args, given)?))
+}
+
+/// What the ranking of these arguments writes in a format.
+pub fn written(mut args: RankArgs, given: &Specified, format: RankFormat) -> Result<String, CommandError> {
+    args.output = OutputArgs::printed(RankFormat::Json);
+    let (job, progress) = (new(args, given)?, Progress::default());
+    let cases = part(job.shard, job.cases.clone());
+    let (report, _) = job.report(&cases, true, &progress)?;
+    Ok(match format {
+        RankFormat::Html => {
+            let views = material_views(&report, &cases, None, Path::new(""), &progress)?;
+            ranking(&report, &views, None)
+        }
+        format => OutputArgs::printed(format).text(&report, DatasetReport::latex)?,
+    })
+}
+
+fn new(args: RankArgs, given: &Specified) -> Result<ManyJob, CommandError> {
     let reason = "materials of a data set are brought to one size by --register";
     refuse(args.comparison.materials.reading.resize_to.is_some(), "resize-to", reason)?;
     if args.robust {
@@ -56,12 +71,11 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let source = source(&args.comparison.materials, args.pairs)?;
     let cases = source.cases()?;
     let output = output(&args, given, &cases)?;
-    let DataSetArgs { results, shard, pick, register, mask, metrics, protocol, diagnose } = args.of_data_set;
-    let protocol = protocol.map(|protocol| *protocol);
-    let (convention, options) = match &protocol {
-        Some(protocol) => of_protocol(protocol, &args.comparison, &args.scenes, given)?,
-        None => (args.comparison.convention.clone().unwrap_or_default(), args.scenes.options()?),
-    };
+    let DataSetArgs { results, shard, pick, register, mask, metrics, protocol, common, diagnose } =
+        args.of_data_set;
+    let typed = args.scenes.options()?;
+    let (convention, options) = protocol.decided(args.comparison.convention.as_ref(), typed, given)?;
+    let (convention, protocol) = (convention.unwrap_or_default(), protocol.protocol.map(|one| *one));
     let (target_error, seed) = options.accuracy();
     let scenes = FixedScenes::new(options.question()?.request, args.scenes.words())?;
     let words = |words: Vec<String>| words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>();
@@ -82,6 +96,7 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let settings = DatasetSettings {
         metrics,
         diagnose,
+        common,
         protocol: protocol.clone(),
         ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
     };
@@ -90,33 +105,7 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
     let reading = DatasetReading { mask, ..reading(given, &settings.methods, &register)? };
     let reading = protocol.iter().fold(reading, DatasetReading::over);
     let (verbose, fail_above, robust) = (given.both.verbose, args.fail_above, args.robust);
-    let job = ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output };
-    Ok(Box::new(job))
-}
-
-/// The convention and the scenes of a protocol; what it decides is refused beside it.
-fn of_protocol(
-    protocol: &Protocol,
-    comparison: &ComparisonArgs,
-    scenes: &SceneArgs<RankReport>,
-    given: &Specified,
-) -> Result<(ChosenConvention, LossOptions), CommandError> {
-    let name = &protocol.name;
-    let reason = |what: &str| format!("the protocol {name} decides {what}");
-    let convention = match &comparison.convention {
-        Some(convention) if protocol.convention.is_none() => convention.clone(),
-        given => {
-            refuse(given.is_some(), "convention", &reason("the convention"))?;
-            protocol.chosen_convention()?
-        }
-    };
-    let typed = scenes.options()?;
-    if protocol.scenes.is_none() {
-        return Ok((convention, typed));
-    }
-    given.refuse::<SceneArgs<FixedNumber>>(&reason("the scenes"))?;
-    refuse(typed.target_error.is_some(), "target-error", &reason("the scenes"))?;
-    Ok((convention, LossOptions { seed: typed.seed, ..protocol.options()? }))
+    Ok(ManyJob { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output })
 }
 
 /// Where the ranking goes, before anything is computed: to a file that replaces no material and no list, or to stdout.
@@ -152,36 +141,54 @@ impl Job for ManyJob {
 
 impl ManyJob {
     fn evaluate(self, progress: &Progress) -> Result<(), CommandError> {
-        let Self { settings, reading, cases, shard, results, pick, verbose, fail_above, robust, output } =
-            self;
-        if let (true, Output::Text(output)) = (robust, &output) {
-            let report = asked(&cases, &settings, &reading, progress)?;
+        let Self { settings, reading, shard, robust, .. } = &self;
+        if let (true, Output::Text(output)) = (*robust, &self.output) {
+            let report = asked(&self.cases, settings, reading, progress)?;
             return Ok(output.put(&report, RobustReport::latex)?);
         }
-        let strict = reading.strict;
-        let reading = dataset::decided(&cases, reading, progress)?;
-        let cases = part(shard, cases);
+        let (strict, is_part) = (reading.strict, shard.is_some());
+        let cases = part(*shard, self.cases.clone());
+        let is_table = !matches!(&self.output, Output::Text(output) if output.format() == RankFormat::Text);
+        let (report, unkept) = self.report(&cases, is_table, progress)?;
+        tell_reading(self.verbose, &self.output, &report);
+        match self.output {
+            Output::Page { path, figures } => {
+                write_page(&path, (figures, self.robust), &report, &cases, progress)?;
+            }
+            Output::Text(output) => output.put(&report, DatasetReport::latex)?,
+        }
+        // The others of a part are failed predictions, which the table of all parts counts.
+        if !is_part {
+            check_any(&report)?;
+        }
+        warn_of(report.missed(), strict)?;
+        unkept.map_or(Ok(()), |problem| Err(CommandError::NotKept(problem)))?;
+        let means = report.methods.into_iter().filter(|summary| summary.materials > 0);
+        check_limit(self.fail_above, means.map(|summary| (summary.method, summary.mean)))
+    }
+
+    /// The ranking of `cases`, with digests of their files where it is a table that is kept, and what could not be added to the results folder.
+    fn report(
+        &self,
+        cases: &[Case],
+        is_table: bool,
+        progress: &Progress,
+    ) -> Result<(DatasetReport, Option<String>), CommandError> {
+        let Self { settings, reading, results, pick, .. } = self;
+        let reading = dataset::decided(cases, reading.clone(), progress)?;
         let DatasetResults { results, notes, unkept } =
             watched_on(progress, "comparing materials", |progress| {
-                dataset::run(&cases, &settings, &reading, results.as_deref(), progress)
+                dataset::run(cases, settings, &reading, results.as_deref(), progress)
             })?;
         notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
         for (material, prediction, problem) in failures(&results) {
             exit::tell(&format!("note: {material}, {prediction}: {problem}"));
         }
-        let report = DatasetReport::new(settings, reading, results, pick);
-        tell_reading(verbose, &output, &report);
-        match output {
-            Output::Page { path, figures } => {
-                write_page(&path, (figures, robust), &report, &cases, progress)?;
-            }
-            Output::Text(output) => output.put(&report, DatasetReport::latex)?,
+        let mut report = DatasetReport::new(settings.clone(), reading, results, *pick);
+        if is_table {
+            report.files = dataset::digests(cases, progress)?;
         }
-        check_any(&report)?;
-        warn_of(report.missed(), strict)?;
-        unkept.map_or(Ok(()), |problem| Err(CommandError::NotKept(problem)))?;
-        let means = report.methods.into_iter().filter(|summary| summary.materials > 0);
-        check_limit(fail_above, means.map(|summary| (summary.method, summary.mean)))
+        Ok((report, unkept))
     }
 }
 

@@ -5,7 +5,8 @@ pub mod cases;
 mod many;
 mod one;
 
-pub use args::RankArgs;
+pub use args::{RankArgs, RankFormat};
+pub use many::written;
 
 use super::args::Specified;
 use super::job::NewJob;

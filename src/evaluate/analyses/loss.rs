@@ -26,6 +26,9 @@ pub struct LossReport {
     pub precision: &'static str,
     /// Width and height in texels.
     pub size: [usize; 2],
+    /// How many texels the mask keeps; `None` without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) masked: Option<usize>,
     #[serde(flatten)]
     pub sampled: SampledScenes,
     /// The source of all intervals.
@@ -153,6 +156,7 @@ impl LossReport {
             epsilon: convention.epsilon,
             precision: T::NAME,
             size,
+            masked: None,
             sampled: SampledScenes::of(&outcome, size),
             interval95_from: outcome.interval_source(),
             target_error,

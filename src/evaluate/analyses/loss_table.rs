@@ -5,7 +5,8 @@ use crate::error::Error;
 use crate::report::{
     Analysis, AnalysisInput, Cell, Field, NoOptions, Reader, Report, Table, missed_by_any, scenes_line,
 };
-use svbrdf_core::loss::{Comparison, Compute};
+use svbrdf_core::loss::{Comparison, Compute, check_same_size};
+use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 
 fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 22] {
@@ -76,8 +77,9 @@ impl Report for LossReport {
     fn heading(&self) -> String {
         let Self { convention, epsilon, ground_truth, size, precision, outcome, .. } = self;
         let [width, height] = size;
+        let masked = self.masked.map_or(String::new(), |kept| format!(", {kept} in the mask"));
         format!(
-            "rendering loss against {ground_truth}, {width} x {height} texels, {precision}\n\
+            "rendering loss against {ground_truth}, {width} x {height} texels{masked}, {precision}\n\
              convention {convention}, epsilon {epsilon}\n{}",
             scenes_line(outcome.sampling.as_ref(), &outcome.scenes, *size)
         )
@@ -168,7 +170,20 @@ impl Analysis for LossReport {
 
 impl LossReport {
     fn of<T: Compute>(input: &AnalysisInput<'_, T>, progress: &Progress) -> Result<Self, Error> {
-        let comparison = Comparison::new(input.ground_truth, &input.predictions, input.convention)?;
-        Ok(Self::answer(&comparison, &input.question, progress)?.read_from(&input.paths))
+        let Some(mask) = &input.mask else {
+            let comparison = Comparison::new(input.ground_truth, &input.predictions, input.convention)?;
+            return Ok(Self::answer(&comparison, &input.question, progress)?.read_from(&input.paths));
+        };
+        input.each(|prediction| Ok(check_same_size(input.ground_truth, prediction)?))?;
+        let texels: Vec<usize> = (0..mask.len()).filter(|texel| mask[*texel]).collect();
+        let kept = |material: &Material<T>| material.gathered(&texels, [texels.len(), 1]);
+        let (truth, predictions) = (kept(input.ground_truth), input.each(|one| Ok(kept(one)))?);
+        let predictions: Vec<_> = predictions.iter().collect();
+        let comparison = Comparison::new(&truth, &predictions, input.convention)?;
+        let comparison = comparison.at(input.ground_truth.grid(), &texels);
+        let mut report = Self::answer(&comparison, &input.question, progress)?.read_from(&input.paths);
+        report.size = input.ground_truth.size();
+        report.masked = Some(texels.len());
+        Ok(report)
     }
 }

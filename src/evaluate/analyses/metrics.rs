@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize, Serializer};
 
 use crate::error::Error;
-use crate::metrics::{Metric, MetricSelection, RenderedScenes, of_maps, of_renderings};
+use crate::metrics::{Kept, Metric, MetricSelection, RenderedScenes, of_masked_maps, of_renderings};
 use crate::report::{
     Analysis, AnalysisInput, AnalysisOption, Cell, Compared, OptionValue, Reader, Report, Table, scenes_line,
 };
@@ -154,9 +154,10 @@ impl Analysis for MetricsReport {
         let results = input.each(|prediction| {
             let mut metrics = Vec::new();
             if options.metrics.has_maps() {
-                metrics.extend(of_maps(ground_truth, prediction)?);
+                let kept = input.mask.as_deref().map(|texels| Kept { texels, count_all: false });
+                metrics.extend(of_masked_maps(ground_truth, prediction, kept)?);
             }
-            if options.metrics.has_renderings() {
+            if options.metrics.has_renderings() && input.mask.is_none() {
                 metrics.extend(of_renderings(ground_truth, prediction, &rendered, progress)?);
             }
             metrics.retain(|metric| options.metrics.has(metric.name));

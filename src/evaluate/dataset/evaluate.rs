@@ -19,8 +19,9 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::Error as FilesError;
 
 use super::opened::{Opened, OpenedMaterial, OpenedPair};
+use super::reading::DatasetReading;
 use super::record::{
-    CandidateFile, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
+    CandidateFile, Case, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
 use super::remark::MASK;
 use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};

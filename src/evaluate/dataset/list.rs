@@ -13,7 +13,7 @@ use super::record::{CandidateFile, Case, Method, Source};
 use crate::report::distinct_names;
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::disk::{inputs, memory};
-use svbrdf_files::read::sets;
+use svbrdf_files::read::{batch, sets};
 
 /// Extensions of files that are no materials.
 const OTHER: [&str; 8] = ["json", "jsonl", "txt", "md", "csv", "yaml", "yml", "log"];
@@ -111,6 +111,7 @@ fn method_name(path: &Path) -> String {
     match added {
         Some(added) if !added.is_empty() => Some(added),
         Some(_) => path.parent().and_then(last),
+        None if path.is_file() => path.file_stem().map(|stem| stem.to_string_lossy().into_owned()),
         None => last(path),
     }
     .unwrap_or_else(|| path.display().to_string())
@@ -239,9 +240,13 @@ fn is_there(path: &Path) -> bool {
     children(parent).is_ok_and(|entries| entries.into_iter().any(begins))
 }
 
-/// The materials of a folder by name.
+/// The materials of a folder, or of a file of batches, by name.
 fn entries(folder: &Path) -> Result<BTreeMap<String, PathBuf>, Error> {
     let mut found = BTreeMap::new();
+    if let Some(count) = batch(folder) {
+        let names = (1..=count).map(|number| format!("{number:04}"));
+        return Ok(names.map(|name| (name.clone(), folder.join(name))).collect());
+    }
     collect(folder, "", &mut found)?;
     Ok(found)
 }

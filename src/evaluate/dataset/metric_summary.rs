@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::RangeInclusive;
 
 use crate::protocols::{Aggregate, Row};
-use crate::report::{Cell, Table, bold, escaped, latex};
+use crate::report::{Cell, Table};
 use svbrdf_core::statistics::median;
 
 use super::bootstrap::{interval_of_mean_within, may_be_0};
@@ -254,36 +254,9 @@ pub(super) fn metrics_table(report: &DatasetReport) -> Option<Table> {
 }
 
 /// The name of a method, with the number of its materials where its means are over others than those of the compared ones.
-fn method_title(summary: &MethodSummary) -> String {
+pub(super) fn method_title(summary: &MethodSummary) -> String {
     match summary.compared {
         true => summary.method.clone(),
         false => format!("{} ({} materials)", summary.method, summary.count()),
     }
-}
-
-/// The means over materials as a LaTeX table with a column for each method: in bold the best one and what ties with it. Empty
-/// without metrics.
-pub(super) fn latex_table(report: &DatasetReport) -> String {
-    let methods = &report.methods;
-    let best = best_by_metric(report);
-    if best.is_empty() {
-        return String::new();
-    }
-    let line = |(row, best): (&MetricRow, &Vec<bool>)| {
-        let cell = |(method, &best): (&MethodSummary, &bool)| {
-            row.value(method).map_or("--".to_owned(), |(value, _)| bold(&number(value), best))
-        };
-        let cells: Vec<String> = methods.iter().zip(best).map(cell).collect();
-        let arrow = if is_better_larger(&row.metric) { "$\\uparrow$" } else { "$\\downarrow$" };
-        format!("{} {arrow} & {} \\\\\n", escaped(&row.title()), cells.join(" & "))
-    };
-    let rows: String = best.iter().map(|(row, best)| line((row, best))).collect();
-    let names: Vec<String> = methods.iter().map(|summary| escaped(&method_title(summary))).collect();
-    let heading = format!("Metric, mean over materials & {}", names.join(" & "));
-    format!("\n{}", latex(&format!("l{}", "r".repeat(methods.len())), &heading, &rows))
-}
-
-/// A number in LaTeX.
-fn number(value: f64) -> String {
-    if value.is_infinite() { "$\\infty$".to_owned() } else { format!("{value:.4}") }
 }

@@ -7,6 +7,8 @@
 mod bootstrap;
 mod doubts;
 mod evaluate;
+mod files;
+mod latex;
 mod list;
 mod mark_summary;
 mod metric_summary;
@@ -14,6 +16,7 @@ mod names;
 mod opened;
 mod pick;
 mod ranking;
+mod reading;
 mod record;
 mod remark;
 mod repetition;
@@ -22,21 +25,24 @@ mod results;
 mod robust;
 mod scenes;
 mod summary;
+mod verify;
 mod witness;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_mean_within, interval_of_median};
 pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{DatasetResults, Evaluation, run};
+pub use files::digests;
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use mark_summary::marks_table;
 pub use metric_summary::{MetricRow, best_by_metric, is_better_larger};
 pub use pick::{Pick, counted_loss, counted_sample};
+pub use reading::DatasetReading;
 pub use record::{
-    CandidateFile, Case, DatasetReading, DatasetSettings, KnownLoss, Mark, MaterialResult, Method,
-    PredictionResult, Source,
+    CandidateFile, Case, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, PredictionResult, Source,
 };
 pub use remark::Remark;
 pub use robust::robust;
 pub use scenes::FixedScenes;
 pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};
+pub use verify::{Difference, command, differences, shell_words};
 pub use witness::decided;

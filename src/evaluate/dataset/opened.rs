@@ -8,7 +8,8 @@ use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{self, Neighbours, ReadOptions};
 
-use super::record::{CandidateFile, DatasetReading};
+use super::reading::DatasetReading;
+use super::record::CandidateFile;
 use super::remark::Remark;
 use crate::diagnose::Storage;
 

@@ -18,11 +18,12 @@ const Z: f64 = 1.959_964;
 ///
 /// Means of different materials cannot be compared. So those methods are compared that have a loss of the most materials, over the
 /// materials that all of them have; every other method lacks materials, stands below and is never the best. Of several predictions of a
-/// material, `pick` says which counts.
+/// material, `pick` says which counts. Where `all` are asked for, every method with a loss is compared, over the materials that all have.
 pub(super) fn ranked(
     methods: &[String],
     results: &[MaterialResult],
     pick: Pick,
+    all: bool,
 ) -> (Vec<MethodSummary>, BTreeSet<usize>) {
     let mut known = losses(results, pick);
     let losses: Vec<(&str, Losses)> = methods
@@ -30,9 +31,10 @@ pub(super) fn ranked(
         .map(|method| (method.as_str(), known.remove(method.as_str()).unwrap_or_default()))
         .collect();
     let most = losses.iter().map(|(_, losses)| losses.len()).max().unwrap_or(0);
-    let common = common(losses.iter().map(|(_, losses)| losses).filter(|losses| losses.len() == most));
+    let is_compared = |losses: &Losses| losses.len() == most || (all && !losses.is_empty());
+    let common = common(losses.iter().map(|(_, losses)| losses).filter(|losses| is_compared(losses)));
     let summary = |(method, losses): &(&str, Losses)| {
-        let compared = losses.len() == most && !common.is_empty();
+        let compared = is_compared(losses) && !common.is_empty();
         let summary = summary(method, losses, compared.then_some(&common));
         MethodSummary { compared, failures: results.len() - losses.len(), ..summary }
     };

@@ -7,7 +7,8 @@ use svbrdf_core::text::{line, quoted};
 use svbrdf_files::read::ReadOptions;
 
 use super::pick::Pick;
-use super::record::{DatasetReading, DatasetSettings, Method, Source};
+use super::reading::DatasetReading;
+use super::record::{DatasetSettings, Method, Source};
 use crate::protocols::Protocol;
 
 /// The command line that makes the same results, quoted for a shell. Options that have their defaults are left out.
@@ -44,7 +45,12 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
     }));
     let of_protocol = protocol.as_ref().and_then(|protocol| protocol.mask);
     let is_masked = reading.mask.is_some() && reading.mask != of_protocol;
-    let switches = [("--diagnose", *diagnose), ("--strict", reading.strict), ("--mask=alpha", is_masked)];
+    let switches = [
+        ("--diagnose", *diagnose),
+        ("--common", settings.common),
+        ("--strict", reading.strict),
+        ("--mask=alpha", is_masked),
+    ];
     words.extend(switches.into_iter().filter(|(_, is)| *is).map(|(name, _)| OsString::from(name)));
     words.extend(read_options(reading, protocol.as_ref()).into_iter().map(OsString::from));
     words.iter().map(quoted).collect::<Vec<_>>().join(" ")

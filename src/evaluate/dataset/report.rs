@@ -1,18 +1,19 @@
 //! The losses of methods over a data set: JSON, text, CSV and LaTeX.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::report::{Cell, Field, Reader, Repetition, Report, Table, bold, escaped, latex, missed};
-use svbrdf_core::text::line;
+use crate::report::{Cell, Field, Reader, Repetition, Report, Table, missed};
 
 use super::bootstrap::FEWEST;
 use super::doubts::ReadingSummary;
 use super::mark_summary::{marks_table, summarize_marks};
-use super::metric_summary::{latex_table, metric_names, metrics_table, summarize_metrics};
+use super::metric_summary::{metric_names, metrics_table, summarize_metrics};
 use super::pick::{Pick, counted};
 use super::ranking::ranked;
-use super::record::{DatasetReading, DatasetSettings, MaterialResult, Method, PredictionResult, Source};
+use super::reading::DatasetReading;
+use super::record::{DatasetSettings, MaterialResult, Method, PredictionResult, Source};
 use super::remark::Remark;
 use super::repetition;
 use super::summary::{DatasetReport, FEW, MethodSummary};
@@ -79,10 +80,11 @@ impl DatasetReport {
         results: Vec<MaterialResult>,
         pick: Pick,
     ) -> Self {
-        let (methods, common) = ranked(&settings.methods, &results, pick);
+        let (methods, common) = ranked(&settings.methods, &results, pick, settings.common);
         let is_common = |result: &&MaterialResult| common.contains(&result.index);
         let report = Self {
             repetition: Repetition::new(repetition::command(&settings, &reading, pick)),
+            files: BTreeMap::new(),
             compared_materials: results.iter().filter(is_common).map(|one| one.material.clone()).collect(),
             ground_truths: ReadingSummary::of_ground_truths(&results),
             methods: Vec::new(),
@@ -199,33 +201,6 @@ impl DatasetReport {
         })
     }
 
-    /// Tables for a paper: the best methods in bold, and the same of the metrics. What the numbers depend on is a comment above.
-    pub fn latex(&self) -> String {
-        let row = |summary: &MethodSummary| {
-            let number = |value: f64| if value.is_nan() { "--".to_owned() } else { format!("{value:.4}") };
-            let mean = bold(&number(summary.mean), summary.ties_with_best);
-            let interval = summary
-                .interval95_materials
-                .map_or(FEW.to_owned(), |[low, high]| format!("[{low:.4}, {high:.4}]"));
-            let method = escaped(&summary.method);
-            format!(
-                "{method} & {mean} & {interval} & {} & {} \\\\\n",
-                number(summary.median),
-                summary.count()
-            )
-        };
-        let (compared, lacking): (Vec<_>, Vec<_>) = self.methods.iter().partition(|summary| summary.compared);
-        let mut rows: String = compared.into_iter().map(row).collect();
-        if !lacking.is_empty() {
-            rows += "\\midrule\n";
-            rows.extend(lacking.into_iter().map(row));
-        }
-        let comments = self.conditions().into_iter().chain([self.repetition.to_string()]);
-        let comments: String = comments.map(|comment| format!("% {}\n", line(&comment))).collect();
-        let losses = latex("lrlrr", "Method & Mean loss & 95\\% interval & Median & Materials", &rows);
-        comments + &losses + &latex_table(self)
-    }
-
     /// Every prediction with its material.
     fn predictions(&self) -> impl Iterator<Item = (&MaterialResult, &PredictionResult)> {
         self.results.iter().flat_map(|result| result.predictions.iter().map(move |one| (result, one)))
@@ -281,6 +256,19 @@ impl Report for DatasetReport {
         let count = fields.len() - if self.settings.diagnose { 0 } else { OF_DIAGNOSES };
         let rows = self.predictions().map(|(result, prediction)| (self, result, prediction));
         let mut table = Table::fields(&fields[..count], rows, reader);
+        if !self.files.is_empty() {
+            let digest = |whose: String| Cell::from(self.files.get(&whose).cloned());
+            let truth =
+                |(result, _): (&MaterialResult, _)| digest(format!("ground truth, {}", result.material));
+            table.push("ground_truth_sha256".to_owned(), self.predictions().map(truth));
+            let one = |(result, one): (&MaterialResult, &PredictionResult)| {
+                let sample = if one.sample > 0 { format!(" {}", one.sample) } else { String::new() };
+                digest(format!("{}{sample}, {}", one.method, result.material))
+            };
+            table.push("sha256".to_owned(), self.predictions().map(one));
+            let command = |_| self.repetition.command.as_str().into();
+            table.push("repeat_with".to_owned(), self.predictions().map(command));
+        }
         for name in metric_names(&self.results) {
             let value = |(_, one): (_, &PredictionResult)| one.metrics.get(name).copied().into();
             table.push(name.to_owned(), self.predictions().map(value));

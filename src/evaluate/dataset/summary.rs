@@ -8,7 +8,8 @@ use crate::report::Repetition;
 
 use super::doubts::ReadingSummary;
 use super::pick::Pick;
-use super::record::{DatasetReading, DatasetSettings, MaterialResult};
+use super::reading::DatasetReading;
+use super::record::{DatasetSettings, MaterialResult};
 
 /// In place of an interval over fewer materials than have one.
 pub(super) const FEW: &str = "few materials";
@@ -26,6 +27,10 @@ pub struct DatasetReport {
     pub pick: Pick,
     /// How to repeat it.
     pub repetition: Repetition,
+    /// The beginning of the SHA-256 of the files of each material, by `ground truth, wood` and `ours, wood`.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<BTreeMap<String, String>>"))]
+    pub files: BTreeMap<String, String>,
     /// The names of the materials that the means of compared methods are over.
     pub compared_materials: Vec<String>,
     /// How the ground truths were read.

@@ -27,9 +27,9 @@ impl MetricSelection {
         renderings::NAMES.into_iter().any(|name| self.has(name))
     }
 
-    /// The metrics of these names.
+    /// The metrics of these names, and no others that have their words.
     pub(crate) fn of_names(names: Vec<String>) -> Self {
-        Self(names)
+        Self(names.into_iter().map(|name| format!("={name}")).collect())
     }
 
     /// Whether all metrics are.
@@ -78,9 +78,10 @@ fn names() -> impl Iterator<Item = &'static str> {
     maps::names().chain(renderings::NAMES)
 }
 
-/// Whether `words` are a part of `name`, whole words only.
+/// Whether `words` are a part of `name`, whole words only; after `=`, whether they are the name.
 fn has_words(name: &str, words: &str) -> bool {
-    format!("_{name}_").contains(&format!("_{words}_"))
+    words.strip_prefix('=').is_some_and(|whole| whole == name)
+        || format!("_{name}_").contains(&format!("_{words}_"))
 }
 
 #[cfg(test)]

@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_core::material::resize::Kernel;
+use svbrdf_core::math::real::Real;
 
 pub(crate) use find::correlation;
 pub use find::{Found, common, found};
@@ -33,7 +34,7 @@ impl Registration {
     ///
     /// # Errors
     /// [`Error::SizesDiffer`] where the prediction is no such part, and those of [`Material::resized`].
-    pub fn applied(self, pair: [&Material<f32>; 2]) -> Result<[Material<f32>; 2], Error> {
+    pub fn applied<T: Real>(self, pair: [&Material<T>; 2]) -> Result<[Material<T>; 2], Error> {
         let [truth, prediction] = pair;
         let [of_truth, of_prediction] = pair.map(Material::size);
         match self {
@@ -56,7 +57,11 @@ impl Registration {
 }
 
 /// The part of `truth` from `at` on that has the size of `prediction`.
-fn part(truth: &Material<f32>, prediction: &Material<f32>, at: [usize; 2]) -> Result<Material<f32>, Error> {
+fn part<T: Real>(
+    truth: &Material<T>,
+    prediction: &Material<T>,
+    at: [usize; 2],
+) -> Result<Material<T>, Error> {
     let ([width, height], size) = (truth.size(), prediction.size());
     if at[0] + size[0] > width || at[1] + size[1] > height {
         svbrdf_core::loss::check_same_size(truth, prediction)?;

@@ -1,6 +1,8 @@
 //! An analysis: a report, and the declaration that its command, its function in Python, its JSON Schema and its table in the window follow
 //! from.
 
+use std::sync::Arc;
+
 use serde::de::DeserializeOwned;
 
 use svbrdf_core::loss::{LossOptions, Question};
@@ -27,6 +29,8 @@ pub struct AnalysisInput<'a, T: Real = f32> {
     pub convention: Convention,
     /// Its scenes.
     pub question: Question,
+    /// Which texels a mask keeps, where there is one: for losses and metrics.
+    pub mask: Option<Arc<[bool]>>,
 }
 
 impl<T: Real> AnalysisInput<'_, T> {

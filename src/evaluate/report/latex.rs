@@ -7,6 +7,11 @@ pub fn latex(columns: &str, heading: &str, rows: &str) -> String {
     )
 }
 
+/// A float of tables with its caption above.
+pub fn float(caption: &str, tables: &str) -> String {
+    format!("\\begin{{table}}\n\\centering\n\\caption{{{caption}}}\n{tables}\\end{{table}}\n")
+}
+
 /// A number in bold, where it is among the best.
 pub fn bold(number: &str, best: bool) -> String {
     if best { format!("\\textbf{{{number}}}") } else { number.to_owned() }

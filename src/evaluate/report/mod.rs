@@ -35,7 +35,7 @@ pub use analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionVal
 pub use conform::ConformReport;
 pub use heading::{Compared, floor_line, position, scenes_line};
 pub use info::InfoReport;
-pub use latex::{bold, escaped, latex};
+pub use latex::{bold, escaped, float, latex};
 pub use missed::{missed, missed_by_any};
 pub use names::distinct_names;
 pub use repetition::Repetition;

@@ -44,7 +44,7 @@ use sha2::{Digest as _, Sha256};
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
-use crate::disk::open::hexadecimal;
+use crate::disk::open::{NamedFile, hexadecimal};
 use crate::disk::{inputs, memory};
 use crate::error::Error;
 
@@ -61,6 +61,15 @@ pub fn read<T: Real>(path: &Path, options: &ReadOptions, progress: &Progress) ->
     MaterialPath::new(path, options).read(progress)
 }
 
+/// The number of materials of an npz file of batches, of which `FILE/0001` is the first; `None` of other files.
+pub fn batch(path: &Path) -> Option<usize> {
+    is_npz(path).then(|| decode::batch(&NamedFile::by_user(path))).flatten()
+}
+
+fn is_npz(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npz"))
+}
+
 /// A path with a material, and how it is specified: whatever is read from files begins here.
 #[derive(Clone, Copy, Debug)]
 pub struct MaterialPath<'a> {
@@ -71,9 +80,15 @@ pub struct MaterialPath<'a> {
 }
 
 impl<'a> MaterialPath<'a> {
-    /// The material at `path`, whose sidecar file completes `options`.
+    /// The material at `path`, whose sidecar file completes `options`. `batch.npz/0003` is the third material of a batch.
     pub fn new(path: &'a Path, options: &ReadOptions) -> Self {
-        Self { path, options: *options, bindings: &[], is_alone: false }
+        let number = || path.file_name()?.to_str()?.parse::<usize>().ok()?.checked_sub(1);
+        let in_batch = path.parent().filter(|file| is_npz(file) && file.is_file()).zip(number());
+        let (path, options) = match in_batch {
+            Some((file, number)) => (file, ReadOptions { exemplar: Some(number), ..*options }),
+            None => (path, *options),
+        };
+        Self { path, options, bindings: &[], is_alone: false }
     }
 
     /// With the maps of `bindings` in place of those at the path.

@@ -153,8 +153,15 @@ fn the_other_metrics_are_those_of_the_core_of_the_chosen_prediction() {
         let metrics = AnyAnalysis::named("metrics").unwrap();
         let (ground_truth, predictions) = (&materials[0], vec![&materials[prediction]]);
         let (paths, convention, question) = (Vec::new(), PRINTED, request.clone().into());
-        let input =
-            AnalysisInput { ground_truth, predictions, storages: Vec::new(), paths, convention, question };
+        let input = AnalysisInput {
+            ground_truth,
+            predictions,
+            storages: Vec::new(),
+            paths,
+            convention,
+            question,
+            mask: None,
+        };
         let table = metrics.run(&input, json!({}), &Progress::default()).unwrap().table(Reader::Person);
         table.rows.iter().map(|row| [0, 1].map(|column| Cell::text(&row[column]))).collect()
     };

@@ -10,7 +10,7 @@ use svbrdf_core::statistics::median;
 use svbrdf_files::changes::{Reading, StoredEncoding};
 use svbrdf_files::read::Albedo;
 
-use super::super::record::DatasetReading;
+use super::super::reading::DatasetReading;
 use super::group::{Group, Own, Sampled};
 
 /// A colour of a material.

@@ -15,7 +15,8 @@ use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::read::{self, Read, ReadOptions};
 
-use super::record::{Case, DatasetReading};
+use super::reading::DatasetReading;
+use super::record::Case;
 use crate::error::Error;
 use crate::registration;
 use group::{Group, Sampled};

@@ -3,7 +3,7 @@
 use svbrdf_core::statistics::median;
 use svbrdf_files::read::{NormalY, Roughness};
 
-use super::super::record::DatasetReading;
+use super::super::reading::DatasetReading;
 use super::group::{Group, Sampled};
 use crate::registration;
 

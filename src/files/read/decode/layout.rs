@@ -50,9 +50,25 @@ fn readings(shape: &[u64]) -> Vec<ArrayAxes> {
     }
 }
 
-/// The reading of each shape of a file, decided from all of them together.
+/// The number of materials, where the arrays of a file are batches of as many: (n, h, w, channels), beside which (n, h, w) is one, too.
+pub(super) fn batch(shapes: &[Vec<u64>]) -> Option<u64> {
+    let of = |shape: &Vec<u64>| match *shape.as_slice() {
+        [n, _, _, c] if n > 1 && (1..=MOST).contains(&c) => Some(n),
+        _ => None,
+    };
+    let first = shapes.iter().find_map(of)?;
+    shapes.iter().filter_map(of).all(|n| n == first).then_some(first)
+}
+
+/// The reading of each shape of a file, decided from all of them together. The materials of a batch stand below each other.
 pub(super) fn chosen(shapes: &[Vec<u64>]) -> impl Iterator<Item = Option<ArrayAxes>> {
-    let all: Vec<_> = shapes.iter().map(|shape| readings(shape)).collect();
+    let batch = batch(shapes);
+    let read = |shape: &Vec<u64>| match *shape.as_slice() {
+        [n, h, w, c] if Some(n) == batch => vec![ArrayAxes::new([n.saturating_mul(h), w], c, false)],
+        [n, h, w] if Some(n) == batch => vec![ArrayAxes::new([n.saturating_mul(h), w], 1, false)],
+        _ => readings(shape),
+    };
+    let all: Vec<_> = shapes.iter().map(read).collect();
     let sizes: Vec<_> = all.iter().filter(|one| one.len() == 1).map(|one| one[0].size()).collect();
     let several: Vec<_> = all.iter().filter(|one| one.len() > 1).collect();
     // Whether channels first, or last, gives all arrays of two readings one size.
@@ -93,6 +109,15 @@ mod tests {
         let shapes: Vec<_> = shapes.iter().map(|shape| shape.to_vec()).collect();
         let read = chosen(&shapes).map(|axes| axes.map(|axes| (axes.size(), axes.count, axes.is_ambiguous)));
         read.map(|axes| axes.unwrap()).collect()
+    }
+
+    #[test]
+    fn batches_of_materials_stand_below_each_other() {
+        let read = read(&[&[3, 64, 32, 3], &[3, 64, 32], &[3, 64, 32, 1]]);
+        let [size, one] = [[192, 32], [192, 32]];
+        assert_eq!(read, [(size, 3, false), (one, 1, false), (one, 1, false)]);
+        assert_eq!(batch(&[vec![3, 64, 32, 3], vec![2, 64, 32, 3]]), None);
+        assert_eq!(batch(&[vec![1, 64, 32, 3]]), None);
     }
 
     #[test]

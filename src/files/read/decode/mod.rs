@@ -41,6 +41,11 @@ pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
     Ok(decoded)
 }
 
+/// The number of materials of an npz file of batches; `None` of others.
+pub(super) fn batch(file: &NamedFile) -> Option<usize> {
+    numpy::batch(Reader::File(file.reader().ok()?))
+}
+
 /// As [`whole`], from what `reader` gives; `path` is the name for messages.
 pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) -> Result<Decoded, Error> {
     let unreadable = |source| Error::unreadable(path, source);

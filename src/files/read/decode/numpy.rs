@@ -54,7 +54,8 @@ pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Resu
     }
     let chosen: Vec<_> = layout::chosen(&shapes).collect();
     let has_pictures = chosen.iter().any(Option::is_some);
-    let mut decoded = Decoded::default();
+    let batch = layout::batch(&shapes).map(|count| count as usize);
+    let mut decoded = Decoded { batch, ..Decoded::default() };
     let mut bytes = 0;
     for (file, (shape, axes)) in names.iter().zip(shapes.iter().zip(chosen)) {
         let name = stem(file);
@@ -71,6 +72,16 @@ pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Resu
         decoded.layers.push(layer);
     }
     Ok(decoded)
+}
+
+/// The number of materials of an archive of batches.
+pub(crate) fn batch(reader: Reader<'_>) -> Option<usize> {
+    let mut archive = zip::ZipArchive::new(reader).ok()?;
+    let names: Vec<String> = archive.file_names().flatten().map(|name| name.into_owned()).collect();
+    let arrays = names.iter().filter(|name| name.ends_with(".npy")).take(MOST_ARRAYS);
+    let shapes: Vec<_> =
+        arrays.filter_map(|name| Some(Header::read(archive.by_name(name).ok()?).ok()?.shape)).collect();
+    layout::batch(&shapes).map(|count| count as usize)
 }
 
 /// The name of an array by the file in its archive.

@@ -69,6 +69,8 @@ pub(crate) struct Layer {
 #[derive(Debug, Default)]
 pub(crate) struct Decoded {
     pub layers: Vec<Layer>,
+    /// The number of materials that stand below each other in them, where they are a batch.
+    pub batch: Option<usize>,
     /// Whether this program wrote the file, in its own encoding.
     pub native: bool,
     /// The order and encoding that this program wrote into a picture.

@@ -49,7 +49,14 @@ impl WholePicture {
         options: &ReadOptions,
     ) -> Result<StoredMaterial, Error> {
         let Self { file, refusal } = self;
-        let Decoded { mut layers, mut notes, native, meaning } = decoded;
+        let Decoded { mut layers, mut notes, native, meaning, batch } = decoded;
+        if let Some(count) = batch {
+            let exemplar = options.exemplar_of(count, file.path())?;
+            for Layer { raster, .. } in layers.iter_mut().filter(|layer| layer.raster.height % count == 0) {
+                let [width, height] = [raster.width, raster.height / count];
+                *raster = raster.crop([0, exemplar * height], [width, height]);
+            }
+        }
         let found = match layers.pop() {
             Some(only) if layers.is_empty() && !is_named(&only) => {
                 packed::material(file.path(), &only.raster, meaning.as_deref(), options)

@@ -225,6 +225,7 @@ impl Question for Analyse {
             paths: Vec::new(),
             convention: self.pair.convention,
             question,
+            mask: None,
         };
         let report = analysis.run(&input, json!({}), work.progress())?;
         Ok(AnalysisTable { heading: report.heading(), table: report.table(Reader::Person) })

@@ -1,0 +1,67 @@
+//! A protocol on the command line, how predictions lie on their ground truth, and which texels count.
+
+use svbrdf_core::loss::LossOptions;
+use svbrdf_evaluate::protocols::Protocol;
+use svbrdf_evaluate::registration::Registration;
+use svbrdf_files::convention::ChosenConvention;
+
+use super::scenes::{FixedNumber, SceneArgs};
+use super::specified::refuse;
+use super::{Specified, offered};
+use crate::cli::output::CommandError;
+
+/// How the pairs of a comparison are compared.
+#[derive(Debug, Default, clap::Args)]
+pub struct PairArgs {
+    #[command(flatten)]
+    pub protocol: ProtocolArgs,
+
+    /// How predictions of another size lie on the ground truth: resize, resize=cubic, centre-crop, crop=X,Y or crop=X,Y/N of it reduced by N
+    #[arg(long, value_name = "WAY", hide_short_help = true)]
+    #[arg(value_parser = offered(str::parse::<Registration>, WAYS), hide_possible_values = true)]
+    pub register: Option<Registration>,
+
+    /// Compares only the texels that are opaque in the alpha of the ground truth
+    #[arg(long, value_name = "alpha", value_parser = ["alpha"], hide_possible_values = true, hide_short_help = true)]
+    pub mask: Option<String>,
+}
+
+/// Ways of registration, to be completed.
+pub const WAYS: [&str; 5] = ["resize", "resize=cubic", "centre-crop", "crop=16,16", "crop=0,0/4"];
+
+#[derive(Debug, Default, clap::Args)]
+pub struct ProtocolArgs {
+    /// Compares as a paper does
+    ///
+    /// The name of a protocol, or a .toml file. It decides reading, registration, mask, scenes, convention and metrics with their means; --read and --register count before it.
+    #[arg(long, value_name = "NAME|FILE", hide_possible_values = true, hide_short_help = true)]
+    #[arg(value_parser = offered(|text| Protocol::read(text).map(Box::new), Protocol::names()))]
+    pub protocol: Option<Box<Protocol>>,
+}
+
+impl ProtocolArgs {
+    /// The convention and the options of scenes: those of the protocol, beside which they are refused, or those that are typed.
+    pub fn decided(
+        &self,
+        convention: Option<&ChosenConvention>,
+        typed: LossOptions,
+        given: &Specified,
+    ) -> Result<(Option<ChosenConvention>, LossOptions), CommandError> {
+        let Some(protocol) = &self.protocol else { return Ok((convention.cloned(), typed)) };
+        let reason = |what: &str| format!("the protocol {} decides {what}", protocol.name);
+        let convention = match protocol.convention {
+            Some(_) => {
+                refuse(convention.is_some(), "convention", &reason("the convention"))?;
+                Some(protocol.chosen_convention()?)
+            }
+            None => convention.cloned(),
+        };
+        if protocol.scenes.is_none() {
+            return Ok((convention, typed));
+        }
+        given.refuse::<SceneArgs<FixedNumber>>(&reason("the scenes"))?;
+        refuse(typed.target_error.is_some(), "target-error", &reason("the scenes"))?;
+        refuse(typed.time_budget.is_some(), "time-budget", &reason("the scenes"))?;
+        Ok((convention, LossOptions { seed: typed.seed, texels: typed.texels, ..protocol.options()? }))
+    }
+}
