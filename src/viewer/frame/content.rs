@@ -19,6 +19,9 @@ pub const CAPTION: f32 = 20.0;
 /// Height of a row of the statistics, in points; three of them are in the legend of the window.
 const ROW: f32 = 19.0;
 
+/// Heights of the legend below which the panes have no room to spare for it.
+const LOW: f32 = 4.0;
+
 /// Draws the panes and what is below them.
 pub fn ui(
     ui: &mut egui::Ui,
@@ -37,12 +40,9 @@ pub fn ui(
     if height > 0.0 {
         let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(height).resizable(false);
         panel.show(ui, |ui| LegendStrip::new(shown).ui(ui, next));
-    } else if reserve(shown) > 0.0 {
+    } else if let free @ 1.0.. = reserve(shown, ui.available_height()) {
         // Its room stays: the panes do not move as it comes.
-        bare(egui::Panel::bottom("no strip"), ui)
-            .exact_size(reserve(shown))
-            .resizable(false)
-            .show(ui, |_| ());
+        bare(egui::Panel::bottom("no strip"), ui).exact_size(free).resizable(false).show(ui, |_| ());
     }
     egui::CentralPanel::no_frame().show(ui, |ui| {
         let scenery = Scenery::new(ui.ctx(), shown);
@@ -81,9 +81,10 @@ pub fn legend_height(shown: Displayed<'_>) -> f32 {
     }
 }
 
-/// The room that is left free for the legend below the panes of the window.
-pub fn reserve(shown: Displayed<'_>) -> f32 {
-    let is_free = compares(shown) && !shown.is_picture && legend_height(shown) == 0.0;
+/// The room that is left free for the legend below the panes of the window; none in a low one, which the panes need.
+pub fn reserve(shown: Displayed<'_>, height: f32) -> f32 {
+    let is_high = height >= LOW * STRIP;
+    let is_free = is_high && compares(shown) && !shown.is_picture && legend_height(shown) == 0.0;
     if is_free { STRIP } else { 0.0 }
 }
 

@@ -87,7 +87,7 @@ impl WindowUi {
         }
         self.dataset.drawer(ui, shown, next);
         let area = ui.available_rect_before_wrap();
-        let height = area.height() - content::reserve(shown);
+        let height = area.height() - content::reserve(shown, area.height());
         self.picture_size = [area.width(), height].map(|side| (side * ui.pixels_per_point()) as u32);
         let panes = if self.dataset.sheet(ui, shown, next, &mut self.textures) {
             area
