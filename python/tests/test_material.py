@@ -111,10 +111,14 @@ def test_reading_reports_what_it_assumed(tmp_path: Path) -> None:
     (given,) = (a for a in material.assumptions if a.what == "normal y")
     assert (given.chosen, given.certainty) == ("up", "given")
     folder = tmp_path / "unknown"
-    svbrdf.write(svbrdf.built_in()[0], folder)
-    (folder / "roughness.png").rename(folder / "gloss.png")
+    folder.mkdir()
+    for name in ("normal", "diffuse", "specular", "roughness"):
+        values = getattr(material, name)
+        np.save(folder / f"{name}.npy", values if name == "normal" else (255 * values).astype(np.uint8))
     with pytest.raises(svbrdf.Error, match=r"is ambiguous: .*; specify what is unsure, or allow guesses"):
         svbrdf.read(folder, strict=True)
+    svbrdf.write(material, tmp_path / "own")
+    assert svbrdf.read(tmp_path / "own", strict=True).name == "own"
 
 
 def test_files_that_cannot_be_used_are_refused(tmp_path: Path) -> None:

@@ -46,10 +46,10 @@ def rank_dataset(
         convention: A name of `svbrdf.CONVENTIONS`.
         pick: Which of several predictions counts: the first, the mean of their losses, or the best.
         strict: Whether guesses in reading are errors.
-        metrics: Whether to compute metrics of the maps, too: RMSE, L1, angles and SSIM; or words of their names, such as
-            `["rmse_normal", "psnr"]`. docs/metrics.md defines them.
-        protocol: The name of a protocol, such as "weiyi", or its .toml file. It decides reading, registration, mask, scenes,
-            convention and metrics; what `read_ground_truth` and the like specify counts before it.
+        metrics: Whether to compute metrics of the maps, too: RMSE, L1, angles and SSIM; or words of their names, such
+            as `["rmse_normal", "psnr"]`. docs/metrics.md defines them.
+        protocol: The name of a protocol, such as "weiyi", or its .toml file. It decides reading, registration, mask,
+            scenes, convention and metrics; what `read_ground_truth` and the like specify counts before it.
         common: Whether to compare all methods over the materials that all have.
         diagnose: Whether to mark what an error of exposure, alignment or reading explains of each loss, as
             `svbrdf.diagnose` does, and the losses that the ground truth does not resolve.

@@ -82,8 +82,7 @@ fn new(args: RankArgs, given: &Specified) -> Result<ManyJob, CommandError> {
     let metrics = metrics.map(|given| MetricSelection::try_from(words(given))).transpose()?;
     let metrics =
         metrics.or(protocol.as_ref().filter(|one| !one.metrics.is_empty()).map(Protocol::selection));
-    let has_renderings = metrics.as_ref().is_some_and(|one| !one.is_all() && one.has_renderings());
-    if has_renderings && scenes.is_none() {
+    if scenes.is_none() && metrics.as_ref().is_some_and(MetricSelection::needs_scenes) {
         let problem = "metrics of renderings need scenes; give --near and --distant, --lights or --scenes";
         return Err(CommandError::usage(problem));
     }

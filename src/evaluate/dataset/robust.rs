@@ -19,7 +19,7 @@ use crate::robust::{RobustReport, Scores, answers};
 /// means over the materials that all methods have. `tell` has a line for each other material. A material is one step of `progress`.
 ///
 /// # Errors
-/// [`FilesError::NotADataSet`] for fewer than [`FEWEST`] materials; as [`answers`].
+/// [`FilesError::NotADataSet`] for fewer than 6 materials; as [`answers`].
 pub fn robust(
     cases: &[Case],
     settings: &DatasetSettings,

@@ -27,6 +27,11 @@ impl MetricSelection {
         renderings::NAMES.into_iter().any(|name| self.has(name))
     }
 
+    /// Whether one of the words is of metrics of renderings alone, which need scenes.
+    pub fn needs_scenes(&self) -> bool {
+        self.0.iter().any(|words| !maps::names().any(|name| has_words(name, words)))
+    }
+
     /// The metrics of these names, and no others that have their words.
     pub(crate) fn of_names(names: Vec<String>) -> Self {
         Self(names.into_iter().map(|name| format!("={name}")).collect())
@@ -121,7 +126,8 @@ mod tests {
     fn words_select_the_metrics_that_have_them() {
         let psnr = selection(&["psnr", "rmse_roughness"]).unwrap();
         assert!(psnr.has("psnr_roughness") && psnr.has("rmse_roughness_alpha") && !psnr.has("l1_roughness"));
-        assert!(psnr.has_maps() && psnr.has_renderings());
+        assert!(psnr.has_maps() && psnr.has_renderings() && !psnr.needs_scenes());
+        assert!(selection(&["flip", "psnr"]).unwrap().needs_scenes());
         let rough = selection(&["l1_roughness"]).unwrap();
         assert!(rough.has_maps() && !rough.has_renderings() && !rough.has("l1_diffuse_linear"));
         let flip = selection(&["flip"]).unwrap();
