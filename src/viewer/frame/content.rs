@@ -13,6 +13,7 @@ use crate::pane::scenery::Scenery;
 use crate::pane::viewport::{STRIP, Viewport};
 use crate::widgets::bare;
 use crate::widgets::numbers::digits;
+use crate::widgets::theme;
 
 /// Height of the caption of a picture that is saved, in points.
 pub const CAPTION: f32 = 20.0;
@@ -41,8 +42,10 @@ pub fn ui(
         let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(height).resizable(false);
         panel.show(ui, |ui| LegendStrip::new(shown).ui(ui, next));
     } else if let free @ 1.0.. = reserve(shown, ui.available_height()) {
-        // Its room stays: the panes do not move as it comes.
-        bare(egui::Panel::bottom("no strip"), ui).exact_size(free).resizable(false).show(ui, |_| ());
+        // Its room stays, as a part of what surrounds the pictures: the panes do not move as it comes.
+        let surround = egui::Frame::NONE.fill(theme::surround(shown.model.settings.dark));
+        let panel = egui::Panel::bottom("no strip").frame(surround).exact_size(free).resizable(false);
+        panel.show_separator_line(false).show(ui, |_| ());
     }
     egui::CentralPanel::no_frame().show(ui, |ui| {
         let scenery = Scenery::new(ui.ctx(), shown);

@@ -118,8 +118,9 @@ pub fn fixed<R>(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui) -> R) ->
 pub fn report_table(ui: &mut egui::Ui, table: &Table) {
     egui::ScrollArea::horizontal().id_salt("table").show(ui, |ui| {
         egui::Grid::new("table").striped(true).spacing([8.0, 2.0]).min_row_height(0.0).show(ui, |ui| {
-            for title in &table.columns {
-                ui.label(RichText::new(drawable(title)).small().strong());
+            for (column, title) in table.columns.iter().enumerate() {
+                let below = table.rows.iter().find_map(|row| row.get(column));
+                aligned(ui, below, RichText::new(drawable(title)).small().strong());
             }
             ui.end_row();
             for row in &table.rows {
@@ -130,14 +131,18 @@ pub fn report_table(ui: &mut egui::Ui, table: &Table) {
     });
 }
 
-/// Words to the left, numbers to the right.
 fn value(ui: &mut egui::Ui, cell: &Cell) {
     let text = RichText::new(drawable(&cell.text())).small();
+    let is_words = matches!(cell, Cell::Text(_));
+    aligned(ui, Some(cell), if is_words { text } else { text.monospace() });
+}
+
+/// Words to the left, numbers, and what stands above them, to the right.
+fn aligned(ui: &mut egui::Ui, cell: Option<&Cell>, text: RichText) {
     match cell {
-        Cell::Text(_) => ui.label(text),
-        _ => {
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text.monospace()))
-                .inner
+        None | Some(Cell::Text(_)) => ui.label(text),
+        Some(_) => {
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| ui.label(text)).inner
         }
     };
 }
