@@ -50,7 +50,11 @@ fn without_pictures(line: &str) -> String {
 /// What differs in a line: its numbers and words one by one, where both have as many.
 fn in_line(line: usize, written: &str, computed: &str) -> Vec<Difference> {
     let [a, b] = [written, computed].map(words);
-    let is_version = |index: usize| index > 0 && a[index - 1] == "svbrdf" && b[index - 1] == "svbrdf";
+    let is_number = |word: &str| word.contains('.') && word.chars().all(|c| c.is_ascii_digit() || c == '.');
+    let is_version = |index: usize| {
+        let follows = |words: &[&str]| index > 0 && words[index - 1] == "svbrdf" && is_number(words[index]);
+        follows(&a) && follows(&b)
+    };
     let whole = |written: &str, computed: &str, share| Difference {
         line,
         written: written.trim().to_owned(),
