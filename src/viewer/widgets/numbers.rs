@@ -135,7 +135,7 @@ mod tests {
     fn means_that_look_alike_have_the_digits_that_tell_them_apart() {
         let of = |mean| Estimate { mean, standard_error: None, interval95: Some([mean - 0.01, mean + 0.01]) };
         let all = [of(0.2301), of(0.2304), of(0.25), of(0.25)];
-        assert_eq!(means(&all.each_ref()), ["0.2301", "0.2304", "0.25", "0.25"]);
+        assert_eq!(means(&all.each_ref()), ["0.2301", "0.2304", "0.250", "0.250"]);
     }
 
     #[test]
