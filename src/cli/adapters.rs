@@ -4,7 +4,7 @@ use super::output::CommandError;
 #[cfg(feature = "viewer")]
 use super::output::exit::put_text;
 
-/// Lists the graphics adapters, that of the window first
+/// Lists the graphics adapters, the one of the window first
 ///
 /// With what each renders to, the largest material that it takes, and why the first is taken. `svbrdf view --adapter NAME` takes another one,
 /// WGPU_BACKEND leaves out graphics interfaces, and WGPU_POWER_PREF=low prefers the adapter that saves power.

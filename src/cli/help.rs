@@ -51,7 +51,7 @@ convert: the same material as EXR, PNG, glTF or a folder
 conventions: lists the named conventions, or prints one
   svbrdf-estimation-2022
   loss
-adapters: lists the graphics adapters, that of the window first
+adapters: lists the graphics adapters, the one of the window first
   > adapters.txt
 completions: completions for a shell
   bash > svbrdf.bash

@@ -1,4 +1,4 @@
-//! What is known of a graphics adapter.
+//! Properties of a graphics adapter.
 
 use std::fmt;
 

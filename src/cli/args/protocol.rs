@@ -40,7 +40,7 @@ pub struct ProtocolArgs {
 }
 
 impl ProtocolArgs {
-    /// The convention and the options of scenes: those of the protocol, beside which they are refused, or those that are typed.
+    /// The convention and the options of scenes. What the protocol decides is refused on the command line.
     pub fn decided(
         &self,
         convention: Option<&ChosenConvention>,

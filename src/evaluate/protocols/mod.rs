@@ -1,7 +1,7 @@
 //! Protocols: what a paper or its code computes of predictions and ground truths, as data.
 //!
 //! A protocol is a TOML file with its source, how the files are read and registered, the scenes and the convention, and each metric with
-//! how it is averaged over materials. Those that are built in stand beside this file.
+//! how it is averaged over materials. The built-in ones stand beside this file.
 
 mod record;
 
@@ -33,7 +33,7 @@ const BUILT_IN: [(&str, &str); 8] = [
 const VERSION: u32 = 1;
 
 impl Protocol {
-    /// The names of those that are built in.
+    /// The names of the built-in protocols.
     pub fn names() -> impl Iterator<Item = &'static str> {
         BUILT_IN.into_iter().map(|(name, _)| name)
     }

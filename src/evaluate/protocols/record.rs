@@ -80,7 +80,7 @@ pub struct Side {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mask {
-    /// Those that are opaque in the alpha of the ground truth.
+    /// The texels that are opaque in the alpha of the ground truth.
     Alpha,
     /// All, of which the others are black in both.
     AlphaElseBlack,
@@ -118,7 +118,7 @@ pub enum Aggregate {
     #[default]
     Mean,
     Median,
-    /// That of the mean square error of all materials, for RMSE and PSNR.
+    /// From the mean square error of all materials, for RMSE and PSNR.
     Pooled,
 }
 
