@@ -38,7 +38,7 @@ conform: whose renderer yours is
   --points probe.npz
   answer.npz --convention svbrdf-estimation-2022
 study: time against error of the loss on this machine
-  gt.png a.png -o study.csv --plot study.svg
+  gt.png a.png -o study.csv
 Explain
 Prepare
 info: what files hold, and what is assumed in reading them

@@ -7,7 +7,6 @@ use svbrdf_core::loss::Comparison;
 use svbrdf_evaluate::study;
 use svbrdf_files::disk::atomic::Destination;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::export::figure::FigureDestination;
 
 use super::args::{ComparisonArgs, Specified};
 use super::job::materials::OpenedMaterials;
@@ -24,10 +23,6 @@ pub struct StudyArgs {
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// Plots error against time to a .pdf, .svg or .png file
-    #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
-
     #[command(flatten)]
     comparison: ComparisonArgs,
 }
@@ -36,36 +31,32 @@ pub struct StudyArgs {
 struct StudyJob {
     comparison: ComparisonJob,
     output: Option<PathBuf>,
-    plot: Option<PathBuf>,
 }
 
 impl StudyArgs {
     pub fn job(self, given: &Specified) -> NewJob {
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         check_predictions(&comparison.materials)?;
-        Ok(Box::new(StudyJob { comparison, output: self.output, plot: self.plot }))
+        Ok(Box::new(StudyJob { comparison, output: self.output }))
     }
 }
 
-/// Measures, prints the summary to stdout and writes the files.
+/// Measures, prints the summary to stdout and writes the table.
 impl Job for StudyJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison: ComparisonJob { materials, convention, .. }, output, plot } = *self;
-        let figure = plot.as_deref().map(FigureDestination::new).transpose()?;
+        let Self { comparison: ComparisonJob { materials, convention, .. }, output } = *self;
         let format = |extension: &str| (extension == "csv").then_some(());
         let table =
             output.as_deref().map(|path| Destination::among(path, format, "extension of a table", ".csv"));
         let table = table.transpose()?;
         let OpenedMaterials { ground_truth, predictions, .. } = &materials.open::<f32>()?;
-        output.iter().chain(&plot).try_for_each(|output| check_output(output))?;
+        output.iter().try_for_each(|output| check_output(output))?;
         let predictions: Vec<_> = predictions.iter().take(1).collect();
         let comparison = Comparison::new(ground_truth, &predictions, convention)?;
         let study = watched("measuring", |progress| study::run(&comparison, progress))?;
         let rows = study.table().csv()?;
         stoppable(|progress| {
-            table.map_or(Ok(()), |table| table.replace(progress, |file| file.write_all(rows.as_bytes())))?;
-            let entries = [("svbrdf:shows", study.title())];
-            figure.map_or(Ok(()), |figure| figure.write(&study.figure(), &entries, progress))
+            table.map_or(Ok(()), |table| table.replace(progress, |file| file.write_all(rows.as_bytes())))
         })?;
         Ok(exit::put_text(&study.summary())?)
     }

@@ -56,8 +56,8 @@ const GENERATED: [Generated; 10] = [
     },
     Generated {
         name: "study",
-        files: "docs/study.csv, docs/study.svg (times of this machine)",
-        script: "cargo run --release -- study -o docs/study.csv --plot docs/study.svg",
+        files: "docs/study.csv (times of this machine)",
+        script: "cargo run --release -- study -o docs/study.csv",
     },
 ];
 

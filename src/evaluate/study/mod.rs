@@ -25,7 +25,6 @@
 //! measured because they would take too long.
 
 mod measure;
-mod plot;
 
 pub use measure::run;
 
@@ -43,7 +42,7 @@ const RESOLVED: f64 = 3.0;
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
 
 svbrdf_core::choices! {
-    /// Settings that differ in their numbers of scenes only: one colour in a plot. In the order of measurement.
+    /// Settings that differ in their numbers of scenes only. In the order of measurement.
     Family, "family":
     FewTexels = "Sobol, 128 texels each",
     MoreTexels = "Sobol, 1024 texels each",
@@ -150,14 +149,8 @@ pub struct Study {
 impl Study {
     /// The fastest point of the front whose error is at most `error`.
     pub fn cheapest(&self, error: f64) -> Option<&Point> {
-        self.front().into_iter().find(|point| point.error <= error)
-    }
-
-    /// The points of the Pareto front, the fastest first.
-    fn front(&self) -> Vec<&Point> {
-        let mut front: Vec<_> = self.points.iter().filter(|p| p.pareto).collect();
-        sort_by_number(&mut front, |point| point.seconds);
-        front
+        let good = self.points.iter().filter(|point| point.pareto && point.error <= error);
+        good.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 
     /// Marks the points of the Pareto front: from the fastest on, each that is more accurate than all before it.
