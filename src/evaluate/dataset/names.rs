@@ -28,13 +28,18 @@ pub(super) fn matched<'a>(materials: &[&'a str], predictions: &[&'a str]) -> BTr
     found.into_iter().find(|pairs| pairs.len() == most).unwrap_or_default()
 }
 
-/// The names by what tells them; `None` where several have the same.
+/// The names by what tells them; `None` where several have the same, unless it is all of the name of one.
 fn keys<'a>(names: &[&'a str], way: Way) -> BTreeMap<String, Option<&'a str>> {
-    let mut keys = BTreeMap::new();
+    let mut keys: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for name in names {
-        keys.entry(way(name, names)).and_modify(|one| *one = None).or_insert(Some(*name));
+        keys.entry(way(name, names)).or_default().push(*name);
     }
-    keys
+    let only = |(key, all): (String, Vec<&'a str>)| {
+        let whole = all.iter().copied().find(|name| name.to_lowercase() == key);
+        let one = if let [one] = all[..] { Some(one) } else { whole };
+        (key, one)
+    };
+    keys.into_iter().map(only).collect()
 }
 
 /// A name without what all of several names have at their beginning and their end, in whole words.
@@ -75,7 +80,7 @@ mod tests {
     fn names_are_matched_where_the_match_is_one_to_one() {
         type Row =
             (&'static [&'static str], &'static [&'static str], &'static [(&'static str, &'static str)]);
-        let rows: [Row; 11] = [
+        let rows: [Row; 12] = [
             (&["Brick", "Wood"], &["brick", "wood"], &[("Brick", "brick"), ("Wood", "wood")]),
             (&["a", "b"], &["pred_a", "pred_b"], &[("a", "pred_a"), ("b", "pred_b")]),
             (&["m0", "m1"], &["m0_pred", "m1_pred"], &[("m0", "m0_pred"), ("m1", "m1_pred")]),
@@ -89,6 +94,8 @@ mod tests {
             // Two candidates are none.
             (&["oak_1", "oak_2"], &["oak_a", "oak_b"], &[]),
             (&["01;x", "02;y"], &["01_a", "01_b", "02_a"], &[]),
+            // What lies beside a material has its name and more.
+            (&["01;x", "02;y"], &["01", "01_input", "02", "02_input"], &[("01;x", "01"), ("02;y", "02")]),
             // Other files of the folder.
             (&["01;x", "02;y"], &["01", "02", "gt_0", "gt_1"], &[("01;x", "01"), ("02;y", "02")]),
         ];
