@@ -20,7 +20,6 @@ mod photograph;
 mod pictures;
 mod quantities;
 mod reading;
-mod report;
 mod saving;
 mod scene_files;
 mod screenshots;

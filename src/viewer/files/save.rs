@@ -1,4 +1,4 @@
-//! Dialog that saves the view, the renderings, a strip, a report, the session or the scenes of the loss.
+//! Dialog that saves the view, the renderings, a strip, the session or the scenes of the loss.
 
 use std::path::{Path, PathBuf};
 

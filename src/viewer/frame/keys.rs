@@ -205,7 +205,7 @@ pub const HELP: &[(&str, &[Line])] = &[
             ),
             line(
                 "Ctrl + S / Ctrl + Shift + C",
-                "save view, renderings, strip, report or session / copy the view as a picture",
+                "save view, renderings, strip or session / copy the view as a picture",
                 &[(COMMAND, Key::S, SAVE), (BOTH, Key::C, COPY_PICTURE)],
             ),
             line("Ctrl + R", "read all files again", &[(COMMAND, Key::R, opening::reload)]),

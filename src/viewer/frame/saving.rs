@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::frame::layout::Parts;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::work::job::Job;
-use crate::jobs::{report, saving};
+use crate::jobs::saving;
 use crate::model::dialogs::{SaveKind, SaveRequest};
 use crate::model::message::Message;
 
@@ -40,7 +40,6 @@ pub(super) fn save_file(parts: &mut Parts, ctx: &egui::Context, SaveRequest { ki
         }
         (SaveKind::Renderings, _) => saving::renderings(displayed, path),
         (SaveKind::Strip, _) => saving::strip(displayed, path),
-        (SaveKind::Report, _) => report::start(displayed, path),
         (SaveKind::Session, _) => saving::session(displayed, path),
         (SaveKind::Scenes, _) => saving::scenes(displayed, path),
         (SaveKind::Materials, _) => {

@@ -12,7 +12,6 @@ pub mod loss;
 pub mod order;
 pub mod panes;
 pub mod reading;
-pub mod report;
 pub mod saving;
 pub mod why;
 pub mod work;

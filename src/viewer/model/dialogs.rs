@@ -130,8 +130,6 @@ pub enum SaveKind {
     Renderings,
     /// A labelled figure of all maps, the rendering and its difference, as `svbrdf strip` writes.
     Strip,
-    /// An interactive page of the comparison with its findings, as `svbrdf report` writes.
-    Report,
     /// Files, assumptions, scene, display and loss settings.
     Session,
     /// The scenes of the loss of the chosen prediction, as `svbrdf scenes` writes.
@@ -142,8 +140,7 @@ pub enum SaveKind {
 
 impl SaveKind {
     /// The kinds of a single comparison.
-    pub const ALL: [Self; 6] =
-        [Self::View, Self::Renderings, Self::Strip, Self::Report, Self::Session, Self::Scenes];
+    pub const ALL: [Self; 5] = [Self::View, Self::Renderings, Self::Strip, Self::Session, Self::Scenes];
 
     /// The one of a data set beside them.
     pub const OF_DATASET: [Self; 1] = [Self::Materials];
@@ -154,7 +151,6 @@ impl SaveKind {
             Self::View => "View",
             Self::Renderings => "Renderings",
             Self::Strip => "Strip",
-            Self::Report => "Report",
             Self::Session => "Session",
             Self::Scenes => "Scenes",
             Self::Materials => "List",
@@ -176,13 +172,9 @@ impl SaveKind {
                 "A labelled figure: a row per material; all maps, the rendering and its difference in columns; a rectangle \
                  (Q) framed and magnified; the same as `svbrdf strip` writes."
             }
-            Self::Report => {
-                "One HTML file for any browser, offline: the figure with light and view to drag, losses, the share of each \
-                 map, the worst scenes; the same as `svbrdf report` writes. Takes as long as a loss and its attribution."
-            }
             Self::Session => {
                 "Paths of the files (relative to this one), assumptions, scene, display and loss settings. `svbrdf` opens \
-                 it, and so does Open."
+                 it, and so does Open; `svbrdf report` makes a page of it."
             }
             Self::Scenes => {
                 "The scenes that the tab Why lists for the chosen prediction, worst first, with their losses. Open takes \
@@ -200,7 +192,6 @@ impl SaveKind {
             Self::View => "svbrdf-view.png",
             Self::Renderings => "svbrdf-renderings.png",
             Self::Strip => "svbrdf-strip.png",
-            Self::Report => "svbrdf-report.html",
             Self::Session => "comparison.svbrdf-session.json",
             Self::Scenes => "scenes.json",
             Self::Materials => "materials.csv",
