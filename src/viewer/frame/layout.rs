@@ -122,10 +122,6 @@ impl WindowUi {
             return Err(Error::internal("there is no graphics adapter to draw the view"));
         };
         let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), displayed.model.settings.dark);
-        for material in displayed.materials() {
-            let uploaded = displayed.jobs.uploads.get(material.id());
-            uploaded.into_iter().for_each(|uploaded| uploaded.complete(&gpu, material.material()));
-        }
         // Gestures and controls stay in the window.
         let displayed = Displayed { is_picture: true, ..displayed };
         let mut viewport = self.viewport.exact();

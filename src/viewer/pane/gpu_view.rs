@@ -10,12 +10,12 @@ use svbrdf_gpu::{
     Blit, DisplayParams, DisplayPass, Gpu, Pane, PanePlace, Shaded, Shading, Still, texels_a_pixel,
 };
 
-use crate::jobs::reading::upload::{Uploaded, Uploads};
+use crate::jobs::reading::upload::{SentTextures, Uploaded, Uploads};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
 use crate::pane::shaded::{ShadedMaterial, ShadedPart, ShadingDevice, ShadingRequest};
 
-/// What a pane shows where a draft of a material will not do, until all of it is there.
+/// What a pane shows until the maps of a material are on the adapter.
 const SENDING: &str = "Sending the material to the graphics adapter...";
 
 /// Texels of all materials that are sharpened in a frame: of new materials, whose light nobody drags yet, and of others.
@@ -148,13 +148,9 @@ impl GpuView {
             .map(|one| uploads.get(one.id()).ok_or(ShadingError::NotThere(SENDING.to_owned())))
             .collect::<Result<_, _>>()?;
         // A pane compares texels of one size: all materials are shown in full, or none.
-        let is_partial = |one: &&&Arc<Uploaded>| !matches!(one.whole(), Some(Ok(_)));
-        let draft =
-            uploads.iter().filter(is_partial).filter_map(|one| one.draft()).map(|one| one.stride).max();
-        let has_refused = |one: &&Arc<Uploaded>| matches!(one.whole(), Some(Err(_)));
-        self.reduction =
-            self.least_stride.max(draft.filter(|_| uploads.iter().any(has_refused)).unwrap_or(1));
-        let stride = draft.unwrap_or(1).max(self.least_stride);
+        let strides = uploads.iter().filter_map(|one| one.sent.as_ref()).map(|sent| sent.stride);
+        let stride = strides.fold(self.least_stride, usize::max);
+        self.reduction = stride;
         let is_whole = |one: &&LoadedMaterial| {
             self.shaded.get(&one.id()).is_some_and(|one| one.is_whole(request.params))
         };
@@ -167,18 +163,11 @@ impl GpuView {
         let sharpens = is_left && !request.waits;
         let part_request = ShadingRequest { part, sharpens, ..request };
         for (material, uploaded) in materials.iter().zip(uploads) {
-            let (textures, are_reduced) = match (uploaded.whole(), uploaded.draft()) {
-                (Some(Ok(textures)), _) => (textures, false),
-                (Some(Err(problem)), _) if request.exact => {
-                    return Err(ShadingError::NotThere(problem.to_owned()));
-                }
-                (_, Some(draft)) if draft.stride == stride && !request.exact => {
-                    uploaded.note_frame();
-                    (&draft.textures, true)
-                }
-                (Some(Err(problem)), _) => return Err(ShadingError::NotThere(problem.to_owned())),
-                (None, _) => return Err(ShadingError::NotThere(SENDING.to_owned())),
+            let is_usable = |one: &&SentTextures| one.stride == 1 || one.stride == stride && !request.exact;
+            let Some(sent) = uploaded.sent.as_ref().filter(is_usable) else {
+                return Err(ShadingError::NotThere(uploaded.problem.clone().unwrap_or_default()));
             };
+            let (textures, are_reduced) = (&sent.textures, sent.stride > 1);
             let Self { gpu, shading, versions, .. } = self;
             let shaded = self.shaded.entry(material.id()).or_default();
             let band = if shaded.is_new() { SHARPENED_FIRST } else { SHARPENED } / materials.len();

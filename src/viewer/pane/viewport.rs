@@ -8,12 +8,12 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 
-use crate::jobs::reading::upload::{BAND, Uploads};
+use crate::jobs::reading::upload::Uploads;
 use crate::model::material::loaded::drawable;
 use crate::model::view::{Projection, ViewState};
 use crate::model::{Model, framing};
 use crate::pane::cells::{TITLE, cells, columns, picture_rect};
-use crate::pane::draft_policy::{DraftPolicy, PAUSE, PaneView};
+use crate::pane::draft_policy::{DraftPolicy, LARGE, PAUSE, PaneView};
 use crate::pane::gestures::{self, Gesture};
 use crate::pane::gpu_view::GpuView;
 use crate::pane::placed::Placed;
@@ -243,16 +243,16 @@ impl Viewport {
             convention: state.convention(),
             quantity: state.display.quantity,
         };
-        // Where the last frame did not ask for this one, the time between them is not that of a frame.
-        let (now, seconds) = ui.input(|i| (i.time, i.stable_dt));
+        let grid = scenery.materials[0].grid();
+        let texels = grid.width * grid.height;
         let software = gpu.gpu.report.software;
         let visible = PaneView { params, framing: state.display.framing };
-        let moves = self.policy.frame(visible, now, seconds, software);
+        let is_slow = software && texels * scenery.materials.len() > LARGE;
+        let moves = self.policy.moves(visible, ui.input(|i| i.time)) && is_slow;
         if moves {
             ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
         }
-        let grid = scenery.materials[0].grid();
-        let is_large = grid.width * grid.height > BAND && (software || self.policy.is_slow());
+        let is_large = texels > LARGE && software;
         // What is compared with a computed map or a photograph, and what is saved, is never shaded in part.
         let is_exact = self.is_exact || state.is_computed() || scenery.photograph.is_some();
         self.is_draft = moves && !is_exact;

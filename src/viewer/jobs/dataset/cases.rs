@@ -182,7 +182,7 @@ impl AskCase {
         let part = |whole: &ReadMaterial| registration.applied([whole.material(), sample.material()]);
         let present = |read: &ReadMaterial, material| {
             let read = Arc::new(read.part(material));
-            let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
+            let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::new(gpu, read.material())));
             (read, uploaded)
         };
         let [cut, _] = part(truth).ok()?;
@@ -217,7 +217,7 @@ impl AskCase {
         let mut reader = MaterialReader { rules: self.rules, size, retries: false };
         let read =
             read_with_retries(&source, &mut reader, &progress.part()).map_err(|error| error.to_string())?;
-        let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, read.material())));
+        let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::new(gpu, read.material())));
         Ok((Arc::new(read), uploaded))
     }
 

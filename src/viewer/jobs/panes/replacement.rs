@@ -42,7 +42,7 @@ impl Question for Replace {
     fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<Self::Answer, Error> {
         let read = read_all(&self.pair)?;
         let made = Arc::new(self.replacement.made([&read[0], &read[1]])?);
-        let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::all(gpu, made.material())));
+        let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::new(gpu, made.material())));
         Ok((made, uploaded))
     }
 }

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{self, Receiver, Sender};
 
-use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_gpu::Gpu;
 
@@ -12,7 +10,6 @@ use super::read::{MaterialReader, read_with_retries};
 use super::upload::{Uploaded, Uploads};
 use crate::error::Error;
 use crate::jobs::work::job::{Job, Worker};
-use crate::jobs::work::priority;
 use crate::jobs::work::waker::Waker;
 use crate::model::material::read::label;
 use crate::model::material::read::{MaterialId, ReadMaterial};
@@ -142,8 +139,6 @@ impl Opening {
         let parts = Arc::new(items.iter().map(|_| whole.part()).collect::<Vec<_>>());
         let current = Arc::new(AtomicUsize::new(0));
         let work = OpeningWork {
-            // Where something is displayed already, a draft is of no use.
-            upload: if matches!(target, Target::Again(_)) { Uploaded::all } else { Uploaded::start },
             gpu: gpu.cloned(),
             parts: parts.clone(),
             current: current.clone(),
@@ -189,105 +184,38 @@ impl Opening {
 
 /// What the worker of an opening works with.
 struct OpeningWork {
-    upload: fn(&Gpu, &Material<f32>) -> Uploaded,
     gpu: Option<Gpu>,
     /// The progress of each item.
     parts: Arc<Vec<Progress>>,
     current: Arc<AtomicUsize>,
 }
 
-/// Where the materials of an opening go.
-struct OpeningTarget<'a> {
-    worker: &'a Worker<Uploading>,
-    /// Materials that are not sent whole yet.
-    rests: Sender<(Arc<ReadMaterial>, Arc<Uploaded>)>,
-}
-
 impl OpeningWork {
-    /// Reads the items one after the other. What is left to send of one is sent while the next is read.
-    fn run(&self, items: Vec<Item>, reader: MaterialReader, worker: &Worker<Uploading>) -> Result<(), Error> {
-        let (rests, rest) = mpsc::channel();
-        std::thread::scope(|scope| {
-            scope.spawn(|| self.send_rests(rest, worker));
-            self.read_all(items, reader, &OpeningTarget { worker, rests })
-        })
-    }
-
-    /// Sends what is left of each material.
-    fn send_rests(&self, rests: Receiver<(Arc<ReadMaterial>, Arc<Uploaded>)>, worker: &Worker<Uploading>) {
-        priority::lower_this_thread();
-        let Some(gpu) = &self.gpu else { return };
-        // What is displayed stays when the rest is cancelled, and becomes whole.
-        for (number, (read, uploaded)) in rests.into_iter().enumerate() {
-            if number == 0 {
-                uploaded.wait_for_picture();
-            }
-            uploaded.complete(gpu, read.material());
-            worker.wake();
-        }
-    }
-
-    fn read_all(
+    /// Reads the items one after the other.
+    fn run(
         &self,
         items: Vec<Item>,
         mut reader: MaterialReader,
-        output: &OpeningTarget<'_>,
+        worker: &Worker<Uploading>,
     ) -> Result<(), Error> {
         for (index, item) in items.into_iter().enumerate() {
             self.current.store(index, Ordering::Relaxed);
             match item {
-                Item::Loaded(loaded) => output.worker.report((Arrival::Loaded(loaded), None))?,
-                Item::Read(source) => self.read(*source, index, &mut reader, output)?,
+                Item::Loaded(loaded) => worker.report((Arrival::Loaded(loaded), None))?,
+                Item::Read(source) => worker.report(self.read(*source, index, &mut reader))?,
             }
         }
         Ok(())
     }
 
-    fn read(
-        &self,
-        source: MaterialSource,
-        index: usize,
-        reader: &mut MaterialReader,
-        OpeningTarget { worker, rests }: &OpeningTarget<'_>,
-    ) -> Result<(), Error> {
-        let read = match read_with_retries(&source, reader, &self.parts[index]) {
-            Ok(read) => Arc::new(read),
-            Err(error) => return worker.report((Arrival::Failed(Box::new(source), error), None)),
-        };
-        let Some(gpu) = &self.gpu else { return worker.report((Arrival::Read(read), None)) };
-        let uploaded = Arc::new((self.upload)(gpu, read.material()));
-        worker.report((Arrival::Read(read.clone()), Some((read.id, uploaded.clone()))))?;
-        // Where that thread has panicked, this one does as well when it has read everything.
-        let _ = rests.send((read, uploaded));
-        Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use svbrdf_needs::needs;
-
-    use super::*;
-    use svbrdf_files::samples;
-
-    #[needs(adapter)]
-    fn a_material_that_is_displayed_becomes_whole_though_the_rest_of_its_opening_is_cancelled() {
-        let gpu = Gpu::headless().unwrap();
-        let mut read = samples::load::<f32>().unwrap().ground_truth;
-        read.material = read.material.resized([1024, 515]).unwrap();
-        let read = Arc::new(ReadMaterial::new(MaterialSource::built_in(0), read));
-        let uploaded = Arc::new(Uploaded::start(&gpu, read.material()));
-        let (rests, rest) = mpsc::channel();
-        rests.send((read, uploaded.clone())).unwrap();
-        drop(rests);
-        let (parts, current) = (Arc::default(), Arc::default());
-        let work = OpeningWork { upload: Uploaded::start, gpu: Some(gpu), parts, current };
-        let job: Job<(), Uploading> = Job::stream(&Waker::default(), Progress::default(), move |worker| {
-            worker.progress.cancel();
-            work.send_rests(rest, worker);
-            Ok(())
-        });
-        job.wait().unwrap();
-        assert!(uploaded.whole().is_some_and(|whole| whole.is_ok()));
+    fn read(&self, source: MaterialSource, index: usize, reader: &mut MaterialReader) -> Uploading {
+        match read_with_retries(&source, reader, &self.parts[index]) {
+            Ok(read) => {
+                let uploaded = self.gpu.as_ref().map(|gpu| Arc::new(Uploaded::new(gpu, read.material())));
+                let id = read.id;
+                (Arrival::Read(Arc::new(read)), uploaded.map(|uploaded| (id, uploaded)))
+            }
+            Err(error) => (Arrival::Failed(Box::new(source), error), None),
+        }
     }
 }
