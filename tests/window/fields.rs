@@ -18,7 +18,6 @@ fn precise<'a>() -> Window<'a> {
     model.view.display.difference = true;
     let rendering = svbrdf_core::picture::quantity::Quantity::Rendering;
     model.view.display.differences.set_range(rendering, Some(0.123_456_789));
-    model.settings.auto_loss = false;
     model.settings.loss.target_percent = 1.234_567;
     model.settings.loss.seed = 9_007_199_254_740_993;
     model.settings.loss.texels = Texels::Sampled(123_457);

@@ -45,7 +45,7 @@ pub trait Observed {
 
     /// The losses of the predictions, once they are complete for the current materials and settings.
     fn losses(&self) -> Option<&[Loss]> {
-        self.jobs().loss.finished(&self.model().materials, &self.model().loss_query())
+        self.jobs().loss.complete()
     }
 
     /// The statistics of each prediction's difference in the panes, once they are up to date.

@@ -7,6 +7,7 @@ use eframe::egui;
 use crate::frame::layout::Parts;
 use crate::frame::{dataset, saving};
 use crate::jobs::browse;
+use crate::jobs::loss::ComputeLosses;
 use crate::jobs::work::job::Job;
 use crate::model::effect::Effect;
 
@@ -33,8 +34,8 @@ fn one(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {
         Effect::OpenDataset(paths) => dataset::open(parts, paths),
         Effect::RestoreDataset(session, results) => dataset::restore(parts, *session, results),
         Effect::ReadCaseAgain(case) => dataset::read_again(parts, case),
-        Effect::ComputeLoss => jobs.loss.start(&model.materials, &model.loss_query()),
-        Effect::CancelLoss => jobs.loss.cancel(),
+        Effect::ComputeLoss => jobs.answers.resume::<ComputeLosses>(),
+        Effect::CancelLoss => jobs.answers.stop::<ComputeLosses>(),
         Effect::Browse(what) => {
             // Where what is open came from.
             let from = model.files().next().and_then(Path::parent);

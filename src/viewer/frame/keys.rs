@@ -118,7 +118,6 @@ pub const HELP: &[(&str, &[Line])] = &[
                 "value / difference from the ground truth",
                 &[(NONE, Key::D, |m| m.view.display.difference ^= true)],
             ),
-            line("Enter", "compute the loss", &[(NONE, Key::Enter, |m| m.effects.push(Effect::ComputeLoss))]),
         ],
     ),
     (
@@ -270,11 +269,8 @@ fn press(ctx: &egui::Context, model: &mut Model) {
     if ctx.text_edit_focused() {
         return;
     }
-    // Enter presses the widget that has the focus; an open menu or drop-down takes Esc for itself.
-    let enter_is_free = ctx.memory(|m| m.focused()).is_none();
     let mut actions: Vec<Action> =
         HELP.iter().flat_map(|(_, lines)| *lines).flat_map(|line| line.actions).copied().collect();
-    actions.retain(|(_, key, _)| *key != Key::Enter || enter_is_free);
     // Longer chords first: the first that is contained in the one pressed takes it.
     actions.sort_by_key(|(modifiers, ..)| !modifiers.command as usize + !modifiers.shift as usize);
     for (modifiers, key, run) in actions {
@@ -286,6 +282,7 @@ fn press(ctx: &egui::Context, model: &mut Model) {
             display::choose_slot(model, slot);
         }
     }
+    // An open menu or drop-down takes Esc for itself.
     if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(NONE, Key::Escape)) {
         escape(model);
     }

@@ -170,9 +170,9 @@ impl App {
         if let Some(ground_truth) = self.parts.model.materials.ground_truth() {
             self.parts.model.inspection.keep_within(ground_truth.material().size());
         }
-        let findings = self.parts.jobs.follow(&self.parts.model, &self.parts.ui.dataset.cases_in_sight);
-        self.parts.model.report(findings.errors.into_iter().map(Message::Failed));
-        if findings.photograph_failed {
+        let error = self.parts.jobs.follow(&self.parts.model, &self.parts.ui.dataset.cases_in_sight);
+        self.parts.model.report(error.map(Message::Failed));
+        if self.parts.jobs.panes.photograph_failed {
             self.parts.model.photograph.set(None);
         }
         self.search();

@@ -12,8 +12,8 @@ use svbrdf_files::session::window::Framing;
 use crate::error::Error;
 use crate::frame::layout::Parts;
 use crate::jobs::displayed::Displayed;
-use crate::jobs::work::job::Job;
 use crate::jobs::saving;
+use crate::jobs::work::job::Job;
 use crate::model::dialogs::{SaveKind, SaveRequest};
 use crate::model::message::Message;
 

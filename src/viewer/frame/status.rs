@@ -27,12 +27,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, viewport: &Viewport, next: &m
     let size = materials.first().map_or([0, 0], |one| one.material().size());
     let texel = hovered.and_then(|hovered| hovered.texel);
     let bar = StatusBar {
-        read: Readout {
-            materials,
-            state: view,
-            computed_maps: shown.computed_maps(),
-            photographs: shown.photographs().map(|all| &all.answer),
-        },
+        read: Readout::of(shown),
         texel: texel.filter(|texel| (0..2).all(|axis| texel[axis] < size[axis])),
         hovered: hovered.map(|hovered| hovered.index),
     };

@@ -9,11 +9,8 @@ use svbrdf_core::picture::statistics::Distributions;
 
 use super::Jobs;
 use super::answers::Answered;
-use super::answers::content::{Content, Given};
 use super::panes::RangeKey;
 use super::panes::computed_maps::ComputedMaps;
-use super::panes::difference::{ComputedDifference, Differences};
-use super::panes::error_map::{ErrorMapSummary, ErrorMaps};
 use super::panes::photograph::{ComparePhotograph, DisplayedPhotograph, Photographs};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
@@ -39,7 +36,12 @@ impl<'a> Displayed<'a> {
         &self.jobs.panes.displayed
     }
 
-    fn view(self) -> &'a ViewState {
+    /// The index of the chosen prediction; the ground truth's where there is no prediction.
+    pub fn chosen(self) -> usize {
+        (self.view().display.prediction + 1).min(self.materials().len().saturating_sub(1))
+    }
+
+    pub fn view(self) -> &'a ViewState {
         &self.model.view
     }
 
@@ -48,7 +50,7 @@ impl<'a> Displayed<'a> {
         let (model, jobs) = (self.model, self.jobs);
         let predictions = model.materials.predictions();
         if model.dataset.open.is_none() {
-            let found = jobs.loss.finished(&model.materials, &model.loss_query()).unwrap_or_default();
+            let found = jobs.loss.complete().unwrap_or_default();
             return (0..predictions.len()).map(|index| Some(found.get(index)?.estimate)).collect();
         }
         let known = |one: &LoadedMaterial| {
@@ -56,27 +58,6 @@ impl<'a> Displayed<'a> {
             (*jobs.dataset.losses.row(case)?.by_method.get(method)?).map(|known| known.estimate())
         };
         predictions.iter().map(known).collect()
-    }
-
-    /// The error maps of what the panes display, once they are there.
-    pub fn current_error_maps(self) -> Option<&'a Arc<Answered<ComputedMaps>>> {
-        let (of, maps) = self.jobs.panes.error_maps.as_ref()?;
-        (*of == self.error_maps()).then_some(maps)
-    }
-
-    /// The question about the error maps of what the panes display.
-    pub fn error_maps(self) -> ErrorMaps {
-        ErrorMaps {
-            materials: Content::all(self.materials()),
-            scenes: self.model.settings.loss.listed_scenes(),
-            convention: self.view().convention(),
-            gpu: Given(self.jobs.gpu.clone()),
-        }
-    }
-
-    /// The question about the difference in the panes.
-    pub fn differences(self) -> Differences {
-        Differences::of(self.materials(), self.view(), self.jobs.gpu.as_ref())
     }
 
     /// The question about the photograph that is open, beside what the panes display.
@@ -87,22 +68,13 @@ impl<'a> Displayed<'a> {
 
     /// The difference in the panes, where no shader computes it and it is there.
     pub fn computed_maps(self) -> Option<&'a ComputedMaps> {
-        if self.view().is_error_map() {
-            return self.current_error_maps().map(|maps| &maps.answer);
-        }
-        self.latest_differences()?.0.maps()
+        self.jobs.panes.difference.as_ref().and_then(|(found, _)| found.maps())
     }
 
-    /// The latest difference of what the panes display, and whether it is of the present scene and exposure.
-    fn latest_differences(self) -> Option<(&'a ComputedDifference, bool)> {
-        let (of, found) = self.jobs.panes.differences.as_ref()?;
-        let now = self.differences();
-        of.is_like(&now).then_some((&found.answer, *of == now))
-    }
-
-    pub fn error_map_summary(self) -> ErrorMapSummary {
-        let scenes = self.model.settings.loss.listed_scenes().count().unwrap_or(0);
-        ErrorMapSummary { scenes, progress: self.jobs.panes.error_map_progress }
+    /// The scenes of the error map, where the panes show it.
+    pub fn error_map_scenes(self) -> Option<usize> {
+        let count = || self.model.settings.loss.listed_scenes().count().unwrap_or(0);
+        self.view().is_error_map().then(count)
     }
 
     /// The photograph, where the panes compare renderings with one. Maps, the error map and FLIP are of the ground truth.
@@ -131,11 +103,8 @@ impl<'a> Displayed<'a> {
             let ((of, all), now) = (self.jobs.panes.photographs.as_ref()?, self.compared_photograph()?);
             return of.has_kind_of(&now).then_some((&all.distributions, *of == now));
         }
-        if self.view().is_error_map() {
-            return self.current_error_maps().map(|maps| (&maps.distributions, true));
-        }
-        let (found, is_current) = self.latest_differences()?;
-        Some((found.distributions(), is_current))
+        let (found, is_current) = self.jobs.panes.difference.as_ref()?;
+        Some((found.distributions(), *is_current))
     }
 
     /// The difference that has the last colour: the range set, or the automatic one.

@@ -1,69 +1,41 @@
-//! Jobs that follow the model: they compute what is displayed now, and only that.
+//! What is asked in every frame, whichever panels are open: the losses, what the panes display, and the data set.
 
 use super::Jobs;
 use super::answers::Answer;
+use super::answers::content::{Content, Given};
 use super::displayed::Displayed;
-use super::loss::LossJob;
-use super::panes::RangeKey;
+use super::loss::DrawnLosses;
 use super::panes::difference::Differences;
+use super::panes::error_map::ErrorMaps;
 use super::panes::photograph::{ComparePhotograph, ReadPhotograph};
 use super::panes::replacement::Replace;
+use super::panes::{Panes, RangeKey};
 use crate::error::Error;
 use crate::model::Model;
 
-/// What the jobs have found since the last frame.
-#[derive(Debug, Default)]
-pub struct JobFindings {
-    pub errors: Vec<Error>,
-    /// Whether the open photograph cannot be read.
-    pub photograph_failed: bool,
-}
-
 impl Jobs {
-    /// Takes over results, and computes what `model` needs now, with `in_sight` of a data set.
-    pub fn follow(&mut self, model: &Model, in_sight: &[usize]) -> JobFindings {
-        let mut findings = JobFindings::default();
-        self.follow_losses(model);
-        self.ask_about_panes(model, &mut findings);
-        let Self { waker, answers, gpu, dataset, .. } = self;
-        findings.errors.extend(dataset.follow((waker, answers), gpu.as_ref(), model, in_sight));
-        let Self { uploads, openings, panes, dataset, .. } = self;
+    /// Takes over results, and asks for what `model` needs now, with `in_sight` of a data set.
+    pub fn follow(&mut self, model: &Model, in_sight: &[usize]) -> Option<Error> {
+        // A loss of materials that are not all there yet would be computed in vain; those of a data set are its own.
+        let has_own = model.dataset.open.is_some() || self.openings.expect_more();
+        self.loss = if has_own { DrawnLosses::default() } else { DrawnLosses::ask(&self.answers, model) };
+        self.ask_about_panes(model);
+        let Self { waker, answers, gpu, uploads, openings, panes, dataset, .. } = self;
+        let error = dataset.follow((waker, answers), gpu.as_ref(), model, in_sight);
         let is_here = |id| model.materials.all.iter().chain(&panes.displayed).any(|one| one.id() == id);
         uploads.keep_only(|id| is_here(id) || openings.hold(id) || dataset.hold(id));
-        findings
+        error
     }
 
-    fn follow_losses(&mut self, model: &Model) {
-        // A loss of materials that are not all there yet would be computed in vain.
-        if model.dataset.open.is_some() {
-            // Its losses are those of the data set.
-            self.loss = LossJob::default();
-            return;
-        }
-        let auto = model.settings.auto_loss && !self.openings.expect_more();
-        self.loss.follow(&self.answers, &model.materials, &model.loss_query(), auto);
-    }
-
-    /// What the panes display, and what is asked about it.
-    fn ask_about_panes(&mut self, model: &Model, findings: &mut JobFindings) {
+    fn ask_about_panes(&mut self, model: &Model) {
         let Self { answers, uploads, gpu, panes, .. } = self;
         let of = (&model.materials.all[..], &model.view);
-        panes.displayed = Replace::displayed(answers, uploads, gpu.as_ref(), of);
-        self.ask_about_photograph(model, findings);
-        let differences = model.view.display.difference && self.panes.displayed.len() > 1;
-        let displayed = Displayed::of(model, self);
-        let averages = differences && model.view.is_error_map();
-        let error_maps = averages.then(|| displayed.error_maps());
-        let compares = differences && !averages && displayed.photograph().is_none();
-        let difference = compares.then(|| displayed.differences());
-        let Self { answers, panes, .. } = self;
-        panes.differences = difference.and_then(|now| match answers.get(&now) {
-            Answer::Ready(found) => Some((now, found)),
-            _ => answers.latest(|one: &Differences| one.is_like(&now)),
-        });
-        let asked = error_maps.map(|now| (answers.get(&now), now));
-        panes.error_map_progress = asked.as_ref().and_then(|(answer, _)| answer.busy()).map(|busy| busy.0);
-        panes.error_maps = asked.and_then(|(answer, now)| Some((now, answer.ready()?)));
+        let displayed = Replace::displayed(answers, uploads, gpu.as_ref(), of);
+        *panes = Panes { displayed, auto_range: panes.auto_range.take(), ..Panes::default() };
+        self.ask_about_photograph(model);
+        if model.view.display.difference && self.panes.displayed.len() > 1 {
+            self.ask_about_difference(model);
+        }
         if !model.view.display.is_replaced()
             && let Some((distributions, _)) = Displayed::of(model, self).distributions()
         {
@@ -71,9 +43,9 @@ impl Jobs {
         }
     }
 
-    fn ask_about_photograph(&mut self, model: &Model, findings: &mut JobFindings) {
+    fn ask_about_photograph(&mut self, model: &Model) {
         let read = ReadPhotograph::of(&model.photograph).map(|question| self.answers.get(&question));
-        findings.photograph_failed = matches!(read, Some(Answer::Failed(_)));
+        self.panes.photograph_failed = matches!(read, Some(Answer::Failed(_)));
         self.panes.photograph = read.and_then(Answer::ready);
         let is_read = self.panes.photograph.is_some() && !self.panes.displayed.is_empty();
         let now = Displayed::of(model, self).compared_photograph().filter(|_| is_read);
@@ -81,5 +53,24 @@ impl Jobs {
             Answer::Ready(found) => Some((now, found)),
             _ => self.answers.latest(|one: &ComparePhotograph| one.is_like(&now)),
         });
+    }
+
+    fn ask_about_difference(&mut self, model: &Model) {
+        let (answers, displayed) = (&self.answers, &self.panes.displayed);
+        if model.view.is_error_map() {
+            let answer = answers.get(&ErrorMaps {
+                materials: Content::all(displayed),
+                scenes: model.settings.loss.listed_scenes(),
+                convention: model.view.convention(),
+                gpu: Given(self.gpu.clone()),
+            });
+            self.panes.error_map_progress = answer.busy().map(|(fraction, _)| fraction);
+            self.panes.difference = answer.ready().map(|found| (found, true));
+        } else if Displayed::of(model, self).photograph().is_none() {
+            let now = Differences::of(displayed, &model.view, self.gpu.as_ref());
+            let of_now = answers.get(&now).ready().map(|found| (found, true));
+            let latest = || answers.latest(|one: &Differences| one.is_like(&now));
+            self.panes.difference = of_now.or_else(|| latest().map(|(_, found)| (found, false)));
+        }
     }
 }

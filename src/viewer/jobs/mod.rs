@@ -29,7 +29,7 @@ use crate::model::material::request::{ReadRequest, Target};
 use answers::Answers;
 use browse::Browsed;
 use dataset::DatasetJobs;
-use loss::LossJob;
+use loss::DrawnLosses;
 use panes::Panes;
 use reading::opening::Openings;
 use reading::read::MaterialReader;
@@ -48,7 +48,7 @@ pub struct Jobs {
     pub uploads: Uploads,
     pub openings: Openings,
     pub watch: FileWatch,
-    pub loss: LossJob,
+    pub loss: DrawnLosses,
     pub panes: Panes,
     pub dataset: DatasetJobs,
     pub browsing: Option<Job<Browsed>>,

@@ -202,7 +202,7 @@ pub fn against_photograph(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBu
 
 /// Starts to write the error maps side by side to `path`, as `svbrdf map` does.
 pub fn error_maps(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
-    let maps = displayed.current_error_maps().cloned();
+    let maps = displayed.jobs.panes.difference.as_ref().map(|(found, _)| found.clone());
     let entries = [
         ("svbrdf:shows", displayed.error_map_text().unwrap_or_default()),
         ("svbrdf:sources", names(displayed.materials()).join(" | ")),
@@ -212,7 +212,7 @@ pub fn error_maps(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let range = displayed.range() as f32;
     Job::start(&displayed.jobs.waker, move |progress| {
         let destination = Destination::new(&path)?;
-        let maps = maps.ok_or(Error::Incomplete("the error map"))?;
+        let maps = maps.as_ref().and_then(|found| found.maps()).ok_or(Error::Incomplete("the error map"))?;
         destination.write_maps(&maps.images, range, &entries, progress)?;
         Ok(path)
     })

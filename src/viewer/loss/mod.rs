@@ -15,7 +15,7 @@ use svbrdf_evaluate::analyses::SampledScenes;
 use svbrdf_evaluate::report::Report as _;
 
 use crate::jobs::displayed::Displayed;
-use crate::jobs::loss::{ComputedLosses, LossJob};
+use crate::jobs::loss::{ComputedLosses, DrawnLosses};
 use crate::loss::results::Results;
 use crate::model::Model;
 use crate::model::dialogs::OpenDialog;
@@ -48,7 +48,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
         return;
     }
     // Of other materials or settings, or of other files than there are now.
-    let is_stale = job.stale() || materials.is_stale();
+    let is_stale = !job.is_current || materials.is_stale();
     state(ui, job, is_stale);
     if let Some((latest, _)) = job.losses() {
         ui.scope(|ui| {
@@ -66,20 +66,14 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
 fn controls(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
     let job = &shown.jobs.loss;
     ui.horizontal_wrapped(|ui| {
-        if job.busy().is_some() {
-            let hover = "Stop, and keep the result so far (Esc)";
-            if ui.add(button("Cancel loss")).on_hover_text(hover).clicked() {
-                next.effects.push(Effect::CancelLoss);
-            }
-        } else {
-            let enabled = !shown.model.materials.predictions().is_empty();
-            let compute = ui.add_enabled(enabled, button("Compute loss"));
-            if compute.on_hover_text("Enter").clicked() {
-                next.effects.push(Effect::ComputeLoss);
-            }
+        let (text, hover, effect) = match job.is_cancelled {
+            true => ("Compute loss", "Begin again", Effect::ComputeLoss),
+            false => ("Cancel loss", "Stop, and keep the result so far (Esc)", Effect::CancelLoss),
+        };
+        let button = ui.add_enabled(job.is_cancelled || job.busy().is_some(), button(text));
+        if button.on_hover_text(hover).clicked() {
+            next.effects.push(effect);
         }
-        ui.checkbox(&mut next.settings.auto_loss, "Auto")
-            .on_hover_text("Compute again after every change of materials, settings or convention");
         let losses = job.losses();
         let button = ui.add_enabled(losses.is_some(), egui::Button::new("Copy losses"));
         if button.on_hover_text("As text, as `svbrdf loss` prints it").clicked()
@@ -91,7 +85,7 @@ fn controls(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
 }
 
 /// One line of constant height, so that the results below stay in place: the progress, or what the loss took.
-fn state(ui: &mut egui::Ui, job: &LossJob, is_stale: bool) {
+fn state(ui: &mut egui::Ui, job: &DrawnLosses, is_stale: bool) {
     if let Some((fraction, elapsed, reached)) = job.busy() {
         let doing = if reached { "refining" } else { "first scenes" };
         let text = format!("{doing}, {} s", elapsed.as_secs());
@@ -104,19 +98,26 @@ fn state(ui: &mut egui::Ui, job: &LossJob, is_stale: bool) {
     }
     let text = match job.losses() {
         None => RichText::new("Not computed yet."),
-        Some(_) if is_stale => RichText::new("Stale: materials or settings have changed."),
+        Some(_) if is_stale && !job.is_starting() => {
+            RichText::new("Stale: materials or settings have changed.")
+        }
         Some((losses, elapsed)) => outcome(job, losses, elapsed, ui.visuals()),
     };
     ui.horizontal_wrapped(|ui| ui.label(text.small()));
 }
 
 /// The accuracy reached, what it took, and whether that meets the request.
-fn outcome(job: &LossJob, losses: &ComputedLosses, elapsed: Duration, visuals: &egui::Visuals) -> RichText {
+fn outcome(
+    job: &DrawnLosses,
+    losses: &ComputedLosses,
+    elapsed: Duration,
+    visuals: &egui::Visuals,
+) -> RichText {
     let SampledScenes { near, distant, .. } = losses.report.sampled;
     let error = losses.report.outcome.relative_error95();
     let took = format!("{} from {near} + {distant} scenes in {}", numbers::accuracy(error), seconds(elapsed));
     match missed(&losses.request, error, elapsed) {
-        _ if job.is_partial() => RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color),
+        _ if job.is_cancelled => RichText::new(format!("Cancelled: {took}")).color(visuals.warn_fg_color),
         Some(missed) if job.is_complete() => {
             RichText::new(format!("{missed}: {took}")).color(theme::problem(visuals))
         }

@@ -25,7 +25,7 @@ pub fn fold(ui: &mut egui::Ui, asks: &mut bool, ask: impl FnOnce() -> Answer<Ord
                 ui.label(RichText::new(drawable(problem)).small().color(theme::problem(ui.visuals())));
             }
         },
-        Answer::Failed(_) => {}
+        Answer::Stopped(_) | Answer::Failed(_) => {}
     });
     let hover = "The order under other conventions, epsilons and scenes, as `svbrdf rank --robust` prints it";
     *asks ^= header.header_response.on_hover_text(hover).clicked();

@@ -25,6 +25,7 @@ pub enum Effect {
     RestoreDataset(Box<SessionDataset>, Option<PathBuf>),
     /// Reads a material of the data set and its losses again.
     ReadCaseAgain(usize),
+    /// Goes on with a loss that was cancelled.
     ComputeLoss,
     CancelLoss,
     /// Asks with the system's dialog; the choice goes into the path field of the dialog that is open.

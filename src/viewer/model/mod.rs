@@ -40,7 +40,7 @@ use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::photograph::PhotographState;
 use crate::model::material::read::MaterialId;
 use crate::model::message::{Message, MessageList};
-use crate::model::settings::{LossQuery, Settings};
+use crate::model::settings::Settings;
 use crate::model::view::{Exposed, ViewState, WindowGeometry};
 
 /// Everything that is edited in the window. A copy is cheap: what is large is shared.
@@ -112,11 +112,6 @@ impl Model {
     /// Whether methods are compared over materials.
     pub fn has_methods(&self) -> bool {
         self.dataset.open.as_ref().is_some_and(|open| !open.is_of_predictions())
-    }
-
-    /// The question of the loss: by the settings, in the convention that is rendered.
-    pub fn loss_query(&self) -> LossQuery {
-        LossQuery { request: self.settings.loss.request(), convention: self.view.convention() }
     }
 
     /// The files of the materials, of the photograph and of the scenes, which nothing that is saved may replace.

@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use serde::{Deserialize, Serialize};
 
-use svbrdf_core::loss::{LossSettings, Request};
-use svbrdf_core::model::convention::Convention;
+use svbrdf_core::loss::LossSettings;
 
 /// The questions that the side panel answers, one at a time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -49,8 +48,6 @@ pub struct Settings {
     pub tab: Tab,
     /// The unfolded sections of the tab *Why*.
     pub sections: WhySections,
-    /// Whether the loss is computed again after every change.
-    pub auto_loss: bool,
     pub loss: LossSettings,
     /// Whether files that change on disk are read again.
     pub watch: bool,
@@ -68,7 +65,6 @@ impl Default for Settings {
             window: None,
             tab: Tab::Loss,
             sections: WhySections::default(),
-            auto_loss: true,
             loss: LossSettings::default(),
             watch: false,
         }
@@ -134,11 +130,4 @@ impl WhySections {
             self.0.insert(section.name().to_owned());
         }
     }
-}
-
-/// A request and the convention.
-#[derive(Clone, Debug, PartialEq)]
-pub struct LossQuery {
-    pub request: Request,
-    pub convention: Convention,
 }

@@ -10,7 +10,6 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Distributions, Histogram};
 
 use crate::jobs::displayed::Displayed;
-use crate::jobs::panes::error_map::ErrorMapSummary;
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::widgets::bounds::inset;
@@ -32,63 +31,54 @@ const BEYOND: f32 = 6.0;
 /// How far from 0 the axis goes in units of the range, before there are histograms.
 const AXIS: f64 = 1.5;
 
-/// What the strip shows.
+/// The strip, and what all of its parts are drawn from.
 #[derive(Debug)]
 pub struct LegendStrip<'a> {
+    pub shown: Displayed<'a>,
     pub quantity: Quantity,
     pub kind: Difference,
-    /// Where the difference is the error map, its scenes.
-    pub error_map: Option<ErrorMapSummary>,
-    /// The range that is set; `None` where it is automatic.
-    pub set_range: Option<f64>,
-    /// The difference that has the last colour, and the one that has it automatically.
-    pub range: f64,
-    pub auto_range: f64,
-    pub distributions: Option<&'a Distributions>,
-    /// Whether the distributions are up to date.
-    pub current: bool,
-    /// Of the materials with a difference.
-    pub names: Vec<&'a str>,
-    /// Their slots.
-    pub slots: Vec<usize>,
-    /// The place of the first of them: 1, or 0 where they are compared with a photograph.
-    pub first: usize,
-    /// The chosen one of them.
-    pub chosen: usize,
-    /// Whether this is in a picture that is saved, where nothing can be chosen.
-    pub is_picture: bool,
+    range: f64,
+    /// The distributions, and whether they are up to date.
+    pub distributions: Option<(&'a Distributions, bool)>,
+    /// The materials with a difference: all beside a photograph, otherwise the predictions.
+    pub materials: &'a [LoadedMaterial],
 }
 
 impl<'a> LegendStrip<'a> {
     /// The legend for what is displayed.
-    pub fn new(displayed: Displayed<'a>) -> Self {
-        let (view, materials) = (&displayed.model.view, displayed.materials());
-        let distributions = displayed.distributions();
-        let first = usize::from(displayed.photograph().is_none());
+    pub fn new(shown: Displayed<'a>) -> Self {
+        let view = &shown.model.view;
+        let materials = shown.materials();
+        let predictions = materials.get(1..).unwrap_or_default();
         Self {
+            shown,
             quantity: view.display.quantity,
             kind: view.difference_kind(),
-            error_map: view.is_error_map().then(|| displayed.error_map_summary()),
-            set_range: view.display.differences.range(view.display.quantity),
-            range: displayed.range(),
-            auto_range: displayed.auto_range(),
-            distributions: distributions.map(|(distributions, _)| distributions),
-            current: distributions.is_some_and(|(_, current)| current),
-            names: materials.iter().skip(first).map(LoadedMaterial::name).collect(),
-            slots: materials.iter().skip(first).map(|one| one.slot).collect(),
-            first,
-            chosen: (view.display.prediction + 1)
-                .min(materials.len().saturating_sub(1))
-                .saturating_sub(first),
-            is_picture: displayed.is_picture,
+            range: shown.range(),
+            distributions: shown.distributions(),
+            materials: if shown.photograph().is_some() { materials } else { predictions },
         }
+    }
+
+    /// Whether this is the chosen one of the materials with a difference.
+    pub fn is_chosen(&self, index: usize) -> bool {
+        let first = self.shown.materials().len() - self.materials.len();
+        index + first == self.shown.chosen()
+    }
+
+    fn set_range(&self) -> Option<f64> {
+        self.shown.model.view.display.differences.range(self.quantity)
+    }
+
+    fn name(&self) -> &'static str {
+        if self.shown.model.view.is_error_map() { ERROR_MAP } else { self.kind.name() }
     }
 
     pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
         let next = &mut next.view.display.differences;
         ui.horizontal_top(|ui| {
             ui.allocate_ui(vec2(CONTROLS, HISTOGRAM + BAR), |ui| {
-                ui.vertical(|ui| match self.is_picture {
+                ui.vertical(|ui| match self.shown.is_picture {
                     true => self.labels(ui),
                     false => self.controls(ui, next),
                 });
@@ -104,23 +94,24 @@ impl<'a> LegendStrip<'a> {
 
     /// What the controls have chosen.
     fn labels(&self, ui: &mut egui::Ui) {
-        ui.label(self.error_map.map_or(self.kind.name(), |_| ERROR_MAP));
-        let how = if self.set_range.is_some() { "held" } else { "automatic" };
+        ui.label(self.name());
+        let how = if self.set_range().is_some() { "held" } else { "automatic" };
         ui.label(format!("Range {}, {how}", digits(self.range)));
         ui.label(RichText::new(self.unit()).small().weak());
     }
 
     fn controls(&self, ui: &mut egui::Ui, next: &mut Differences) {
         let combo = egui::ComboBox::from_id_salt("difference").width(CONTROLS - 16.0);
-        let combo = combo.selected_text(self.error_map.map_or(self.kind.name(), |_| ERROR_MAP)).show_ui(ui, |ui| {
+        let is_error_map = self.shown.model.view.is_error_map();
+        let combo = combo.selected_text(self.name()).show_ui(ui, |ui| {
             for &kind in Difference::all(self.quantity) {
-                let chosen = self.error_map.is_none() && kind == self.kind;
+                let chosen = !is_error_map && kind == self.kind;
                 if ui.selectable_label(chosen, kind.name()).clicked() {
                     next.choose(self.quantity, kind);
                 }
             }
             if self.quantity == Quantity::Rendering {
-                let label = ui.selectable_label(self.error_map.is_some(), ERROR_MAP);
+                let label = ui.selectable_label(is_error_map, ERROR_MAP);
                 let hover = "The log difference of each texel, averaged over scenes of the loss: its mean is the loss over these scenes";
                 if label.on_hover_text(hover).clicked() {
                     next.choose_error_map();
@@ -128,7 +119,7 @@ impl<'a> LegendStrip<'a> {
             }
         });
         named(&combo.response, "Difference");
-        let of = if self.first == 0 {
+        let of = if self.shown.photograph().is_some() {
             "a rendering p from the photograph g"
         } else {
             "a prediction p from the ground truth g"
@@ -137,7 +128,7 @@ impl<'a> LegendStrip<'a> {
         ui.horizontal(|ui| {
             ui.label("Range");
             let mut range = self.range;
-            let auto = self.auto_range;
+            let auto = self.shown.auto_range();
             number(ui, "Range", &mut range, auto, |drag| {
                 drag.speed(0.01 * self.range).range(1e-6..=1e6).max_decimals(4)
             })
@@ -145,7 +136,7 @@ impl<'a> LegendStrip<'a> {
             if range != self.range {
                 next.set_range(self.quantity, (range != auto).then_some(range));
             }
-            let is_held = self.set_range.is_some();
+            let is_held = self.set_range().is_some();
             let choices = [
                 (
                     !is_held,
@@ -173,15 +164,15 @@ impl<'a> LegendStrip<'a> {
     }
 
     fn unit(&self) -> String {
-        match &self.error_map {
-            Some(summary) => format!("mean {} of {} scenes", self.kind.unit(), summary.scenes),
+        match self.shown.error_map_scenes() {
+            Some(scenes) => format!("mean {} of {scenes} scenes", self.kind.unit()),
             None => self.kind.unit().to_owned(),
         }
     }
 
     /// What the axis has: FLIP is a quantity without a unit.
     fn quantity_name(&self) -> String {
-        if self.kind == Difference::Flip && self.error_map.is_none() {
+        if self.kind == Difference::Flip && !self.shown.model.view.is_error_map() {
             self.kind.name().to_owned()
         } else {
             self.unit()
@@ -190,7 +181,7 @@ impl<'a> LegendStrip<'a> {
 
     /// The low and high end of the axis.
     fn axis(&self) -> [f64; 2] {
-        match self.distributions.and_then(|distributions| distributions.histograms.first()) {
+        match self.distributions.and_then(|(distributions, _)| distributions.histograms.first()) {
             Some(histogram) => [histogram.low, histogram.high],
             None if self.kind.is_signed() => [-AXIS * self.range, AXIS * self.range],
             None => [0.0, AXIS * self.range],
@@ -212,11 +203,12 @@ impl<'a> LegendStrip<'a> {
         let ink = ui.visuals().text_color();
         let shares = [low, high].map(|value| (value / self.range) as f32);
         painter.add(colour_bar(bar, shares, self.kind.is_signed()));
-        let fade = if self.current { 1.0 } else { 0.5 };
-        let histograms = self.distributions.map_or(&[][..], |distributions| &distributions.histograms);
+        let (histograms, is_current) =
+            self.distributions.map_or((&[][..], true), |(all, is_current)| (&all.histograms, is_current));
+        let fade = if is_current { 1.0 } else { 0.5 };
         for (index, histogram) in histograms.iter().enumerate() {
             let colour = theme::series(self.series(index), ui.visuals().dark_mode).gamma_multiply(fade);
-            let stroke = Stroke::new(if index == self.chosen { 2.0 } else { 1.0 }, colour);
+            let stroke = Stroke::new(if self.is_chosen(index) { 2.0 } else { 1.0 }, colour);
             let curve = area.with_max_y(bar.top());
             painter.extend(theme::series_line(&outline(histogram, curve), self.series(index), stroke));
             painter.extend(beyond(histogram, curve, colour));

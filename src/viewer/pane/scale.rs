@@ -17,7 +17,7 @@ const BEHIND: Color32 = Color32::from_black_alpha(170);
 
 /// Whether a pane shows roughness in false colours, from 0 to 1.
 pub fn has_scale(scenery: &Scenery<'_>, content: PaneContent) -> bool {
-    let display = &scenery.state.display;
+    let display = &scenery.shown.view().display;
     display.false_colour && display.quantity == Quantity::Roughness && !content.difference
 }
 

@@ -2,16 +2,12 @@
 
 use eframe::egui;
 
-use svbrdf_core::loss::Estimate;
 use svbrdf_gpu::DisplayMode;
 
 use crate::jobs::displayed::Displayed;
-use crate::jobs::panes::computed_maps::ComputedMaps;
-use crate::jobs::panes::photograph::DisplayedPhotograph;
 use crate::model::dataset::Missing;
-use crate::model::inspection::Inspection;
 use crate::model::material::loaded::LoadedMaterial;
-use crate::model::view::{Layout, ViewState};
+use crate::model::view::Layout;
 use crate::pane::gpu_view::{GpuView, PaneTexels};
 use crate::pane::handles::ndc_from_pos;
 use crate::pane::placed::Placed;
@@ -20,33 +16,9 @@ use crate::widgets::names::shortened;
 /// What the panes show, for one frame.
 #[derive(Debug)]
 pub struct Scenery<'a> {
-    pub materials: &'a [LoadedMaterial],
-    pub state: &'a ViewState,
-    pub dark: bool,
-    /// Whether this is in a picture that is saved, which has no buttons.
-    pub is_picture: bool,
-    /// Whether a drag in a pane has ever done something.
-    pub has_dragged: bool,
+    pub shown: Displayed<'a>,
     /// Whether every pane shows the ground truth, as long as a key is held.
-    pub peek: bool,
-    /// Whether the chosen prediction and the ground truth are swapped.
-    pub swapped: bool,
-    /// Whether materials are being read.
-    pub reading: bool,
-    /// Why there is no material.
-    pub problem: Option<&'a str>,
-    /// The difference that has the last colour.
-    pub range: f64,
-    /// Where the difference is a map that no shader computes, the maps once they are there.
-    pub computed_maps: Option<&'a ComputedMaps>,
-    /// The photograph, where renderings are compared with one.
-    pub photograph: Option<DisplayedPhotograph<'a>>,
-    /// Pins and rectangle.
-    pub inspection: &'a Inspection,
-    /// The predictions that are not there, which have empty panes.
-    pub missing: &'a [Missing],
-    /// The loss of each prediction, where it is known.
-    pub losses: Vec<Option<Estimate>>,
+    peek: bool,
 }
 
 /// The content of a pane: the index of the material that it displays, that of the material it is compared with, and how.
@@ -73,41 +45,20 @@ pub enum PhotographUse {
 
 impl<'a> Scenery<'a> {
     pub fn new(ctx: &egui::Context, shown: Displayed<'a>) -> Self {
-        let model = shown.model;
-        let missing = &model.dataset.missing[..];
-        // The panel has the loss of a single prediction.
-        let is_repeated =
-            model.dataset.open.is_none() && model.materials.all.len() == 2 && model.side_panel();
-        Self {
-            materials: shown.materials(),
-            state: &model.view,
-            dark: model.settings.dark,
-            is_picture: shown.is_picture,
-            has_dragged: model.settings.has_dragged,
-            peek: !shown.is_picture && peeks(ctx),
-            swapped: model.swapped,
-            reading: !shown.jobs.openings.is_empty(),
-            problem: missing.first().map(|one| one.problem.as_str()),
-            range: shown.range(),
-            computed_maps: shown.computed_maps(),
-            photograph: shown.photograph(),
-            inspection: &model.inspection,
-            missing,
-            losses: if is_repeated { Vec::new() } else { shown.losses() },
-        }
+        Self { shown, peek: !shown.is_picture && peeks(ctx) }
     }
 
-    /// The index of the chosen prediction; the ground truth's where there is no prediction.
-    pub fn chosen(&self) -> usize {
-        (self.state.display.prediction + 1).min(self.materials.len().saturating_sub(1))
+    /// The predictions that are not there, which have empty panes.
+    fn missing(&self) -> &'a [Missing] {
+        &self.shown.model.dataset.missing
     }
 
     /// The index of the material that is displayed in the place of material `index`.
     fn in_place_of(&self, index: usize) -> usize {
         match index {
             _ if self.peek => 0,
-            0 if self.swapped => self.chosen(),
-            i if self.swapped && i == self.chosen() => 0,
+            0 if self.shown.model.swapped => self.shown.chosen(),
+            i if self.shown.model.swapped && i == self.shown.chosen() => 0,
             i => i,
         }
     }
@@ -115,30 +66,34 @@ impl<'a> Scenery<'a> {
     /// The content of every pane. The ground truth is never compared with itself: its pane shows its value.
     pub fn contents(&self) -> Vec<PaneContent> {
         let content = |index, reference, mode| {
-            let difference = self.state.display.difference && index != 0;
+            let difference = self.shown.view().display.difference && index != 0;
             let reference = if difference { 0 } else { reference };
             PaneContent { index, reference, mode, difference, photograph: PhotographUse::Absent }
         };
-        if self.photograph.is_some() {
+        if self.shown.photograph().is_some() {
             return self.photograph_contents();
         }
-        let (ground_truth, chosen) = (self.in_place_of(0), self.in_place_of(self.chosen()));
-        match self.state.display.layout {
-            Layout::SideBySide => (0..self.materials.len())
+        let (ground_truth, chosen) = (self.in_place_of(0), self.in_place_of(self.shown.chosen()));
+        match self.shown.view().display.layout {
+            Layout::SideBySide => (0..self.shown.materials().len())
                 .map(|i| content(self.in_place_of(i), 0, DisplayMode::Value))
                 .collect(),
             Layout::Single => vec![content(chosen, 0, DisplayMode::Value)],
             Layout::Wipe => {
-                vec![content(chosen, ground_truth, DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0))]
+                vec![content(
+                    chosen,
+                    ground_truth,
+                    DisplayMode::Wipe(self.shown.view().display.wipe * 2.0 - 1.0),
+                )]
             }
         }
     }
 
     /// The panes of predictions that are not there, side by side with the others.
     pub fn empty(&self) -> impl Iterator<Item = (usize, &Missing)> {
-        let is_seen = self.state.display.layout == Layout::SideBySide;
-        let before = usize::from(self.photograph.is_some());
-        self.missing
+        let is_seen = self.shown.view().display.layout == Layout::SideBySide;
+        let before = usize::from(self.shown.photograph().is_some());
+        self.missing()
             .iter()
             .filter(move |one| is_seen && one.slot > 0)
             .map(move |one| (one.slot + before, one))
@@ -153,7 +108,7 @@ impl<'a> Scenery<'a> {
 
     /// The content of every pane beside a photograph: the photograph at the exposure of the chosen material, then every material.
     fn photograph_contents(&self) -> Vec<PaneContent> {
-        let difference = self.state.display.difference;
+        let difference = self.shown.view().display.difference;
         let material = |index| PaneContent {
             index,
             reference: index,
@@ -161,28 +116,31 @@ impl<'a> Scenery<'a> {
             difference,
             photograph: PhotographUse::Reference,
         };
-        let chosen = material(self.chosen());
+        let chosen = material(self.shown.chosen());
         let photograph = PaneContent { difference: false, photograph: PhotographUse::Displayed, ..chosen };
-        let mut panes: Vec<PaneContent> = match self.state.display.layout {
+        let mut panes: Vec<PaneContent> = match self.shown.view().display.layout {
             Layout::SideBySide => {
-                std::iter::once(photograph).chain((0..self.materials.len()).map(material)).collect()
+                std::iter::once(photograph).chain((0..self.shown.materials().len()).map(material)).collect()
             }
-            Layout::Single => vec![if self.swapped { photograph } else { chosen }],
+            Layout::Single => vec![if self.shown.model.swapped { photograph } else { chosen }],
             Layout::Wipe => {
-                vec![PaneContent { mode: DisplayMode::Wipe(self.state.display.wipe * 2.0 - 1.0), ..chosen }]
+                vec![PaneContent {
+                    mode: DisplayMode::Wipe(self.shown.view().display.wipe * 2.0 - 1.0),
+                    ..chosen
+                }]
             }
         };
         if self.peek {
             panes.fill(photograph);
-        } else if self.swapped && self.state.display.layout == Layout::SideBySide {
-            panes.swap(0, self.chosen() + 1);
+        } else if self.shown.model.swapped && self.shown.view().display.layout == Layout::SideBySide {
+            panes.swap(0, self.shown.chosen() + 1);
         }
         panes
     }
 
     /// The name of what a pane shows, without its difference, in about `most` characters.
     pub fn name_of(&self, content: PaneContent, most: usize) -> String {
-        match (self.photograph, content.photograph) {
+        match (self.shown.photograph(), content.photograph) {
             (Some(photograph), PhotographUse::Displayed) => photograph.title(content.index),
             _ => self.title(content.index, most),
         }
@@ -190,7 +148,7 @@ impl<'a> Scenery<'a> {
 
     /// The name of what a pane compares with, in about `most` characters.
     pub fn name_of_reference(&self, content: PaneContent, most: usize) -> String {
-        match (self.photograph, content.photograph) {
+        match (self.shown.photograph(), content.photograph) {
             (Some(photograph), PhotographUse::Reference) => photograph.title(content.index),
             _ => self.title(content.reference, most),
         }
@@ -198,18 +156,22 @@ impl<'a> Scenery<'a> {
 
     /// What the first material is: alone it is the ground truth of nothing.
     fn role(&self) -> &'static str {
-        if self.materials.len() == 1 && self.photograph.is_none() { "MATERIAL" } else { "GROUND TRUTH" }
+        if self.shown.materials().len() == 1 && self.shown.photograph().is_none() {
+            "MATERIAL"
+        } else {
+            "GROUND TRUTH"
+        }
     }
 
     /// The name of material `index` in titles. Of names that are too long, what all have in common is left out.
     fn title(&self, index: usize, most: usize) -> String {
-        let labels: Vec<String> = self.materials.iter().map(LoadedMaterial::label).collect();
+        let labels: Vec<String> = self.shown.materials().iter().map(LoadedMaterial::label).collect();
         let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
         let (ground_truth, predictions) = labels.split_at(labels.len().min(1));
         match index.checked_sub(1) {
             None => format!("{}  {}", self.role(), shortened(ground_truth, most).concat()),
             Some(prediction) => {
-                let slot = self.materials[index].slot;
+                let slot = self.shown.materials()[index].slot;
                 format!("{slot}  {}", shortened(predictions, most)[prediction])
             }
         }
@@ -232,11 +194,12 @@ pub fn texels(
     scenery: &Scenery<'_>,
     content: PaneContent,
 ) -> Result<[PaneTexels; 2], &'static str> {
-    let [material_id, reference] = [content.index, content.reference].map(|i| scenery.materials[i].id());
+    let [material_id, reference] =
+        [content.index, content.reference].map(|i| scenery.shown.materials()[i].id());
     let material = PaneTexels::Shaded(material_id);
-    if content.difference && scenery.state.is_computed() {
-        let map = scenery.computed_maps.and_then(|maps| maps.shaded(content.index));
-        let is_error_map = scenery.state.is_error_map();
+    if content.difference && scenery.shown.view().is_computed() {
+        let map = scenery.shown.computed_maps().and_then(|maps| maps.shaded(content.index));
+        let is_error_map = scenery.shown.view().is_error_map();
         let hint =
             if is_error_map { "Averaging over the scenes of the loss..." } else { "Computing FLIP..." };
         gpu.give(material_id, map.ok_or(hint)?);
@@ -248,7 +211,7 @@ pub fn texels(
     {
         return Ok([material, PaneTexels::Shaded(reference)]);
     }
-    let photograph = scenery.photograph.and_then(|photograph| photograph.all?.shaded(content.index));
+    let photograph = scenery.shown.photograph().and_then(|photograph| photograph.all?.shaded(content.index));
     gpu.give_photograph(material_id, photograph.ok_or("Reading the photograph...")?);
     let photograph = PaneTexels::Photograph(material_id);
     Ok([if content.photograph == PhotographUse::Displayed { photograph } else { material }, photograph])
@@ -256,7 +219,7 @@ pub fn texels(
 
 /// The index of the material whose value is displayed at this x of a pane, from -1 to 1; the number of materials for a photograph.
 pub fn index_at(scenery: &Scenery<'_>, content: PaneContent, x: f32) -> usize {
-    let photograph = scenery.materials.len();
+    let photograph = scenery.shown.materials().len();
     match (content.mode, content.photograph) {
         (_, PhotographUse::Displayed) => photograph,
         (DisplayMode::Wipe(line), PhotographUse::Reference) if x < line => photograph,

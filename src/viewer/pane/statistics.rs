@@ -6,7 +6,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Histogram, Statistics};
 
-use crate::jobs::panes::error_map::ErrorMapSummary;
+use crate::model::material::loaded::LoadedMaterial;
 use crate::pane::legend::{BAR, HISTOGRAM, LegendStrip, STATISTICS};
 use crate::widgets::names::{FEWEST, Names, fitted};
 use crate::widgets::numbers::{aligned, digits};
@@ -18,11 +18,12 @@ const NAME: f32 = 146.0;
 impl LegendStrip<'_> {
     /// A row of numbers for each prediction.
     pub fn statistics(&self, ui: &mut egui::Ui) {
-        let Some(distributions) = self.distributions else {
-            match &self.error_map {
-                Some(ErrorMapSummary { progress: Some(fraction), scenes }) => {
+        let scenes = self.shown.error_map_scenes();
+        let Some((distributions, is_current)) = self.distributions else {
+            match (scenes, self.shown.jobs.panes.error_map_progress) {
+                (Some(scenes), Some(fraction)) => {
                     let text = format!("{:.0}% of {scenes} scenes", 100.0 * fraction);
-                    ui.add(egui::ProgressBar::new(*fraction).text(text).desired_width(STATISTICS * 0.6));
+                    ui.add(egui::ProgressBar::new(fraction).text(text).desired_width(STATISTICS * 0.6));
                 }
                 _ => {
                     ui.weak("Computing statistics...");
@@ -30,27 +31,30 @@ impl LegendStrip<'_> {
             }
             return;
         };
-        if !self.current {
+        if !is_current {
             ui.set_opacity(0.5);
         }
-        let is_loss = self.kind == Difference::Log && self.quantity == Quantity::Rendering && self.first == 1;
+        let is_rendering = self.quantity == Quantity::Rendering;
         // The scenes that the numbers are of: the loss over all scenes is another one.
-        let (of, mean) = match self.error_map {
-            Some(ErrorMapSummary { scenes, .. }) => (
+        let (of, mean) = match scenes {
+            Some(scenes) => (
                 format!("over {scenes} scenes"),
                 "Mean over the texels: the loss over the scenes of this error map",
             ),
-            None if is_loss => ("this scene".to_owned(), "Mean over the texels: the loss in this scene"),
-            None if self.first == 0 => {
+            None if self.shown.photograph().is_some() => {
                 ("this scene".to_owned(), "Mean over the texels that are not clipped in the photograph")
             }
-            None if self.quantity == Quantity::Rendering => ("this scene".to_owned(), "Mean over the texels"),
+            None if is_rendering && self.kind == Difference::Log => {
+                ("this scene".to_owned(), "Mean over the texels: the loss in this scene")
+            }
+            None if is_rendering => ("this scene".to_owned(), "Mean over the texels"),
             None => ("all texels".to_owned(), "Mean over the texels"),
         };
         let heads =
             [("mean", mean), ("median", "50th percentile"), ("95%", "95th percentile"), ("max", "Maximum")];
-        let short = Names::new(&self.names);
-        let height = if self.is_picture { f32::INFINITY } else { HISTOGRAM + BAR + 14.0 };
+        let names: Vec<&str> = self.materials.iter().map(LoadedMaterial::name).collect();
+        let short = Names::new(&names);
+        let height = if self.shown.is_picture { f32::INFINITY } else { HISTOGRAM + BAR + 14.0 };
         egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
             // Low rows: three of them are seen at once.
             let grid = egui::Grid::new("difference statistics").num_columns(5).min_row_height(0.0);
@@ -78,8 +82,8 @@ impl LegendStrip<'_> {
 
     /// The colour of the difference in place `index`: the colour of its prediction, or one of its own for the ground truth.
     pub fn series(&self, index: usize) -> usize {
-        match self.slots.get(index).copied().unwrap_or(0) {
-            0 => self.slots.iter().max().map_or(1, |last| last + 1),
+        match self.materials.get(index).map_or(0, |one| one.slot) {
+            0 => self.materials.iter().map(|one| one.slot + 1).max().unwrap_or(1),
             slot => slot,
         }
     }
@@ -93,14 +97,13 @@ impl LegendStrip<'_> {
         histogram: Option<&Histogram>,
     ) {
         let colour = theme::series(self.series(index), ui.visuals().dark_mode);
-        let name = self.names.get(index).copied().unwrap_or_default();
-        let slot = self.slots.get(index).copied().unwrap_or(0);
-        let number = if slot == 0 { "gt".to_owned() } else { slot.to_string() };
+        let Some(material) = self.materials.get(index) else { return };
+        let (name, number) = (material.name(), material.number());
         let short = |most| format!("{number}  {}", names.shortened(index, most));
         let font = egui::TextStyle::Body.resolve(ui.style());
         let short = fitted(ui, &font, NAME, short).unwrap_or_else(|| short(FEWEST));
         let text = RichText::new(short).color(colour);
-        let text = if index == self.chosen { text.strong().underline() } else { text };
+        let text = if self.is_chosen(index) { text.strong().underline() } else { text };
         let label = ui.scope(|ui| {
             ui.set_max_width(NAME);
             ui.add(egui::Label::new(text).truncate())

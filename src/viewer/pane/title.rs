@@ -33,16 +33,16 @@ pub fn title_bar(
 ) {
     let is_material = content.photograph != PhotographUse::Displayed;
     let prediction = content.index.checked_sub(1).filter(|_| is_material);
-    let chosen = is_material && content.index == scenery.chosen() && content.index != 0;
+    let chosen = is_material && content.index == scenery.shown.chosen() && content.index != 0;
     let text = text(scenery, content, usize::MAX, true);
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
-    let replaced = chosen && scenery.state.display.is_replaced();
+    let replaced = chosen && scenery.shown.view().display.is_replaced();
     let loss = prediction.filter(|_| !replaced).and_then(|index| loss_of(scenery, index, rect));
     response.widget_info(|| egui::WidgetInfo {
         current_text_value: loss.clone(),
         ..egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}"))
     });
-    let has_button = replaced && !scenery.is_picture;
+    let has_button = replaced && !scenery.shown.is_picture;
     let back =
         inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
     let painter = ui.painter_at(rect);
@@ -51,7 +51,7 @@ pub fn title_bar(
     } else {
         ui.visuals().text_color()
     };
-    let slot = prediction.map(|_| scenery.materials[content.index].slot);
+    let slot = prediction.map(|_| scenery.shown.materials()[content.index].slot);
     let swatch = slot.map(|slot| theme::series(slot, ui.visuals().dark_mode));
     let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
     let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
@@ -77,12 +77,16 @@ pub fn title_bar(
     let elided = galley.elided || short != text;
     let at = rect.left_center() + vec2(left, -galley.size().y * 0.5);
     painter.galley(at, galley, colour);
-    if chosen && scenery.state.display.layout == Layout::SideBySide && scenery.materials.len() > 2 {
+    if chosen
+        && scenery.shown.view().display.layout == Layout::SideBySide
+        && scenery.shown.materials().len() > 2
+    {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
         painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
     }
     if has_button {
-        let label = if scenery.state.display.corrected.is_some() { "Show original" } else { "Show all maps" };
+        let label =
+            if scenery.shown.view().display.corrected.is_some() { "Show original" } else { "Show all maps" };
         let button = ui.put(back, egui::Button::new(egui::RichText::new(label).small()));
         if button.on_hover_text("Show the prediction itself again (Esc)").clicked() {
             return next.view.isolate(None);
@@ -98,7 +102,7 @@ pub fn title_bar(
 pub fn empty_pane(ui: &mut egui::Ui, scenery: &Scenery<'_>, missing: &Missing, cell: Rect) {
     let (title, picture) = cell.split_top_bottom_at_y(cell.top() + TITLE);
     let (colour, problem) = (theme::series(missing.slot, ui.visuals().dark_mode), drawable(&missing.problem));
-    ui.painter().rect_filled(picture, 0.0, theme::surround(scenery.dark));
+    ui.painter().rect_filled(picture, 0.0, theme::surround(scenery.shown.model.settings.dark));
     let room = inset(title, vec2(8.0, 0.0));
     ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| {
         let name = format!("{}  {}", missing.slot, drawable(&missing.name));
@@ -124,7 +128,11 @@ fn short_in(
 
 /// The loss of a prediction, where there may be room for it.
 fn loss_of(scenery: &Scenery<'_>, prediction: usize, title: Rect) -> Option<String> {
-    let loss = scenery.losses.get(prediction)?.as_ref().filter(|_| title.width() >= LEAST)?;
+    let model = scenery.shown.model;
+    // The panel has the loss of a single prediction.
+    let is_repeated = model.dataset.open.is_none() && model.materials.all.len() == 2 && model.side_panel();
+    let losses = scenery.shown.losses();
+    let loss = losses.get(prediction)?.as_ref().filter(|_| title.width() >= LEAST && !is_repeated)?;
     Some(format!("loss {}", significant(loss)[0]))
 }
 
@@ -136,7 +144,7 @@ fn text(scenery: &Scenery<'_>, content: PaneContent, most: usize, has_quantity: 
         DisplayMode::Wipe(_) => format!("{}   |   {name}", scenery.name_of_reference(content, most)),
     };
     if content.difference && has_quantity {
-        format!("{names}: {}", scenery.state.difference_name())
+        format!("{names}: {}", scenery.shown.view().difference_name())
     } else {
         names
     }

@@ -113,11 +113,11 @@ impl Viewport {
             let text = "No graphics adapter: materials cannot be drawn. The loss can be computed.";
             return note(ui, area, text);
         };
-        if scenery.materials.is_empty() {
+        if scenery.shown.materials().is_empty() {
             return empty(ui, area, scenery);
         }
         let contents = scenery.contents();
-        let grid = scenery.materials[0].grid();
+        let grid = scenery.shown.materials()[0].grid();
         let count = contents.len() + scenery.empty().count();
         let columns = columns(area, count, grid);
         let cells = cells(area, count, columns, ui.pixels_per_point());
@@ -138,7 +138,7 @@ impl Viewport {
         let cell = |(number, content)| Some((content, *cells.get(scenery.place(number))?));
         let panes: Vec<(PaneContent, Rect)> = contents.into_iter().enumerate().filter_map(cell).collect();
         self.hovered = panes.iter().find_map(|(content, cell)| {
-            let placed = placed(scenery.state, grid, picture_rect(ui, *cell), self.pane_pixels());
+            let placed = placed(scenery.shown.view(), grid, picture_rect(ui, *cell), self.pane_pixels());
             Hovered::in_pane(ui, scenery, *content, &placed)
         });
         self.last_texel = self.hovered.and_then(|hovered| hovered.texel).or(self.last_texel);
@@ -164,7 +164,8 @@ impl Viewport {
         self.drawn.push(DrawnPane { id, rect });
         let label = format!("Pane {}", scenery.name_of(content, usize::MAX));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
-        let placed = placed(scenery.state, scenery.materials[0].grid(), rect, self.pane_pixels());
+        let placed =
+            placed(scenery.shown.view(), scenery.shown.materials()[0].grid(), rect, self.pane_pixels());
         self.paint(ui, scenery, gpu, (number, content), &placed);
     }
 
@@ -177,16 +178,16 @@ impl Viewport {
         placed: &Placed,
     ) {
         let (rect, camera) = (placed.rect, placed.camera);
-        let state = scenery.state;
+        let state = scenery.shown.view();
         let painter = ui.painter_at(rect);
-        let background = theme::surround(scenery.dark).to_normalized_gamma_f32();
+        let background = theme::surround(scenery.shown.model.settings.dark).to_normalized_gamma_f32();
         let params = DisplayParams {
             camera,
             exposure_ev: state.exposure_ev,
             mode: content.mode,
             difference: content.difference.then(|| DisplayedDifference {
                 kind: state.difference_kind(),
-                range: scenery.range as f32,
+                range: scenery.shown.range() as f32,
                 is_computed: state.is_computed(),
             }),
             encoding: state.display.quantity.into(),
@@ -199,7 +200,7 @@ impl Viewport {
         let drawn = match texels(gpu, scenery, content) {
             Ok(drawn) => drawn,
             Err(hint) => {
-                painter.rect_filled(rect, 0.0, theme::surround(scenery.dark));
+                painter.rect_filled(rect, 0.0, theme::surround(scenery.shown.model.settings.dark));
                 return paint_hint(&painter, rect, hint);
             }
         };
@@ -215,7 +216,7 @@ impl Viewport {
         if scale::has_scale(scenery, content) {
             scale::paint(&painter, rect);
         }
-        if let (2.., Some(one)) = (gpu.reduction(), scenery.materials.first()) {
+        if let (2.., Some(one)) = (gpu.reduction(), scenery.shown.materials().first()) {
             let grid = one.grid();
             paint_hint(
                 &painter,
@@ -237,24 +238,24 @@ impl Viewport {
         scenery: &Scenery<'_>,
         contents: &[PaneContent],
     ) -> Result<(), String> {
-        let state = scenery.state;
+        let state = scenery.shown.view();
         let params = ShadeParams {
             scene: state.scene,
             convention: state.convention(),
             quantity: state.display.quantity,
         };
-        let grid = scenery.materials[0].grid();
+        let grid = scenery.shown.materials()[0].grid();
         let texels = grid.width * grid.height;
         let software = gpu.gpu.report.software;
         let visible = PaneView { params, framing: state.display.framing };
-        let is_slow = software && texels * scenery.materials.len() > LARGE;
+        let is_slow = software && texels * scenery.shown.materials().len() > LARGE;
         let moves = self.policy.moves(visible, ui.input(|i| i.time)) && is_slow;
         if moves {
             ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
         }
         let is_large = texels > LARGE && software;
         // What is compared with a computed map or a photograph, and what is saved, is never shaded in part.
-        let is_exact = self.is_exact || state.is_computed() || scenery.photograph.is_some();
+        let is_exact = self.is_exact || state.is_computed() || scenery.shown.photograph().is_some();
         self.is_draft = moves && !is_exact;
         let part = if self.is_draft || is_large && !is_exact {
             shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state))
@@ -262,10 +263,17 @@ impl Viewport {
             ShadedPart::Whole
         };
         let sharpens = !moves && part != ShadedPart::Whole;
-        let request = ShadingRequest { params, part, sharpens, waits: scenery.reading, exact: is_exact };
-        gpu.keep_only(scenery.materials, contents.len());
+        let request = ShadingRequest {
+            params,
+            part,
+            sharpens,
+            waits: !scenery.shown.jobs.openings.is_empty(),
+            exact: is_exact,
+        };
+        gpu.keep_only(scenery.shown.materials(), contents.len());
         let displayed: BTreeSet<usize> = contents.iter().flat_map(|one| [one.index, one.reference]).collect();
-        let materials: Vec<_> = displayed.into_iter().map(|index| &scenery.materials[index]).collect();
+        let materials: Vec<_> =
+            displayed.into_iter().map(|index| &scenery.shown.materials()[index]).collect();
         if gpu.shade(&materials, uploads, request)? {
             ui.ctx().request_repaint();
         }
@@ -280,24 +288,18 @@ impl Viewport {
         content: PaneContent,
         placed: &Placed,
     ) {
-        let state = scenery.state;
+        let state = scenery.shown.view();
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
-            let photographs = scenery.photograph.and_then(|photograph| photograph.all);
-            let readout = Readout {
-                materials: scenery.materials,
-                state,
-                computed_maps: scenery.computed_maps,
-                photographs,
-            };
-            placed.paint_numbers(painter, |texel| match (content.photograph, photographs) {
+            let read = Readout::of(scenery.shown);
+            placed.paint_numbers(painter, |texel| match (content.photograph, read.photographs) {
                 (PhotographUse::Displayed, Some(photographs)) => {
                     readout::photograph(photographs, index, texel)
                 }
-                _ => readout::numbers(readout, index, difference, texel),
+                _ => readout::numbers(read, index, difference, texel),
             });
         }
-        placed.paint_inspected(painter, scenery.inspection);
+        placed.paint_inspected(painter, &scenery.shown.model.inspection);
         let texel = self.hovered.and_then(|hovered| hovered.texel);
         if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
             placed.paint_crosshair(painter, texel);
@@ -334,8 +336,8 @@ fn reduced(stride: usize, grid: Grid, limit: usize) -> String {
 
 /// What a pane says at its bottom, where its picture may puzzle.
 fn hint(scenery: &Scenery<'_>, content: PaneContent, pane: [f32; 2]) -> Option<String> {
-    let state = scenery.state;
-    let grid = scenery.materials.first()?.grid();
+    let state = scenery.shown.view();
+    let grid = scenery.shown.materials().first()?.grid();
     if framing::visible_share(state, grid, pane) < framing::NEARLY_LOST {
         return Some("F fits the material".to_owned());
     }
@@ -350,17 +352,17 @@ fn hint(scenery: &Scenery<'_>, content: PaneContent, pane: [f32; 2]) -> Option<S
         return Some("Perspective from straight above: right-drag to tilt".to_owned());
     }
     let is_new = content.index == 0
-        && !scenery.has_dragged
-        && !scenery.is_picture
+        && !scenery.shown.model.settings.has_dragged
+        && !scenery.shown.is_picture
         && state.display.quantity == Quantity::Rendering;
     is_new.then(|| "left-drag moves the light, Space + left-drag pans".to_owned())
 }
 
 /// Says why there is no material.
 fn empty(ui: &mut egui::Ui, area: Rect, scenery: &Scenery<'_>) {
-    let text = match scenery.problem {
-        _ if scenery.reading => "Reading...",
-        Some(problem) => problem,
+    let text = match scenery.shown.model.dataset.missing.first() {
+        _ if !scenery.shown.jobs.openings.is_empty() => "Reading...",
+        Some(missing) => missing.problem.as_str(),
         None => "Open a material with Ctrl+O, or drop files or folders here.",
     };
     let middle = area.shrink2(vec2(0.1 * area.width(), 0.45 * area.height()));

@@ -140,7 +140,7 @@ fn table(ui: &mut egui::Ui, found: Answer<AnalysisTable>) {
             progress(ui, fraction, format!("{} s", elapsed.as_secs()));
             return;
         }
-        Answer::Failed(_) => return,
+        Answer::Stopped(_) | Answer::Failed(_) => return,
     };
     let AnalysisTable { heading, table } = &found.answer;
     ui.horizontal(|ui| {

@@ -3,6 +3,7 @@
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 
+use crate::jobs::displayed::Displayed;
 use crate::jobs::panes::computed_maps::ComputedMaps;
 use crate::jobs::panes::photograph::Photographs;
 use crate::model::material::loaded::LoadedMaterial;
@@ -43,6 +44,17 @@ pub struct Readout<'a> {
     pub computed_maps: Option<&'a ComputedMaps>,
     /// Where renderings are compared with a photograph, the photograph beside every material.
     pub photographs: Option<&'a Photographs>,
+}
+
+impl<'a> Readout<'a> {
+    pub fn of(shown: Displayed<'a>) -> Self {
+        Self {
+            materials: shown.materials(),
+            state: shown.view(),
+            computed_maps: shown.computed_maps(),
+            photographs: shown.photographs().map(|all| &all.answer),
+        }
+    }
 }
 
 /// The numbers of a pane at a texel: its value, or its difference from the ground truth or the photograph where the panes

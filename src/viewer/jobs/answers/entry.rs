@@ -29,6 +29,8 @@ enum State<A> {
     /// With the latest answer so far.
     Running(Running<A>, Option<Arc<Answered<A>>>),
     Ready(Arc<Answered<A>>),
+    /// By hand, with the answer so far.
+    Stopped(Option<Arc<Answered<A>>>),
     /// The reason, and the error until it is told.
     Failed(Arc<str>, Option<Error>),
 }
@@ -39,6 +41,7 @@ pub enum Phase {
     Waiting,
     Running,
     Ready(usize),
+    /// It failed, or was stopped by hand.
     Failed,
 }
 
@@ -68,7 +71,21 @@ impl<Q: Question> Entry<Q> {
                 Answer::Partial(so_far.clone(), job.fraction(), job.elapsed())
             }
             State::Ready(answered) => Answer::Ready(answered.clone()),
+            State::Stopped(so_far) => Answer::Stopped(so_far.clone()),
             State::Failed(reason, _) => Answer::Failed(reason.clone()),
+        }
+    }
+
+    pub fn resume(&mut self) {
+        if matches!(self.state, State::Stopped(_)) {
+            self.state = State::Waiting;
+        }
+    }
+
+    /// Ends the work.
+    pub fn end(&mut self) {
+        if let State::Running(_, so_far) = &self.state {
+            self.state = State::Stopped(so_far.clone());
         }
     }
 }
@@ -91,7 +108,7 @@ impl<Q: Question> AnyEntry for Entry<Q> {
             State::Waiting => Phase::Waiting,
             State::Running(..) => Phase::Running,
             State::Ready(_) => Phase::Ready(Q::KEPT),
-            State::Failed(..) => Phase::Failed,
+            State::Failed(..) | State::Stopped(_) => Phase::Failed,
         }
     }
 

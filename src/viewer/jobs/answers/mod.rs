@@ -84,6 +84,16 @@ impl Answers {
         self.asked.borrow_mut().of_kind::<Q>().any(|entry| entry.phase() == Phase::Running)
     }
 
+    /// Stops the work on questions of this kind, by hand.
+    pub fn stop<Q: Question>(&self) {
+        self.asked.borrow_mut().of_kind::<Q>().for_each(Entry::end);
+    }
+
+    /// Begins again with what was stopped.
+    pub fn resume<Q: Question>(&self) {
+        self.asked.borrow_mut().of_kind::<Q>().for_each(Entry::resume);
+    }
+
     fn ask<Q: Question>(&self, question: &Q, later: bool) -> Answer<Q::Answer> {
         let mut asked = self.asked.borrow_mut();
         asked.count += 1;

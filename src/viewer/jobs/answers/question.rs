@@ -64,6 +64,8 @@ pub enum Answer<A> {
     Partial(Arc<Answered<A>>, f32, Duration),
     /// The share of the work that is done, and its time: 0 of what waits.
     Running(f32, Duration),
+    /// It was stopped by hand, with the answer so far.
+    Stopped(Option<Arc<Answered<A>>>),
     Failed(Arc<str>),
 }
 
@@ -86,7 +88,7 @@ impl<A> Answer<A> {
     pub fn ready(self) -> Option<Arc<Answered<A>>> {
         match self {
             Self::Ready(answered) => Some(answered),
-            Self::Partial(..) | Self::Running(..) | Self::Failed(_) => None,
+            Self::Partial(..) | Self::Running(..) | Self::Stopped(_) | Self::Failed(_) => None,
         }
     }
 
@@ -96,7 +98,7 @@ impl<A> Answer<A> {
             Self::Partial(_, fraction, elapsed) | Self::Running(fraction, elapsed) => {
                 Some((fraction, elapsed))
             }
-            Self::Ready(_) | Self::Failed(_) => None,
+            Self::Ready(_) | Self::Stopped(_) | Self::Failed(_) => None,
         }
     }
 }

@@ -106,6 +106,19 @@ fn nothing_starts_between_an_answer_and_the_question_that_it_leads_to() {
 }
 
 #[test]
+fn what_is_stopped_by_hand_leaves_the_processors_and_goes_on_by_hand() {
+    let mut answers = Answers::default();
+    let is_stopped = |answers: &mut Answers| matches!(frame(answers, &[100]).0[..], [Answer::Stopped(None)]);
+    frame(&mut answers, &[100]);
+    assert!(!is_stopped(&mut answers));
+    answers.stop::<Double>();
+    settle_one(&mut answers, &[100, 4], 4);
+    assert!(is_stopped(&mut answers), "it is not begun again by itself");
+    answers.resume::<Double>();
+    assert!(!is_stopped(&mut answers) && answers.is_running::<Double>());
+}
+
+#[test]
 fn answers_out_of_sight_stay_as_many_as_their_kind_keeps_the_latest_first() {
     let mut answers = Answers::default();
     for number in [2, 4, 6, 8] {

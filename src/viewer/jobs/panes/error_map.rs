@@ -7,6 +7,7 @@ use svbrdf_evaluate::why::error_maps;
 use svbrdf_gpu::Gpu;
 
 use super::computed_maps::ComputedMaps;
+use super::difference::ComputedDifference;
 use crate::error::Error;
 use crate::jobs::answers::content::{Content, Given, read_all};
 use crate::jobs::answers::{Question, Work};
@@ -20,25 +21,16 @@ pub struct ErrorMaps {
     pub gpu: Given<Option<Gpu>>,
 }
 
-/// What the legend reports of error maps besides their statistics.
-#[derive(Clone, Copy, Debug)]
-pub struct ErrorMapSummary {
-    /// Number of scenes.
-    pub scenes: usize,
-    /// The share of the texels that is done, while they are rendered.
-    pub progress: Option<f32>,
-}
-
 impl Question for ErrorMaps {
-    type Answer = ComputedMaps;
+    type Answer = ComputedDifference;
     const KEPT: usize = 1;
 
-    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<ComputedMaps, Error> {
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<ComputedDifference, Error> {
         let materials = read_all(&self.materials)?;
         let materials: Vec<&Material<f32>> = materials.iter().map(|loaded| loaded.material()).collect();
         let comparison = Comparison::new(materials[0], &materials[1..], self.convention)?;
         let scenes = self.scenes.scenes(&self.convention)?.unwrap_or_default();
         let images = error_maps(&comparison, &scenes, work.progress())?;
-        Ok(ComputedMaps::new(images, self.gpu.0.as_ref())?)
+        Ok(ComputedDifference::Maps(ComputedMaps::new(images, self.gpu.0.as_ref())?))
     }
 }

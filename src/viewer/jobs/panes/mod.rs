@@ -1,4 +1,4 @@
-//! What the panes display, and what is asked about it: the replacement of the chosen prediction, and numbers about differences, error maps
+//! What the panes display, asked for in every frame: the replacement of the chosen prediction, and numbers about differences, error maps
 //! and the photograph.
 
 pub mod computed_maps;
@@ -15,21 +15,21 @@ use crate::jobs::answers::Answered;
 use crate::jobs::answers::content::Content;
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
-use computed_maps::ComputedMaps;
-use difference::{ComputedDifference, Differences};
-use error_map::ErrorMaps;
+use difference::ComputedDifference;
 use photograph::{ComparePhotograph, Photographs, Samples};
 
-/// What the panes display in this frame. A number is of the question beside it, which may be that of an earlier frame.
+/// What the panes display in this frame.
 #[derive(Debug, Default)]
 pub struct Panes {
     /// The materials, with a replacement of the chosen prediction where one is displayed.
     pub displayed: Vec<LoadedMaterial>,
-    pub differences: Option<(Differences, Arc<Answered<ComputedDifference>>)>,
-    pub error_maps: Option<(ErrorMaps, Arc<Answered<ComputedMaps>>)>,
+    /// The difference of the materials, or their error map, and whether it is of the present scene and exposure.
+    pub difference: Option<(Arc<Answered<ComputedDifference>>, bool)>,
     /// The share of the texels of error maps that is done, while they are rendered.
     pub error_map_progress: Option<f32>,
     pub photograph: Option<Samples>,
+    pub photograph_failed: bool,
+    /// Beside every material, and the question that it answers, perhaps of an earlier scene.
     pub photographs: Option<(ComparePhotograph, Arc<Answered<Photographs>>)>,
     /// The automatic range of the predictions themselves: that of a replacement would change with it.
     pub auto_range: Option<(RangeKey, f64)>,

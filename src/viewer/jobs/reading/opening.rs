@@ -11,8 +11,8 @@ use super::upload::{Uploaded, Uploads};
 use crate::error::Error;
 use crate::jobs::work::job::{Job, Worker};
 use crate::jobs::work::waker::Waker;
+use crate::model::material::read::MaterialId;
 use crate::model::material::read::label;
-use crate::model::material::read::{MaterialId, ReadMaterial};
 use crate::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use svbrdf_files::source::MaterialSource;
 
@@ -138,11 +138,7 @@ impl Opening {
         let whole = Progress::default();
         let parts = Arc::new(items.iter().map(|_| whole.part()).collect::<Vec<_>>());
         let current = Arc::new(AtomicUsize::new(0));
-        let work = OpeningWork {
-            gpu: gpu.cloned(),
-            parts: parts.clone(),
-            current: current.clone(),
-        };
+        let work = OpeningWork { gpu: gpu.cloned(), parts: parts.clone(), current: current.clone() };
         let job = Job::stream(waker, whole, move |worker| work.run(items, reader, worker));
         Self { number, target, names, parts, current, loaded, arrived: 0, job }
     }
