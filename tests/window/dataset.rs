@@ -289,14 +289,14 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
         let of = |case, column| svbrdf_viewer::jobs::dataset::cells::Cell { case, column };
         sheet.as_deref().is_some_and(|sheet| sheet.part(of(0, 1)).is_some() && sheet.part(of(2, 2)).is_none())
     });
-    let before = DrawSheet::latest(&window.jobs().answers).unwrap().picture.clone();
+    let before = DrawSheet::latest(&window.jobs().answers).unwrap().atlas.picture.clone();
     let rect = window.get_by_label("Cell b, ours").rect();
     drag_primary(&mut window, rect, vec2(0.5, 0.5), vec2(0.75, 0.25));
     let light = window.scene().light;
     assert!((light[0] - 0.5).abs() < 0.05 && (light[1] - 0.5).abs() < 0.05, "{light:?}");
     wait_in(&mut window, "other pictures", |window| {
         let sheet = DrawSheet::latest(&window.jobs().answers);
-        sheet.is_some_and(|sheet| !Arc::ptr_eq(&sheet.picture, &before) && sheet.picture != before)
+        sheet.is_some_and(|sheet| sheet.atlas.picture != before)
     });
     assert_eq!(window.names()[0], "a", "a drag opens nothing");
     click(&mut window, "Cell e, theirs");

@@ -90,11 +90,6 @@ fn the_window_has_the_words_and_the_order_of_the_snapshots() {
     wait(&mut window, "the scenes", |app| {
         app.listed_scenes().is_some_and(|(_, thumbnails)| !thumbnails.is_empty())
     });
-    wait_in(&mut window, "the other diagnosis", |window| {
-        let [all, pending] =
-            ["", "..."].map(|end| has(window, &format!("Diagnosis of wrong roughness: {end}")));
-        all && !pending
-    });
     see(&mut window, "roughness of wrong roughness: 60.1% of the loss");
     window.run_steps(12);
     assert_snapshot(&window, "why");

@@ -1,49 +1,27 @@
 //! Rows of the list and of the sheet: the materials in their order.
 
-use std::sync::Arc;
-
 use svbrdf_evaluate::dataset::KnownLoss;
 
 use crate::jobs::displayed::Displayed;
-use crate::model::dataset::list::{CaseLosses, ListView, Listed};
+use crate::model::dataset::list::{CaseLosses, Listed};
 use crate::model::material::loaded::drawable;
 use crate::widgets::numbers::{means, significant};
 
 /// The materials that are listed, in their order.
 #[derive(Debug, Default)]
 pub struct Rows {
-    key: Option<RowsKey>,
     /// Their places in the data set.
     pub cases: Vec<usize>,
 }
 
-/// What the rows depend on.
-#[derive(Clone, Debug, PartialEq)]
-struct RowsKey {
-    dataset: usize,
-    generation: u64,
-    list: ListView,
-    marked: Vec<String>,
-}
-
 impl Rows {
-    /// Sorts and filters again where something has changed.
+    /// Sorts and filters.
     pub fn follow(&mut self, displayed: Displayed<'_>) {
         let (dataset, losses) = (&displayed.model.dataset, &displayed.jobs.dataset.losses);
         let Some(open) = &dataset.open else {
             *self = Self::default();
             return;
         };
-        let marked = dataset.marks.iter().filter(|(_, mark)| mark.is_marked).map(|(name, _)| name.clone());
-        let key = RowsKey {
-            dataset: Arc::as_ptr(open).addr(),
-            generation: losses.generation,
-            list: dataset.list.clone(),
-            marked: marked.collect(),
-        };
-        if self.key.as_ref() == Some(&key) {
-            return;
-        }
         let all = open.cases.iter().enumerate().map(|(case, one)| Listed {
             name: &one.material,
             losses: losses.row(case),
@@ -51,7 +29,6 @@ impl Rows {
         });
         let all: Vec<Listed<'_>> = all.collect();
         self.cases = dataset.list.rows(&all);
-        self.key = Some(key);
     }
 
     /// The row of a material.

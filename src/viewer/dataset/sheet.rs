@@ -229,7 +229,7 @@ impl ContactSheet<'_> {
         if let Some(sheet) = &drawn.pictures
             && let Some(([least, most], size)) = sheet.part(cell)
         {
-            let texture = self.textures.id(ui.ctx(), &sheet.picture, TextureOptions::LINEAR);
+            let texture = self.textures.id(ui.ctx(), &sheet.atlas.picture, TextureOptions::LINEAR);
             let [width, height] = size.map(|side| side as f32);
             let fitted = vec2(width, height) * (square.width() / width.max(height).max(1.0));
             let at = Rect::from_center_size(square.center(), fitted);

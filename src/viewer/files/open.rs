@@ -1,5 +1,7 @@
 //! Dialog that opens materials: by path, by the system's file dialog, or from the recent ones.
 
+use std::path::{Path, PathBuf};
+
 use eframe::egui::{self, RichText};
 
 use svbrdf_files::read::ReadOptions;
@@ -14,6 +16,9 @@ use crate::model::{Model, opening};
 /// Height below the list of recent materials, and least height of the list.
 const BELOW_RECENT: f32 = 230.0;
 const LEAST_RECENT: f32 = 60.0;
+
+/// Most names of a recent comparison after the first.
+const MOST_NAMES: usize = 8;
 
 /// Draws the dialog, where it is open.
 pub fn ui(ctx: &egui::Context, next: &mut Model) {
@@ -111,9 +116,11 @@ fn recent_comparisons(ui: &mut egui::Ui, recent: &[Session]) -> Option<usize> {
     let mut clicked = None;
     ui.label(RichText::new("Recent comparisons").weak());
     for (index, session) in recent.iter().enumerate() {
-        let button = egui::Button::selectable(false, compared(session)).truncate();
+        let paths = paths(session);
+        let button = egui::Button::selectable(false, compared(&paths)).truncate();
         let key = if index == 0 { " (Ctrl+Shift+O)" } else { "" };
-        let hover = format!("Opens these as they were shown{key}:\n{}", paths(session));
+        let paths: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        let hover = format!("Opens these as they were shown{key}:\n{}", paths.join("\n"));
         if ui.add(button).on_hover_text(hover).clicked() {
             clicked = Some(index);
         }
@@ -121,33 +128,23 @@ fn recent_comparisons(ui: &mut egui::Ui, recent: &[Session]) -> Option<usize> {
     clicked
 }
 
-/// The materials of a comparison, the ground truth first.
-fn compared(session: &Session) -> String {
-    if let Some(dataset) = &session.dataset {
-        if !dataset.predictions.is_empty() {
-            let count = dataset.predictions.len();
-            return format!("{} | {count} predictions", file_name(&dataset.ground_truths));
+/// The files of a comparison, the ground truth first.
+fn paths(session: &Session) -> Vec<&Path> {
+    match &session.dataset {
+        Some(dataset) => dataset.paths().map(PathBuf::as_path).collect(),
+        None => {
+            let built_in = Path::new("built-in material");
+            session.materials.iter().map(|one| one.path.as_deref().unwrap_or(built_in)).collect()
         }
-        let methods: Vec<&str> = dataset.methods.iter().map(|method| method.name.as_str()).collect();
-        return format!("data set {} | {}", file_name(&dataset.ground_truths), methods.join(", "));
-    }
-    let names = session.materials.iter().map(|one| match (&one.path, one.built_in) {
-        (Some(path), _) => file_name(path),
-        (None, _) => "built-in material".to_owned(),
-    });
-    let names: Vec<String> = names.collect();
-    match names.split_first() {
-        Some((first, [])) => first.clone(),
-        Some((first, others)) => format!("{first} | {}", others.join(", ")),
-        None => String::new(),
     }
 }
 
-/// The paths of a comparison, one a line.
-fn paths(session: &Session) -> String {
-    if let Some(dataset) = &session.dataset {
-        return dataset.paths().map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n");
+/// The names of these files; of many, their number.
+fn compared(paths: &[&Path]) -> String {
+    let names: Vec<String> = paths.iter().map(|path| file_name(path)).collect();
+    match names.split_first() {
+        Some((first, others)) if others.len() > MOST_NAMES => format!("{first} | {} others", others.len()),
+        Some((first, others)) if !others.is_empty() => format!("{first} | {}", others.join(", ")),
+        _ => names.concat(),
     }
-    let paths = session.materials.iter().filter_map(|one| one.path.as_deref());
-    paths.map(|path| path.display().to_string()).collect::<Vec<_>>().join("\n")
 }

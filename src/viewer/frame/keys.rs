@@ -6,10 +6,10 @@ use eframe::egui::{self, Key, Modifiers};
 
 use svbrdf_files::read::ReadOptions;
 
-use crate::frame::monitor;
 use crate::model::dataset::DatasetState;
 use crate::model::dialogs::{OpenDialog, SaveDialog, SaveKind};
 use crate::model::effect::Effect;
+use crate::model::ranges::UI_SCALE;
 use crate::model::view::AutoExposure;
 use crate::model::{Model, clipboard, display, exposure, opening, undo};
 use crate::widgets::copy;
@@ -234,9 +234,9 @@ pub const HELP: &[(&str, &[Line])] = &[
                 "Ctrl + plus / minus",
                 "size of text and controls",
                 &[
-                    (COMMAND, Key::Plus, |m| monitor::step(m, 1.0)),
-                    (COMMAND, Key::Equals, |m| monitor::step(m, 1.0)),
-                    (COMMAND, Key::Minus, |m| monitor::step(m, -1.0)),
+                    (COMMAND, Key::Plus, |m| scale(m, 1.0)),
+                    (COMMAND, Key::Equals, |m| scale(m, 1.0)),
+                    (COMMAND, Key::Minus, |m| scale(m, -1.0)),
                 ],
             ),
             line("double-click a number", "reset it to its default", &[]),
@@ -244,6 +244,12 @@ pub const HELP: &[(&str, &[Line])] = &[
         ],
     ),
 ];
+
+/// Changes the scale of text and controls by this many tenths.
+fn scale(model: &mut Model, steps: f32) {
+    let scale = ((10.0 * model.settings.ui_scale).round() + steps) / 10.0;
+    model.settings.ui_scale = scale.clamp(*UI_SCALE.start(), *UI_SCALE.end());
+}
 
 /// Pins the texel under the pointer, or removes its pin; without one, the texel last under it.
 pub fn pin_here(model: &mut Model) {

@@ -122,7 +122,7 @@ impl App {
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.parts.model.settings.dark);
         monitor::suit(&ctx, &mut self.unscaled);
-        self.parts.model.settings.ui_scale = monitor::scale_in_range(&ctx);
+        self.parts.model.settings.ui_scale = ctx.zoom_factor();
         self.parts.model.time = ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
         let errors = self.parts.jobs.answers.begin_frame();

@@ -12,8 +12,6 @@ use crate::widgets::names::{FEWEST, Names, fitted};
 use crate::widgets::numbers::{half_width, means, signed, significant};
 use crate::widgets::theme;
 
-/// Number of predictions from which on there is a field that filters them.
-const MANY: usize = 12;
 /// Heights of a line and of the bar below it, in points.
 const LINE: f32 = 17.0;
 const BAR: f32 = 3.0;
@@ -44,7 +42,6 @@ impl Results<'_> {
     /// A row for each prediction; a click chooses it.
     pub fn ui(&self, ui: &mut egui::Ui, next: &mut Model) {
         let losses = &self.latest.report.outcome.losses;
-        let filter = if losses.len() > MANY { filter(ui) } else { String::new() };
         let names: Vec<&str> = losses.iter().map(|loss| loss.prediction.as_str()).collect();
         let short = Names::new(&names);
         // 15 predictions are seen at once in a window of 860 points.
@@ -55,9 +52,6 @@ impl Results<'_> {
         let order = order(losses);
         let means = means(&order.iter().map(|index| &losses[*index].estimate).collect::<Vec<_>>());
         for (index, mean) in order.into_iter().zip(means) {
-            if !names[index].to_lowercase().contains(&filter) {
-                continue;
-            }
             let is_stale = self.stale.get(index).is_some_and(|is_stale| *is_stale);
             let mark = if is_stale { STALE_MARK } else { "" };
             let name = |most| format!("{}{mark}  {}", self.slot(index), short.shortened(index, most));
@@ -195,15 +189,6 @@ fn cell(ui: &mut egui::Ui, width: f32, text: RichText) -> egui::Response {
         ui.label(text)
     })
     .inner
-}
-
-/// The text that names must contain.
-fn filter(ui: &mut egui::Ui) -> String {
-    let id = ui.scope_id().with("filter");
-    let mut filter: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
-    ui.add(egui::TextEdit::singleline(&mut filter).hint_text("Filter names").desired_width(120.0));
-    ui.data_mut(|data| data.insert_temp(id, filter.clone()));
-    filter.to_lowercase()
 }
 
 /// The indices of the losses, the least first.

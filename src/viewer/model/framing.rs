@@ -9,15 +9,10 @@ use svbrdf_files::session::window::Framing;
 use crate::model::endpoint::{self, Endpoint};
 use crate::model::view::{Projection, ViewState};
 
-/// Least share of the material, or of the pane where the material is larger, that stays visible: of the area on the screen.
-/// It is the least height of a view above the material as well, as a share of its distance, after a fit in perspective.
-pub const LEAST: f64 = 0.2;
-/// A visible share below which a pane says how to fit the material.
-pub const NEARLY_LOST: f32 = 0.3;
+/// Least height of a view above the material after a fit in perspective, as a share of its distance.
+const LEAST: f64 = 0.2;
 /// Least and greatest magnification, as multiples of that of the fitted material.
 const MAGNIFICATION: [f32; 2] = [0.1, 400.0];
-/// Steps of the search for the pan that leaves enough visible.
-const STEPS: usize = 16;
 
 /// A material in panes of `pane` = [width, height] physical pixels.
 #[derive(Clone, Copy, Debug)]
@@ -77,6 +72,14 @@ impl ViewState {
         }
     }
 
+    /// Pans so far back that the middle of the pane is on the material.
+    pub fn keep_visible(&mut self, grid: Grid) {
+        if let Some(framing) = &mut self.display.framing {
+            let size = size(grid);
+            framing.centre = std::array::from_fn(|axis| framing.centre[axis].clamp(0.0, size[axis]));
+        }
+    }
+
     /// The camera of a pane of `pane` = [width, height] physical pixels.
     pub fn camera(&self, grid: Grid, pane: [f32; 2]) -> Camera {
         let fitted = self.fitted_camera(grid, aspect(pane));
@@ -89,67 +92,6 @@ impl ViewState {
             _ => fitted,
         }
     }
-}
-
-/// The framing of `state`, moved towards the middle of the material as far as it takes to leave a fifth of it visible.
-pub fn limited(state: &ViewState, grid: Grid, pane: [f32; 2]) -> Option<Framing> {
-    let framing = state.display.framing?;
-    let (size, middle) = (size(grid), middle(grid));
-    let edge: [f32; 2] = std::array::from_fn(|axis| framing.centre[axis].clamp(0.0, size[axis]));
-    let inwards = |share: f32| Framing {
-        centre: std::array::from_fn(|axis| edge[axis] + share * (middle[axis] - edge[axis])),
-        ..framing
-    };
-    let mut state = state.clone();
-    let mut is_enough = |share: f32| {
-        state.display.framing = Some(inwards(share));
-        f64::from(visible_share(&state, grid, pane)) >= LEAST
-    };
-    if is_enough(0.0) {
-        return Some(inwards(0.0));
-    }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..STEPS {
-        let between = 0.5 * (low + high);
-        if is_enough(between) { high = between } else { low = between }
-    }
-    Some(inwards(high))
-}
-
-/// The visible share of the material, or of the pane where the material is larger: of the area on the screen.
-pub fn visible_share(state: &ViewState, grid: Grid, pane: [f32; 2]) -> f32 {
-    let camera = state.camera(grid, pane);
-    let [x, y] = grid.half_extent();
-    let corners = [[-x, -y], [x, -y], [x, y], [-x, y]];
-    let corners: Option<Vec<[f32; 2]>> =
-        corners.iter().map(|[x, y]| camera.ndc_from_point(Vec3::new(*x, *y, 0.0))).collect();
-    // A corner behind the view: the material fills the pane.
-    let Some(corners) = corners else { return 1.0 };
-    let all = area(&corners).min(4.0);
-    if all > 0.0 { area(&in_pane(corners)) / all } else { 1.0 }
-}
-
-/// The part of a convex polygon inside a pane's [-1, 1] along both axes (Sutherland and Hodgman 1974).
-fn in_pane(mut polygon: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
-    for (axis, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-        let inside = |p: &[f32; 2]| 1.0 - sign * p[axis];
-        let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
-        polygon = ends
-            .flat_map(|(a, b)| {
-                let (from, to) = (inside(a), inside(b));
-                let t = from / (from - to);
-                let crossing: [f32; 2] = std::array::from_fn(|i| a[i] + t * (b[i] - a[i]));
-                let crosses = (from >= 0.0) != (to >= 0.0);
-                (from >= 0.0).then_some(*a).into_iter().chain(crosses.then_some(crossing))
-            })
-            .collect();
-    }
-    polygon
-}
-
-fn area(polygon: &[[f32; 2]]) -> f32 {
-    let ends = polygon.iter().zip(polygon.iter().cycle().skip(1));
-    ends.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f32>().abs() * 0.5
 }
 
 /// Width over height; 1 before there is a pane.
@@ -248,27 +190,11 @@ mod tests {
     }
 
     #[test]
-    fn a_fifth_stays_visible_at_every_magnification_and_projection() {
-        for projection in PROJECTIONS {
-            for pixels_per_texel in [1.0, 5.0, 10.0, 70.0, 4000.0] {
-                for far in [[1e4, 0.0], [0.0, -1e4], [1e4, 1e4], [-1e4, 30.0]] {
-                    let mut state = state(projection, Some(Framing { pixels_per_texel, centre: far }));
-                    let lost = visible_share(&state, GRID, PANE);
-                    assert!(lost < NEARLY_LOST || projection == Projection::Perspective, "a planted fault");
-                    state.display.framing = limited(&state, GRID, PANE);
-                    let share = visible_share(&state, GRID, PANE);
-                    assert!(share > 0.199, "{share} visible of {state:?}");
-                }
-            }
+    fn the_middle_of_the_pane_stays_on_the_material() {
+        for (far, near) in [([1e4, 0.0], [64.0, 0.0]), ([0.0, -1e4], [0.0; 2]), ([60.0, 3.0], [60.0, 3.0])] {
+            let mut state = state(Projection::Flat, Some(Framing { pixels_per_texel: 30.0, centre: far }));
+            state.keep_visible(GRID);
+            assert_eq!(state.display.framing.unwrap().centre, near);
         }
-    }
-
-    #[test]
-    fn a_framing_that_leaves_enough_visible_stays() {
-        for centre in [[0.5, 0.5], [60.0, 3.0], [30.0, 47.0]] {
-            let framing = Some(Framing { pixels_per_texel: 30.0, centre });
-            assert_eq!(limited(&state(Projection::Flat, framing), GRID, PANE), framing);
-        }
-        assert_eq!(limited(&state(Projection::Flat, None), GRID, PANE), None);
     }
 }

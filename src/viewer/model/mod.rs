@@ -155,8 +155,7 @@ impl Model {
     /// Pans back a material that would be lost from the panes.
     pub fn keep_visible(&mut self) {
         if let Some(ground_truth) = self.materials.ground_truth() {
-            let grid = ground_truth.grid();
-            self.view.display.framing = framing::limited(&self.view, grid, self.geometry.pane);
+            self.view.keep_visible(ground_truth.grid());
         }
     }
 }

@@ -1,13 +1,10 @@
-//! Ranges of the numbers that come from files, settings and sessions: the one place that brings them within.
+//! Ranges of the numbers that come from settings and sessions: the one place that refuses what is out of them.
 
-use std::fmt::Display;
 use std::ops::RangeInclusive;
 
 use svbrdf_core::loss::{LossSettings, Sampling, Texels};
-use svbrdf_files::session::window::SessionDisplay as PaneDisplay;
 
 use crate::model::Model;
-use crate::model::settings::Settings;
 use crate::model::view::{STOPS, ViewState};
 
 /// Physical pixels per texel.
@@ -23,86 +20,79 @@ const TIME_MS: RangeInclusive<u64> = 1..=3_600_000;
 /// Sampled texels of a scene.
 const TEXELS: RangeInclusive<usize> = 1..=1 << 28;
 /// Largest number of a prediction.
-const PREDICTIONS: RangeInclusive<usize> = 0..=100_000;
+const PREDICTIONS: usize = 100_000;
 
-/// The numbers that were out of range.
-#[derive(Debug, Default)]
-struct RangeProblems(Vec<String>);
+/// What is checked: its name, whether it is usable, and what puts a usable value in its place.
+type Check = (&'static str, fn(&Model) -> bool, fn(&mut Model));
 
-impl RangeProblems {
-    /// Brings `value` into `range`; what is no number becomes `default`.
-    fn number<T: PartialOrd + Copy + Display>(
-        &mut self,
-        name: &str,
-        value: &mut T,
-        range: RangeInclusive<T>,
-        default: T,
-    ) {
-        if range.contains(value) {
-            return;
-        }
-        let usable = match *value {
-            low if low < *range.start() => *range.start(),
-            high if high > *range.end() => *range.end(),
-            _ => default,
-        };
-        self.0.push(format!("{name} {value} is now {usable}"));
-        *value = usable;
-    }
+const CHECKS: [Check; 11] = [
+    ("UI scale", |m| UI_SCALE.contains(&m.settings.ui_scale), |m| m.settings.ui_scale = 1.0),
+    (
+        "number of scenes",
+        |m| m.settings.loss.near.max(m.settings.loss.distant) <= Sampling::MAX_SCENES / 2,
+        |m| {
+            let LossSettings { near, distant, .. } = LossSettings::default();
+            (m.settings.loss.near, m.settings.loss.distant) = (near, distant);
+        },
+    ),
+    (
+        "target error",
+        |m| TARGET_PERCENT.contains(&m.settings.loss.target_percent),
+        |m| m.settings.loss.target_percent = LossSettings::default().target_percent,
+    ),
+    (
+        "time budget",
+        |m| TIME_MS.contains(&m.settings.loss.time_ms),
+        |m| m.settings.loss.time_ms = LossSettings::default().time_ms,
+    ),
+    (
+        "sampled texels",
+        |m| !matches!(m.settings.loss.texels, Texels::Sampled(count) if !TEXELS.contains(&count)),
+        |m| m.settings.loss.texels = Texels::All,
+    ),
+    (
+        "scenes of the loss",
+        |m| {
+            let file = m.settings.loss.file.as_ref();
+            file.is_none_or(|file| {
+                !file.scenes.is_empty() && file.scenes.iter().all(|scene| scene.check().is_ok())
+            })
+        },
+        |m| m.settings.loss = m.settings.loss.with_file(None),
+    ),
+    ("exposure", |m| (-STOPS..=STOPS).contains(&m.view.exposure_ev), |m| m.view.exposure_ev = 0.0),
+    ("light and view", |m| m.view.scene.check().is_ok(), |m| m.view.scene = ViewState::default().scene),
+    ("wipe", |m| (0.0..=1.0).contains(&m.view.display.wipe), |m| m.view.display.wipe = 0.5),
+    (
+        "magnified part",
+        |m| {
+            m.view.display.framing.is_none_or(|framing| {
+                PIXELS_PER_TEXEL.contains(&framing.pixels_per_texel)
+                    && framing.centre.iter().all(|value| CENTRE.contains(value))
+            })
+        },
+        |m| m.view.display.framing = None,
+    ),
+    (
+        "number of the prediction",
+        |m| m.view.display.prediction <= PREDICTIONS,
+        |m| m.view.display.prediction = 0,
+    ),
+];
 
-    fn settings(&mut self, settings: &mut Settings) {
-        self.number("UI scale", &mut settings.ui_scale, UI_SCALE, 1.0);
-        self.loss(&mut settings.loss);
-    }
-
-    fn loss(&mut self, loss: &mut LossSettings) {
-        let most = Sampling::MAX_SCENES / 2;
-        let default = LossSettings::default();
-        self.number("near-field scenes", &mut loss.near, 0..=most, default.near);
-        self.number("distant scenes", &mut loss.distant, 0..=most, default.distant);
-        self.number("target error", &mut loss.target_percent, TARGET_PERCENT, default.target_percent);
-        self.number("time budget", &mut loss.time_ms, TIME_MS, default.time_ms);
-        if let Texels::Sampled(count) = &mut loss.texels {
-            self.number("sampled texels", count, TEXELS, 1 << 14);
-        }
-        if loss.file.as_ref().is_some_and(|file| {
-            file.scenes.is_empty() || file.scenes.iter().any(|scene| scene.check().is_err())
-        }) {
-            self.0.push("the scenes of the loss cannot be rendered, and are left out".to_owned());
-            *loss = loss.with_file(None);
-        }
-    }
-
-    fn view(&mut self, view: &mut ViewState) {
-        self.number("exposure", &mut view.exposure_ev, -STOPS..=STOPS, 0.0);
-        if let Err(problem) = view.scene.check() {
-            self.0.push(format!("light and view are the default ones, since {problem}"));
-            view.scene = ViewState::default().scene;
-        }
-        self.display(&mut view.display);
-    }
-
-    fn display(&mut self, display: &mut PaneDisplay) {
-        self.number("wipe", &mut display.wipe, 0.0..=1.0, 0.5);
-        if let Some(framing) = &mut display.framing {
-            self.number("pixels per texel", &mut framing.pixels_per_texel, PIXELS_PER_TEXEL, 1.0);
-            for value in &mut framing.centre {
-                self.number("texel in the centre", value, CENTRE, 0.0);
-            }
-        }
-        self.number("number of the prediction", &mut display.prediction, PREDICTIONS, 0);
-        if !display.differences.leave_out_unusable() {
-            self.0.push("a difference or its range is the default one".to_owned());
-        }
-    }
-}
-
-/// Brings every number of settings and view into its range; what they were and are, if there were others.
+/// Puts the default in the place of every number of settings and view that is out of its range; which, if there were any.
 pub fn bring_into_range(model: &mut Model) -> Option<String> {
-    let mut found = RangeProblems::default();
-    found.settings(&mut model.settings);
-    found.view(&mut model.view);
-    (!found.0.is_empty()).then(|| format!("Settings out of range: {}.", found.0.join(", ")))
+    let mut found: Vec<&str> = Vec::new();
+    for (name, is_usable, mend) in CHECKS {
+        if !is_usable(model) {
+            found.push(name);
+            mend(model);
+        }
+    }
+    if !model.view.display.differences.leave_out_unusable() {
+        found.push("difference or its range");
+    }
+    (!found.is_empty()).then(|| format!("Out of range, and now the default: {}.", found.join(", ")))
 }
 
 #[cfg(test)]
@@ -116,52 +106,35 @@ mod tests {
     const NUMBERS: [f64; 12] =
         [0.0, -0.0, 1.0, -1.0, 0.5, 1e-30, 1e9, -1e9, f64::MAX, f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 
-    fn is_usable(model: &Model) -> bool {
-        let (settings, view) = (&model.settings, &model.view);
-        let display = &view.display;
-        UI_SCALE.contains(&settings.ui_scale)
-            && TARGET_PERCENT.contains(&settings.loss.target_percent)
-            && (0.0..=1.0).contains(&display.wipe)
-            && display.framing.is_none_or(|framing| {
-                PIXELS_PER_TEXEL.contains(&framing.pixels_per_texel)
-                    && framing.centre.iter().all(|value| CENTRE.contains(value))
-            })
-            && (-STOPS..=STOPS).contains(&view.exposure_ev)
-            && view.scene.check().is_ok()
-            && settings.loss.near <= Sampling::MAX_SCENES
-    }
-
     #[test]
     fn whatever_the_numbers_they_are_usable_afterwards_and_it_is_said() {
-        for (index, number) in NUMBERS.into_iter().enumerate() {
-            for field in 0..9 {
+        let edits: [fn(&mut Model, f64); 9] = [
+            |m, number| m.settings.ui_scale = number as f32,
+            |m, number| m.settings.loss.target_percent = number,
+            |m, number| m.settings.loss.near = number as usize,
+            |m, number| m.view.display.wipe = number as f32,
+            |m, number| m.view.display.framing = framing(number as f32, 0.0),
+            |m, number| m.view.display.framing = framing(1.0, number as f32),
+            |m, number| m.view.exposure_ev = number as f32,
+            |m, number| m.view.scene.light[2] = number,
+            |m, number| m.settings.loss.time_ms = number as u64,
+        ];
+        for (field, edit) in edits.into_iter().enumerate() {
+            let mut mended = 0;
+            for number in NUMBERS {
                 let mut model = Model::default();
-                assert_eq!(bring_into_range(&mut model), None, "the defaults are in range");
-                let single = number as f32;
-                match field {
-                    0 => model.settings.ui_scale = single,
-                    1 => model.settings.loss.target_percent = number,
-                    2 => model.settings.loss.near = number as usize,
-                    3 => model.view.display.wipe = single,
-                    4 => {
-                        let framing = Framing { pixels_per_texel: single, centre: [1.0; 2] };
-                        model.view.display.framing = Some(framing);
-                    }
-                    5 => {
-                        let framing = Framing { pixels_per_texel: 1.0, centre: [single, -single] };
-                        model.view.display.framing = Some(framing);
-                    }
-                    6 => model.view.exposure_ev = single,
-                    7 => model.view.scene.light[2] = number,
-                    _ => model.settings.loss.time_ms = number as u64,
-                }
-                let was_usable = is_usable(&model);
-                let message = bring_into_range(&mut model);
-                assert!(is_usable(&model), "{field}, {index}: {message:?}");
-                assert!(was_usable || message.is_some(), "{field}, {index}");
-                assert_eq!(bring_into_range(&mut model), None, "{field}, {index}");
+                edit(&mut model, number);
+                let unusable = CHECKS.iter().filter(|(_, is_usable, _)| !is_usable(&model)).count();
+                mended += unusable;
+                assert_eq!(bring_into_range(&mut model).is_some(), unusable > 0, "{field}, {number}");
+                assert_eq!(bring_into_range(&mut model), None, "{field}, {number}");
             }
+            assert!(mended > 0, "{field}");
         }
+    }
+
+    fn framing(pixels_per_texel: f32, centre: f32) -> Option<Framing> {
+        Some(Framing { pixels_per_texel, centre: [centre, -centre] })
     }
 
     #[test]

@@ -37,7 +37,7 @@ enum ShadingError {
 }
 
 /// The texels of a pane, or those that they are compared with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PaneTexels {
     /// The shaded material of this id.
     Shaded(MaterialId),
@@ -45,6 +45,14 @@ pub enum PaneTexels {
     Differences(MaterialId),
     /// The photograph given for the material of this id.
     Photograph(MaterialId),
+}
+
+impl PaneTexels {
+    fn id(self) -> MaterialId {
+        match self {
+            Self::Shaded(id) | Self::Differences(id) | Self::Photograph(id) => id,
+        }
+    }
 }
 
 /// What the pixels of a pane depend on.
@@ -76,10 +84,8 @@ pub struct GpuView {
     least_stride: usize,
     reduced_for: Vec<MaterialId>,
     reduction: usize,
-    /// Differences that were computed elsewhere, of materials by their ids, each with its version.
-    given: HashMap<MaterialId, (Arc<Shaded>, u64)>,
-    /// The photograph at the exposure of materials by their ids, each with its version.
-    photographs: HashMap<MaterialId, (Arc<Shaded>, u64)>,
+    /// Texels that were computed elsewhere, each with their version.
+    given: HashMap<PaneTexels, (Arc<Shaded>, u64)>,
     versions: u64,
     panes: Vec<Option<SavedPane>>,
 }
@@ -103,7 +109,6 @@ impl GpuView {
             reduced_for: Vec::new(),
             reduction: 1,
             given: HashMap::new(),
-            photographs: HashMap::new(),
             versions: 0,
             panes: Vec::new(),
         })
@@ -179,27 +184,23 @@ impl GpuView {
         Ok(sharpens)
     }
 
-    /// Takes the differences of the material `id`, for panes whose difference is computed elsewhere.
-    pub fn give(&mut self, id: MaterialId, differences: &Arc<Shaded>) {
-        put(&mut self.given, &mut self.versions, id, differences);
-    }
-
-    /// Takes the photograph at the exposure of the material `id`.
-    pub fn give_photograph(&mut self, id: MaterialId, photograph: &Arc<Shaded>) {
-        put(&mut self.photographs, &mut self.versions, id, photograph);
+    /// Takes texels that were computed elsewhere, with a new version where they are others.
+    pub fn give(&mut self, place: PaneTexels, texels: &Arc<Shaded>) {
+        if self.given.get(&place).is_none_or(|(given, _)| !Arc::ptr_eq(given, texels)) {
+            self.versions += 1;
+            self.given.insert(place, (texels.clone(), self.versions));
+        }
     }
 
     /// These texels and their version, where they are there.
     fn texels(&self, texels: PaneTexels) -> Option<(&Shaded, u64)> {
-        let (given, id) = match texels {
+        match texels {
             PaneTexels::Shaded(id) => {
                 let texels = self.shaded.get(&id).and_then(ShadedMaterial::displayed)?;
-                return Some((&texels.shaded, texels.version));
+                Some((&texels.shaded, texels.version))
             }
-            PaneTexels::Differences(id) => (&self.given, id),
-            PaneTexels::Photograph(id) => (&self.photographs, id),
-        };
-        given.get(&id).map(|(given, version)| (given.as_ref(), *version))
+            given => self.given.get(&given).map(|(given, version)| (given.as_ref(), *version)),
+        }
     }
 
     /// Frees the shaded pictures of closed materials, and the pixels of all but the first `panes` panes.
@@ -209,8 +210,7 @@ impl GpuView {
         }
         let is_here = |id: &MaterialId| materials.iter().any(|one| one.id() == *id);
         self.shaded.retain(|id, _| is_here(id));
-        self.given.retain(|id, _| is_here(id));
-        self.photographs.retain(|id, _| is_here(id));
+        self.given.retain(|texels, _| is_here(&texels.id()));
         self.panes.truncate(panes);
     }
 
@@ -258,20 +258,6 @@ fn place(rect: egui::Rect, pixels_per_point: f32) -> PanePlace {
     let [first, end] =
         [rect.min, rect.max].map(|p| [p.x, p.y].map(|c| (c * pixels_per_point).round().max(0.0) as u32));
     PanePlace { corner: first, size: [0, 1].map(|axis| end[axis].saturating_sub(first[axis]).max(1)) }
-}
-
-/// Puts texels that were computed elsewhere in the place of `id`, with a new version where they are others.
-fn put(
-    all: &mut HashMap<MaterialId, (Arc<Shaded>, u64)>,
-    versions: &mut u64,
-    id: MaterialId,
-    texels: &Arc<Shaded>,
-) {
-    if all.get(&id).is_some_and(|(given, _)| Arc::ptr_eq(given, texels)) {
-        return;
-    }
-    *versions += 1;
-    all.insert(id, (texels.clone(), *versions));
 }
 
 /// How a pane comes into egui's render pass.

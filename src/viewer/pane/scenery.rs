@@ -202,8 +202,9 @@ pub fn texels(
         let is_error_map = scenery.shown.view().is_error_map();
         let hint =
             if is_error_map { "Averaging over the scenes of the loss..." } else { "Computing FLIP..." };
-        gpu.give(material_id, map.ok_or(hint)?);
-        return Ok([PaneTexels::Differences(material_id), PaneTexels::Shaded(reference)]);
+        let differences = PaneTexels::Differences(material_id);
+        gpu.give(differences, map.ok_or(hint)?);
+        return Ok([differences, PaneTexels::Shaded(reference)]);
     }
     let compares = content.difference || content.mode != DisplayMode::Value;
     if content.photograph == PhotographUse::Absent
@@ -212,9 +213,9 @@ pub fn texels(
         return Ok([material, PaneTexels::Shaded(reference)]);
     }
     let photograph = scenery.shown.photograph().and_then(|photograph| photograph.all?.shaded(content.index));
-    gpu.give_photograph(material_id, photograph.ok_or("Reading the photograph...")?);
-    let photograph = PaneTexels::Photograph(material_id);
-    Ok([if content.photograph == PhotographUse::Displayed { photograph } else { material }, photograph])
+    let texels = PaneTexels::Photograph(material_id);
+    gpu.give(texels, photograph.ok_or("Reading the photograph...")?);
+    Ok([if content.photograph == PhotographUse::Displayed { texels } else { material }, texels])
 }
 
 /// The index of the material whose value is displayed at this x of a pane, from -1 to 1; the number of materials for a photograph.

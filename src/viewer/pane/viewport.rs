@@ -9,9 +9,9 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 
 use crate::jobs::reading::upload::Uploads;
+use crate::model::Model;
 use crate::model::material::loaded::drawable;
 use crate::model::view::{Projection, ViewState};
-use crate::model::{Model, framing};
 use crate::pane::cells::{TITLE, cells, columns, picture_rect};
 use crate::pane::draft_policy::{DraftPolicy, LARGE, PAUSE, PaneView};
 use crate::pane::gestures::{self, Gesture};
@@ -223,7 +223,7 @@ impl Viewport {
                 rect,
                 &reduced(gpu.reduction(), grid, gpu.gpu.report.max_texture_side as usize),
             );
-        } else if let Some(text) = hint(scenery, content, self.pane_pixels()) {
+        } else if let Some(text) = hint(scenery, content) {
             paint_hint(&painter, rect, &text);
         }
     }
@@ -335,12 +335,8 @@ fn reduced(stride: usize, grid: Grid, limit: usize) -> String {
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.
-fn hint(scenery: &Scenery<'_>, content: PaneContent, pane: [f32; 2]) -> Option<String> {
+fn hint(scenery: &Scenery<'_>, content: PaneContent) -> Option<String> {
     let state = scenery.shown.view();
-    let grid = scenery.shown.materials().first()?.grid();
-    if framing::visible_share(state, grid, pane) < framing::NEARLY_LOST {
-        return Some("F fits the material".to_owned());
-    }
     let (convention, drawn) = (state.convention().name, state.convention().drawn().name);
     if state.display.quantity == Quantity::Rendering && drawn != convention {
         return Some(format!("drawn as {drawn}"));

@@ -1,6 +1,6 @@
 //! Lines of the hypotheses of a diagnosis: the marked ones, and the others behind one line.
 
-use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, pos2, vec2};
+use eframe::egui::{self, RichText, Sense, vec2};
 
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Finding, Hypothesis};
 
@@ -11,11 +11,9 @@ use crate::model::view::ViewState;
 use crate::widgets::numbers::digits;
 use crate::widgets::theme;
 
-/// Where the value and the share of a line end, in points from the right.
-const VALUE: f32 = 62.0;
-pub const SHARE: f32 = 4.0;
-/// Where the name of a hypothesis begins, in points from the left, and the space after it.
-const NAME: [f32; 2] = [14.0, 6.0];
+/// Room before the name of a hypothesis, and height of a line, in points.
+const NAME: f32 = 14.0;
+const ROW: f32 = 17.0;
 
 /// The lines of one prediction.
 #[derive(Debug)]
@@ -50,15 +48,10 @@ impl HypothesisLines<'_> {
 
     /// The line that unfolds the others.
     fn header(&self, ui: &mut egui::Ui, text: &str, next: &mut Model) {
-        let row = Row { label: text.to_owned(), selected: false };
-        let (response, area) = row.ui(ui, true);
-        let (ink, middle) = (ui.visuals().text_color(), area.center().y);
-        let icon = egui::Rect::from_center_size(pos2(area.left() + 7.0, middle), egui::vec2(8.0, 8.0));
-        let openness = if self.is_open { 1.0 } else { 0.0 };
-        egui::collapsing_header::paint_default_icon(ui, openness, &response.clone().with_new_rect(icon));
-        let at = pos2(area.left() + NAME[0], middle);
-        ui.painter().text(at, Align2::LEFT_CENTER, text, FontId::proportional(12.5), ink);
+        let arrow = if self.is_open { "\u{23f7}" } else { "\u{23f5}" };
+        let left = RichText::new(format!("{arrow} {text}")).size(12.5);
         let hover = "The changes that do not lower the loss significantly and by at least 10%";
+        let response = row(ui, left, String::new(), (text.to_owned(), false, true));
         if response.on_hover_text(hover).clicked() {
             next.settings.sections.toggle(WhySection::Hypotheses);
         }
@@ -91,12 +84,12 @@ fn first(findings: &[Finding]) -> Vec<&Finding> {
 }
 
 /// The change that the pane of the prediction can show.
-pub fn shown_change(finding: &Finding, prediction: &LoadedMaterial) -> Option<Change> {
+fn shown_change(finding: &Finding, prediction: &LoadedMaterial) -> Option<Change> {
     finding.change.filter(|change| change.fits(prediction.material().size()))
 }
 
 /// Shows the prediction after this change, or itself where it is `corrected` so.
-pub fn toggle(view: &mut ViewState, change: Option<Change>, corrected: Option<Change>) {
+fn toggle(view: &mut ViewState, change: Option<Change>, corrected: Option<Change>) {
     view.correct(change.filter(|change| corrected != Some(*change)));
 }
 
@@ -114,29 +107,37 @@ fn line(
     };
     let is_marked = finding.is_some_and(|finding| finding.marked);
     let mark = if is_marked { ", marked" } else { "" };
-    let row = Row { label: format!("{name} {value}: {share} of the loss{mark}"), selected: is_shown };
     let is_button = finding.is_some_and(|finding| finding.change.is_some_and(has_maps));
-    let (response, area) = row.ui(ui, is_button);
     let ink = if is_marked || is_shown { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
-    let (middle, painter) = (area.center().y, ui.painter());
+    let (left, right) = (RichText::new(name).size(12.5).color(ink), format!("{value} {share:>7}"));
+    let name = format!("{name} {value}: {share} of the loss{mark}");
+    let response = row(ui, left, right, (name, is_shown, is_button));
     if is_marked {
-        painter.circle_filled(pos2(area.left() + 7.0, middle), 3.5, theme::accent(ui.visuals()));
+        let dot = response.rect.left_center() + vec2(7.0, 0.0);
+        ui.painter().circle_filled(dot, 3.5, theme::accent(ui.visuals()));
     }
-    let at = pos2(area.left() + NAME[0], middle);
-    let end = NAME[1] + painter.text(at, Align2::LEFT_CENTER, name, FontId::proportional(12.5), ink).right();
-    let font = FontId::monospace(11.5);
-    let at = pos2(area.right() - SHARE, middle);
-    painter.text(at, Align2::RIGHT_CENTER, share, font.clone(), ink);
-    let width = area.right() - VALUE - end;
-    let galley = egui::WidgetText::from(RichText::new(value).font(font.clone()).color(ink)).into_galley(
-        ui,
-        Some(egui::TextWrapMode::Truncate),
-        width,
-        font,
-    );
-    let at = pos2(area.right() - VALUE - galley.size().x, middle - 0.5 * galley.size().y);
-    ui.painter().galley(at, galley, ink);
     response
+}
+
+/// A line with a text at either end, called `name`; a label where it is no button.
+fn row(
+    ui: &mut egui::Ui,
+    left: RichText,
+    right: String,
+    (name, is_selected, is_button): (String, bool, bool),
+) -> egui::Response {
+    let (sense, role) = match is_button {
+        true => (Sense::click(), egui::Role::Button),
+        false => (Sense::hover(), egui::Role::Label),
+    };
+    let row = ui.scope(|ui| {
+        (ui.spacing_mut().button_padding, ui.spacing_mut().interact_size.y) = (vec2(NAME, 0.0), ROW);
+        let right = RichText::new(right).monospace().size(11.5);
+        let button = egui::Button::selectable(is_selected, left).right_text(right).truncate().sense(sense);
+        ui.add(button.min_size(vec2(ui.available_width(), ROW)))
+    });
+    row.inner.widget_info(|| egui::WidgetInfo::selected(role, true, is_selected, &name));
+    row.inner
 }
 
 /// Whether the maps of the prediction change.
@@ -178,7 +179,7 @@ fn value(finding: &Finding) -> String {
     }
 }
 
-pub fn share(finding: &Finding) -> String {
+fn share(finding: &Finding) -> String {
     percent(finding.share)
 }
 
@@ -189,7 +190,7 @@ fn percent(share: f64) -> String {
 }
 
 /// The name of a hypothesis in the window.
-pub fn label(hypothesis: Hypothesis) -> &'static str {
+fn label(hypothesis: Hypothesis) -> &'static str {
     match hypothesis {
         Hypothesis::Exposure => "Exposure",
         Hypothesis::ExposureRgb => "Exposure, RGB",
@@ -207,37 +208,6 @@ pub fn label(hypothesis: Hypothesis) -> &'static str {
         Hypothesis::Channels => "Red and blue",
         Hypothesis::Energy => "Diffuse scaling",
         Hypothesis::GroundTruth => "Ground truth",
-    }
-}
-
-/// Height of a row, in points.
-const ROW: f32 = 17.0;
-
-/// A row, drawn without its text.
-#[derive(Debug)]
-pub struct Row {
-    /// What it is called.
-    pub label: String,
-    pub selected: bool,
-}
-
-impl Row {
-    /// The row with its area; a label where it is no button.
-    pub fn ui(self, ui: &mut egui::Ui, is_button: bool) -> (egui::Response, Rect) {
-        let sense = if is_button { Sense::click() } else { Sense::hover() };
-        let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), sense);
-        let role = if is_button { egui::Role::Button } else { egui::Role::Label };
-        response.widget_info(|| egui::WidgetInfo::selected(role, true, self.selected, &self.label));
-        let (visuals, painter) = (ui.visuals(), ui.painter());
-        if self.selected {
-            painter.rect_filled(area, 3.0, visuals.selection.bg_fill);
-        } else if is_button && response.hovered() {
-            painter.rect_filled(area, 3.0, visuals.widgets.hovered.weak_bg_fill);
-        }
-        if response.has_focus() {
-            painter.rect_stroke(area, 3.0, visuals.selection.stroke, egui::StrokeKind::Inside);
-        }
-        (response, area)
     }
 }
 

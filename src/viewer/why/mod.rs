@@ -62,7 +62,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
         let open = model.settings.sections.is_open(section);
         let header = egui::CollapsingHeader::new(RichText::new(title).strong()).open(Some(open));
         let header = header.show_unindented(ui, |ui| match section {
-            WhySection::Diagnosis | WhySection::Hypotheses => diagnosis::ui(ui, shown, &pairs, next),
+            WhySection::Diagnosis | WhySection::Hypotheses => diagnosis::ui(ui, shown, pair, next),
             WhySection::Maps => maps::ui(ui, shown, &pairs, next),
             WhySection::Scenes => scenes::ui(ui, shown, pair, textures, next),
             WhySection::Table(analysis) => {

@@ -42,7 +42,7 @@ pub fn ui(
     });
     let pictures = pictures.as_deref().map(|pictures| &pictures.answer);
     let texture =
-        pictures.map(|pictures| textures.id(ui.ctx(), &pictures.picture, egui::TextureOptions::LINEAR));
+        pictures.map(|pictures| textures.id(ui.ctx(), &pictures.atlas.picture, egui::TextureOptions::LINEAR));
     let list = list.as_deref().map(|list| list.answer.as_slice());
     thumbnails(ui, shown, list, count, pictures.zip(texture), next);
     let text = match (pictures, busy) {
@@ -74,7 +74,7 @@ fn thumbnails(
                 continue;
             };
             let part = thumbnails.and_then(|(thumbnails, texture)| {
-                let [least, greatest] = thumbnails.part(rank)?;
+                let ([least, greatest], _) = thumbnails.atlas.part(rank)?;
                 Some((texture, Rect::from_min_max(least.into(), greatest.into())))
             });
             if thumbnail(ui, ranked, rank, part, ranked.scene == shown.model.view.scene).clicked() {

@@ -1,6 +1,5 @@
 //! Contact sheet: the small materials in sight, rendered under the light and view of the window.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -13,7 +12,7 @@ use svbrdf_core::progress::Progress;
 use super::cells::{Cell, Reduced};
 use crate::error::Error;
 use crate::jobs::answers::{Answered, Answers, Question, Work};
-use crate::jobs::work::picture::Picture;
+use crate::jobs::work::picture::{Atlas, Picture};
 use crate::model::view::ViewState;
 
 /// A material in sight, and what was read of it.
@@ -41,18 +40,17 @@ impl PartialEq for DrawSheet {
 /// The pictures of all cells, in one.
 #[derive(Debug)]
 pub struct SheetPicture {
-    pub picture: Arc<Picture>,
-    parts: HashMap<Cell, [[usize; 2]; 2]>,
+    pub atlas: Atlas,
+    /// In their order.
+    cells: Vec<Cell>,
     /// The difference that has the last colour in all cells, where they show differences.
     pub range: Option<f64>,
 }
 
 impl SheetPicture {
-    /// The part that is the picture of a cell: least and greatest x and y, as shares of its sides; and its size in pixels.
+    /// As [`Atlas::part`], of a cell.
     pub fn part(&self, cell: Cell) -> Option<([[f32; 2]; 2], [usize; 2])> {
-        let [least, size] = self.parts.get(&cell)?;
-        let share = |at: [usize; 2]| [0, 1].map(|axis| at[axis] as f32 / self.picture.size[axis] as f32);
-        Some(([share(*least), share([least[0] + size[0], least[1] + size[1]])], *size))
+        self.atlas.part(self.cells.iter().position(|one| *one == cell)?)
     }
 }
 
@@ -104,8 +102,8 @@ impl Question for DrawSheet {
                 image.pixels.iter().map(|rgb| Picture::opaque(content.colour(*rgb, self.exposure_ev)));
             Some((*cell, Picture { size: [image.width, image.height], pixels: pixels.collect() }))
         };
-        let pictures: Vec<(Cell, Picture)> = all.par_iter().filter_map(colours).collect();
-        Ok(SheetPicture { range, ..together(&pictures) })
+        let (cells, pictures): (Vec<_>, Vec<_>) = all.par_iter().filter_map(colours).unzip();
+        Ok(SheetPicture { atlas: Atlas::new(&pictures), cells, range })
     }
 }
 
@@ -128,47 +126,5 @@ impl DrawSheet {
             all.push((Cell { case: *case, column }, pictures));
         }
         Ok(all)
-    }
-}
-
-/// All pictures in one, in cells of the size of the largest.
-fn together(pictures: &[(Cell, Picture)]) -> SheetPicture {
-    let side = |axis: usize| pictures.iter().map(|(_, one)| one.size[axis]).max().unwrap_or(1);
-    let columns = (pictures.len() as f64).sqrt().ceil().max(1.0) as usize;
-    let sides = [side(0), side(1)];
-    let size = [columns * sides[0], pictures.len().div_ceil(columns).max(1) * sides[1]];
-    let mut picture = Picture { size, pixels: vec![Picture::TRANSPARENT; size[0] * size[1]] };
-    let mut parts = HashMap::new();
-    for (index, (cell, one)) in pictures.iter().enumerate() {
-        let least = [index % columns * sides[0], index / columns * sides[1]];
-        for (row, line) in one.pixels.chunks(one.size[0].max(1)).enumerate() {
-            let start = (least[1] + row) * size[0] + least[0];
-            picture.pixels[start..start + line.len()].copy_from_slice(line);
-        }
-        parts.insert(*cell, [least, one.size]);
-    }
-    SheetPicture { picture: Arc::new(picture), parts, range: None }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_part_of_the_picture_is_that_of_its_cell() {
-        let cell = |case| Cell { case, column: 1 };
-        let one = |shade: u8, size: [usize; 2]| {
-            (cell(shade.into()), Picture { size, pixels: vec![[shade, 0, 0, 255]; size[0] * size[1]] })
-        };
-        let sheet = together(&[one(1, [3, 2]), one(2, [2, 3]), one(3, [3, 3]), one(4, [1, 1])]);
-        assert_eq!(sheet.picture.size, [6, 6]);
-        assert!(sheet.part(cell(5)).is_none());
-        for shade in 1..5 {
-            let ([least, most], size) = sheet.part(cell(shade.into())).unwrap();
-            let [first, last] = [least, most].map(|at| [0, 1].map(|axis| (at[axis] * 6.0).round() as usize));
-            assert_eq!([last[0] - first[0], last[1] - first[1]], size);
-            let shades = (first[1]..last[1]).flat_map(|y| (first[0]..last[0]).map(move |x| [x, y]));
-            assert!(shades.into_iter().all(|[x, y]| sheet.picture.pixels[y * 6 + x][0] == shade), "{shade}");
-        }
     }
 }

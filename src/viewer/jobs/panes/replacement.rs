@@ -93,7 +93,7 @@ impl Replacement {
             Self::Mixture { map, only_right: false } => mixed(truth, predicted, map)?,
             Self::Corrected(change) => change.applied(predicted, &prediction.storage)?,
         };
-        Ok(prediction.with_material(material.renamed(predicted.name())))
+        Ok(prediction.part(material.renamed(predicted.name())))
     }
 
     /// The name of the replacement of the prediction `name`.

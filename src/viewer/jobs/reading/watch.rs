@@ -23,10 +23,10 @@ pub const QUIET: Duration = Duration::from_secs(3);
 /// The files of each material, by its id, with their stamps when they were read.
 type Files = Vec<(MaterialId, Vec<(PathBuf, Option<Stamp>)>)>;
 
-/// Checks the files of all materials once a second.
+/// Checks the files of all materials once a second, on a thread that ends when this is dropped.
 #[derive(Debug, Default)]
 pub struct FileWatch {
-    watcher: Option<Watcher>,
+    thread: Option<(Sender<Files>, Job<(), MaterialId>)>,
     ids: Vec<MaterialId>,
 }
 
@@ -34,51 +34,32 @@ impl FileWatch {
     /// The indices of the materials whose files have changed since the last call.
     pub fn poll(&mut self, waker: &Waker, materials: &MaterialList) -> Vec<usize> {
         let ids: Vec<MaterialId> = materials.all.iter().map(LoadedMaterial::id).collect();
-        if self.watcher.is_none() || self.ids != ids {
-            let watcher = self.watcher.get_or_insert_with(|| Watcher::start(waker, INTERVAL));
-            watcher.watch(materials.all.iter().map(|one| (one.id(), one.read.files())).collect());
+        let (files, job) = self.thread.get_or_insert_with(|| watch(waker, INTERVAL));
+        if self.ids != ids {
+            // The thread ends only with this watch.
+            let _ = files.send(materials.all.iter().map(|one| (one.id(), one.read.files())).collect());
             self.ids = ids;
         }
-        let changes = self.watcher.iter().flat_map(Watcher::changes);
         let index = |id| materials.all.iter().position(|one| one.id() == id);
-        changes.filter_map(index).collect()
+        job.updates().into_iter().filter_map(index).collect()
     }
 }
 
-/// The thread that checks; it ends when this is dropped.
-#[derive(Debug)]
-struct Watcher {
-    files: Sender<Files>,
-    job: Job<(), MaterialId>,
-}
-
-impl Watcher {
-    fn start(waker: &Waker, interval: Duration) -> Self {
-        let (files, new_files) = mpsc::channel();
-        let job = Job::watch(waker, move |worker| {
-            let mut check = Check::default();
-            loop {
-                match new_files.recv_timeout(interval) {
-                    Ok(files) => check.files = files,
-                    Err(RecvTimeoutError::Timeout) => {}
-                    Err(RecvTimeoutError::Disconnected) => return Ok(()),
-                }
-                check.changes().into_iter().try_for_each(|change| worker.report(change))?;
+/// Starts to watch the files that are sent, in place of the earlier ones.
+fn watch(waker: &Waker, interval: Duration) -> (Sender<Files>, Job<(), MaterialId>) {
+    let (files, new_files) = mpsc::channel();
+    let job = Job::watch(waker, move |worker| {
+        let mut check = Check::default();
+        loop {
+            match new_files.recv_timeout(interval) {
+                Ok(files) => check.files = files,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return Ok(()),
             }
-        });
-        Self { files, job }
-    }
-
-    /// Watches these files in place of the earlier ones.
-    fn watch(&self, files: Files) {
-        // The thread ends only with this watcher.
-        let _ = self.files.send(files);
-    }
-
-    /// The materials whose files have changed since the last call.
-    fn changes(&self) -> Vec<MaterialId> {
-        self.job.updates()
-    }
+            check.changes().into_iter().try_for_each(|change| worker.report(change))?;
+        }
+    });
+    (files, job)
 }
 
 /// The watched files, and the changes that have been reported.
@@ -180,14 +161,14 @@ mod tests {
         let waker = Waker::new(move |_| {
             counted.fetch_add(1, Ordering::SeqCst);
         });
-        let watcher = Watcher::start(&waker, Duration::from_millis(1));
-        watcher.watch(files);
+        let (sender, job) = watch(&waker, Duration::from_millis(1));
+        sender.send(files).unwrap();
         std::thread::sleep(Duration::from_millis(50));
-        assert_eq!((repaints.load(Ordering::SeqCst), watcher.changes()), (0, vec![]));
+        assert_eq!((repaints.load(Ordering::SeqCst), job.updates()), (0, vec![]));
         set_time(&path, 2000);
         let mut stale = Vec::new();
         for _ in 0..2000 {
-            stale.extend(watcher.changes());
+            stale.extend(job.updates());
             if !stale.is_empty() && repaints.load(Ordering::SeqCst) > 0 {
                 break;
             }

@@ -232,19 +232,17 @@ impl Question for Analyse {
     }
 }
 
-/// The floor and the diagnosis of a pair; the `later` ones are asked for after all others of the frame.
+/// The floor and the diagnosis of a pair.
 pub fn diagnosis(
     answers: &Answers,
     pair: &ComparedPair,
     seed: u64,
-    later: bool,
 ) -> (Option<Arc<Answered<Estimate>>>, Answer<Diagnosis>) {
     let floor = match answers.get(&Floor::of(pair, seed)) {
         Answer::Running(fraction, elapsed) => return (None, Answer::Running(fraction, elapsed)),
         floor => floor.ready(),
     };
-    let question = Diagnose::of(pair, seed, floor.as_deref());
-    let found = if later { answers.get_later(&question) } else { answers.get(&question) };
+    let found = answers.get(&Diagnose::of(pair, seed, floor.as_deref()));
     (floor, found)
 }
 

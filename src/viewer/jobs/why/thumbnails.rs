@@ -1,7 +1,5 @@
 //! Thumbnails: small pictures of the log difference in the worst scenes, all in one picture.
 
-use std::sync::Arc;
-
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::Convention;
@@ -13,12 +11,10 @@ use svbrdf_core::render;
 use svbrdf_core::statistics::quantile;
 
 use crate::error::Error;
-use crate::jobs::work::picture::Picture;
+use crate::jobs::work::picture::{Atlas, Picture};
 
 /// Side of a thumbnail, in pixels.
 pub const SIDE: usize = 48;
-/// Thumbnails in a row of the texture.
-const COLUMNS: usize = 16;
 /// Scenes that have a thumbnail.
 pub const MOST: usize = 96;
 /// Texels along a side from which on every n-th texel is rendered.
@@ -29,22 +25,11 @@ const RANGE: f64 = 0.99;
 /// Thumbnails of the worst scenes.
 #[derive(Debug)]
 pub struct Thumbnails {
-    pub picture: Arc<Picture>,
-    count: usize,
+    pub atlas: Atlas,
     /// The log difference that has the last colour, the same in all.
     pub range: f64,
     /// Of each scene, row by row: the means of the log differences under a pixel.
     pub pixels: Vec<Vec<f32>>,
-}
-
-impl Thumbnails {
-    /// The part of the picture that is the thumbnail of the scene of this rank: least and greatest x and y, as shares of its sides.
-    pub fn part(&self, rank: usize) -> Option<[[f32; 2]; 2]> {
-        let rows = self.count.div_ceil(COLUMNS);
-        let size = [1.0 / COLUMNS as f32, 1.0 / rows as f32];
-        let least = [(rank % COLUMNS) as f32 * size[0], (rank / COLUMNS) as f32 * size[1]];
-        (rank < self.count).then_some([least, [least[0] + size[0], least[1] + size[1]]])
-    }
 }
 
 /// Renders the thumbnails of `scenes`, one step of `progress` each. The ground truth is the first of the materials.
@@ -67,8 +52,11 @@ pub fn make(
     }
     let mut all: Vec<f32> = pixels.iter().flatten().copied().collect();
     let range = quantile(&mut all, RANGE).filter(|range| *range > 0.0).unwrap_or(1.0) as f32;
-    let picture = Arc::new(atlas(&pixels, range));
-    Ok(Thumbnails { picture, count: pixels.len(), range: f64::from(range), pixels })
+    let colour = |value: &f32| Picture::opaque(difference_to_display(*value, range, false));
+    let picture =
+        |values: &Vec<f32>| Picture { size: [SIDE; 2], pixels: values.iter().map(colour).collect() };
+    let atlas = Atlas::new(&pixels.iter().map(picture).collect::<Vec<_>>());
+    Ok(Thumbnails { atlas, range: f64::from(range), pixels })
 }
 
 /// The mean over RGB of the log difference of every texel.
@@ -115,20 +103,6 @@ fn averaged(values: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
         rows.map(|row| values[row * width..][columns.clone()].iter().sum::<f32>()).sum::<f32>() / count
     };
     (0..SIDE * SIDE).map(pixel).collect()
-}
-
-fn atlas(pixels: &[Vec<f32>], range: f32) -> Picture {
-    let rows = pixels.len().div_ceil(COLUMNS).max(1);
-    let size = [COLUMNS * SIDE, rows * SIDE];
-    let mut picture = Picture { size, pixels: vec![Picture::TRANSPARENT; size[0] * size[1]] };
-    for (index, values) in pixels.iter().enumerate() {
-        let [left, top] = [index % COLUMNS * SIDE, index / COLUMNS * SIDE];
-        for (at, value) in values.iter().enumerate() {
-            let colour = difference_to_display(*value, range, false);
-            picture.pixels[(top + at / SIDE) * COLUMNS * SIDE + left + at % SIDE] = Picture::opaque(colour);
-        }
-    }
-    picture
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Panics as errors: the message and the location of a panic become an internal [`Error`].
 
 use std::any::Any;
-use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, PanicHookInfo};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -13,11 +12,6 @@ use crate::error::Error;
 static LATEST: Mutex<Option<String>> = Mutex::new(None);
 /// Whether panics are written to standard error, too.
 static ARE_PRINTED: AtomicBool = AtomicBool::new(true);
-
-thread_local! {
-    /// The latest panic of this thread.
-    static OWN: RefCell<Option<String>> = const { RefCell::new(None) };
-}
 
 /// Whether panics from now on are written to standard error, too. The window reports them itself.
 pub fn print(on: bool) {
@@ -31,7 +25,6 @@ pub fn print(on: bool) {
 /// Those of the work, and an internal one.
 pub fn caught<T>(work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     record();
-    OWN.with(|own| own.borrow_mut().take());
     std::panic::catch_unwind(AssertUnwindSafe(work))
         .unwrap_or_else(|payload| Err(Error::internal(report(payload.as_ref()))))
 }
@@ -43,7 +36,6 @@ fn record() {
         let earlier = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
             let text = text(info);
-            OWN.with(|own| *own.borrow_mut() = Some(text.clone()));
             *LATEST.lock().unwrap_or_else(PoisonError::into_inner) = Some(text);
             if ARE_PRINTED.load(Ordering::Relaxed) {
                 earlier(info);
@@ -54,9 +46,8 @@ fn record() {
 
 /// The message and the location of the panic that has been caught.
 fn report(payload: &(dyn Any + Send)) -> String {
-    let own = OWN.with(|own| own.borrow_mut().take());
-    let any = || LATEST.lock().unwrap_or_else(PoisonError::into_inner).take();
-    own.or_else(any).unwrap_or_else(|| message(payload).to_owned())
+    let latest = LATEST.lock().unwrap_or_else(PoisonError::into_inner).take();
+    latest.unwrap_or_else(|| message(payload).to_owned())
 }
 
 fn text(info: &PanicHookInfo<'_>) -> String {

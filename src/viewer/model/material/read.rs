@@ -69,25 +69,11 @@ impl ReadMaterial {
         self.record.files.iter().cloned().zip(self.stamps.iter().copied()).collect()
     }
 
-    /// The part of it, or it in another size, that is compared; it is read from the same files.
+    /// The part of it, or a change of it, that is compared; it is read from the same files.
     pub fn part(&self, material: Material<f32>) -> Self {
         let record = Read { material, ..self.record.clone() };
         let (source, storage, stamps) = (self.source.clone(), self.storage.clone(), self.stamps.clone());
         Self { id: MaterialId::new(&[]), source, record, storage, stamps }
-    }
-
-    /// This material with other maps, which no file holds.
-    pub fn with_material(&self, material: Material<f32>) -> Self {
-        let record = Read {
-            material,
-            assumptions: Vec::new(),
-            notes: Vec::new(),
-            maps: Vec::new(),
-            files: Vec::new(),
-            ..self.record.clone()
-        };
-        let (source, storage) = (self.source.clone(), self.storage.clone());
-        Self { id: MaterialId::new(&[]), source, record, storage, stamps: Vec::new() }
     }
 
     /// What it takes to open it again.
