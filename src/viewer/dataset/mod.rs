@@ -20,7 +20,7 @@ use crate::model::Model;
 use crate::model::material::loaded::drawable;
 use crate::widgets::numbers::significant;
 use crate::widgets::paint::PanelTextures;
-use crate::widgets::{bare, report_table};
+use crate::widgets::{bare, copy_table, report_table};
 
 /// The list and the sheet between frames.
 #[derive(Debug, Default)]
@@ -149,9 +149,7 @@ pub fn summary(ui: &mut egui::Ui, displayed: Displayed<'_>, next: &mut Model) {
         ui.add(bar.text(format!("losses of {known} of {all} materials")));
     }
     ui.horizontal(|ui| {
-        if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
-            ui.copy_text(report.text());
-        }
+        copy_table(ui, || report.text());
         if ui.small_button("LaTeX").on_hover_text("Copies the table for a paper").clicked() {
             ui.copy_text(report.latex());
         }

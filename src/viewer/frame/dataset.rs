@@ -7,6 +7,7 @@ use svbrdf_evaluate::dataset::{DatasetReading, Method, Source, decided};
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 
 use crate::frame::layout::Parts;
+use crate::jobs::Edit;
 use crate::jobs::answers::Answered;
 use crate::jobs::dataset::cases::ReadCase;
 use crate::jobs::work::job::Job;
@@ -15,21 +16,22 @@ use crate::model::dataset::{DatasetState, OpenDataset, TARGET_ERROR};
 
 /// Matches the materials of these folders, or of one table.
 pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
-    parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |progress| {
+    let job = Job::start(&parts.jobs.waker, move |progress| {
         let mut paths = paths.into_iter();
         let first = paths.next().unwrap_or_default();
         let methods: Vec<_> = paths.map(|path| (None, path)).collect();
         let source = if methods.is_empty() { Source::Table(first) } else { Source::folders(first, methods) };
         let mut open = OpenDataset::new(source, DatasetReading::default(), (TARGET_ERROR, 0), None)?;
         open.reading = decided(&open.cases, open.reading, progress)?;
-        Ok(DatasetState::of(Arc::new(open), 0, Default::default()))
-    }));
+        Ok(opened(DatasetState::of(Arc::new(open), 0, Default::default())))
+    });
+    parts.jobs.edits.insert("dataset", job);
 }
 
 /// Matches the materials of a session; `results` is a folder that a person named.
 pub(super) fn restore(parts: &mut Parts, session: SessionDataset, results: Option<PathBuf>) {
     let strict = parts.model.materials.rules.strict;
-    parts.jobs.dataset.opening = Some(Job::start(&parts.jobs.waker, move |_| {
+    let job = Job::start(&parts.jobs.waker, move |_| {
         let SessionDataset { ground_truths, methods, predictions, shown, list, marks, .. } = session;
         // Another version may have had other terms.
         let list = serde_json::from_value(list).unwrap_or_default();
@@ -53,8 +55,17 @@ pub(super) fn restore(parts: &mut Parts, session: SessionDataset, results: Optio
         let mut open = OpenDataset::new(source, reading, (session.target_error, session.seed), results)?;
         open.settings.diagnose = session.diagnose;
         let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
-        Ok(DatasetState { list, ..DatasetState::of(Arc::new(open), wanted, marks) })
-    }));
+        Ok(opened(DatasetState { list, ..DatasetState::of(Arc::new(open), wanted, marks) }))
+    });
+    parts.jobs.edits.insert("dataset", job);
+}
+
+/// The edit that takes over a data set that has been matched.
+fn opened(state: DatasetState) -> Edit {
+    Edit::new(|model| {
+        model.dialogs.open = None;
+        model.open_dataset(state);
+    })
 }
 
 /// Reads a material and its losses again.
@@ -69,19 +80,6 @@ pub(super) fn read_again(parts: &mut Parts, case: usize) {
     jobs.losses.forget(case);
 }
 
-/// Takes over a data set that has been matched.
-pub(super) fn take(parts: &mut Parts) {
-    let Some(result) = parts.jobs.dataset.opening.as_ref().and_then(Job::poll) else { return };
-    parts.jobs.dataset.opening = None;
-    match result {
-        Ok(state) => {
-            parts.model.dialogs.open = None;
-            parts.model.open_dataset(state);
-        }
-        Err(error) => parts.model.not_opened(error),
-    }
-}
-
 /// Puts the material that was asked for into the window, once it has been read: all of it in one frame, so that nothing of one material
 /// is seen beside something of another.
 pub(super) fn show(parts: &mut Parts) {
@@ -90,6 +88,6 @@ pub(super) fn show(parts: &mut Parts) {
     let is_wanted =
         |read: &&Arc<Answered<ReadCase>>| read.case == dataset.wanted && read.pinned == dataset.pinned();
     let Some(read) = parts.jobs.dataset.cases.iter().find(is_wanted).cloned() else { return };
-    read.uploads.iter().for_each(|(id, uploaded)| parts.jobs.uploads.add(*id, Some(uploaded.clone())));
+    parts.jobs.uploads.extend(read.uploads.iter().cloned());
     case::show(&mut parts.model, &open, read.case, &read.materials, read.missing.clone());
 }

@@ -2,11 +2,8 @@
 
 use eframe::egui;
 
-use crate::error::Error;
 use crate::frame::dataset;
 use crate::frame::layout::Parts;
-use crate::jobs::browse::Browsed;
-use crate::model::dialogs::Dialogs;
 use crate::model::material::problem::MaterialProblem;
 use crate::model::message::Message;
 
@@ -16,13 +13,11 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
         ctx.request_repaint_after_secs(seconds as f32);
     }
     take_materials(parts);
-    dataset::take(parts);
+    take_edits(parts);
     dataset::show(parts);
     let fault = parts.gpu.as_ref().and_then(|gpu| gpu.gpu.take_fault());
     parts.model.report(fault.map(|fault| Message::Failed(fault.into())));
     take_saved(parts);
-    take_browsed(parts);
-    take_scene_file(parts);
     follow_files(parts);
 }
 
@@ -94,45 +89,15 @@ fn take_saved(parts: &mut Parts) {
     }
 }
 
-fn take_scene_file(parts: &mut Parts) {
-    let Some(result) = parts.jobs.scene_file.as_ref().and_then(|job| job.poll()) else { return };
-    parts.jobs.scene_file = None;
-    match result {
-        Ok(file) => {
-            parts.model.dialogs.open = None;
-            parts.model.use_scenes(file);
+/// Takes over edits whose work has ended.
+fn take_edits(parts: &mut Parts) {
+    let Parts { model, jobs, .. } = parts;
+    jobs.edits.retain(|_, job| {
+        let Some(result) = job.poll() else { return true };
+        match result {
+            Ok(edit) => edit.0(model),
+            Err(error) => model.not_opened(error),
         }
-        Err(error) => parts.model.not_opened(error),
-    }
-}
-
-fn take_browsed(parts: &mut Parts) {
-    let Some(result) = parts.jobs.browsing.as_ref().and_then(|job| job.poll()) else { return };
-    parts.jobs.browsing = None;
-    browsed(&mut parts.model.dialogs, result);
-}
-
-/// What to do without a file dialog.
-const NO_DIALOG: &str = "This system has no file dialog: install zenity or a desktop portal. Type a path here, or drop files \
-                         on the window.";
-
-/// Takes over what was chosen in the dialog of the system: the save dialog where it is open, otherwise the open dialog.
-fn browsed(dialogs: &mut Dialogs, result: Result<Browsed, Error>) {
-    let chosen = match result {
-        Ok(Browsed::Chosen(paths)) => Ok(paths),
-        Ok(Browsed::Cancelled) => Ok(Vec::new()),
-        Ok(Browsed::Unavailable) => Err(NO_DIALOG.to_owned()),
-        Err(error) => Err(error.to_string()),
-    };
-    if let Some(dialog) = &mut dialogs.save {
-        return match chosen {
-            Ok(paths) => paths.first().into_iter().for_each(|path| dialog.fill(path)),
-            Err(problem) => dialog.field.fail(problem),
-        };
-    }
-    let dialog = dialogs.open.get_or_insert_default();
-    match chosen {
-        Ok(paths) => paths.iter().for_each(|path| dialog.add(path)),
-        Err(problem) => dialog.fail(problem),
-    }
+        false
+    });
 }

@@ -93,10 +93,11 @@ impl WindowUi {
             area
         } else {
             content::ui(ui, shown, next, &mut self.viewport, gpu);
+            let panes = self.viewport.area.unwrap_or(area);
             if !model.inspection.pins.is_empty() && model.materials.ground_truth().is_some() {
-                inspection::drawer(ui, self.viewport.area, shown, next);
+                inspection::drawer(ui, panes, shown, next);
             }
-            self.viewport.area
+            panes
         };
         messages::ui(ui.ctx(), panes, &model.messages, next);
         if model.help {

@@ -187,11 +187,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_restart_opens_its_files_as_sessions() {
-        assert!(SESSIONS.iter().all(|name| Session::is_named(Path::new(name))));
-    }
-
-    #[test]
     fn hardware_that_is_gone_for_a_while_is_found_once_it_is_there() {
         let (found, looks) = (Arc::new(AtomicBool::new(false)), std::sync::atomic::AtomicU32::new(0));
         let (woken, wakes) = std::sync::mpsc::channel();

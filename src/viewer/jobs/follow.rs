@@ -23,7 +23,7 @@ impl Jobs {
         let Self { waker, answers, gpu, uploads, openings, panes, dataset, .. } = self;
         let error = dataset.follow((waker, answers), gpu.as_ref(), model, in_sight);
         let is_here = |id| model.materials.all.iter().chain(&panes.displayed).any(|one| one.id() == id);
-        uploads.keep_only(|id| is_here(id) || openings.hold(id) || dataset.hold(id));
+        uploads.retain(|id, _| is_here(*id) || openings.hold(*id) || dataset.hold(*id));
         error
     }
 

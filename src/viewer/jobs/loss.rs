@@ -26,9 +26,6 @@ pub struct ComputeLosses {
     convention: Convention,
 }
 
-/// Losses, complete or so far, or why there are none.
-pub type LossAnswer = Result<ComputedLosses, String>;
-
 /// Losses, complete or so far.
 #[derive(Debug)]
 pub struct ComputedLosses {
@@ -50,9 +47,15 @@ impl ComputeLosses {
             convention: model.view.convention(),
         }
     }
+}
 
-    /// Computes the losses, and tells of those on the way.
-    fn run(&self, work: &Work<'_, LossAnswer>) -> Result<ComputedLosses, Error> {
+impl Question for ComputeLosses {
+    type Answer = ComputedLosses;
+    const KEPT: usize = 8;
+    const HAS_MESSAGE: bool = false;
+
+    /// Tells of the losses on the way.
+    fn answer(&self, work: &Work<'_, ComputedLosses>) -> Result<ComputedLosses, Error> {
         let named = self.names.0.iter().zip(read_all(&self.materials)?);
         let materials: Vec<Material<f32>> =
             named.map(|(name, read)| read.material().clone().renamed(name.clone())).collect();
@@ -64,23 +67,10 @@ impl ComputeLosses {
         };
         let mut last = None;
         comparison.stream(&self.request, work.progress(), |outcome: &Outcome| {
-            work.tell(Ok(report(outcome.clone())));
+            work.tell(report(outcome.clone()));
             last = Some(outcome.clone());
         })?;
         last.map(report).ok_or_else(|| Error::internal("there are no losses"))
-    }
-}
-
-impl Question for ComputeLosses {
-    type Answer = LossAnswer;
-    const KEPT: usize = 8;
-
-    fn answer(&self, work: &Work<'_, LossAnswer>) -> Result<LossAnswer, Error> {
-        match self.run(work) {
-            Err(error) if error.is_cancelled() => Err(error),
-            // It is told in the panel, and not in a message.
-            answer => Ok(answer.map_err(|error| error.to_string())),
-        }
     }
 }
 
@@ -88,10 +78,12 @@ impl Question for ComputeLosses {
 #[derive(Debug, Default)]
 pub struct DrawnLosses {
     /// Those of now, or the latest ones of these materials.
-    latest: Option<Arc<Answered<LossAnswer>>>,
+    latest: Option<Arc<Answered<ComputedLosses>>>,
     /// Whether they are those of now.
     pub is_current: bool,
     pub is_cancelled: bool,
+    /// Why there are none.
+    pub problem: Option<Arc<str>>,
     /// The share of the work that is done, and its time.
     busy: Option<(f32, Duration)>,
 }
@@ -105,21 +97,21 @@ impl DrawnLosses {
         let wanted = ComputeLosses::of(model);
         let answer = answers.get(&wanted);
         let (busy, is_cancelled) = (answer.busy(), matches!(answer, Answer::Stopped(_)));
-        let of_now = match answer {
-            Answer::Ready(found) | Answer::Partial(found, ..) => Some(found),
-            Answer::Stopped(found) => found,
-            Answer::Running(..) | Answer::Failed(_) => None,
+        let (of_now, problem) = match answer {
+            Answer::Ready(found) | Answer::Partial(found, ..) => (Some(found), None),
+            Answer::Stopped(found) => (found, None),
+            Answer::Running(..) => (None, None),
+            Answer::Failed(problem) => (None, Some(problem)),
         };
         let is_current = of_now.is_some();
         let is_like = |one: &ComputeLosses| one.materials == wanted.materials;
         let latest = of_now.or_else(|| answers.latest(is_like).map(|(_, found)| found));
-        Self { latest, is_current, is_cancelled, busy }
+        Self { latest, is_current, is_cancelled, problem, busy }
     }
 
     /// The losses, and the time that they took.
     pub fn losses(&self) -> Option<(&ComputedLosses, Duration)> {
-        let answered = self.latest.as_ref()?;
-        Some((answered.answer.as_ref().ok()?, answered.elapsed))
+        self.latest.as_ref().map(|answered| (&answered.answer, answered.elapsed))
     }
 
     /// Whether the losses are all that is asked for.
@@ -127,7 +119,6 @@ impl DrawnLosses {
         self.is_current && !self.is_cancelled && self.busy.is_none()
     }
 
-    /// The losses, where they are complete.
     pub fn complete(&self) -> Option<&[Loss]> {
         let (losses, _) = self.losses().filter(|_| self.is_complete())?;
         Some(losses.report.outcome.losses.as_slice())
@@ -149,11 +140,6 @@ impl DrawnLosses {
     /// Whether the losses of now are asked for, and not there yet.
     pub fn is_starting(&self) -> bool {
         self.busy.is_some() && !self.is_current
-    }
-
-    /// Why there are no losses.
-    pub fn problem(&self) -> Option<&str> {
-        self.latest.as_ref()?.answer.as_ref().err().filter(|_| self.is_current).map(String::as_str)
     }
 }
 

@@ -16,18 +16,16 @@ pub mod saving;
 pub mod why;
 pub mod work;
 
+use std::collections::HashMap;
+use std::fmt;
 use std::path::PathBuf;
 
-use svbrdf_core::loss::FileScenes;
-use svbrdf_files::scene_file;
 use svbrdf_gpu::Gpu;
 
-use crate::error::Error;
 use crate::model::Model;
 use crate::model::material::request::{ReadRequest, Target};
 
 use answers::Answers;
-use browse::Browsed;
 use dataset::DatasetJobs;
 use loss::DrawnLosses;
 use panes::Panes;
@@ -37,6 +35,21 @@ use reading::upload::Uploads;
 use reading::watch::FileWatch;
 use work::job::Job;
 use work::waker::Waker;
+
+/// An edit of the model.
+pub struct Edit(pub Box<dyn FnOnce(&mut Model) + Send>);
+
+impl Edit {
+    pub fn new(edit: impl FnOnce(&mut Model) + Send + 'static) -> Self {
+        Self(Box::new(edit))
+    }
+}
+
+impl fmt::Debug for Edit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Edit")
+    }
+}
 
 /// All background work of the window.
 #[derive(Debug, Default)]
@@ -51,10 +64,9 @@ pub struct Jobs {
     pub loss: DrawnLosses,
     pub panes: Panes,
     pub dataset: DatasetJobs,
-    pub browsing: Option<Job<Browsed>>,
+    /// Work that ends in an edit of the model, one of a kind at a time.
+    pub edits: HashMap<&'static str, Job<Edit>>,
     pub saving: Option<Job<PathBuf>>,
-    /// The scene file that is being read.
-    pub scene_file: Option<Job<FileScenes>>,
 }
 
 impl Jobs {
@@ -69,13 +81,5 @@ impl Jobs {
         let size = model.materials.size_for(&request.target);
         let reader = MaterialReader { rules: model.materials.rules, size, retries };
         self.openings.start(&self.waker, self.gpu.as_ref(), request, reader)
-    }
-
-    /// Reads the scenes of a file.
-    pub fn read_scenes(&mut self, paths: Vec<PathBuf>) {
-        self.scene_file = Some(Job::start(&self.waker, move |_| {
-            let read = scene_file::read_one(&paths)?;
-            read.ok_or_else(|| Error::internal("there is no scene file"))
-        }));
     }
 }

@@ -16,9 +16,6 @@ use crate::model::dataset::OpenDataset;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::ViewState;
 
-/// The report, or why there is none.
-pub type OrderAnswer = Result<RobustReport, String>;
-
 /// Whether the order of the predictions survives. The ground truth is the first of the materials, each with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictionOrder {
@@ -39,9 +36,10 @@ impl PredictionOrder {
 }
 
 impl Question for PredictionOrder {
-    type Answer = OrderAnswer;
+    type Answer = RobustReport;
+    const HAS_MESSAGE: bool = false;
 
-    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<OrderAnswer, Error> {
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<RobustReport, Error> {
         let read: Vec<_> = self.materials.iter().map(|(one, _)| one.read()).collect::<Result<_, _>>()?;
         let names: Vec<String> = self.materials.iter().map(|(_, name)| name.clone()).collect();
         let [ground_truth, predictions @ ..] = read.as_slice() else {
@@ -53,9 +51,7 @@ impl Question for PredictionOrder {
             .and_then(|one| answers(&one, (self.target_percent / 100.0, self.seed), work.progress()));
         let compared = Compared::new(ground_truth.material(), &self.convention);
         let compared = Compared { ground_truth: names[0].clone(), ..compared };
-        told(found.map_err(Error::from)).map(|answers| {
-            answers.map(|answers| RobustReport::of_answers(compared, Vec::new(), &names[1..], &answers))
-        })
+        Ok(RobustReport::of_answers(compared, Vec::new(), &names[1..], &found?))
     }
 }
 
@@ -78,20 +74,13 @@ impl PartialEq for MethodOrder {
 }
 
 impl Question for MethodOrder {
-    type Answer = OrderAnswer;
+    type Answer = RobustReport;
+    const HAS_MESSAGE: bool = false;
 
-    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<OrderAnswer, Error> {
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<RobustReport, Error> {
         // Threads of its own, as for the losses.
         let pool = priority::background_pool().map_err(|error| Error::internal(error.to_string()))?;
         let (cases, reading, progress) = (&self.open.cases, &self.open.reading, work.progress());
-        told(pool.install(|| Ok(dataset::robust(cases, &self.settings, reading, |_| (), progress)?)))
-    }
-}
-
-/// What is told where the answer is drawn, and not in a message.
-fn told<T>(answer: Result<T, Error>) -> Result<Result<T, String>, Error> {
-    match answer {
-        Err(error) if error.is_cancelled() => Err(error),
-        answer => Ok(answer.map_err(|error| error.to_string())),
+        pool.install(|| Ok(dataset::robust(cases, &self.settings, reading, |_| (), progress)?))
     }
 }

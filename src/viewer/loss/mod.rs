@@ -92,8 +92,8 @@ fn state(ui: &mut egui::Ui, job: &DrawnLosses, is_stale: bool) {
         progress(ui, fraction, text);
         return;
     }
-    if let Some(problem) = job.problem() {
-        ui.label(RichText::new(problem).small().color(theme::problem(ui.visuals())));
+    if let Some(problem) = &job.problem {
+        ui.label(RichText::new(&**problem).small().color(theme::problem(ui.visuals())));
         return;
     }
     let text = match job.losses() {

@@ -6,27 +6,15 @@ use svbrdf_evaluate::report::{Reader, Report as _};
 use svbrdf_evaluate::robust::RobustReport;
 
 use crate::jobs::answers::Answer;
-use crate::jobs::order::OrderAnswer;
 use crate::model::material::loaded::drawable;
-use crate::widgets::{progress, report_table, theme};
+use crate::widgets::{answered, copy_table, report_table};
 
 /// The fold, which is unfolded where it `asks`, with the answer to `ask`.
-pub fn fold(ui: &mut egui::Ui, asks: &mut bool, ask: impl FnOnce() -> Answer<OrderAnswer>) {
+pub fn fold(ui: &mut egui::Ui, asks: &mut bool, ask: impl FnOnce() -> Answer<RobustReport>) {
     ui.add_space(4.0);
     let title = RichText::new("Does the order survive?").strong();
     let header = egui::CollapsingHeader::new(title).open(Some(*asks));
-    let header = header.show_unindented(ui, |ui| match ask() {
-        Answer::Partial(_, fraction, elapsed) | Answer::Running(fraction, elapsed) => {
-            progress(ui, fraction, format!("{} s", elapsed.as_secs()));
-        }
-        Answer::Ready(found) => match &found.answer {
-            Ok(report) => answer(ui, report),
-            Err(problem) => {
-                ui.label(RichText::new(drawable(problem)).small().color(theme::problem(ui.visuals())));
-            }
-        },
-        Answer::Stopped(_) | Answer::Failed(_) => {}
-    });
+    let header = header.show_unindented(ui, |ui| answered(ui, ask(), answer));
     let hover = "The order under other conventions, epsilons and scenes, as `svbrdf rank --robust` prints it";
     *asks ^= header.header_response.on_hover_text(hover).clicked();
 }
@@ -37,8 +25,6 @@ fn answer(ui: &mut egui::Ui, report: &RobustReport) {
     for change in report.changes() {
         ui.label(RichText::new(drawable(&change)).small().weak());
     }
-    if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
-        ui.copy_text(report.text());
-    }
+    copy_table(ui, || report.text());
     report_table(ui, &report.table(Reader::Person));
 }

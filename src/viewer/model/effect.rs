@@ -10,10 +10,8 @@ use crate::model::material::request::ReadRequest;
 /// What happens outside of the model: files, dialogs of the system, the clipboard, work that a person starts or cancels.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Reads materials.
+    /// Reads materials; a dialog that has asked for them stays open until they are there.
     Read(ReadRequest),
-    /// Reads the materials that the open dialog has asked for, which stays open until they are there.
-    ReadForDialog(ReadRequest),
     /// Cancels the opening of this number.
     CancelReading(u64),
     /// Reads scene files.

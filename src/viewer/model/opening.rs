@@ -52,7 +52,7 @@ pub fn open(model: &mut Model, mut paths: Vec<PathBuf>, replace: bool, read: Rea
     let target = if replace { Target::Everything } else { Target::Predictions };
     let material = |path: &PathBuf| MaterialSource::path(path.clone(), read);
     let sources = paths.iter().map(material).collect();
-    model.effects.push(Effect::ReadForDialog(ReadRequest::new(sources, target)));
+    model.effects.push(Effect::Read(ReadRequest::new(sources, target)));
 }
 
 /// Renders and compares by the convention of a file.

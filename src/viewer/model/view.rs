@@ -100,7 +100,6 @@ impl ViewState {
         (self.display.isolated, self.display.corrected) = (None, change);
     }
 
-    /// Shows the error map.
     pub fn show_error_map(&mut self) {
         (self.display.quantity, self.display.difference) = (Quantity::Rendering, true);
         self.display.differences.choose_error_map();

@@ -51,7 +51,7 @@ mod tests {
             let mut policy = DraftPolicy::default();
             assert!(!policy.moves(still, 0.0) && !policy.moves(still, 1.0));
             assert!(policy.moves(next, 2.0) && policy.moves(next, 2.1), "it may go on");
-            assert!(!policy.moves(next, 2.0 + PAUSE), "at rest");
+            assert!(!policy.moves(next, 2.11 + PAUSE), "at rest");
         }
     }
 }

@@ -39,7 +39,6 @@ enum ShadingError {
 /// The texels of a pane, or those that they are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PaneTexels {
-    /// The shaded material of this id.
     Shaded(MaterialId),
     /// The differences given for the material of this id.
     Differences(MaterialId),
@@ -150,7 +149,7 @@ impl GpuView {
     ) -> Result<bool, ShadingError> {
         let uploads: Vec<&Arc<Uploaded>> = materials
             .iter()
-            .map(|one| uploads.get(one.id()).ok_or(ShadingError::NotThere(SENDING.to_owned())))
+            .map(|one| uploads.get(&one.id()).ok_or(ShadingError::NotThere(SENDING.to_owned())))
             .collect::<Result<_, _>>()?;
         // A pane compares texels of one size: all materials are shown in full, or none.
         let strides = uploads.iter().filter_map(|one| one.sent.as_ref()).map(|sent| sent.stride);

@@ -45,7 +45,6 @@ pub struct LegendStrip<'a> {
 }
 
 impl<'a> LegendStrip<'a> {
-    /// The legend for what is displayed.
     pub fn new(shown: Displayed<'a>) -> Self {
         let view = &shown.model.view;
         let materials = shown.materials();

@@ -35,7 +35,6 @@ impl Placed {
         self.camera.ndc_from_point(Vec3::new(x, y, 0.0)).map(|ndc| pos_from_ndc(self.rect, ndc))
     }
 
-    /// The outline of a region.
     pub fn outline(&self, region: Region) -> Option<Vec<Pos2>> {
         let [[left, top], [right, bottom]] = region.edges();
         [[left, top], [right, top], [right, bottom], [left, bottom]]

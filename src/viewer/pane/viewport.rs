@@ -36,7 +36,7 @@ const HANDLES: f32 = 120.0;
 pub const STRIP: f32 = 92.0;
 
 /// The state of the panes between frames.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Viewport {
     gesture: Option<Gesture>,
     /// Where the panes with materials were drawn, for the gestures of the next frame.
@@ -51,28 +51,11 @@ pub struct Viewport {
     /// Whether everything is shaded in full at once, for pictures that are saved.
     is_exact: bool,
     /// Where the panes are.
-    pub area: Rect,
+    pub area: Option<Rect>,
     /// Size of a pane in physical pixels.
     pane_pixels: Vec2,
 }
 
-impl Default for Viewport {
-    fn default() -> Self {
-        Self {
-            gesture: None,
-            drawn: Vec::new(),
-            hovered: None,
-            last_texel: None,
-            policy: DraftPolicy::default(),
-            is_draft: false,
-            is_exact: false,
-            area: Rect::ZERO,
-            pane_pixels: Vec2::ZERO,
-        }
-    }
-}
-
-/// A pane that was drawn.
 #[derive(Clone, Copy, Debug)]
 struct DrawnPane {
     id: egui::Id,
@@ -106,7 +89,7 @@ impl Viewport {
         uploads: &Uploads,
     ) {
         let area = ui.available_rect_before_wrap();
-        self.area = area;
+        self.area = Some(area);
         self.hovered = None;
         self.drawn.clear();
         let Some(gpu) = gpu else {

@@ -1,9 +1,7 @@
 //! Section of the diagnosis: whether an error of exposure, alignment or reading explains the loss of the chosen prediction.
 
-use std::time::Duration;
-
 use eframe::egui::text::TextFormat;
-use eframe::egui::{self, FontId, RichText, vec2};
+use eframe::egui::{self, FontId, vec2};
 
 use svbrdf_core::loss::Estimate;
 use svbrdf_evaluate::diagnose::{Diagnosis, Finding, SCENES, sentence};
@@ -18,7 +16,7 @@ use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::WhySection;
 use crate::why::hypotheses::HypothesisLines;
 use crate::widgets::numbers::{digits, seconds};
-use crate::widgets::{progress, rows};
+use crate::widgets::{rows, state_line};
 
 /// Rows of the sentence.
 const SENTENCE: usize = 3;
@@ -43,7 +41,9 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pair: &ComparedPair, next: &m
         let diagnosed = diagnosed.map(|found| &found.answer);
         HypothesisLines { ground_truth, prediction, diagnosed, corrected, is_open }.ui(ui, next);
     });
-    state_line(ui, floor, diagnosed, busy.unwrap_or_default());
+    let (fraction, elapsed) = busy.unwrap_or_default();
+    let doing = || format!("Trying changes, {} s", elapsed.as_secs());
+    state_line(ui, found.as_deref().map(|found| summary(floor, found)), ABOUT, (fraction, doing));
 }
 
 /// The button that corrects the reading, in a row of constant height.
@@ -73,28 +73,15 @@ fn show_sentence(ui: &mut egui::Ui, floor: Option<&Estimate>, diagnosed: Option<
     rows(ui, text, format, SENTENCE, &hover);
 }
 
-/// One line of constant height: the progress, or the floor and what it took.
-fn state_line(
-    ui: &mut egui::Ui,
-    floor: Option<&Estimate>,
-    diagnosed: Option<&Answered<Diagnosis>>,
-    (fraction, elapsed): (f32, Duration),
-) {
-    let height = ui.spacing().interact_size.y;
-    let Some(Answered { elapsed, .. }) = diagnosed else {
-        progress(ui, fraction, format!("Trying changes, {} s", elapsed.as_secs()));
-        return;
-    };
+/// What the state line tells of more than it has room for.
+const ABOUT: &str = "The part of the loss that each change removes, in scenes other than those that its value was fitted in. A dot \
+                     marks changes that lower the loss significantly and by at least 10%. The floor is the loss that the steps of \
+                     the maps of the ground truth leave: smaller losses are not resolvable. Folding this section cancels the work.";
+
+/// The floor, and what the diagnosis took.
+fn summary(floor: Option<&Estimate>, diagnosed: &Answered<Diagnosis>) -> String {
     let below = |floor: &Estimate| format!("Losses below {} are not resolvable; ", digits(floor.mean));
-    let floor = floor.map(below).unwrap_or_default();
     let [near, distant] = SCENES;
-    let text = format!("{floor}{near} + {distant} scenes, {}", seconds(*elapsed));
-    ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
-        ui.set_min_height(height);
-        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
-            "The part of the loss that each change removes, in scenes other than those that its value was fitted in. A dot marks \
-             changes that lower the loss significantly and by at least 10%. The floor is the loss that the steps of the maps of \
-             the ground truth leave: smaller losses are not resolvable. Folding this section cancels the work.",
-        );
-    });
+    let floor = floor.map(below).unwrap_or_default();
+    format!("{floor}{near} + {distant} scenes, {}", seconds(diagnosed.elapsed))
 }

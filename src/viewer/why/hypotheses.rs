@@ -1,6 +1,7 @@
 //! Lines of the hypotheses of a diagnosis: the marked ones, and the others behind one line.
 
 use eframe::egui::{self, RichText, Sense, vec2};
+use egui_material_icons::icons;
 
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Finding, Hypothesis};
 
@@ -48,8 +49,8 @@ impl HypothesisLines<'_> {
 
     /// The line that unfolds the others.
     fn header(&self, ui: &mut egui::Ui, text: &str, next: &mut Model) {
-        let arrow = if self.is_open { "\u{23f7}" } else { "\u{23f5}" };
-        let left = RichText::new(format!("{arrow} {text}")).size(12.5);
+        let arrow = if self.is_open { icons::ICON_ARROW_DROP_DOWN } else { icons::ICON_ARROW_RIGHT };
+        let left = RichText::new(format!("{} {text}", arrow.codepoint)).size(12.5);
         let hover = "The changes that do not lower the loss significantly and by at least 10%";
         let response = row(ui, left, String::new(), (text.to_owned(), false, true));
         if response.on_hover_text(hover).clicked() {
@@ -119,7 +120,7 @@ fn line(
     response
 }
 
-/// A line with a text at either end, called `name`; a label where it is no button.
+/// A line with a text at either end, called `name`.
 fn row(
     ui: &mut egui::Ui,
     left: RichText,
@@ -128,7 +129,7 @@ fn row(
 ) -> egui::Response {
     let (sense, role) = match is_button {
         true => (Sense::click(), egui::Role::Button),
-        false => (Sense::hover(), egui::Role::Label),
+        false => (Sense::hover(), egui::Role::ListItem),
     };
     let row = ui.scope(|ui| {
         (ui.spacing_mut().button_padding, ui.spacing_mut().interact_size.y) = (vec2(NAME, 0.0), ROW);

@@ -15,7 +15,7 @@ use crate::jobs::why::questions::{ATTRIBUTION_TARGET, Attribute};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::widgets::numbers::{accuracy, seconds, significant};
-use crate::widgets::{progress, theme};
+use crate::widgets::{state_line, theme};
 
 /// Most predictions that have numbers in every row.
 const WITH_NUMBERS: usize = 4;
@@ -65,49 +65,36 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next:
         });
     }
     let attributed = found.get(display.prediction).and_then(Option::as_deref);
-    state_line(ui, attributed, busy);
+    let doing = || match busy.1 {
+        Duration::ZERO => "After what is above".to_owned(),
+        elapsed => format!("Mixing maps, {} s", elapsed.as_secs()),
+    };
+    state_line(ui, attributed.map(summary), ABOUT, (busy.0, doing));
     // Its row is kept where there is no note: what is below does not move when one comes.
     let note = attributed.and_then(|attributed| attributed.note()).unwrap_or_default();
     ui.add(egui::Label::new(RichText::new(note).small()).truncate());
     pane_choice(ui, &mut next.view.display.only_right);
 }
 
-/// One line of constant height: the progress, or the sum and what it took.
-fn state_line(
-    ui: &mut egui::Ui,
-    attributed: Option<&Answered<Attribution>>,
-    (fraction, elapsed): (f32, Duration),
-) {
-    let height = ui.spacing().interact_size.y;
-    let Some(Answered { answer: attribution, elapsed }) = attributed else {
-        let text = match elapsed {
-            Duration::ZERO => "After what is above".to_owned(),
-            _ => format!("Mixing maps, {} s", elapsed.as_secs()),
-        };
-        progress(ui, fraction, text);
-        return;
-    };
-    let count = |kind| attribution.scenes.iter().filter(|scene| scene.kind == kind).count();
-    let [mean, interval] = significant(&attribution.loss);
-    let text = format!(
-        "Sum {mean} {interval}, {} + {} scenes, {}",
+/// What the state line tells of more than it has room for.
+const ABOUT: &str = "All 16 mixtures of true and predicted maps, in the same scenes on the same texels. The Shapley value of a map is \
+                     the mean of what it adds to the loss over all orders in which the maps can become wrong; the four add up to \
+                     the loss. A negative share: the error of this map partly cancels the errors of others. At most 49,152 scenes \
+                     are sampled.";
+
+/// The sum and what it took.
+fn summary(Answered { answer, elapsed }: &Answered<Attribution>) -> String {
+    let count = |kind| answer.scenes.iter().filter(|scene| scene.kind == kind).count();
+    let [mean, interval] = significant(&answer.loss);
+    let missed = answer.loss.relative_error95() > ATTRIBUTION_TARGET;
+    let missed =
+        if missed { format!("Not within {}: ", accuracy(ATTRIBUTION_TARGET)) } else { String::new() };
+    format!(
+        "{missed}Sum {mean} {interval}, {} + {} scenes, {}",
         count(Kind::Near),
         count(Kind::Distant),
         seconds(*elapsed)
-    );
-    let missed = attribution.loss.relative_error95() > ATTRIBUTION_TARGET;
-    let missed =
-        if missed { format!("Not within {}: ", accuracy(ATTRIBUTION_TARGET)) } else { String::new() };
-    let text = missed + &text;
-    ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
-        ui.set_min_height(height);
-        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(
-            "All 16 mixtures of true and predicted maps, in the same scenes on the same texels. The Shapley value \
-             of a map is the mean of what it adds to the loss over all orders in which the maps can become wrong; \
-             the four add up to the loss. A negative share: the error of this map partly cancels the errors of others. At most 49,152 scenes are \
-             sampled.",
-        );
-    });
+    )
 }
 
 /// What a click on a map shows.

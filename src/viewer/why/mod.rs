@@ -9,7 +9,6 @@ use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
 use svbrdf_evaluate::analyses::ANALYSES;
 
-use crate::jobs::answers::Answer;
 use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::displayed::Displayed;
 use crate::jobs::why::questions::{Analyse, AnalysisTable, SceneLosses};
@@ -19,7 +18,7 @@ use crate::model::view::ViewState;
 use crate::model::{Model, display};
 use crate::widgets::names::shortened;
 use crate::widgets::paint::PanelTextures;
-use crate::widgets::{progress, report_table, theme};
+use crate::widgets::{answered, copy_table, report_table, theme};
 
 /// Most predictions with high rows.
 const LONG: usize = 4;
@@ -45,7 +44,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
         }
         rows(ui, shown, losses.as_ref().map(|(losses, _)| losses.as_slice()), next);
     });
-    displayed_quantity(ui, &model.view, &mut next.view);
+    error_map(ui, &model.view, &mut next.view);
     let tables = ANALYSES.iter().filter(|analysis| !analysis.title.is_empty());
     let tables = tables.map(|one| (WhySection::Table(one.name), one.title, one.details));
     let own = [
@@ -67,7 +66,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
             WhySection::Scenes => scenes::ui(ui, shown, pair, textures, next),
             WhySection::Table(analysis) => {
                 let (pair, scenes) = (pair.clone(), model.settings.loss.listed_scenes());
-                table(ui, answers.get(&Analyse { analysis, pair, scenes }));
+                answered(ui, answers.get(&Analyse { analysis, pair, scenes }), table);
             }
         });
         if header.header_response.on_hover_text(question).clicked() {
@@ -113,44 +112,24 @@ fn rows(ui: &mut egui::Ui, shown: Displayed<'_>, losses: Option<&[f64]>, next: &
     }
 }
 
-/// What the panes show: values, or differences.
-fn displayed_quantity(ui: &mut egui::Ui, view: &ViewState, next: &mut ViewState) {
+/// The button that shows where the loss comes from.
+fn error_map(ui: &mut egui::Ui, view: &ViewState, next: &mut ViewState) {
     ui.add_space(6.0);
-    let difference = view.display.difference;
-    ui.horizontal_wrapped(|ui| {
-        let label = if difference { "Show the values" } else { "Show where: the difference" };
-        if ui.button(label).on_hover_text("Value or difference in the panes (D)").clicked() {
-            next.display.difference = !difference;
-        }
-        let is_displayed = difference && view.is_error_map();
-        let hover = "Where on the material the loss comes from: the log difference of each texel, averaged over the \
-                     scenes of the loss";
-        let button = ui.add(egui::Button::new("Error map").selected(is_displayed));
-        if button.on_hover_text(hover).clicked() && !is_displayed {
-            next.show_error_map();
-        }
-    });
+    let is_displayed = view.display.difference && view.is_error_map();
+    let hover = "Where on the material the loss comes from: the log difference of each texel, averaged over the scenes of \
+                 the loss";
+    let button = ui.add(egui::Button::new("Error map").selected(is_displayed));
+    if button.on_hover_text(hover).clicked() && !is_displayed {
+        next.show_error_map();
+    }
 }
 
-/// The table of the chosen prediction, or how far it is.
-fn table(ui: &mut egui::Ui, found: Answer<AnalysisTable>) {
-    let found = match found {
-        Answer::Ready(found) => found,
-        Answer::Partial(_, fraction, elapsed) | Answer::Running(fraction, elapsed) => {
-            progress(ui, fraction, format!("{} s", elapsed.as_secs()));
-            return;
-        }
-        Answer::Stopped(_) | Answer::Failed(_) => return,
-    };
-    let AnalysisTable { heading, table } = &found.answer;
+/// The table of the chosen prediction.
+fn table(ui: &mut egui::Ui, AnalysisTable { heading, table }: &AnalysisTable) {
     ui.horizontal(|ui| {
-        if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
-            ui.copy_text(format!("{heading}\n{}", table.text()));
-        }
-        ui.add(
-            egui::Label::new(RichText::new(heading.trim_end().replace('\n', "; ")).small().weak()).truncate(),
-        )
-        .on_hover_text(heading.trim_end());
+        copy_table(ui, || format!("{heading}\n{}", table.text()));
+        let line = RichText::new(heading.trim_end().replace('\n', "; ")).small().weak();
+        ui.add(egui::Label::new(line).truncate()).on_hover_text(heading.trim_end());
     });
     report_table(ui, table);
 }

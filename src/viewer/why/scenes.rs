@@ -199,31 +199,8 @@ fn thumbnail(
     let number = pos2(area.center().x, area.bottom());
     painter.text(number, Align2::CENTER_BOTTOM, digits(loss), FontId::monospace(11.5), visuals.text_color());
     response.on_hover_text(format!(
-        "{} of the losses: {loss:.6}\n{}\nClick for this light and view",
-        ordinal(rank + 1),
+        "Loss {} from the largest: {loss:.6}\n{}\nClick for this light and view",
+        rank + 1,
         place(&ranked.scene)
     ))
-}
-
-/// 1 as "the largest", 2 as "the 2nd largest" and so on.
-fn ordinal(number: usize) -> String {
-    let ending = match (number % 10, number % 100) {
-        (1, tens) if tens != 11 => "st",
-        (2, tens) if tens != 12 => "nd",
-        (3, tens) if tens != 13 => "rd",
-        _ => "th",
-    };
-    if number == 1 { "The largest".to_owned() } else { format!("The {number}{ending} largest") }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ordinals() {
-        let all = [1, 2, 3, 4, 11, 12, 13, 21, 22, 112].map(ordinal);
-        let expected = ["", "2nd ", "3rd ", "4th ", "11th ", "12th ", "13th ", "21st ", "22nd ", "112th "];
-        assert_eq!(all, expected.map(|number| format!("The {number}largest")));
-    }
 }

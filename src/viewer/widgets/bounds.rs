@@ -23,20 +23,6 @@ mod tests {
     use super::*;
     use eframe::egui::vec2;
 
-    /// Numbers that a side or a position may have, usable and not.
-    const NUMBERS: [f32; 9] = [0.0, 2.5, 8.0, 640.0, -4.0, 1e9, f32::NAN, f32::INFINITY, f32::NEG_INFINITY];
-
-    #[test]
-    fn a_value_is_between_its_ends_and_halfway_between_ends_that_are_the_wrong_way_round() {
-        assert_eq!([-1.0, 0.5, 9.0].map(|value| between(value, 0.0, 2.0)), [0.0, 0.5, 2.0]);
-        assert_eq!([-1.0, 0.5, 9.0].map(|value| between(value, 60.5, 56.5)), [58.5; 3]);
-        for low in NUMBERS {
-            for high in NUMBERS {
-                let _ = NUMBERS.map(|value| between(value, low, high));
-            }
-        }
-    }
-
     #[test]
     fn what_remains_of_an_area_lies_in_it_and_has_no_negative_side() {
         let margin = vec2(6.0, 60.0);

@@ -12,6 +12,7 @@ use eframe::egui::{self, DragValue, Response, RichText};
 
 use svbrdf_evaluate::report::{Cell, Table};
 
+use crate::jobs::answers::Answer;
 use crate::model::Model;
 use crate::model::material::loaded::drawable;
 use crate::model::message::Message;
@@ -83,6 +84,45 @@ pub fn named(combo: &Response, name: &str) {
 /// How far work is, as wide as there is room.
 pub fn progress(ui: &mut egui::Ui, fraction: f32, text: String) -> Response {
     ui.add(egui::ProgressBar::new(fraction).text(text).corner_radius(3.0))
+}
+
+/// A line of constant height: how far work is, or what was found, with more of it under the pointer.
+pub fn state_line(
+    ui: &mut egui::Ui,
+    found: Option<String>,
+    hover: &str,
+    (fraction, doing): (f32, impl FnOnce() -> String),
+) {
+    let height = ui.spacing().interact_size.y;
+    let Some(text) = found else {
+        progress(ui, fraction, doing());
+        return;
+    };
+    ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
+        ui.set_min_height(height);
+        ui.add(egui::Label::new(RichText::new(text).small().weak()).truncate()).on_hover_text(hover);
+    });
+}
+
+/// An answer where it is drawn: how far it is, why there is none, or what it `shows`.
+pub fn answered<A>(ui: &mut egui::Ui, answer: Answer<A>, shows: impl FnOnce(&mut egui::Ui, &A)) {
+    match answer {
+        Answer::Partial(_, fraction, elapsed) | Answer::Running(fraction, elapsed) => {
+            progress(ui, fraction, format!("{} s", elapsed.as_secs()));
+        }
+        Answer::Ready(found) => shows(ui, &found),
+        Answer::Failed(problem) => {
+            ui.label(RichText::new(drawable(&problem)).small().color(theme::problem(ui.visuals())));
+        }
+        Answer::Stopped(_) => {}
+    }
+}
+
+/// A button that copies a table.
+pub fn copy_table(ui: &mut egui::Ui, text: impl FnOnce() -> String) {
+    if ui.small_button("Copy").on_hover_text("The table as text, with its settings").clicked() {
+        ui.copy_text(text());
+    }
 }
 
 /// A panel without a background: the window is cleared in its colour, and filling it again takes time on slow adapters.

@@ -142,6 +142,6 @@ impl<Q: Question> AnyEntry for Entry<Q> {
 
     fn take_error(&mut self) -> Option<Error> {
         let State::Failed(_, error) = &mut self.state else { return None };
-        error.take().filter(|error| !error.is_cancelled())
+        error.take().filter(|error| Q::HAS_MESSAGE && !error.is_cancelled())
     }
 }

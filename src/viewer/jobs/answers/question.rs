@@ -20,6 +20,9 @@ pub trait Question: Clone + PartialEq + Send + 'static {
     /// The answers of its kind that stay although no frame asks for them.
     const KEPT: usize = 64;
 
+    /// Whether a failure is told in a message; otherwise where the answer is drawn.
+    const HAS_MESSAGE: bool = true;
+
     /// The answer, computed on a thread of its own.
     ///
     /// # Errors

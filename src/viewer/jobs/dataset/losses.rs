@@ -22,7 +22,6 @@ pub const PICK: Pick = Pick::Fixed;
 #[derive(Debug, Default)]
 pub struct DatasetLosses {
     convention: ChosenConvention,
-    /// By material.
     results: Vec<Option<Arc<MaterialResult>>>,
     rows: Vec<Option<CaseLosses>>,
     /// Counts the changes.

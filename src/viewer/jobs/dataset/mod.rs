@@ -10,12 +10,11 @@ use std::sync::Arc;
 
 use svbrdf_gpu::Gpu;
 
-use super::work::job::Job;
 use super::work::waker::Waker;
 use crate::error::Error;
 use crate::jobs::answers::Answers;
 use crate::model::Model;
-use crate::model::dataset::{DatasetState, OpenDataset};
+use crate::model::dataset::OpenDataset;
 use crate::model::material::read::MaterialId;
 use cases::ReadCases;
 use losses::DatasetLosses;
@@ -23,8 +22,6 @@ use losses::DatasetLosses;
 /// The work for the data set of the window.
 #[derive(Debug, Default)]
 pub struct DatasetJobs {
-    /// The data set that is being matched.
-    pub opening: Option<Job<DatasetState>>,
     /// The data set that everything else is of.
     of: Option<Arc<OpenDataset>>,
     pub losses: DatasetLosses,
@@ -37,8 +34,8 @@ pub struct DatasetJobs {
 impl DatasetJobs {
     /// Computes everything again.
     pub fn restart(&mut self) {
-        let (opening, read_again) = (self.opening.take(), self.losses.read_again + 1);
-        *self = Self { opening, ..Self::default() };
+        let read_again = self.losses.read_again + 1;
+        *self = Self::default();
         self.losses.read_again = read_again;
     }
 

@@ -74,7 +74,7 @@ impl Replace {
         if let Some((of, made)) = found {
             let (read, uploaded) = &made.answer;
             // Also of a replacement that was not in the panes for a while.
-            uploads.add(read.id, uploaded.clone());
+            uploads.extend(uploaded.clone().map(|uploaded| (read.id, uploaded)));
             let replaced = &mut displayed[view.display.prediction + 1];
             let name = of.replacement.name(replaced.name());
             replaced.replace(read.clone(), name);
@@ -84,7 +84,6 @@ impl Replace {
 }
 
 impl Replacement {
-    /// The replacement made of a ground truth and a prediction.
     fn made(self, [ground_truth, prediction]: [&ReadMaterial; 2]) -> Result<ReadMaterial, Error> {
         let (truth, predicted) = (ground_truth.material(), prediction.material());
         let mixed = |base: &Material<f32>, other, map| base.with_maps_of(other, |of| of == map);

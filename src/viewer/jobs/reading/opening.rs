@@ -1,7 +1,6 @@
 //! Opening: materials that are read one after the other. Each is taken over as soon as it has been read.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use svbrdf_core::progress::Progress;
 use svbrdf_gpu::Gpu;
@@ -14,7 +13,6 @@ use crate::jobs::work::waker::Waker;
 use crate::model::material::read::MaterialId;
 use crate::model::material::read::label;
 use crate::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
-use svbrdf_files::source::MaterialSource;
 
 /// The openings that are going on.
 #[derive(Debug, Default)]
@@ -29,8 +27,6 @@ pub struct Opening {
     number: u64,
     target: Target,
     names: Vec<String>,
-    parts: Arc<Vec<Progress>>,
-    current: Arc<AtomicUsize>,
     /// The materials of it that are loaded already.
     loaded: Vec<MaterialId>,
     /// How many materials have been taken over.
@@ -72,9 +68,7 @@ impl Openings {
         for mut opening in std::mem::take(&mut self.all) {
             let ended = opening.job.poll();
             let are_wanted = opening.job.updates().into_iter().all(|(arrival, uploaded)| {
-                if let Some((id, uploaded)) = uploaded {
-                    uploads.add(id, Some(uploaded));
-                }
+                uploads.extend(uploaded);
                 let at = opening.place();
                 opening.arrived += 1;
                 place(&at, arrival)
@@ -135,12 +129,11 @@ impl Opening {
             Item::Read(_) => None,
         };
         let loaded = items.iter().filter_map(id).collect();
-        let whole = Progress::default();
-        let parts = Arc::new(items.iter().map(|_| whole.part()).collect::<Vec<_>>());
-        let current = Arc::new(AtomicUsize::new(0));
-        let work = OpeningWork { gpu: gpu.cloned(), parts: parts.clone(), current: current.clone() };
-        let job = Job::stream(waker, whole, move |worker| work.run(items, reader, worker));
-        Self { number, target, names, parts, current, loaded, arrived: 0, job }
+        let gpu = gpu.cloned();
+        let job = Job::stream(waker, Progress::default(), move |worker| {
+            read_all(items, reader, gpu.as_ref(), worker)
+        });
+        Self { number, target, names, loaded, arrived: 0, job }
     }
 
     /// Where its next material belongs.
@@ -159,59 +152,37 @@ impl Opening {
 
     /// What is being read, for a progress bar.
     pub fn text(&self) -> String {
-        let index = self.current.load(Ordering::Relaxed);
-        let name = self.names.get(index).map_or("", String::as_str);
+        let name = self.names.get(self.arrived).map_or("", String::as_str);
         match self.names.len() {
             1 => format!("Reading {name}"),
-            count => format!("Reading {} of {count}: {name}", index + 1),
+            count => format!("Reading {} of {count}: {name}", self.arrived + 1),
         }
     }
 
-    /// Share of the files that has been read, in [0, 1].
+    /// Share of the materials that have been read, in [0, 1].
     pub fn fraction(&self) -> f32 {
-        let index = self.current.load(Ordering::Relaxed);
-        let part = self.parts.get(index).map_or(0.0, |part| match part.counts() {
-            (_, 0) => 0.0,
-            (done, total) => done as f32 / total as f32,
-        });
-        (index as f32 + part.min(1.0)) / self.names.len().max(1) as f32
+        self.arrived as f32 / self.names.len().max(1) as f32
     }
 }
 
-/// What the worker of an opening works with.
-struct OpeningWork {
-    gpu: Option<Gpu>,
-    /// The progress of each item.
-    parts: Arc<Vec<Progress>>,
-    current: Arc<AtomicUsize>,
-}
-
-impl OpeningWork {
-    /// Reads the items one after the other.
-    fn run(
-        &self,
-        items: Vec<Item>,
-        mut reader: MaterialReader,
-        worker: &Worker<Uploading>,
-    ) -> Result<(), Error> {
-        for (index, item) in items.into_iter().enumerate() {
-            self.current.store(index, Ordering::Relaxed);
-            match item {
-                Item::Loaded(loaded) => worker.report((Arrival::Loaded(loaded), None))?,
-                Item::Read(source) => worker.report(self.read(*source, index, &mut reader))?,
-            }
-        }
-        Ok(())
+/// Reads the items one after the other.
+fn read_all(
+    items: Vec<Item>,
+    mut reader: MaterialReader,
+    gpu: Option<&Gpu>,
+    worker: &Worker<Uploading>,
+) -> Result<(), Error> {
+    for item in items {
+        worker.report(match item {
+            Item::Loaded(loaded) => (Arrival::Loaded(loaded), None),
+            Item::Read(source) => match read_with_retries(&source, &mut reader, &worker.progress.part()) {
+                Ok(read) => {
+                    let uploaded = gpu.map(|gpu| (read.id, Arc::new(Uploaded::new(gpu, read.material()))));
+                    (Arrival::Read(Arc::new(read)), uploaded)
+                }
+                Err(error) => (Arrival::Failed(source, error), None),
+            },
+        })?;
     }
-
-    fn read(&self, source: MaterialSource, index: usize, reader: &mut MaterialReader) -> Uploading {
-        match read_with_retries(&source, reader, &self.parts[index]) {
-            Ok(read) => {
-                let uploaded = self.gpu.as_ref().map(|gpu| Arc::new(Uploaded::new(gpu, read.material())));
-                let id = read.id;
-                (Arrival::Read(Arc::new(read)), uploaded.map(|uploaded| (id, uploaded)))
-            }
-            Err(error) => (Arrival::Failed(Box::new(source), error), None),
-        }
-    }
+    Ok(())
 }

@@ -51,7 +51,6 @@ fn is_being_written(source: &MaterialSource) -> bool {
     Stamp::of(path).is_some_and(|stamp| stamp.is_younger_than(INCOMPLETE, SystemTime::now()))
 }
 
-/// Reads one material.
 fn read(
     source: &MaterialSource,
     reader: &mut MaterialReader,

@@ -58,6 +58,9 @@ impl Uploaded {
     }
 }
 
+/// The maps on the adapter of all materials in the window.
+pub type Uploads = HashMap<MaterialId, Arc<Uploaded>>;
+
 /// Sends every `stride`-th texel.
 fn send(gpu: &Gpu, material: &Material<f32>, stride: usize) -> Result<SentTextures, Error> {
     let texels: usize = material.size().into_iter().map(|side| side.div_ceil(stride)).product();
@@ -79,28 +82,6 @@ fn send(gpu: &Gpu, material: &Material<f32>, stride: usize) -> Result<SentTextur
 pub fn reserve_for(gpu: &Gpu, texels: usize, bytes: u64) -> Result<Option<Reserved>, Error> {
     let what = || format!("drawing {texels} texels");
     gpu.report.software.then(|| memory::reserve(bytes * texels as u64, what)).transpose()
-}
-
-/// The maps on the adapter of all materials in the window.
-#[derive(Debug, Default)]
-pub struct Uploads {
-    all: HashMap<MaterialId, Arc<Uploaded>>,
-}
-
-impl Uploads {
-    /// Adds those of a material; `None` without an adapter.
-    pub fn add(&mut self, id: MaterialId, uploaded: Option<Arc<Uploaded>>) {
-        self.all.extend(uploaded.map(|uploaded| (id, uploaded)));
-    }
-
-    pub fn get(&self, id: MaterialId) -> Option<&Arc<Uploaded>> {
-        self.all.get(&id)
-    }
-
-    /// Frees those of all other materials.
-    pub fn keep_only(&mut self, is_wanted: impl Fn(MaterialId) -> bool) {
-        self.all.retain(|id, _| is_wanted(*id));
-    }
 }
 
 #[cfg(test)]

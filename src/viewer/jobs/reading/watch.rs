@@ -109,17 +109,12 @@ mod tests {
         std::fs::File::options().write(true).open(path).unwrap().set_modified(time).unwrap();
     }
 
-    /// The id of the material.
-    fn id() -> MaterialId {
-        MaterialId::numbered(7)
-    }
-
-    /// A file written and read at 1000 s, watched for the material.
+    /// A file written and read at 1000 s, watched for a material.
     fn watched(folder: &tempfile::TempDir) -> (PathBuf, Files) {
         let path = folder.path().join("map.png");
         std::fs::write(&path, "a").unwrap();
         set_time(&path, 1000);
-        let files = vec![(id(), vec![(path.clone(), Stamp::of(&path))])];
+        let files = vec![(MaterialId::next(), vec![(path.clone(), Stamp::of(&path))])];
         (path, files)
     }
 
@@ -156,6 +151,7 @@ mod tests {
     fn the_window_is_drawn_again_after_a_change_and_not_before() {
         let folder = tempfile::tempdir().unwrap();
         let (path, files) = watched(&folder);
+        let id = files[0].0;
         let repaints = Arc::new(AtomicUsize::new(0));
         let counted = repaints.clone();
         let waker = Waker::new(move |_| {
@@ -174,6 +170,6 @@ mod tests {
             }
             std::thread::sleep(Duration::from_millis(5));
         }
-        assert_eq!((repaints.load(Ordering::SeqCst), stale), (1, vec![id()]));
+        assert_eq!((repaints.load(Ordering::SeqCst), stale), (1, vec![id]));
     }
 }

@@ -170,13 +170,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_of_the_work_is_its_result_with_message_and_location() {
-        let job = Job::<()>::start(&Waker::default(), |_| panic!("planted in a job"));
-        let text = job.wait().unwrap_err().to_string();
-        assert!(text.contains("planted in a job") && text.contains("job.rs:"), "{text}");
-    }
-
-    #[test]
     fn updates_come_before_the_result_and_wake_the_window() {
         let (sender, wakes) = mpsc::channel();
         let waker = Waker::new(move |after| {

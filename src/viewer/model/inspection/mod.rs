@@ -146,22 +146,6 @@ mod tests {
 
     const GRID: Grid = Grid { width: 48, height: 20 };
 
-    fn centre([column, row]: [usize; 2]) -> [f32; 2] {
-        let p: glam::Vec3 = GRID.position(column, row);
-        [p.x, p.y]
-    }
-
-    #[test]
-    fn a_rectangle_holds_the_texels_under_its_corners_and_all_between() {
-        for (a, b) in [([0, 0], [47, 19]), ([5, 7], [3, 12]), ([9, 9], [9, 9]), ([47, 0], [46, 1])] {
-            let region = Region::between(GRID, centre(a), centre(b)).unwrap();
-            let first = [a[0].min(b[0]), a[1].min(b[1])];
-            let last = [a[0].max(b[0]), a[1].max(b[1])];
-            assert_eq!((region.first, region.last), (first, last));
-            assert_eq!(GRID.texel_at(centre(a)), Some(a), "the readout and the rectangle agree");
-        }
-    }
-
     #[test]
     fn a_rectangle_is_limited_to_the_material() {
         let all = Region::between(GRID, [-9.0, 9.0], [9.0, -9.0]).unwrap();

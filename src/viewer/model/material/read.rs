@@ -11,25 +11,15 @@ use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::error::Error;
 
-/// What identifies the maps of a material: the reading that brought them, and the stamp of the files that were read.
+/// What identifies the maps of a material: the reading that brought them, which is never used twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct MaterialId {
-    /// Never used twice.
-    reading: u64,
-    stamp: Stamp,
-}
+pub struct MaterialId(u64);
 
 impl MaterialId {
-    /// The id of this number, for tests.
-    #[cfg(test)]
-    pub fn numbered(reading: u64) -> Self {
-        Self { reading, stamp: Stamp::default() }
-    }
-
-    fn new(stamps: &[Option<Stamp>]) -> Self {
+    /// Another one than all before.
+    pub fn next() -> Self {
         static READINGS: AtomicU64 = AtomicU64::new(0);
-        let stamp = stamps.iter().flatten().copied().fold(Stamp::default(), Stamp::with);
-        Self { reading: READINGS.fetch_add(1, Ordering::Relaxed), stamp }
+        Self(READINGS.fetch_add(1, Ordering::Relaxed))
     }
 }
 
@@ -51,8 +41,8 @@ impl ReadMaterial {
     /// The material of what was read from `source`.
     pub fn new(source: MaterialSource, record: Read<f32>) -> Self {
         let storage = record.storage();
-        let stamps: Vec<_> = record.files.iter().map(|path| Stamp::of(path)).collect();
-        Self { id: MaterialId::new(&stamps), source, record, storage, stamps }
+        let stamps = record.files.iter().map(|path| Stamp::of(path)).collect();
+        Self { id: MaterialId::next(), source, record, storage, stamps }
     }
 
     pub fn material(&self) -> &Material<f32> {
@@ -73,7 +63,7 @@ impl ReadMaterial {
     pub fn part(&self, material: Material<f32>) -> Self {
         let record = Read { material, ..self.record.clone() };
         let (source, storage, stamps) = (self.source.clone(), self.storage.clone(), self.stamps.clone());
-        Self { id: MaterialId::new(&[]), source, record, storage, stamps }
+        Self { id: MaterialId::next(), source, record, storage, stamps }
     }
 
     /// What it takes to open it again.
