@@ -1,36 +1,6 @@
-//! Controls of the window: the drawer, the clipboard, the exposure.
+//! Controls of the window: the clipboard, the exposure.
 
 use super::*;
-
-/// The panes of all materials.
-fn panes(window: &Window<'_>) -> [egui::Rect; 3] {
-    [GROUND_TRUTH, PREDICTIONS[0], PREDICTIONS[1]].map(|title| pane(window, title))
-}
-
-#[needs(adapter)]
-fn the_drawer_lies_over_the_lower_end_of_the_panes_which_stay() {
-    let mut window = built_in();
-    for size in [vec2(1360.0, 860.0), vec2(700.0, 600.0)] {
-        window.set_size(size);
-        window.run_steps(6);
-        let before = panes(&window);
-        hover(&mut window, before[0].center());
-        press(&mut window, egui::Key::I);
-        window.run_steps(6);
-        let heading = window.get_by_label("Pinned texels").rect();
-        assert_eq!(panes(&window), before, "{size:?}");
-        assert!(heading.top() > before[0].center().y, "{size:?}: {heading:?}");
-        // A drag on it moves no light.
-        let scene = window.scene();
-        let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, vec2(1.0, 1.0));
-        let at = egui::pos2(before[0].center().x, heading.bottom() + 20.0).to_vec2();
-        drag_primary(&mut window, screen, at, at - vec2(20.0, 0.0));
-        assert_eq!(window.scene(), scene, "{size:?}");
-        click(&mut window, "Remove all pins");
-        window.run_steps(6);
-        assert_eq!(panes(&window), before, "{size:?}");
-    }
-}
 
 #[needs(adapter)]
 fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
@@ -49,16 +19,6 @@ fn copy_puts_the_view_on_the_clipboard_in_its_pixels() {
     assert_eq!(copied.size.map(|side| side as u32), [width, height + 20]);
     let colours: std::collections::HashSet<_> = copied.pixels.iter().collect();
     assert!(colours.len() > 1000, "it has the panes: {} colours", colours.len());
-    window.run_steps(2);
-    window.get_by_label_contains("the view as a picture");
-    // The same pixels as a saved view has.
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("view.png");
-    edit(&mut window, |model| model.messages.dismiss_all());
-    save(&mut window, SaveKind::View, &path);
-    let saved = image::open(&path).unwrap().to_rgb8();
-    let differ = saved.pixels().zip(&copied.pixels).filter(|(a, b)| a.0 != [b.r(), b.g(), b.b()]).count();
-    assert_eq!(differ, 0, "pixels differ");
 }
 
 /// The controls of the window: role and label, and the centre.

@@ -250,22 +250,6 @@ fn a_session_names_no_folder_that_is_written() {
 }
 
 #[needs(adapter)]
-fn losses_go_on_where_one_cannot_be_kept() {
-    let folder = tempfile::tempdir().unwrap();
-    let results = folder.path().join("results");
-    let dataset = dataset(folders(folder.path()), Some(results.clone()));
-    let whole = on_dataset(&dataset);
-    let first = std::fs::read_dir(&results).unwrap().next().unwrap().unwrap().path();
-    std::fs::remove_file(&first).unwrap();
-    std::fs::create_dir(&first).unwrap();
-    let mut window = on_dataset(&dataset);
-    (0..6).for_each(|case| assert_eq!(loss(&window, case, 0), loss(&whole, case, 0)));
-    wait(&mut window, "what is told", |app| {
-        app.jobs().dataset.losses.notes.iter().any(|note| note.contains("1 result is not kept"))
-    });
-}
-
-#[needs(adapter)]
 fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_returns_from() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = built_in();

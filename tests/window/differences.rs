@@ -165,13 +165,3 @@ fn flip_is_that_of_the_core_in_every_scene_and_at_every_exposure() {
     assert!((means[0] - means[1]).abs() > 1e-4 && (means[1] - means[2]).abs() > 1e-4, "{means:?}");
     assert!((mean(&first[0]) - mean(&first[1])).abs() > 1e-3, "a planted fault: the other prediction");
 }
-
-#[needs(adapter)]
-fn panes_readout_and_saved_file_have_the_numbers_of_flip() {
-    let mut window = with_flip();
-    press(&mut window, egui::Key::Num0);
-    edit(&mut window, |model| display::zoom(model, 4.3, [0.0, 0.0]));
-    edit(&mut window, |model| model.view.set_exposure(1.0));
-    let maps = settle(&mut window).map(|map| map.into_iter().map(|value| [value; 3]).collect());
-    assert_differences(&mut window, &maps, 1e-6);
-}

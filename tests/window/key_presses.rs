@@ -124,10 +124,6 @@ fn the_keys_of_other_viewers_go_on_close_and_magnify() {
     assert_eq!(prediction(&window), 1);
     press_with(&mut window, Modifiers::COMMAND, egui::Key::Num0);
     assert_eq!(window.view().display.framing.unwrap().pixels_per_texel, 1.0);
-    assert_eq!(window.model().settings.ui_scale, 1.0);
-    press_with(&mut window, Modifiers::COMMAND, egui::Key::Plus);
-    assert!((window.model().settings.ui_scale - 1.1).abs() < 1e-6);
-    press_with(&mut window, Modifiers::COMMAND, egui::Key::Minus);
     press_with(&mut window, Modifiers::COMMAND, egui::Key::W);
     assert_eq!(window.names(), ["worn tiles", "blurred normals"]);
     // Until the first drag a pane tells what it does.

@@ -55,24 +55,6 @@ fn a_convention_of_the_grammar_is_drawn_and_has_the_loss_of_the_core() {
     assert!(window.jobs().gpu.as_ref().unwrap().take_fault().is_none());
 }
 
-#[needs(adapter)]
-fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
-    let mut window = by_scenes();
-    wait(&mut window, "the loss", |app| app.losses().is_some());
-    window.get_by_label("Copy losses").click();
-    let copied = commands(&mut window).into_iter().find_map(|command| match command {
-        egui::OutputCommand::CopyText(text) => Some(text),
-        _ => None,
-    });
-    let copied = copied.expect("a text is copied");
-    let output = crate::surroundings::command(program())
-        .args(["loss", "--near", "6", "--distant", "3"])
-        .output()
-        .unwrap();
-    assert_eq!(copied, String::from_utf8(output.stdout).unwrap());
-    assert!(copied.contains("wrong roughness - blurred normals"), "{copied}");
-}
-
 /// The program `svbrdf` of the same build: cargo gives its path to the tests of its own package only.
 pub fn program() -> PathBuf {
     let test = std::env::current_exe().unwrap();
@@ -191,10 +173,9 @@ fn a_long_loss_tightens_and_keeps_what_was_reached_until_a_newer_one_is_there() 
 #[needs(adapter)]
 fn of_many_predictions_every_one_is_reached_by_keys_and_named_by_what_differs() {
     let folder = tempfile::tempdir().unwrap();
-    let picture = crate::pictures::packed(|value| value);
     let names = (0..14).map(|i| format!("a_long_name_of_an_experiment_seed_{i:03}.png"));
     let paths = ["gt.png".to_owned()].into_iter().chain(names).map(|name| folder.path().join(name));
-    let mut window = on_files(paths.inspect(|path| picture.save(path).unwrap()));
+    let mut window = on_files(paths.inspect(|path| soak::write(path, 0)));
     wait(&mut window, "all of them", |app| app.names().len() == 15);
     wait(&mut window, "the loss", |app| app.losses().is_some());
     for expected in [13, 12] {

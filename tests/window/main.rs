@@ -17,7 +17,6 @@ mod materials;
 mod observed;
 mod order;
 mod photograph;
-mod pictures;
 mod quantities;
 mod reading;
 mod saving;

@@ -64,21 +64,6 @@ fn a_material_whose_file_is_broken_is_marked_until_it_is_whole_again() {
 }
 
 #[needs(adapter)]
-fn undo_returns_to_the_earlier_materials_and_redo_to_the_later_ones() {
-    let (_folder, _, mut window) = window_of_files();
-    // Longer than it takes for a state to become one to return to.
-    window.run_steps(30);
-    edit(&mut window, opening::open_built_in);
-    wait(&mut window, "the built-in pair", |app| app.names().len() == 3);
-    window.run_steps(30);
-    edit(&mut window, history::undo);
-    wait(&mut window, "the earlier materials", |app| app.names() == ["gt", "p"]);
-    window.run_steps(30);
-    edit(&mut window, history::redo);
-    wait(&mut window, "the built-in pair", |app| app.names().len() == 3);
-}
-
-#[needs(adapter)]
 fn messages_take_no_room_from_the_panes() {
     let mut window = built_in();
     let before = pane(&window, GROUND_TRUTH);

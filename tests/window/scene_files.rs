@@ -85,16 +85,9 @@ fn the_saved_scenes_are_a_scene_file_worst_first_and_a_session_keeps_them() {
 }
 
 #[needs(adapter)]
-fn a_scene_file_is_opened_with_the_window_and_dropped_with_materials() {
+fn a_scene_file_is_dropped_with_materials_and_two_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = capture(&folder);
-    let scenes = scene_file::read_named(&path).unwrap();
-    let options = ViewerOptions { scenes: Some(scenes.clone()), ..ViewerOptions::default() };
-    let mut window = super::window(options);
-    wait(&mut window, "the loss over the file", is_over(3));
-    assert_eq!(window.losses().unwrap(), losses(&Request::Listed(scenes.scenes)));
-    window.get_by_label("3 scenes of render.json");
-
     let mut window = built_in();
     let material = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/samples/worn_tiles.png");
     drop_files(&mut window, [material.clone(), path.clone(), material]);

@@ -21,9 +21,13 @@ fn one_of<T: Copy>(random: &mut ChaCha8Rng, all: &[T]) -> T {
 }
 
 /// Writes a material whose albedo depends on `shift`.
-fn write(path: &Path, shift: usize) {
-    let strip = pictures::packed(|value| (value + 0.03 * shift as f64).fract());
-    strip.save(path).unwrap();
+pub fn write(path: &Path, shift: usize) {
+    write_packed(path, 16, |tile, x, y| {
+        let [u, v] = [x, y].map(|at| 16 * at as u8);
+        let albedo = u.wrapping_add(8 * shift as u8);
+        [[64 + u / 2, 64 + v / 2, 220], [albedo, 76, v], [50 + v / 2; 3], [10, 10 + u / 10, 10]]
+            [tile as usize]
+    });
 }
 
 /// Changes a file as programs do: other pixels, another size, half of it, gone, or back.

@@ -36,7 +36,10 @@ fn numbered(folder: &Path) -> ViewerOptions {
 /// The texel whose colour this is; `None` for the background.
 fn texel_of([red, green, blue]: [u8; 3]) -> Option<[usize; 2]> {
     // The map is linear, the screen sRGB.
-    let shown = |value: usize| (255.0 * crate::pictures::srgb(value as f64 / 255.0)).round() as u8;
+    let srgb = |value: f64| {
+        if value <= 0.003_130_8 { 12.92 * value } else { 1.055 * value.powf(1.0 / 2.4) - 0.055 }
+    };
+    let shown = |value: usize| (255.0 * srgb(value as f64 / 255.0)).round() as u8;
     let find = |count: u32, step: usize, seen: u8| {
         (0..count as usize).find(|i| shown(step * i + 4).abs_diff(seen) <= 1)
     };

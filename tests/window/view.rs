@@ -89,7 +89,7 @@ fn a_material_for_which_there_is_no_room_is_displayed_reduced_with_a_badge_and_i
     let gpu = &parts.gpu.as_ref().unwrap().gpu;
     let first = &parts.model.materials.all[0];
     let uploaded = Uploaded::too_large(gpu, first.material());
-    parts.jobs.uploads.add(first.id(), Some(Arc::new(uploaded)));
+    parts.jobs.uploads.insert(first.id(), Arc::new(uploaded));
     window.run_steps(6);
     assert_eq!(badges(&window), 3, "all panes are reduced alike");
     let after = pixels(&mut window, rect);

@@ -11,6 +11,7 @@ pub mod effect;
 pub mod endpoint;
 pub mod exposure;
 pub mod framing;
+pub mod history;
 pub mod inspection;
 pub mod material;
 pub mod message;
@@ -32,6 +33,7 @@ use crate::error::Error;
 use crate::model::dataset::DatasetState;
 use crate::model::dialogs::Dialogs;
 use crate::model::effect::Effect;
+use crate::model::history::History;
 use crate::model::inspection::Inspection;
 use crate::model::material::list::MaterialList;
 use crate::model::material::loaded::LoadedMaterial;
@@ -39,7 +41,6 @@ use crate::model::material::photograph::PhotographState;
 use crate::model::material::read::MaterialId;
 use crate::model::message::{Message, MessageList};
 use crate::model::settings::Settings;
-use crate::model::undo::History;
 use crate::model::view::{Exposed, ViewState, WindowGeometry};
 
 /// Everything that is edited in the window. A copy is cheap: what is large is shared.

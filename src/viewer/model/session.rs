@@ -16,12 +16,12 @@ use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::effect::Effect;
+use crate::model::history::History;
 use crate::model::inspection::Inspection;
 use crate::model::material::read::Rules;
 use crate::model::material::request::{ReadRequest, Target};
 use crate::model::message::Message;
 use crate::model::ranges::bring_into_range;
-use crate::model::undo::History;
 use crate::model::view::{Exposed, ViewState};
 use crate::model::{Model, opening};
 

@@ -84,18 +84,21 @@ pub fn title_bar(
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
         painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
     }
-    if has_button {
-        let label =
-            if scenery.shown.view().display.corrected.is_some() { "Show original" } else { "Show all maps" };
-        let button = ui.put(back, egui::Button::new(egui::RichText::new(label).small()));
-        if button.on_hover_text("Show the prediction itself again (Esc)").clicked() {
-            return next.view.isolate(None);
-        }
+    if has_button && back_button(ui, scenery, back).clicked() {
+        return next.view.isolate(None);
     }
     let response = if elided { response.on_hover_text(text) } else { response };
     if let Some(index) = prediction.filter(|_| response.clicked()) {
         display::choose(next, index);
     }
+}
+
+/// The button that shows the prediction itself again.
+fn back_button(ui: &mut egui::Ui, scenery: &Scenery<'_>, place: Rect) -> egui::Response {
+    let is_corrected = scenery.shown.view().display.corrected.is_some();
+    let label = if is_corrected { "Show original" } else { "Show all maps" };
+    let button = ui.put(place, egui::Button::new(egui::RichText::new(label).small()));
+    button.on_hover_text("Show the prediction itself again (Esc)")
 }
 
 /// The pane of a prediction that is not there, with the reason.

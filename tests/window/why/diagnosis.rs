@@ -2,7 +2,6 @@
 
 use svbrdf_evaluate::diagnose::{Change, Diagnosis, Hypothesis, Reading, diagnose, floor};
 use svbrdf_files::read::NormalY;
-use svbrdf_viewer::jobs::why::questions::Attribute;
 use svbrdf_viewer::model::settings::WhySection;
 
 use super::*;
@@ -101,30 +100,6 @@ fn the_lines_are_those_of_the_core_with_the_marked_ones_first_and_the_others_fol
         first.len() == 1 && first[0].ends_with(&format!(": {most:.1}% of the loss")),
         "{first:?}, {most}"
     );
-}
-
-/// The maps are mixed when the first line is there, or at once where it is folded.
-#[needs(adapter)]
-fn the_first_line_has_the_processors_to_itself() {
-    let mixes = |window: &Window<'_>| window.jobs().answers.is_running::<Attribute>();
-    let mut window = built_in();
-    tab(&mut window, "Why");
-    assert!(window.diagnosis().is_none() && has(&window, "After what is above"));
-    wait_in(&mut window, "the diagnosis", |window| {
-        window.diagnosis().is_some() || {
-            assert!(!mixes(window) && window.attribution().is_none() && has(window, "After what is above"));
-            false
-        }
-    });
-    wait(&mut window, "the attribution", |app| app.attribution().is_some());
-    let mut folded = built_in();
-    edit(&mut folded, |model| model.settings.sections.toggle(WhySection::Diagnosis));
-    tab(&mut folded, "Why");
-    wait_in(&mut folded, "the mixing of maps", |window| {
-        assert!(window.attribution().is_none(), "it is seen while it goes on");
-        mixes(window)
-    });
-    assert!(folded.diagnosis().is_none());
 }
 
 #[needs(adapter)]

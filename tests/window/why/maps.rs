@@ -91,33 +91,6 @@ fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
 }
 
 #[needs(adapter)]
-fn every_way_back_shows_the_prediction_itself() {
-    let mut window = opened();
-    let name = "blurred normals, only its normal wrong";
-    let ways: [fn(&mut Window<'_>); 4] = [
-        |window| isolate(window, "normal"),
-        |window| press(window, egui::Key::Escape),
-        |window| {
-            window.get_all_by_label("Show all maps").next().unwrap().click();
-            window.run_steps(3);
-        },
-        undo,
-    ];
-    for back in ways {
-        window.run_steps(30);
-        isolate(&mut window, "normal");
-        wait_for_pane(&mut window, name);
-        assert_eq!(window.view().display.isolated, Some(Map::Normal));
-        back(&mut window);
-        assert_eq!(window.view().display.isolated, None);
-        window.get_by_label("Pane 1  blurred normals");
-        assert!(window.query_by_label("Show all maps").is_none());
-    }
-    press_with(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, egui::Key::Z);
-    wait_for_pane(&mut window, name);
-}
-
-#[needs(adapter)]
 fn differences_and_numbers_are_those_of_the_mixture_that_is_shown() {
     let mut window = opened();
     press(&mut window, egui::Key::D);
