@@ -78,3 +78,14 @@ fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report
         max_bytes: 10_000_000,
     }
 }
+
+#[test]
+fn maps_are_halved_until_the_file_fits() {
+    let materials = [1, 2].map(|seed| noise(seed).resized([192, 192]).unwrap());
+    let materials: Vec<&Material<f32>> = materials.iter().collect();
+    let page = Report { max_bytes: 900_000, ..report(&materials, Convention::default()) };
+    let page = page.page(&Progress::default()).unwrap();
+    assert!(page.html.len() <= 900_000, "{}", page.html.len());
+    assert_eq!(page.reduced_to, Some([96, 96]));
+    assert!(page.html.contains("reduced to 96 &times; 96 texels"));
+}

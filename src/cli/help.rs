@@ -89,12 +89,11 @@ fn entries() -> impl Iterator<Item = Entry> {
 
 /// Options that the short help leaves out, of a command or of all.
 #[rustfmt::skip]
-const RARE: [(&str, &[&str]); 7] = [
-    ("", &["sampler", "precision", "max_size"]),
+const RARE: [(&str, &[&str]); 6] = [
+    ("", &["sampler", "precision"]),
     ("loss", &["texels", "time_budget", "fov"]),
     ("rank", &["fov", "shard", "pick", "fail_above", "figures"]),
     ("strip", &["fov", "results", "range", "lights", "pairs", "convention", "scenes"]),
-    ("report", &["robust", "layout"]),
     ("metrics", &["fov"]),
     ("view", &["target_error", "seed", "results", "adapter"]),
 ];

@@ -32,3 +32,37 @@ function texelAt(grid, [x, y]) {
   const inside = column >= 0 && column < grid.width && row >= 0 && row < grid.height;
   return inside ? [Math.floor(column), Math.floor(row)] : null;
 }
+
+// How the light and the view of a scene move: the twin of src/viewer/model/endpoint.rs.
+
+/** @typedef {"light" | "view"} Endpoint */
+
+/** Least height of a light or a view: from within the plane nothing is seen. */
+const LOWEST = 0.01;
+/** Largest coordinate. */
+const FARTHEST = 1000;
+
+/** @param {Vector} a */
+const norm = (a) => Math.hypot(...a);
+/** @param {Vector} a @returns {Vector} */
+const unit = (a) => [a[0] / norm(a), a[1] / norm(a), a[2] / norm(a)];
+
+/** @param {Scene} scene @param {Endpoint} which @param {number[]} p */
+function setEndpoint(scene, which, [x, y, z]) {
+  scene[which] = [clamp(x, -FARTHEST, FARTHEST), clamp(y, -FARTHEST, FARTHEST), clamp(z, LOWEST, FARTHEST)];
+}
+
+/** The projection onto the plane, where the handle is. @param {Scene} scene @param {Endpoint} which @returns {[number, number]} */
+function overPlane(scene, which) {
+  const [x, y] = scene.kind === "distant" ? unit(scene[which]) : scene[which];
+  return [x, y];
+}
+
+/** Moves an endpoint so that its projection is (x, y). @param {Scene} scene @param {Endpoint} which @param {number[]} point */
+function moveOverPlane(scene, which, [x, y]) {
+  if (scene.kind === "near") return setEndpoint(scene, which, [x, y, scene[which][2]]);
+  const shrink = Math.min(Math.sqrt(1 - LOWEST * LOWEST) / Math.max(Math.hypot(x, y), Number.MIN_VALUE), 1);
+  const [sx, sy] = [x * shrink, y * shrink];
+  const distance = norm(scene[which]);
+  setEndpoint(scene, which, [sx, sy, Math.sqrt(Math.max(1 - sx * sx - sy * sy, 0))].map((c) => c * distance));
+}

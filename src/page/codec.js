@@ -1,7 +1,7 @@
 // Maps as the report stores them: planes of whole numbers, predicted from their neighbours, deflated, in base64.
 
 /**
- * @typedef {{data: string, palette: string | null, predictor: 0 | 1 | 2}} Plane
+ * @typedef {{data: string, palette: string | null}} Plane
  * @typedef {{name: string, width: number, height: number, planes: Plane[],
  *   normal: number[], diffuse: number[], specular: number[], roughness: number[]}} StoredMaterial
  * @typedef {{name: string, width: number, height: number, normalRoughness: Float32Array, diffuse: Float32Array,
@@ -18,11 +18,11 @@ async function inflate(text) {
 }
 
 /**
- * The values of a plane: those of its palette, or those that `decode` makes of numbers in [0, 1]. The predictor is none (0), the left
- * neighbour (1), or left + above - above left (2).
+ * The values of a plane: those of its palette, or those that `decode` makes of numbers in [0, 1]. The prediction is left + above - above
+ * left.
  * @param {Plane} plane @param {number} width @param {number} height @param {(x: number) => number} decode
  */
-async function decodePlane({ data, palette, predictor }, width, height, decode) {
+async function decodePlane({ data, palette }, width, height, decode) {
   const bytes = await inflate(data);
   const count = width * height;
   const most = palette === null ? 65535 : 255;
@@ -35,9 +35,8 @@ async function decodePlane({ data, palette, predictor }, width, height, decode) 
     const left = column > 0 ? stored[i - 1] : 0;
     const above = i >= width ? stored[i - width] : 0;
     const corner = column > 0 && i >= width ? stored[i - width - 1] : 0;
-    const predicted = predictor === 0 ? 0 : predictor === 1 ? left : left + above - corner;
     const residual = known ? bytes[i] : bytes[i] * 256 + bytes[count + i];
-    stored[i] = (residual + predicted) & most;
+    stored[i] = (residual + left + above - corner) & most;
     values[i] = known ? known[stored[i]] : decode(stored[i] / most);
   }
   return values;

@@ -1,24 +1,18 @@
-//! The content of a report.
+//! The content of a page: a figure, reports, how the files were read, and how to repeat it.
 
 use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_core::model::scene::{Endpoint, Scene};
+use svbrdf_core::model::scene::Scene;
 use svbrdf_core::progress::Progress;
-use svbrdf_evaluate::analyses::LossReport;
-use svbrdf_evaluate::robust::RobustReport;
-use svbrdf_evaluate::why::{
-    Attribution, Hemisphere, RankedScene, attribute, hemisphere, worst_on_all_texels,
-};
+use svbrdf_evaluate::analyses::{BlameReport, LossReport};
+use svbrdf_evaluate::report::Compared;
+use svbrdf_evaluate::why::{RankedScene, attribute, worst_on_all_texels};
 use svbrdf_files::Error;
-
 use svbrdf_files::session::window::SessionDisplay;
 
 /// Worst scenes of the page.
 const SCENES: usize = 6;
-/// Columns of the map over directions of the light, and the view of that map.
-const SIDE: usize = 24;
-const ALONG_NORMAL: [f64; 3] = [0.0, 0.0, 1.0];
 
 /// What the figure displays at first.
 #[derive(Clone, Debug)]
@@ -33,14 +27,9 @@ pub struct View {
 #[derive(Clone, Debug)]
 pub struct Findings {
     pub loss: LossReport,
-    /// Whether the order of the predictions survives other questions; `None`: not asked.
-    pub robust: Option<RobustReport>,
-    /// One per prediction.
-    pub attributions: Vec<Attribution>,
+    pub blame: BlameReport,
     /// The worst scenes of the loss, worst first, with their losses on all texels.
     pub worst: Vec<RankedScene>,
-    /// The loss over the directions of the light, under a view along the normal.
-    pub lights: Hemisphere,
 }
 
 impl Findings {
@@ -62,15 +51,14 @@ impl Findings {
         let one =
             |prediction: &&Material<f32>| attribute(ground_truth, prediction, &convention, request, progress);
         let attributions = predictions.iter().map(one).collect::<Result<_, _>>()?;
-        let lights = hemisphere(&comparison, Endpoint::Light, ALONG_NORMAL, SIDE, progress)?;
-        Ok(Self { loss, robust: None, attributions, worst, lights })
+        let blame = BlameReport::new(Compared::new(ground_truth, &convention), request, attributions);
+        Ok(Self { loss, blame, worst })
     }
 }
 
 /// How a report is made again.
 #[derive(Clone, Debug)]
 pub struct Repetition {
-    /// The command, or the call of a function.
     pub command: String,
     /// The name and the text of the session file that the command reads; `None`: it names the materials.
     pub session: Option<[String; 2]>,

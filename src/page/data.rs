@@ -9,7 +9,6 @@ use svbrdf_core::model::brdf::Model;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::colour_map::{diverging, heat};
-use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::Error;
 use svbrdf_shaders::PAGE_GLSL;
@@ -20,7 +19,7 @@ use super::encode::EncodedMaterial;
 /// Colours of a legend.
 const COLOURS: usize = 64;
 
-/// A scene of the findings, with the exposure of its thumbnail in stops.
+/// A scene of the findings, with its exposure in stops.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct LinkedScene {
     pub scene: Scene,
@@ -36,7 +35,8 @@ struct Data<'a> {
     model: BTreeMap<&'static str, f32>,
     epsilon: f64,
     shaders: Value,
-    kinds: BTreeMap<&'a str, Vec<Kind>>,
+    /// The difference of each quantity.
+    kinds: BTreeMap<&'static str, Kind>,
     colours: BTreeMap<&'a str, Vec<String>>,
     start: Start<'a>,
     scenes: &'a [LinkedScene],
@@ -57,8 +57,6 @@ struct Start<'a> {
     exposure: f32,
     quantity: &'a str,
     difference: bool,
-    kinds: BTreeMap<&'a str, &'a str>,
-    ranges: BTreeMap<&'a str, f64>,
     layout: &'a str,
     prediction: usize,
     wipe: f32,
@@ -82,7 +80,7 @@ pub(super) fn json(
         model: model(&drawn),
         epsilon: report.convention.epsilon,
         shaders: serde_json::from_str(PAGE_GLSL).map_err(failed)?,
-        kinds: Quantity::ALL.map(|quantity| (quantity.name(), kinds(quantity))).into(),
+        kinds: Quantity::ALL.map(|quantity| (quantity.name(), kind(&report.view, quantity))).into(),
         colours: [("heat", colours(heat, 0.0)), ("diverging", colours(diverging, -1.0))].into(),
         start: start(report),
         scenes,
@@ -104,15 +102,15 @@ fn model(convention: &Convention) -> BTreeMap<&'static str, f32> {
     .into()
 }
 
-fn kinds(quantity: Quantity) -> Vec<Kind> {
-    let kind = |kind: &Difference| Kind {
+fn kind(view: &View, quantity: Quantity) -> Kind {
+    let (kind, range) = view.display.differences.pointwise(quantity);
+    Kind {
         key: kind.key(),
         name: kind.name(),
         unit: kind.unit(),
         signed: kind.is_signed(),
-        range: kind.default_range(),
-    };
-    Difference::pointwise(quantity).iter().map(kind).collect()
+        range: range.unwrap_or_else(|| kind.default_range()),
+    }
 }
 
 /// The colours of amounts from `low` to 1.
@@ -127,20 +125,11 @@ fn colours(map: fn(f32) -> [f32; 3], low: f32) -> Vec<String> {
 
 fn start<'a>(report: &'a Report<'_>) -> Start<'a> {
     let View { scene, exposure_ev, ref display } = report.view;
-    let differences = &display.differences;
-    let chosen = |quantity: Quantity| (quantity.name(), differences.pointwise(quantity).0.key());
-    let range = |quantity: Quantity| {
-        let (kind, range) = differences.pointwise(quantity);
-        Some((kind.key(), range?))
-    };
-    let ranges = Quantity::ALL.into_iter().filter_map(range);
     Start {
         scene,
         exposure: exposure_ev,
         quantity: display.quantity.name(),
         difference: display.difference,
-        kinds: Quantity::ALL.map(chosen).into(),
-        ranges: ranges.collect(),
         layout: display.layout.key(),
         prediction: display.prediction.min(report.materials.len().saturating_sub(2)),
         wipe: display.wipe,

@@ -29,8 +29,6 @@ pub(super) struct Plane {
     data: String,
     /// The values in 8 bits as 32-bit floats; `None`: the plane has 16 bits.
     palette: Option<String>,
-    /// 0: none; 1: the left neighbour; 2: left + above - above left.
-    predictor: u8,
 }
 
 /// The maps of a material. Maps name their planes; equal channels name the same one.
@@ -64,9 +62,8 @@ impl EncodedMaterial {
             let place = |i| first + distinct.partition_point(|other| *other < same(i));
             Ok::<_, Error>((0..channels.len()).map(place).collect())
         };
-        let codes = of_8_bits(&maps.normal);
         let octahedral = |c: f32| (c + 1.0) * HALF / MOST;
-        let normal = match codes {
+        let normal = match of_8_bits(&maps.normal) {
             Some(codes) => add(&codes, octahedral)?,
             None => add(&octahedron(&maps.normal), octahedral)?,
         };
@@ -144,72 +141,28 @@ impl Plane {
             }
             None => values.iter().map(|value| (encode(*value) * MOST).round() as u16).collect(),
         };
-        let bits = if palette.is_some() { 8 } else { 16 };
-        let all = (0..3u8).map(|predictor| (predictor, residuals(&whole, width, predictor, bits)));
-        let (predictor, bytes) =
-            all.min_by_key(|(_, bytes)| cost(bytes, whole.len(), bits)).unwrap_or_default();
+        let bytes = residuals(&whole, width, palette.is_some());
         let failed = |problem: std::io::Error| Error::Internal(format!("deflating failed: {problem}"));
         let mut encoder = DeflateEncoder::new(Vec::new(), Compression::best());
         encoder.write_all(&bytes).map_err(failed)?;
         let data = BASE64_STANDARD.encode(encoder.finish().map_err(failed)?);
         let bytes_of = |palette: Vec<f32>| palette.iter().flat_map(|value| value.to_le_bytes()).collect();
         let palette = palette.map(|palette| BASE64_STANDARD.encode::<Vec<u8>>(bytes_of(palette)));
-        Ok(Self { data, palette, predictor })
+        Ok(Self { data, palette })
     }
 }
 
-/// What is left of each value after the prediction: upper bytes, then lower bytes, where there are 16 bits.
-fn residuals(values: &[u16], width: usize, predictor: u8, bits: u8) -> Vec<u8> {
+/// What is left of each value after its prediction, left + above - above left: upper bytes, then lower bytes, where there are 16 bits.
+fn residuals(values: &[u16], width: usize, is_in_8_bits: bool) -> Vec<u8> {
     let at = |i: usize, is_there: bool, back: usize| if is_there { values[i - back] } else { 0 };
     let residual = |i: usize| {
         let column = i % width;
         let (has_left, has_above) = (column > 0, i >= width);
-        let left = at(i, has_left, 1);
-        let predicted = match predictor {
-            0 => 0,
-            1 => left,
-            _ => {
-                let corner = at(i, has_left && has_above, width + 1);
-                left.wrapping_add(at(i, has_above, width)).wrapping_sub(corner)
-            }
-        };
-        values[i].wrapping_sub(predicted)
+        let predicted = at(i, has_left, 1).wrapping_add(at(i, has_above, width));
+        values[i].wrapping_sub(predicted).wrapping_add(at(i, has_left && has_above, width + 1))
     };
     let all: Vec<u16> = (0..values.len()).map(residual).collect();
-    if bits == 8 {
-        return all.iter().map(|value| *value as u8).collect();
-    }
     let upper = all.iter().map(|value| (value >> 8) as u8);
+    let upper = upper.take(if is_in_8_bits { 0 } else { all.len() });
     upper.chain(all.iter().map(|value| *value as u8)).collect()
-}
-
-/// The sum of the sizes of the residuals, as PNG encoders choose their filters.
-fn cost(bytes: &[u8], count: usize, bits: u8) -> u64 {
-    let size = |byte: &u8| u64::from((*byte as i8).unsigned_abs());
-    let coarse: u64 = bytes[..count].iter().map(size).sum();
-    if bits == 8 { coarse } else { 256 * coarse + bytes[count..].iter().map(size).sum::<u64>() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn normals_of_8_bits_are_found_again_and_others_are_not() {
-        let unit = |codes: [f32; 3]| {
-            let v = codes.map(|c| 2.0 * c / 255.0 - 1.0);
-            let norm = v.iter().map(|c| c * c).sum::<f32>().sqrt();
-            v.map(|c| c / norm)
-        };
-        for codes in [[128.0, 128.0, 255.0], [20.0, 90.0, 180.0], [140.0, 30.0, 3.0], [0.0, 127.0, 140.0]] {
-            let normal = unit(codes);
-            let found = vector_of_8_bits(normal).unwrap();
-            let norm = found.iter().map(|c| c * c).sum::<f32>().sqrt();
-            assert!(
-                found.iter().zip(normal).all(|(c, n)| (c / norm - n).abs() < 1e-6),
-                "{codes:?}: {found:?}"
-            );
-        }
-        assert_eq!(vector_of_8_bits(unit([128.4, 77.7, 230.3])), None);
-    }
 }

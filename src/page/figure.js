@@ -4,11 +4,10 @@
  * @typedef {{scene: Scene, quantity: string, model: Record<string, number>, epsilon: number}} Shaded
  * @typedef {{material: number, difference: string | null, wipe: number | null}} Pane
  * @typedef {{key: string, name: string, unit: string, signed: boolean, range: number}} Kind
- * @typedef {{scene: Scene, exposure: number, quantity: string, difference: boolean, kinds: Record<string, string>,
- *   ranges: Record<string, number>, layout: string, prediction: number, zoom: number, pan: [number, number], wipe: number,
- *   drag: string, peek: boolean}} State
+ * @typedef {{scene: Scene, exposure: number, quantity: string, difference: boolean, layout: string, prediction: number, zoom: number,
+ *   pan: [number, number], wipe: number, drag: string, peek: boolean}} State
  * @typedef {{materials: StoredMaterial[], model: Record<string, number>, epsilon: number, convention: string, drawn: string,
- *   kinds: Record<string, Kind[]>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
+ *   kinds: Record<string, Kind>, colours: {heat: string[], diverging: string[]}, shaders: Record<string, ShaderText>,
  *   start: Omit<State, "zoom" | "pan" | "drag" | "peek">, scenes: {scene: Scene, exposure: number}[]}} Data
  */
 
@@ -38,12 +37,7 @@ class Figure {
 
   /** The state that the report begins with. @returns {State} */
   start() {
-    const kinds = Object.fromEntries(Object.entries(this.data.kinds).map(([quantity, all]) => [quantity, all[0].key]));
-    const ranges = Object.fromEntries(Object.values(this.data.kinds).flat().map((kind) => [kind.key, kind.range]));
-    const start = structuredClone(this.data.start);
-    return {
-      ...start, zoom: 1, pan: [0, 0], drag: "light", peek: false, kinds: { ...kinds, ...start.kinds }, ranges: { ...ranges, ...start.ranges },
-    };
+    return { ...structuredClone(this.data.start), zoom: 1, pan: [0, 0], drag: "light", peek: false };
   }
 
   /** Changes the state and draws. @param {Partial<State>} changes */
@@ -62,11 +56,9 @@ class Figure {
     });
   }
 
-  /** The kind of the difference of the quantity. @returns {Kind} */
+  /** The kind of the difference of the quantity. */
   kind() {
-    const { quantity, kinds } = this.state;
-    const all = this.data.kinds[quantity];
-    return all.find((kind) => kind.key === kinds[quantity]) ?? all[0];
+    return this.data.kinds[this.state.quantity];
   }
 
   /** What is shaded. @returns {Shaded} */
@@ -77,7 +69,7 @@ class Figure {
 
   /** How it is shown. */
   shown() {
-    return { exposure: this.state.exposure, range: this.state.ranges[this.kind().key] };
+    return { exposure: this.state.exposure, range: this.kind().range };
   }
 
   /** The panes of the layout, in reading order. @returns {Pane[]} */
@@ -155,24 +147,6 @@ class Figure {
     for (const watcher of this.watchers) watcher();
   }
 
-  /** The rendering of one material, a pixel for each texel: RGB in 8 bits, row 0 on top. @param {number} material @param {string | null} difference */
-  picture(material, difference) {
-    const { width, height } = this.grid;
-    const { canvas } = this;
-    [canvas.width, canvas.height] = [width, height];
-    const box = { x: 0, y: 0, width, height };
-    const camera = flatCamera(this.grid, width / height, MARGIN, [0, 0]);
-    this.shading.pane({ material, difference, wipe: null }, this.how(), camera, box, this.shown());
-    const pixels = this.shading.pixels(box);
-    const rgb = new Uint8Array(3 * width * height);
-    for (let i = 0; i < width * height; i++) {
-      const from = 4 * ((height - 1 - Math.floor(i / width)) * width + i % width);
-      rgb.set(pixels.subarray(from, from + 3), 3 * i);
-    }
-    this.changed();
-    return rgb;
-  }
-
   /** The texel that covers a point of the plane. @param {[number, number]} point */
   texel(point) {
     return texelAt(this.grid, point);
@@ -188,12 +162,5 @@ class Figure {
   difference(material, [x, y]) {
     const target = this.shading.differences(material, this.how(), this.kind().key);
     return this.shading.read(target, { x, y, width: 1, height: 1 })[0];
-  }
-
-  /** The differences of all texels of a prediction, sorted. @param {number} material */
-  sortedDifferences(material) {
-    const target = this.shading.differences(material, this.how(), this.kind().key);
-    const numbers = this.shading.read(target, { x: 0, y: 0, ...this.grid });
-    return numbers.filter((_, i) => i % 4 === 0).sort();
   }
 }

@@ -148,11 +148,10 @@ class Gestures {
     const box = this.paneAt(place);
     const delta = event.deltaY + event.deltaX;
     const notches = clamp(-delta / (event.deltaMode === 0 ? 100 : 3), -3, 3);
-    if (event.shiftKey || event.altKey) {
+    if (event.shiftKey) {
       const { scene } = this.figure.state;
-      const which = event.shiftKey ? "light" : "view";
-      const [x, y, z] = scene[which];
-      setEndpoint(scene, which, [x, y, z * SCALE_STEP ** notches]);
+      const [x, y, z] = scene.light;
+      setEndpoint(scene, "light", [x, y, z * SCALE_STEP ** notches]);
       this.figure.changed();
     } else if (box) {
       this.zoom(ZOOM_STEP ** notches, place, box);

@@ -6,14 +6,11 @@
 mod content;
 mod data;
 mod encode;
-mod exposure;
 mod findings;
 mod markup;
 mod pictures;
-mod plots;
 mod ranking;
 mod ranking_views;
-mod tables;
 
 use std::path::Path;
 
@@ -26,12 +23,11 @@ use svbrdf_files::Error;
 
 pub use content::{Findings, Repetition, Report, View};
 use encode::EncodedMaterial;
-pub use exposure::exposure;
-pub use markup::escaped;
-use markup::{Document, MOST_NAMES, filled};
-use pictures::Rows;
+pub use findings::report_html;
+use markup::{Document, MOST_NAMES, escaped, filled};
+pub use pictures::exposure;
 pub use ranking::{MaterialView, ranking};
-pub use ranking_views::{Figures, material_views, overview};
+pub use ranking_views::{Figures, material_views};
 use svbrdf_files::disk::atomic::check_place;
 
 const PAGE: &str = include_str!("page.html");
@@ -40,7 +36,6 @@ const STYLE: &str = include_str!("page.css");
 const SCRIPT: &str = concat!(
     include_str!("codec.js"),
     include_str!("camera.js"),
-    include_str!("endpoint.js"),
     include_str!("shading.js"),
     include_str!("figure.js"),
     include_str!("gestures.js"),
@@ -48,13 +43,10 @@ const SCRIPT: &str = concat!(
     include_str!("overlay.js"),
     include_str!("legend.js"),
     include_str!("controls.js"),
-    include_str!("findings.js"),
     include_str!("main.js"),
 );
 /// Most bytes of the file of a report.
 pub const MOST_BYTES: usize = 10_000_000;
-/// Materials in the still picture.
-const STILL: Rows = Rows { width: 384, columns: 5 };
 /// Longest side of the maps that pictures of the page are rendered from.
 const RENDERED: usize = 512;
 /// Maps are not reduced below this side.
@@ -97,8 +89,8 @@ impl Report<'_> {
         let content = self.content();
         let view = &self.view;
         let drawn = self.convention.drawn();
-        let still = pictures::still(&small, content, &view.scene, &drawn, view.exposure_ev, STILL)?;
-        let (sections, scenes) = findings::sections(self, &small, progress)?;
+        let still = pictures::still(&small, content, &view.scene, &drawn, view.exposure_ev)?;
+        let (sections, scenes) = findings::sections(self);
         let frame = Document::bytes_without_body(STYLE, SCRIPT);
         let fixed = frame + PAGE.len() + still.len() + sections.len() + 64 * 1024;
         let (materials, reduced_to) = self.encoded(self.max_bytes.saturating_sub(fixed), progress)?;
@@ -115,7 +107,7 @@ impl Report<'_> {
                 ("data", &markup::embedded(&data)),
             ],
         );
-        let summary = self.findings.as_ref().map(findings::summary).unwrap_or_else(|| format!("{title}."));
+        let summary = self.summary().unwrap_or_else(|| format!("{title}."));
         let description = &format!("{summary} An interactive figure: drag the light.");
         let document = Document { title: &title, description, style: STYLE, script: SCRIPT, body: &body };
         Ok(Page { html: document.html(), reduced_to })
@@ -146,6 +138,10 @@ impl Report<'_> {
         }
     }
 
+    fn summary(&self) -> Option<String> {
+        self.findings.as_ref().map(|found| findings::summary(&found.loss.outcome, self.convention.name))
+    }
+
     /// What the still picture has.
     fn caption(&self) -> String {
         let names: Vec<String> = self.materials.iter().map(|material| escaped(material.name())).collect();
@@ -165,8 +161,7 @@ impl Report<'_> {
         if self.findings.is_none() && self.repetition.is_none() {
             return note;
         }
-        let summary = self.findings.as_ref().map(findings::summary);
-        let summary = summary.map_or(String::new(), |text| format!("<p>{text}</p>"));
+        let summary = self.summary().map_or(String::new(), |text| format!("<p>{text}</p>"));
         format!("<header><h1>{}</h1>{summary}{note}</header>", self.title())
     }
 

@@ -18,14 +18,14 @@ async function start() {
   const reset = () => { Object.assign(figure.state, figure.start()); };
   const overlay = new Overlay(figure, element("panes"));
   const gestures = new Gestures(figure, (texel) => overlay.hover(texel));
-  new Legend(figure, element);
+  addLegend(figure, element);
   bindControls(figure, element, reset);
   listenToKeys(figure, element("figure"), gestures, reset);
-  linkFindings(figure, element("figure"));
+  linkScenes(figure, element("figure"));
   const showCanvas = (/** @type {boolean} */ live) => {
     canvas.hidden = element("panes").hidden = !live;
     still.hidden = live;
-    element("controls").hidden = element("hint").hidden = element("numbers").hidden = !live;
+    element("controls").hidden = element("hint").hidden = !live;
     document.body.classList.toggle("live", live);
   };
   showCanvas(true);
@@ -43,7 +43,7 @@ async function start() {
     showCanvas(false);
     problem("the graphics adapter was lost; reload the page");
   });
-  // For pages that embed the figure, and for tests.
+  // For pages that embed the figure.
   Object.assign(window, { svbrdf: { figure, overlay } });
 }
 

@@ -19,6 +19,7 @@ pub(super) struct Document<'a> {
     /// For search engines and previews of links, as HTML.
     pub description: &'a str,
     pub style: &'a str,
+    /// Empty: none.
     pub script: &'a str,
     /// As HTML.
     pub body: &'a str,
@@ -27,6 +28,10 @@ pub(super) struct Document<'a> {
 impl Document<'_> {
     /// The document as HTML: its policy admits its own script and style, pictures inside the file, and nothing else.
     pub(super) fn html(&self) -> String {
+        let script = match self.script {
+            "" => String::new(),
+            script => format!(r#"<script type="module">{script}</script>"#),
+        };
         filled(
             FRAME,
             &[
@@ -36,7 +41,7 @@ impl Document<'_> {
                 ("script-hash", &policy_source(self.script)),
                 ("style-hash", &policy_source(self.style)),
                 ("style", self.style),
-                ("script", self.script),
+                ("script", &script),
                 ("body", self.body),
             ],
         )
@@ -98,9 +103,31 @@ pub(super) fn number(x: f64) -> String {
     format!("{x:.decimals$}").replace('-', "\u{2212}")
 }
 
-/// A share as percent with a typographic minus.
-pub(super) fn percent(share: f64) -> String {
-    format!("{:.1}%", 100.0 * share).replace('-', "\u{2212}")
+/// A section; `html` is its content.
+pub(super) fn section(title: &str, html: &str) -> String {
+    let id = title.split(' ').next().unwrap_or_default().to_lowercase();
+    format!(r#"<section aria-labelledby="{id}"><h2 id="{id}">{title}</h2>{html}</section>"#)
+}
+
+/// A table of HTML: headings, and rows whose first cells are their headings.
+pub(super) fn table(
+    headings: impl IntoIterator<Item = String>,
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> String {
+    let headings: String =
+        headings.into_iter().map(|text| format!(r#"<th scope="col">{text}</th>"#)).collect();
+    let cell = |(column, html): (usize, String)| match column {
+        0 => format!(r#"<th scope="row" class="name">{html}</th>"#),
+        _ => format!("<td>{html}</td>"),
+    };
+    let row = |row: Vec<String>| {
+        let cells: String = row.into_iter().enumerate().map(cell).collect();
+        format!("<tr>{cells}</tr>\n")
+    };
+    let rows: String = rows.into_iter().map(row).collect();
+    format!(
+        r#"<div class="wide"><table><thead><tr>{headings}</tr></thead><tbody>{rows}</tbody></table></div>"#
+    )
 }
 
 /// A position or direction, on one line, without a negative zero.
@@ -143,7 +170,6 @@ mod tests {
             [0.0, 0.123_456, -12.345_6, 1234.5].map(number),
             ["0.000", "0.1235", "\u{2212}12.35", "1234"]
         );
-        assert_eq!(percent(-0.0312), "\u{2212}3.1%");
         assert_eq!(place([-0.004, 0.5, -1.25]), "(0.00,\u{a0}0.50,\u{a0}\u{2212}1.25)");
     }
 }

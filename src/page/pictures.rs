@@ -1,4 +1,4 @@
-//! Pictures of the page: the still picture of the figure, and thumbnails of scenes, as JPEG in data URIs.
+//! Pictures of pages as JPEG in data URIs: the still picture of a figure, and thumbnails of materials.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -12,19 +12,15 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::PictureContent;
+use svbrdf_core::picture::exposure::automatic;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
-/// Size of the pictures of materials that stand in rows.
-#[derive(Clone, Copy)]
-pub(super) struct Rows {
-    /// Largest width of one, in pixels.
-    pub width: u32,
-    /// Largest number in a row.
-    pub columns: usize,
-}
-
+/// Width of a material in the still picture in pixels, and their largest number in a row.
+const STILL: (u32, usize) = (384, 5);
+/// Largest exposure of the figure, in stops, in either direction.
+const MOST_STOPS: f32 = 8.0;
 /// Pixels between pictures that stand side by side.
 const GAP: u32 = 2;
 const QUALITY: u8 = 86;
@@ -44,38 +40,22 @@ pub(super) fn reduced(materials: &[&Material<f32>], most: usize) -> Result<Vec<M
     materials.iter().map(one).collect()
 }
 
-/// The renderings of the materials in a scene, in rows.
-pub(super) fn thumbnail(
-    materials: &[&Material<f32>],
-    scene: &Scene,
-    convention: &Convention,
-    exposure_ev: f32,
-    rows: Rows,
-    progress: &Progress,
-) -> Result<String, Error> {
-    let image = |material: &&Material<f32>| Quantity::Rendering.image(material, scene, convention, progress);
-    let images = materials.iter().map(image).collect::<Result<Vec<_>, _>>()?;
-    let content = PictureContent::default();
-    let pictures: Vec<_> =
-        images.iter().map(|image| coloured(image, content, exposure_ev, rows.width)).collect();
-    data_uri(&in_rows(&pictures, rows.columns))
+/// The exposure in stops at which the brightest 1% of a rendering of the ground truth just clip, to a step of the figure's control.
+pub fn exposure(ground_truth: &Material<f32>, scene: &Scene, convention: &Convention) -> f32 {
+    ((2.0 * automatic(ground_truth, scene, convention)).round() / 2.0).clamp(-MOST_STOPS, MOST_STOPS)
 }
 
-/// The rendering of a material, then its maps, in a row.
-pub(super) fn quantities(
+/// The rendering of a material, at most `width` pixels wide.
+pub(super) fn thumbnail(
     material: &Material<f32>,
     scene: &Scene,
     convention: &Convention,
     exposure_ev: f32,
+    width: u32,
+    progress: &Progress,
 ) -> Result<String, Error> {
-    /// Of each, in pixels.
-    const WIDTH: u32 = 128;
-    let one = |quantity: Quantity| -> Result<RgbImage, Error> {
-        let image = quantity.image(material, scene, convention, &Progress::default())?;
-        Ok(coloured(&image, PictureContent { quantity, difference: None }, exposure_ev, WIDTH))
-    };
-    let pictures = Quantity::ALL.into_iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    data_uri(&in_rows(&pictures, pictures.len()))
+    let image = Quantity::Rendering.image(material, scene, convention, progress)?;
+    data_uri(&coloured(&image, PictureContent::default(), exposure_ev, width))
 }
 
 /// The content of every material, in rows; of differences the value of the ground truth first.
@@ -85,13 +65,13 @@ pub(super) fn still(
     scene: &Scene,
     convention: &Convention,
     exposure_ev: f32,
-    rows: Rows,
 ) -> Result<String, Error> {
+    let (width, columns) = STILL;
     let progress = Progress::default();
     let mut pictures = Vec::new();
     let mut add = |content: PictureContent, materials: &[&Material<f32>]| -> Result<(), CoreError> {
         let shown = content.pictures(materials, scene, convention, exposure_ev, &progress)?;
-        let coloured = |image| coloured(image, shown.content, exposure_ev, rows.width);
+        let coloured = |image| coloured(image, shown.content, exposure_ev, width);
         pictures.extend(shown.images.iter().map(coloured));
         Ok(())
     };
@@ -99,7 +79,7 @@ pub(super) fn still(
         add(PictureContent { difference: None, ..content }, &materials[..1])?;
     }
     add(content, materials)?;
-    data_uri(&in_rows(&pictures, rows.columns))
+    data_uri(&in_rows(&pictures, columns))
 }
 
 /// The colours of a picture, at most `width` pixels wide.

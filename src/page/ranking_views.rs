@@ -16,8 +16,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
 use super::content::{Report, View};
-use super::exposure::exposure;
-use super::pictures;
+use super::pictures::{self, exposure};
 use super::ranking::MaterialView;
 use svbrdf_evaluate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
 use svbrdf_files::disk::atomic::replace;
@@ -161,11 +160,10 @@ fn view(
     let small = pictures::reduced(&materials, RENDERED)?;
     let drawn = convention.drawn();
     let exposure_ev = exposure(&small[0], &SCENE, &drawn);
-    let rows = pictures::Rows { width, columns: 1 };
     let mut small = small.iter();
     let picture = |one: &Option<Material<f32>>| {
         let Some(small) = one.as_ref().and_then(|_| small.next()) else { return Ok(None) };
-        pictures::thumbnail(&[small], &SCENE, &drawn, exposure_ev, rows, &progress.part()).map(Some)
+        pictures::thumbnail(small, &SCENE, &drawn, exposure_ev, width, &progress.part()).map(Some)
     };
     let pictures = all.iter().map(picture).collect::<Result<Vec<_>, Error>>()?;
     let figure = figure.map(|path| write_figure(path, &materials, convention, exposure_ev, progress));
@@ -194,16 +192,6 @@ fn write_figure(
     own::check(path)?;
     replace(path, progress, |file| file.write_all(page.html.as_bytes()))?;
     Ok(address(path))
-}
-
-/// A material in small: a rendering, then its normal, diffuse, specular and roughness maps side by side, as the address of an image.
-///
-/// # Errors
-/// [`Cancelled`](Error::is_cancelled), which it is not.
-pub fn overview(material: &Material<f32>) -> Result<String, Error> {
-    let (small, convention) = (pictures::reduced(&[material], RENDERED)?, Convention::default());
-    let exposure_ev = exposure(&small[0], &SCENE, &convention);
-    pictures::quantities(&small[0], &SCENE, &convention, exposure_ev)
 }
 
 /// The address of a figure, relative to the page beside its folder.

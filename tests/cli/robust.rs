@@ -1,4 +1,4 @@
-//! `svbrdf rank --robust` and its section of the pages: an order that is known to depend on epsilon.
+//! `svbrdf rank --robust` and its section of the page: an order that is known to depend on epsilon.
 
 use std::path::Path;
 
@@ -31,7 +31,7 @@ fn write_halves(path: &Path, diffuse: [f64; 2], roughness: u8) {
 }
 
 #[test]
-fn an_order_that_depends_on_epsilon_is_said_to_in_every_format_and_on_the_pages() {
+fn an_order_that_depends_on_epsilon_is_said_to_in_every_format_and_on_the_page() {
     let folder = halves();
     let robust = "--robust --target-error 10%";
     let command = format!("rank --dataset gt dark bright {robust}");
@@ -54,14 +54,4 @@ fn an_order_that_depends_on_epsilon_is_said_to_in_every_format_and_on_the_pages(
     assert_eq!((row["tau"].parse(), row["order"].as_str()), (Ok(-1.0), "dark < bright"));
     succeed(folder.path(), &format!("{command} --format html -o page.html"));
     assert_has(&text_of(folder.path(), "page.html"), &[sentence]);
-    let of_one = format!("gt/m0.png dark=dark/m0.png bright=bright/m0.png {robust}");
-    let answer = json_of(folder.path(), &format!("rank {of_one}"));
-    succeed(folder.path(), &format!("report {of_one} -o report.html"));
-    let questions = answer["questions"].as_array().unwrap();
-    assert!(questions.len() > 12, "{answer}");
-    let page = text_of(folder.path(), "report.html");
-    assert_has(&page, &[answer["sentence"].as_str().unwrap()]);
-    for asked in questions {
-        assert_has(&page, &[&format!(">{}</th>", asked["question"].as_str().unwrap())]);
-    }
 }

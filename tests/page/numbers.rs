@@ -25,14 +25,29 @@ fn show(page: &mut Page, scene: &Scene, quantity: Quantity, exposure: f32) {
     page.evaluate(&format!("window.svbrdf.figure.set({state})"));
 }
 
-/// The 8-bit picture of a material in the page.
+/// The 8-bit picture of a material in the page, a pixel for each texel.
 fn picture(page: &mut Page, material: usize, difference: Option<Difference>) -> Vec<u8> {
     let difference = json!(difference.map(Difference::key));
     let text = page.evaluate(&format!(
-        "(() => {{ let text = ''; for (const byte of window.svbrdf.figure.picture({material}, {difference})) \
-         text += String.fromCharCode(byte); return btoa(text); }})()"
+        "(() => {{ const figure = window.svbrdf.figure, {{ canvas, shading, grid: {{ width, height }} }} = figure; \
+         [canvas.width, canvas.height] = [width, height]; \
+         const box = {{ x: 0, y: 0, width, height }}, s = Math.max(width, 2) - 1; \
+         const camera = {{ origin: [0, 0], half: [width / s, height / s] }}; \
+         shading.pane({{ material: {material}, difference: {difference}, wipe: null }}, figure.how(), camera, box, figure.shown()); \
+         const pixels = new Uint8Array(4 * width * height); \
+         shading.gl.readPixels(0, 0, width, height, shading.gl.RGBA, shading.gl.UNSIGNED_BYTE, pixels); figure.changed(); \
+         let text = ''; for (const byte of pixels) text += String.fromCharCode(byte); return btoa(text); }})()"
     ));
-    base64::prelude::BASE64_STANDARD.decode(text.as_str().unwrap()).unwrap()
+    let pixels = base64::prelude::BASE64_STANDARD.decode(text.as_str().unwrap()).unwrap();
+    let width = page.evaluate("window.svbrdf.figure.grid.width").as_u64().unwrap() as usize;
+    let rows = pixels.chunks(4 * width).rev();
+    rows.flat_map(|row| row.chunks(4).flat_map(|rgba| rgba[..3].to_vec())).collect()
+}
+
+/// Makes this the difference of a quantity.
+fn choose(page: &mut Page, quantity: Quantity, kind: Difference) {
+    let chosen = json!({ "key": kind.key(), "name": kind.name(), "unit": kind.unit(), "signed": kind.is_signed(), "range": kind.default_range() });
+    page.evaluate(&format!("window.svbrdf.figure.data.kinds[{:?}] = {chosen}", quantity.name()));
 }
 
 /// The largest difference of two pictures, in steps of 8 bits.
@@ -113,8 +128,7 @@ fn maps_and_coloured_differences_are_those_of_render() {
             assert!(off <= PAGE_PIXELS, "{quantity:?} of {index}: off by {off}");
         }
         for kind in Difference::pointwise(quantity) {
-            let state = json!({ quantity.name(): kind.key() });
-            page.evaluate(&format!("Object.assign(window.svbrdf.figure.state.kinds, {state})"));
+            choose(&mut page, quantity, *kind);
             let coloured = ColouredDifference { kind: *kind, range: Some(kind.default_range()) };
             let content = PictureContent { quantity, difference: Some(coloured) };
             let core = rendered(&refs, content, &scene, &PRINTED, 0.0);
@@ -135,8 +149,7 @@ fn readouts_are_those_of_the_core() {
         for quantity in Quantity::ALL {
             show(&mut page, &scene, quantity, 0.0);
             for kind in Difference::pointwise(quantity) {
-                let state = json!({ quantity.name(): kind.key() });
-                page.evaluate(&format!("Object.assign(window.svbrdf.figure.state.kinds, {state})"));
+                choose(&mut page, quantity, *kind);
                 for texel in [[0, 0], [47, 0], [5, 31], [20, 20]] {
                     let [g, p] = [0, 1].map(|i| quantity.at(&materials[i], &scene, &PRINTED, texel));
                     let at = json!(texel);

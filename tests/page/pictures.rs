@@ -19,7 +19,7 @@ fn write_the_pictures_of_pages() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (folder, program) = (tempfile::tempdir().unwrap(), env!("CARGO_BIN_EXE_svbrdf"));
     let html = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
-    run(folder.path(), program, "report -o report.html --max-size 2MB");
+    run(folder.path(), program, "report -o report.html");
     let mut page = Page::open(&html("report.html"), [1366, 1180]);
     page.save_jpeg(&root.join("assets/pictures/report.jpg"));
     run(folder.path(), "python3", root.join("python/examples/make_materials.py").to_str().unwrap());

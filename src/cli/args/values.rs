@@ -90,18 +90,6 @@ fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     numbers.and_then(|numbers| numbers.try_into().ok())
 }
 
-/// A number of bytes such as `10MB`, `500kB` or `1000000`, in powers of 1000.
-pub fn bytes(text: &str) -> Result<usize, String> {
-    let units = [("GB", 1e9), ("MB", 1e6), ("kB", 1e3), ("B", 1.0)];
-    let with_unit = units.iter().find_map(|(unit, scale)| Some((text.strip_suffix(unit)?, *scale)));
-    let (number, scale) = with_unit.unwrap_or((text, 1.0));
-    let bytes = number.trim().parse::<f64>().map(|number| number * scale);
-    let bytes = bytes.ok().filter(|bytes| *bytes >= 1.0 && *bytes <= 1e12);
-    bytes
-        .map(|bytes| bytes as usize)
-        .ok_or_else(|| format!("expected a size like 10MB or 500kB, found `{text}`"))
-}
-
 /// An angle of view.
 pub fn degrees(text: &str) -> Result<f64, String> {
     let angle = text.parse().ok().filter(|angle| (0.1..=179.0).contains(angle));

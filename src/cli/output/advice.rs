@@ -9,9 +9,6 @@ use super::error::CommandError;
 /// The option that helps with an error.
 pub fn of_error(error: &CommandError) -> Option<&'static str> {
     let error = match error {
-        CommandError::ReportTooLarge { .. } => {
-            return Some("--max-size sets it, and --figure leaves out the findings");
-        }
         CommandError::TooLarge { .. } => return Some("give a smaller width to --resize-to"),
         CommandError::Library(error) => error.files()?,
         _ => return None,

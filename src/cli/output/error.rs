@@ -35,13 +35,6 @@ pub enum CommandError {
     #[error("{0}")]
     NotKept(String),
 
-    /// A report cannot be as small as is asked.
-    #[error(
-        "the report has {bytes} bytes with the smallest maps, more than the limit of {limit}; allow as many, or compare fewer \
-        materials"
-    )]
-    ReportTooLarge { bytes: usize, limit: usize },
-
     /// A material would be resized to more than fits.
     #[error("the materials cannot be resized to {width} x {height} texels: expected at most {max_side} x {max_side} \
         and {} GiB a material, found {} GiB; choose a smaller width",

@@ -205,7 +205,7 @@ pub enum RankFormat {
     Csv,
     /// A table for a paper: the best and what ties with it in bold
     Latex,
-    /// A page with sortable tables, thumbnails and figures, of a data set
+    /// A page of a data set: the verdict, the table, and a sheet of the materials with links to figures
     Html,
 }
 
