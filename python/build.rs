@@ -30,8 +30,8 @@ from ._asked import Asked, Predictions, Scenes
 from ._material import Material, Source
 from ._progress import Report as Progress
 "#;
-/// The command line alone has this report: the package has `Material.assumptions` and `Material.notes`.
-const OF_COMMAND_LINE: &str = "info";
+/// The command line alone has these reports.
+const OF_COMMAND_LINE: [&str; 3] = ["info", "photo", "conform"];
 /// The package has a class with arrays for this.
 const OF_PACKAGE: &str = "MapReport";
 /// The options of scenes and precision: name, type and description.
@@ -69,7 +69,7 @@ type Parts = Map<String, Value>;
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=build.rs");
     let (mut classes, mut functions) = (BTreeMap::new(), BTreeMap::new());
-    for name in schema::names().filter(|name| *name != OF_COMMAND_LINE) {
+    for name in schema::names().filter(|name| !OF_COMMAND_LINE.contains(name)) {
         let schema = serde_json::to_value(schema::named(name))?;
         let parts = schema["$defs"].as_object().cloned().unwrap_or_default();
         let title = text(&schema["title"]);

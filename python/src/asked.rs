@@ -2,7 +2,7 @@
 
 use pyo3::prelude::*;
 use serde_json::{Map, Value};
-use svbrdf_core::loss::{LossOptions, Request};
+use svbrdf_core::loss::LossOptions;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
@@ -60,22 +60,6 @@ impl Asked<'_> {
     /// As [`question`].
     pub fn question(&self) -> PyResult<Map<String, Value>> {
         question(&self.question)
-    }
-
-    /// The options of the question.
-    ///
-    /// # Errors
-    /// As [`options`].
-    pub fn options(&self) -> PyResult<LossOptions> {
-        options(self.question()?)
-    }
-
-    /// The request of the question.
-    ///
-    /// # Errors
-    /// As [`LossOptions::question`].
-    pub fn request(&self) -> PyResult<Request> {
-        Ok(self.options()?.question().map_err(exception)?.request)
     }
 
     /// The materials as the report calls them: each as `of` takes it from Python.

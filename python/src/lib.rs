@@ -6,14 +6,11 @@
 mod analysis;
 mod arrays;
 mod asked;
-mod conform;
 mod dataset;
 mod errors;
 mod files;
 mod material;
 mod model;
-mod page;
-mod photo;
 mod report;
 mod work;
 
@@ -25,15 +22,12 @@ mod _core {
     #[pymodule_export]
     use super::{
         analysis::analysis,
-        conform::{conform, probes},
         dataset::rank_dataset,
         errors::Error,
         files::{built_in, read, write},
         material::{CoreMaterial, distinct_names, render},
         model::{conventions, named_scenes, read_scenes, sample_scenes},
-        page::page,
-        photo::photo,
-        report::{escaped, schema},
+        report::schema,
     };
 
     #[allow(non_upper_case_globals, reason = "the name in Python")]

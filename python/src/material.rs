@@ -117,12 +117,6 @@ impl CoreMaterial {
         }
     }
 
-    /// A picture of it in small, as the address of an image: a rendering, then its maps.
-    fn overview(&self, py: Python<'_>) -> PyResult<String> {
-        let material = self.single();
-        work::at_once(py, || svbrdf_page::overview(&material))
-    }
-
     /// A map.
     fn map<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         of_either!(&self.values, material => map(py, material, name))

@@ -1,7 +1,8 @@
 //! Reports of the crate as Python takes them.
 
 use pyo3::prelude::*;
-use svbrdf_evaluate::report::{Cell, Reader, Report};
+use svbrdf_evaluate::report::Report;
+use svbrdf_page::report_html;
 
 use crate::errors::exception;
 
@@ -32,28 +33,10 @@ impl Views {
     /// # Errors
     /// As [`Report::json`].
     pub fn without_rows(report: &(impl Report + ?Sized)) -> PyResult<Self> {
-        let (text, table) = (report.text(), report.table(Reader::Person));
-        let (above, below) = text.split_once(&table.text()).unwrap_or(("", &text));
-        let cells = |element: &str, texts: &mut dyn Iterator<Item = String>| -> String {
-            texts.map(|text| format!("<{element}>{}</{element}>", escaped(&text))).collect()
-        };
-        let row = |row: &Vec<Cell>| format!("<tr>{}</tr>", cells("td", &mut row.iter().map(Cell::text)));
-        let rows: String = table.rows.iter().map(row).collect();
-        let html = format!(
-            r#"<div><p>{}</p><div style="overflow-x: auto"><table><thead><tr>{}</tr></thead><tbody>{rows}</tbody></table></div><pre>{}</pre></div>"#,
-            escaped(above.trim_end()).replace('\n', "<br>"),
-            cells("th", &mut table.columns.into_iter()),
-            escaped(below.trim()),
-        );
+        let (text, html) = (report.text(), format!("<div>{}</div>", report_html(report)));
         let warnings = report.missed().iter().map(ToString::to_string).collect();
         Ok(Self { json: report.json().map_err(exception)?, csv: String::new(), html, text, warnings })
     }
-}
-
-/// A text as HTML.
-#[pyfunction]
-pub fn escaped(text: &str) -> String {
-    svbrdf_page::escaped(text)
 }
 
 /// The JSON Schema of a report, by the name of its command; None for another name.

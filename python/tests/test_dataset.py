@@ -51,7 +51,7 @@ def predictions(report: svbrdf.DatasetReport) -> list[svbrdf.PredictionResult]:
 @pytest.mark.parametrize(
     ("options", "given"),
     [
-        (["--pick", "mean", "--metrics"], {"pick": "mean", "metrics": True}),
+        (["--pick", "mean", "--metrics", "--results", "kept"], {"pick": "mean", "metrics": True, "results": "kept"}),
         (["--pick", "best", "--diagnose"], {"pick": "best", "diagnose": True}),
         (["--protocol", "marigold-iid"], {"protocol": "marigold-iid"}),
         (["--metrics=rmse_roughness,psnr"], {"metrics": ["rmse_roughness", "psnr"]}),
@@ -59,8 +59,9 @@ def predictions(report: svbrdf.DatasetReport) -> list[svbrdf.PredictionResult]:
     ],
 )
 def test_a_data_set_has_the_numbers_of_the_command_line(
-    program: str, dataset: Path, options: list[str], given: dict[str, Any]
+    program: str, dataset: Path, options: list[str], given: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.chdir(dataset)
     found = of_command_line(program, dataset, *options)
     report = ranked(dataset, **given)
     assert report.to_dict() == found
@@ -116,23 +117,6 @@ def test_a_broken_file_is_a_result_that_says_why(dataset: Path) -> None:
     assert seen[-1] == (8, 8)
 
 
-def test_doubts_in_reading_are_warned_of_by_method(tmp_path: Path) -> None:
-    for folder in ("gt", "ours"):
-        (tmp_path / folder).mkdir()
-        for index in range(2):
-            svbrdf.write(svbrdf.Material(**maps(12, 10, index)), f"{tmp_path / folder / f'm{index}'}/")
-    for normal in (tmp_path / "ours" / "m0").glob("*ormal*"):
-        normal.unlink()
-    with pytest.warns(UserWarning, match="of 2 with") as seen:
-        report = svbrdf.rank_dataset(tmp_path / "gt", tmp_path / "ours", target_error=0.1)
-    (ours,) = [str(warning.message) for warning in seen if str(warning.message).startswith("ours: ")]
-    assert "1 of 2 without normal map" in ours
-    (summary,) = report.methods
-    assert summary.reading is not None
-    assert ("without normal map", 1) in [(doubt.doubt, doubt.materials) for doubt in summary.reading.doubts]
-    assert any(remark.text.startswith("missing: normal") for remark in predictions(report)[0].reading)
-
-
 def test_read_options_reach_the_files_and_wrong_ones_are_refused(dataset: Path) -> None:
     def first(**options: Any) -> float | None:
         report = svbrdf.rank_dataset(dataset / "gt", dataset / "bad", target_error=0.1, **options)
@@ -147,23 +131,3 @@ def test_read_options_reach_the_files_and_wrong_ones_are_refused(dataset: Path) 
         svbrdf.rank_dataset(dataset / "nowhere", dataset / "bad")
     with pytest.raises(ValueError, match="methods: expected at least one"):
         svbrdf.rank_dataset(dataset / "gt", [])
-
-
-def test_results_are_kept_for_both_surfaces(program: str, dataset: Path) -> None:
-    kept = dataset / "kept"
-
-    def times() -> dict[str, int]:
-        return {file.name: file.stat().st_mtime_ns for file in kept.iterdir()}
-
-    whole = ranked(dataset, results=kept)
-    before = times()
-    # One prediction of 17 is broken.
-    assert len(before) == 16
-    assert whole.to_dict() == of_command_line(program, dataset, "--results", str(kept))
-    assert times() == before
-    damaged = next(kept.iterdir())
-    damaged.write_text(damaged.read_text()[:-40])
-    with pytest.warns(UserWarning, match=f"{damaged.name} cannot be used"):
-        assert ranked(dataset, results=str(kept)).to_dict() == whole.to_dict()
-    with pytest.raises(OSError, match="cannot write"):
-        ranked(dataset, results=dataset / "nowhere" / "kept")

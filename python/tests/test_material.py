@@ -121,21 +121,6 @@ def test_reading_reports_what_it_assumed(tmp_path: Path) -> None:
     assert svbrdf.read(tmp_path / "own", strict=True).name == "own"
 
 
-def test_files_that_cannot_be_used_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileNotFoundError, match="cannot read"):
-        svbrdf.read(tmp_path / "nothing.png")
-    (tmp_path / "bad.png").write_bytes(b"no picture")
-    with pytest.raises(svbrdf.Error, match=r"cannot decode .*bad.png"):
-        svbrdf.read(tmp_path / "bad.png")
-    with pytest.raises(svbrdf.Error, match="unknown value `blue`, expected one of `linear`, `srgb`"):
-        svbrdf.read(tmp_path / "bad.png", albedo="blue")  # type: ignore[arg-type]
-    with pytest.raises(svbrdf.Error, match=r"cannot be written: expected an \.exr, \.png or \.glb file"):
-        svbrdf.write(svbrdf.built_in()[0], tmp_path / "a.jpg")
-    (tmp_path / "file").touch()
-    with pytest.raises(OSError, match="cannot write"):
-        svbrdf.write(svbrdf.built_in()[0], tmp_path / "file" / "a.exr")
-
-
 def test_a_rendering_has_rows_columns_and_the_precision_of_its_material() -> None:
     scene = svbrdf.Scene("near", view=(0.1, 0.2, 2.5), light=(0.4, 0.5, 1.2))
     single = svbrdf.render(svbrdf.Material(**maps(9, 6)), scene)

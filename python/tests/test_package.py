@@ -4,11 +4,9 @@ import doctest
 import importlib
 import pkgutil
 import subprocess
-import sys
 import tomllib
 from importlib.metadata import version
 from importlib.resources import files
-from pathlib import Path
 
 import pytest
 import svbrdf
@@ -30,22 +28,6 @@ def test_the_wheel_has_no_graphics_and_no_command_line() -> None:
     names = {line.split(" ")[0] for line in tree.splitlines()}
     assert {"svbrdf-core", "svbrdf-evaluate", "svbrdf-files", "svbrdf-page"} <= names
     assert not names & {"svbrdf", "svbrdf-gpu", "svbrdf-viewer", "wgpu", "egui", "eframe", "clap"}
-
-
-def test_the_example_evaluates_a_folder(tmp_path: Path) -> None:
-    pytest.importorskip("matplotlib", reason="matplotlib is not installed")
-    ground_truth, *predictions = svbrdf.built_in()
-    (tmp_path / "predictions").mkdir()
-    svbrdf.write(ground_truth, tmp_path / "gt.exr", depth="float")
-    for number, prediction in enumerate(predictions):
-        svbrdf.write(prediction, tmp_path / "predictions" / f"p{number}.exr", depth="float")
-    example = REPOSITORY / "python" / "examples" / "evaluate_folder.py"
-    command = [sys.executable, str(example), "gt.exr", "predictions", "--target-error", "0.05"]
-    ended = subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, text=True)
-    expected = svbrdf.loss(ground_truth, predictions, target_error=0.05)
-    for result in expected.results:
-        assert f"{result.loss:.6f}" in ended.stdout
-    assert (tmp_path / "losses.png").read_bytes().startswith(b"\x89PNG")
 
 
 @pytest.mark.parametrize("name", ["", *MODULES])

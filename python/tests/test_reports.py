@@ -18,23 +18,16 @@ pandas = pytest.importorskip("pandas", reason="pandas is not installed")
 Materials = tuple[Path, list[Path]]
 
 CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
-    "loss": (["--seed", "2"], lambda gt, p: svbrdf.loss(gt, p, seed=2)),
     "loss of few scenes": (
         ["--near=5", "--seed=7", "--sampler=sobol", "--texels=64", "--precision=f64", "--convention=guided-2020"],
         lambda gt, p: svbrdf.loss(
             gt, p, near=5, seed=7, sampler="sobol", texels=64, precision="f64", convention="guided-2020"
         ),
     ),
-    "loss to an accuracy": (["--target-error", "5%"], lambda gt, p: svbrdf.loss(gt, p, target_error=0.05)),
     "blame": (["--target-error", "5%"], lambda gt, p: svbrdf.blame(gt, p, target_error=0.05)),
-    "rank": (["--target-error", "5%"], lambda gt, p: svbrdf.rank(gt, p, target_error=0.05)),
     "rank in few scenes": (
         ["--near", "6", "--distant", "3", "--sampler", "sobol", "--seed", "2"],
         lambda gt, p: svbrdf.rank(gt, p, near=6, distant=3, sampler="sobol", seed=2),
-    ),
-    "rank in named scenes": (
-        ["--lights", "flash-9"],
-        lambda gt, p: svbrdf.rank(gt, p, scenes=svbrdf.named_scenes("flash-9")),
     ),
     "diagnose": (["--seed", "1"], lambda gt, p: svbrdf.diagnose(gt, p, seed=1)),
     "worst": (["--seed", "1"], lambda gt, p: svbrdf.worst(gt, p, seed=1)),
@@ -42,18 +35,9 @@ CASES: dict[str, tuple[list[str], Callable[..., svbrdf.Report]]] = {
         ["--near", "9", "--distant", "4", "--top", "5"],
         lambda gt, p: svbrdf.scenes(gt, p, near=9, distant=4, top=5),
     ),
-    "metrics": (["--near", "2", "--seed", "3"], lambda gt, p: svbrdf.metrics(gt, p, near=2, seed=3)),
     "metrics at an exposure": (
         ["--lights", "flash-9", "--exposure", "1"],
         lambda gt, p: svbrdf.metrics(gt, p, scenes=svbrdf.named_scenes("flash-9"), exposure=1),
-    ),
-    "loss of named scenes": (
-        ["--lights", "flash", "--fov", "30"],
-        lambda gt, p: svbrdf.loss(gt, p, scenes=svbrdf.named_scenes("flash", fov=30)),
-    ),
-    "photo": (
-        ["--view", "0,0,2", "--light", "0,0,2", "--falloff"],
-        lambda photo, p: svbrdf.photo(photo, p, scene=svbrdf.Scene("near", (0, 0, 2), (0, 0, 2)), falloff=True),
     ),
 }
 
@@ -69,30 +53,6 @@ def materials(tmp_path_factory: pytest.TempPathFactory) -> Materials:
         paths.append(folder / f"{name}.exr")
         svbrdf.write(svbrdf.Material(**given), paths[-1], depth="float")
     return paths[0], paths[1:]
-
-
-def photograph(materials: Materials) -> Path:
-    """A picture of the ground truth, in any exposure."""
-    from PIL import Image
-
-    scene = svbrdf.Scene("near", (0, 0, 2), (0, 0, 2))
-    radiance = svbrdf.render(materials[0], scene)
-    path = materials[0].with_name("photo.png")
-    Image.fromarray((255 * np.clip(radiance, 0, 1) ** (1 / 2.2)).astype(np.uint8)).save(path)
-    return path
-
-
-@pytest.mark.parametrize("command", ["rank", "diagnose"])
-def test_maps_of_8_bits_have_the_floor_of_the_command_line(program: str, tmp_path: Path, command: str) -> None:
-    paths = [tmp_path / name for name in ("gt.png", "a.png", "b.png")]
-    for seed, path in enumerate(paths):
-        svbrdf.write(svbrdf.Material(**maps(13, 11, seed)), path)
-    compute: Callable[..., Any] = getattr(svbrdf, command)
-    found = compute(paths[0], paths[1:])
-    assert_is_printed(found, program, command, *paths)
-    assert "floor" in str(found)
-    arrays = [svbrdf.Material(**maps(13, 11, seed)) for seed in range(3)]
-    assert "floor" not in str(svbrdf.rank(arrays[0], arrays[1:])), "arrays resolve every loss"
 
 
 def assert_is_printed(report: svbrdf.Report, program: str, *command: str | Path) -> None:
@@ -116,7 +76,7 @@ def assert_is_printed(report: svbrdf.Report, program: str, *command: str | Path)
 def test_a_report_has_the_keys_the_numbers_the_text_and_the_csv_of_the_command_line(
     program: str, materials: Materials, case: str
 ) -> None:
-    first, others = (photograph(materials), [materials[0], *materials[1]]) if case == "photo" else materials
+    first, others = materials
     assert_is_printed(CASES[case][1](first, others), program, case.split()[0], first, *others, *CASES[case][0])
 
 
@@ -163,7 +123,6 @@ def test_without_pandas_the_error_says_what_to_install(materials: Materials, mon
             ["--over", "lights", "--side", "12", "--fixed", "0.2,0.1,1"],
             {"over": "lights", "side": 12, "fixed": (0.2, 0.1, 1)},
         ),
-        (["--over", "views", "--side", "6"], {"over": "views", "side": 6}),
     ],
 )
 def test_a_map_is_that_of_the_command_line_with_arrays(
@@ -198,40 +157,6 @@ def test_equal_materials_have_an_infinite_psnr_which_is_none_in_the_dictionary(m
     assert report.results[0].metrics["psnr_rendering_clipped_linear"] is None
     frame = report.to_pandas().set_index("metric")
     assert math.isinf(frame.loc["psnr_rendering_clipped_linear"].iloc[0])
-
-
-def test_a_list_of_photographs_is_that_of_the_command_line(program: str, materials: Materials, tmp_path: Path) -> None:
-    """Six scenes of the ground truth, the third photograph of which is twice as bright."""
-    listed = []
-    for k in range(6):
-        scene = svbrdf.Scene("near", (0.0, 0.0, 2.0), (0.2 * k - 0.5, 0.1 * k, 2.0))
-        np.save(tmp_path / f"{k}.npy", (2 if k == 2 else 1) * svbrdf.render(materials[0], scene))
-        listed.append({"file": f"{k}.npy", "scene": scene._asdict()})
-    (tmp_path / "capture.json").write_text(json.dumps({"photographs": listed}))
-    paths = [materials[0], *materials[1]]
-    report = svbrdf.photo(tmp_path, paths)
-    right = report.results[0]
-    assert (right.material, right.factor, report.notes) == ("gt", 1.0, ())
-    assert [one.log == 0 for one in right.photographs] == [k != 2 for k in range(6)]
-    assert report.scenes[1].light == (-0.3, 0.1, 2.0)
-    assert_is_printed(report, program, "photo", tmp_path, *paths)
-    with pytest.raises(ValueError, match="expected a scene, or a list of photographs"):
-        svbrdf.photo(tmp_path / "0.npy", paths)
-    with pytest.raises(ValueError, match="falloff and transfer: expected only with a single photograph"):
-        svbrdf.photo(tmp_path, paths, falloff=True)
-
-
-def test_the_content_of_files_is_as_its_schema_says(program: str, tmp_path: Path) -> None:
-    """The package has no report of it: `Material.assumptions` and `Material.notes` are its parts."""
-    path = tmp_path / "a.png"
-    svbrdf.write(svbrdf.Material(**maps(13, 11)), path)
-    printed = subprocess.run([program, "info", path, "--format", "json"], check=True, capture_output=True).stdout
-    report = json.loads(printed)
-    assert len(report["maps"]) == 4
-    assert len(report["assumptions"]) > 3
-    assert problems("info", report) == []
-    report["assumptions"][0]["certainty"] = "perhaps"
-    assert problems("info", report) != []
 
 
 def test_types_follow_schemas() -> None:

@@ -17,13 +17,10 @@ are those of the command line, bit for bit. `svbrdf.torch` has the same loss for
 
 from . import _analyses, _reports
 from ._analyses import *  # noqa: F403
-from ._conform import conform, probes
 from ._core import Error, __version__
 from ._dataset import rank_dataset
 from ._map import MapReport
 from ._material import Assumption, AssumptionWarning, Material, ReadOptions, built_in, read, write
-from ._page import Figure, figure, report
-from ._photo import photo
 from ._report import Record, Report
 from ._reports import *  # noqa: F403
 from ._scenes import CONVENTIONS, Convention, Scene, named_scenes, read_scenes, render, sample_scenes
@@ -34,7 +31,6 @@ __all__ = [
     "AssumptionWarning",
     "Convention",
     "Error",
-    "Figure",
     "MapReport",
     "Material",
     "ReadOptions",
@@ -43,16 +39,11 @@ __all__ = [
     "Scene",
     "__version__",
     "built_in",
-    "conform",
-    "figure",
     "named_scenes",
-    "photo",
-    "probes",
     "rank_dataset",
     "read",
     "read_scenes",
     "render",
-    "report",
     "sample_scenes",
     "write",
 ]

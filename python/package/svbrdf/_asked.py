@@ -40,19 +40,17 @@ class Asked:
         question: Any,
         convention: str = "printed",
         precision: Precision = "f32",
-        *,
-        alone: bool = False,
     ) -> None:
-        """`alone`: a ground truth without predictions is enough. `question`: options by name; None is left open."""
+        """`question`: options by name; None is left open."""
         asked = question_json(**question)
-        is_none = alone and isinstance(predictions, tuple | list) and not predictions
-        given = () if is_none else listed(predictions, "predictions")
-        self.materials = [opened(one, precision) for one in (ground_truth, *given)]
-        words = ["ground truth", *numbered("prediction", len(given))]
+        given = listed(predictions)
+        materials = [opened(one, precision) for one in (ground_truth, *given)]
+        numbers = [f" {i}" for i in range(1, len(given) + 1)] if len(given) > 1 else [""]
+        words = ["ground truth", *(f"prediction{number}" for number in numbers)]
         self.core = {
-            "materials": [material._core for material in self.materials],
-            "names": distinct(self.materials, words),
-            "paths": [material.path for material in self.materials],
+            "materials": [material._core for material in materials],
+            "names": distinct(materials, words),
+            "paths": [material.path for material in materials],
             "convention": convention,
             "precision": precision,
             "question": asked,
@@ -85,22 +83,17 @@ def _plain(number: Any) -> Any:
     return operator.index(number) if hasattr(number, "__index__") else float(number)
 
 
-def listed(materials: Predictions, argument: str) -> Sequence[Material | Source]:
+def listed(predictions: Predictions) -> Sequence[Material | Source]:
     """One material or several as a list.
 
     Raises:
         ValueError: There is none.
     """
-    if isinstance(materials, Material | str | os.PathLike):
-        return [materials]
-    if not materials:
-        raise ValueError(f"{argument}: expected at least one, found none; give a material, a path or a list of them")
-    return materials
-
-
-def numbered(word: str, count: int) -> list[str]:
-    """A word for each of several things, which has a number where there is more than one."""
-    return [f"{word} {i}" for i in range(1, count + 1)] if count > 1 else [word] * count
+    if isinstance(predictions, Material | str | os.PathLike):
+        return [predictions]
+    if not predictions:
+        raise ValueError("predictions: expected at least one, found none; give a material, a path or a list of them")
+    return predictions
 
 
 def distinct(materials: Sequence[Material], words: Sequence[str]) -> list[str]:

@@ -190,13 +190,6 @@ class Material:
         width, height = self.size
         return f"<svbrdf.Material {self.name!r}, {width} x {height} texels, {self.precision}>"
 
-    def _repr_html_(self) -> str:
-        width, height = self.size
-        name = _core.escaped(self.name)
-        caption = f"{name}, {width} &times; {height} texels: rendering, normal, diffuse, specular, roughness"
-        picture = f'<img src="{self._core.overview()}" alt="{name}" style="max-width: 100%">'
-        return f'<figure style="margin: 0">{picture}<figcaption>{caption}</figcaption></figure>'
-
 
 def read(
     path: Source,
