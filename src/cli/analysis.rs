@@ -19,9 +19,6 @@ use super::picture_file::{PictureArgs, PictureFile};
 /// The analyses that have a command with further arguments.
 const OTHERS: [&str; 1] = ["rank"];
 
-/// The analyses that follow a protocol, and compare predictions of another size and the texels of a mask.
-const PAIRED: [&str; 2] = ["loss", "metrics"];
-
 /// The arguments of the command of an analysis.
 #[derive(Debug)]
 pub struct AnalysisArgs {
@@ -63,7 +60,7 @@ fn command(analysis: &AnyAnalysis) -> Command {
         .args(scenes::arguments(analysis.scenes).into_iter().map(with_help));
     let session = if analysis.takes_settings() { " A session has settings of its own." } else { "" };
     let command = if analysis.pictures { command } else { FormatArgs::augment_args(command) };
-    let command = if PAIRED.contains(name) { PairArgs::augment_args(command) } else { command };
+    let command = if analysis.paired { PairArgs::augment_args(command) } else { command };
     // What is flattened into it would bring its own words.
     ComparisonArgs::augment_args(command)
         .about(*about)
@@ -129,8 +126,7 @@ impl FromArgMatches for AnalysisArgs {
             false => Output::Printed(FormatArgs::from_arg_matches(matches)?.format),
         };
         let comparison = ComparisonArgs::from_arg_matches(matches)?;
-        let is_paired = PAIRED.contains(&analysis.name);
-        let pair = if is_paired { PairArgs::from_arg_matches(matches)? } else { PairArgs::default() };
+        let pair = if analysis.paired { PairArgs::from_arg_matches(matches)? } else { PairArgs::default() };
         Ok(Self { analysis, matches: matches.clone(), output, comparison, pair })
     }
 
@@ -157,7 +153,7 @@ impl AnalysisArgs {
         };
         let mut options: Map<_, _> = analysis.options.iter().filter_map(own).collect();
         if let Some(protocol) = &pair.protocol.protocol
-            && analysis.name == "metrics"
+            && analysis.options.iter().any(|option| option.name == "metrics")
         {
             refuse(options.contains_key("metrics"), "metrics", "the protocol decides the metrics")?;
             options.insert("metrics".to_owned(), Vec::from(protocol.selection()).into());

@@ -130,6 +130,7 @@ impl Analysis for LossReport {
         >>> [f\"{result.loss:.4f}\" for result in few.results]
         ['0.2900', '0.1994']";
     const DOING: &'static str = "rendering";
+    const PAIRED: bool = true;
     const SCENES: &'static [&'static str] = &[
         "near",
         "distant",

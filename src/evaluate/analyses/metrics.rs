@@ -121,6 +121,7 @@ impl Analysis for MetricsReport {
     const DETAILS: &'static str = "Root mean square and mean absolute differences, PSNR and SSIM of the four maps and of renderings, \
         the same of base colour and metallic, angles between normals, and FLIP of renderings. docs/metrics.md defines each.";
     const DOING: &'static str = "rendering";
+    const PAIRED: bool = true;
     const EXAMPLE: &'static str = "\
         >>> import svbrdf
         >>> ground_truth, blurred, _ = svbrdf.built_in()

@@ -64,6 +64,8 @@ pub struct AnyAnalysis {
     pub scenes_help: &'static [(&'static str, &'static str)],
     /// Whether its results are pictures.
     pub pictures: bool,
+    /// Whether it follows a protocol, and compares predictions of another size and the texels of a mask.
+    pub paired: bool,
     /// Its own options.
     pub options: &'static [AnalysisOption],
     /// The schema of its report.
@@ -108,6 +110,7 @@ impl AnyAnalysis {
             scenes: A::SCENES,
             scenes_help: A::SCENES_HELP,
             pictures: A::PICTURES,
+            paired: A::PAIRED,
             options: A::OPTIONS,
             #[cfg(feature = "schema")]
             schema: crate::json_schema::schema_of::<A>,

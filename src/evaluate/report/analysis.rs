@@ -80,6 +80,8 @@ pub trait Analysis: Report + Schematic + Sized + 'static {
     const SCENES_HELP: &'static [(&'static str, &'static str)] = &[];
     /// Whether its results are pictures: [`Report::pictures`] and [`Report::into_arrays`].
     const PICTURES: bool = false;
+    /// Whether it follows a protocol, and compares predictions of another size and the texels of a mask.
+    const PAIRED: bool = false;
     /// Its own options; all have defaults.
     type Options: Default + DeserializeOwned;
     /// The same, declared.
