@@ -5,14 +5,14 @@ use std::fmt::Write as _;
 use clap::ValueEnum;
 
 use svbrdf_core::text::{line, printable};
-use svbrdf_evaluate::report::InfoReport;
+use svbrdf_evaluate::report::{InfoReport, Json as _};
 use svbrdf_files::read::{Binding, Read, Sidecar};
 
 use super::args::reading::ReadingArgs;
 use super::args::{NamedPath, refuse};
 use super::job::materials::OneMaterial;
 use super::job::{Job, NewJob};
-use super::output::{CommandError, advice, exit, json, stoppable};
+use super::output::{CommandError, advice, exit, stoppable};
 
 /// Prints what the files of a material hold, what was assumed in reading them, and why
 #[derive(Debug, clap::Args)]
@@ -79,7 +79,7 @@ impl Job for InfoJob {
         let info = InfoReport::from(read);
         let printed = match self.format {
             InfoFormat::Text => printable(&text(&info)),
-            InfoFormat::Json => json::text(&info)?,
+            InfoFormat::Json => info.json()?,
         };
         Ok(exit::put(&printed)?)
     }

@@ -123,7 +123,7 @@ fn accepted(written: io::Result<()>) -> Result<(), FilesError> {
 }
 
 /// The error of a result that cannot be written to stdout.
-pub fn unwritable(source: io::Error) -> FilesError {
+fn unwritable(source: io::Error) -> FilesError {
     let path = Path::new("standard output").to_owned();
     FilesError::Unwritable { path, source, remedy: "check where it is redirected to" }
 }

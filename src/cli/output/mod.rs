@@ -5,7 +5,6 @@ pub mod bar;
 pub mod error;
 pub mod exit;
 pub mod foreign;
-pub mod json;
 
 pub use bar::{watched, watched_on};
 pub use error::CommandError;
