@@ -2,23 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{folder, losses_as_json, rows_of, succeed, write_material};
-
-#[test]
-fn every_format_has_the_losses_and_their_mean() {
-    let folder = folder();
-    let args = "--near 3 --distant 2 --seed 5 --convention multi-image-2019";
-    let (json, table) =
-        (losses_as_json(folder.path(), args), succeed(folder.path(), &format!("loss {args}")));
-    let results = json["results"].as_array().unwrap();
-    for (result, row) in results.iter().zip(rows_of(folder.path(), &format!("loss {args}"))) {
-        let (name, loss) = (result["prediction"].as_str().unwrap(), result["loss"].as_f64().unwrap());
-        assert_eq!((row["prediction"].as_str(), row["loss"].parse()), (name, Ok(loss)));
-        assert!(table.lines().any(|line| line.starts_with(name) && line.contains(&format!("  {loss:.6}  "))));
-        let losses = result["losses"].as_array().unwrap().iter().map(|loss| loss.as_f64().unwrap());
-        assert!((losses.sum::<f64>() / 5.0 - loss).abs() < 1e-12);
-    }
-}
+use super::{folder, losses_as_json, write_material};
 
 #[test]
 fn without_options_the_loss_is_that_to_1_percent_beside_that_of_few_scenes() {

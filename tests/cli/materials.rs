@@ -33,21 +33,3 @@ fn predictions_of_another_size_are_brought_to_one_that_fits() {
     let [slim, wide] = [slim, "gt.png a.png"].map(|materials| format!("loss {materials} --resize-to 16384"));
     assert_refused(folder.path(), &[(&slim, 1, "16384 x 114688"), (&wide, 1, "10 GiB")]);
 }
-
-/// By their names, in every result.
-#[test]
-fn materials_have_names() {
-    let folder = folder();
-    let at = folder.path();
-    for (command, place) in [
-        ("loss gt.png ours=a.png --scenes one.json", "/results/0/prediction"),
-        ("blame gt.png ours=a.png --scenes one.json", "/attributions/0/prediction"),
-        ("diagnose gt.png ours=a.png", "/predictions/0/prediction"),
-        ("metrics gt.png ours=a.png --metrics roughness", "/results/0/prediction"),
-        ("scenes gt.png ours=a.png --near 2", "/results/0/prediction"),
-        ("rank gt.png ours=a.png --scenes one.json", "/ranking/0/prediction"),
-        ("info ours=a.png", "/name"),
-    ] {
-        assert_eq!(json_of(at, command).pointer(place), Some(&json!("ours")), "{command}");
-    }
-}

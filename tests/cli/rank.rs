@@ -6,40 +6,6 @@ use super::*;
 
 const RANK: &str = "rank --dataset gt ours theirs --target-error 5%";
 
-/// Predictions whose roughness is wrong by 4, 50 and 130 steps.
-#[test]
-fn predictions_of_a_pattern_are_ranked() {
-    let folder = folder();
-    let at = folder.path();
-    fs::create_dir(at.join("out")).unwrap();
-    for (name, roughness) in [("bad", 230), ("good", 104), ("mean", 150)] {
-        write_material(&at.join(format!("out/{name}.png")), 8, roughness);
-    }
-    fs::write(at.join("out/note.txt"), "no material").unwrap();
-    let ranking = json_of(at, "rank gt.png out/*.png");
-    let names = [0, 1, 2].map(|place| ranking["ranking"][place]["prediction"].as_str().unwrap());
-    assert_eq!((names, &ranking["ranking"][2]["group"]), (["good", "mean", "bad"], &3.into()));
-    assert_eq!((ranking["target_error"].as_f64(), &ranking["target_reached"]), (Some(0.01), &true.into()));
-    assert_has(ranking["repetition"]["command"].as_str().unwrap(), &["svbrdf rank gt.png"]);
-    assert_has(ranking["readings"][0]["remarks"][0].as_str().unwrap(), &["layout: "]);
-    assert_eq!(
-        (ranking["readings"].as_array().unwrap().len(), &ranking["readings"][0]["material"]),
-        (4, &"gt".into())
-    );
-    let above = run_in(at, "rank gt.png out/*.png --fail-above 0.0001");
-    assert_eq!(above.status.code(), Some(1));
-    assert!(text(&above.stdout).contains("good") && text(&above.stderr).contains("above the limit"));
-    succeed(at, "rank gt.png out/*.png --fail-above 10");
-    for [command, options] in [
-        ["loss", "--near 3"],
-        ["blame", "--target-error 10%"],
-        ["metrics", "--metrics roughness"],
-        ["scenes", "--near 3"],
-    ] {
-        assert_has(&succeed(at, &format!("{command} gt.png out/*a*.png {options}")), &["bad", "mean"]);
-    }
-}
-
 /// The losses by the names of the predictions.
 fn losses(report: &Value, list: &str, loss: &str) -> BTreeMap<String, Value> {
     let of =
@@ -128,18 +94,9 @@ fn a_bad_file_of_a_data_set_is_reported_and_not_fatal() {
 }
 
 #[test]
-fn a_table_of_pairs_names_methods_and_samples_and_folders_are_matched_in_subfolders() {
+fn materials_are_matched_in_subfolders_with_their_samples() {
     let folder = data_set(&[("ours", 8)], 2);
     let at = folder.path();
-    let table = "ground_truth, prediction, method\n gt/m0.png, ours/m0.png, a\n gt/m0.png, ours/m1.png, a\n\
-        gt/m1.png, ours/m1.png, a\n";
-    fs::write(at.join("pairs.csv"), table).unwrap();
-    let loss = |pick: &str| {
-        let args = format!("rank --pairs pairs.csv --target-error 5% --pick {pick}");
-        json_of(at, &args)["methods"][0]["mean"].as_f64().unwrap()
-    };
-    assert!(loss("best") <= loss("mean") && loss("best") <= loss("fixed"));
-    assert_ne!(loss("mean"), loss("fixed"));
     for (name, samples) in [("wood/oak", 2), ("metal/iron", 2)] {
         fs::create_dir_all(at.join(format!("in/gt/{name}"))).unwrap();
         fs::copy(at.join("gt/m0.png"), at.join(format!("in/gt/{name}/maps.png"))).unwrap();
@@ -152,36 +109,6 @@ fn a_table_of_pairs_names_methods_and_samples_and_folders_are_matched_in_subfold
     assert_eq!(ranking["settings"]["materials"], json!(["metal/iron", "wood/oak"]));
     assert_eq!(ranking["results"][0]["predictions"].as_array().unwrap().len(), 2);
     assert_eq!(ranking["methods"][0]["failures"], 0);
-}
-
-/// What a command writes into `name`, where it prints nothing, but for the command, which has the name of the file.
-fn written(folder: &Path, command: &str, name: &str) -> Vec<String> {
-    assert_eq!(succeed(folder, &format!("{command} -o {name}")), "", "{command}");
-    let text = text_of(folder, name);
-    fs::remove_file(folder.join(name)).unwrap();
-    others(&text)
-}
-
-fn others(text: &str) -> Vec<String> {
-    text.lines().filter(|line| !line.contains("svbrdf rank")).map(str::to_owned).collect()
-}
-
-#[test]
-fn every_format_of_a_ranking_is_written_into_a_file() {
-    let folder = data_set(&[("ours", 8), ("theirs", 40)], 6);
-    let at = folder.path();
-    for command in [
-        "rank --dataset gt ours theirs --near 4 --distant 2",
-        "rank gt/m0.png ours/m0.png theirs/m0.png --near 4 --distant 2",
-    ] {
-        for (format, name) in [("text", "r.txt"), ("json", "r.json"), ("csv", "r.csv"), ("latex", "r.tex")] {
-            let with_format = format!("{command} --format {format}");
-            let printed = others(&succeed(at, &with_format));
-            assert_eq!(written(at, &with_format, "file"), printed);
-            assert_eq!(written(at, command, name), printed, "the format of {name}");
-        }
-    }
-    assert_eq!(written(at, "rank --dataset gt ours --near 4 --distant 2", "page.html")[0], "<!doctype html>");
 }
 
 #[test]
