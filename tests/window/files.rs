@@ -5,26 +5,6 @@ use super::*;
 
 const FIELD: &str = "Files, folders or name prefixes, one a line:";
 
-#[needs(adapter)]
-fn every_one_of_several_files_of_one_name_is_told() {
-    let mut window = built_in();
-    let folder = tempfile::tempdir().unwrap();
-    let paths = [("a", 8), ("b", 16), ("c", 16), ("d", 8)].map(|(name, side)| {
-        let path = folder.path().join(name).join("same.png");
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        let tiles = [[128, 128, 255], [120, 90, 60], [140; 3], [20; 3]];
-        write_packed(&path, side, |tile, _, _| tiles[tile as usize]);
-        path
-    });
-    drop_files(&mut window, paths.clone());
-    wait(&mut window, "the end of reading", |app| !app.is_reading() && app.names().len() == 2);
-    let messages = window.messages();
-    for path in &paths[1..3] {
-        let path = path.display().to_string();
-        assert!(messages.iter().any(|message| message.contains(&path)), "{path}: {messages:?}");
-    }
-}
-
 /// Files whose names steer terminals, shells, spreadsheets, patterns or the direction of writing.
 #[cfg(unix)]
 #[needs(adapter)]

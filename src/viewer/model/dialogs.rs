@@ -123,18 +123,12 @@ pub struct SaveRequest {
 /// What is saved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SaveKind {
-    /// The panes and the legend, as they are seen.
     #[default]
     View,
-    /// Every material's whole picture, side by side, as `svbrdf render` writes.
     Renderings,
-    /// A labelled figure of all maps, the rendering and its difference, as `svbrdf strip` writes.
     Strip,
-    /// Files, assumptions, scene, display and loss settings.
     Session,
-    /// The scenes of the loss of the chosen prediction, as `svbrdf scenes` writes.
     Scenes,
-    /// The list of materials of a data set, with marks, notes and losses.
     Materials,
 }
 

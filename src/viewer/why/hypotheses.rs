@@ -52,7 +52,7 @@ impl HypothesisLines<'_> {
         let arrow = if self.is_open { icons::ICON_ARROW_DROP_DOWN } else { icons::ICON_ARROW_RIGHT };
         let left = RichText::new(format!("{} {text}", arrow.codepoint)).size(12.5);
         let hover = "The changes that do not lower the loss significantly and by at least 10%";
-        let response = row(ui, left, String::new(), (text.to_owned(), false, true));
+        let response = row(ui, 0.0, [left, RichText::default()], (text.to_owned(), false, true));
         if response.on_hover_text(hover).clicked() {
             next.settings.sections.toggle(WhySection::Hypotheses);
         }
@@ -110,9 +110,10 @@ fn line(
     let mark = if is_marked { ", marked" } else { "" };
     let is_button = finding.is_some_and(|finding| finding.change.is_some_and(has_maps));
     let ink = if is_marked || is_shown { ui.visuals().text_color() } else { ui.visuals().weak_text_color() };
-    let (left, right) = (RichText::new(name).size(12.5).color(ink), format!("{value} {share:>7}"));
+    let numbers = RichText::new(format!("{value} {share:>7}")).monospace().size(11.5);
+    let texts = [RichText::new(name).size(12.5), numbers].map(|text| text.color(ink));
     let name = format!("{name} {value}: {share} of the loss{mark}");
-    let response = row(ui, left, right, (name, is_shown, is_button));
+    let response = row(ui, NAME, texts, (name, is_shown, is_button));
     if is_marked {
         let dot = response.rect.left_center() + vec2(7.0, 0.0);
         ui.painter().circle_filled(dot, 3.5, theme::accent(ui.visuals()));
@@ -123,8 +124,8 @@ fn line(
 /// A line with a text at either end, called `name`.
 fn row(
     ui: &mut egui::Ui,
-    left: RichText,
-    right: String,
+    indent: f32,
+    [left, right]: [RichText; 2],
     (name, is_selected, is_button): (String, bool, bool),
 ) -> egui::Response {
     let (sense, role) = match is_button {
@@ -132,9 +133,9 @@ fn row(
         false => (Sense::hover(), egui::Role::ListItem),
     };
     let row = ui.scope(|ui| {
-        (ui.spacing_mut().button_padding, ui.spacing_mut().interact_size.y) = (vec2(NAME, 0.0), ROW);
-        let right = RichText::new(right).monospace().size(11.5);
-        let button = egui::Button::selectable(is_selected, left).right_text(right).truncate().sense(sense);
+        (ui.spacing_mut().button_padding, ui.spacing_mut().interact_size.y) = (vec2(indent, 0.0), ROW);
+        let button = egui::Button::selectable(is_selected, left).right_text(right).truncate();
+        let button = button.stroke(egui::Stroke::NONE).sense(sense);
         ui.add(button.min_size(vec2(ui.available_width(), ROW)))
     });
     row.inner.widget_info(|| egui::WidgetInfo::selected(role, true, is_selected, &name));
