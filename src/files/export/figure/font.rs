@@ -8,13 +8,11 @@ use ttf_parser::Face;
 use ttf_parser::gpos::{PairAdjustment, PositioningSubtable};
 use ttf_parser::opentype_layout::{LayoutTable, Lookup};
 
-/// The file of the font.
 pub(super) const FILE: &[u8] = UBUNTU_LIGHT;
 /// The font; `None` where the file is damaged, which a test excludes.
 pub(super) static FONT: LazyLock<Option<FontRef<'static>>> =
     LazyLock::new(|| FontRef::try_from_slice(FILE).ok());
 
-/// The lookups of its kerning.
 static KERNING: LazyLock<Vec<Lookup<'static>>> = LazyLock::new(|| {
     let of = |table: LayoutTable<'static>| {
         let feature = table.features.find(ttf_parser::Tag::from_bytes(b"kern"))?;
@@ -23,7 +21,6 @@ static KERNING: LazyLock<Vec<Lookup<'static>>> = LazyLock::new(|| {
     Face::parse(FILE, 0).ok().and_then(|face| of(face.tables().gpos?)).unwrap_or_default()
 });
 
-/// A glyph of a text.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placed {
     pub id: GlyphId,
@@ -66,7 +63,6 @@ fn kern(first: GlyphId, second: GlyphId) -> f32 {
     KERNING.iter().filter_map(|lookup| lookup.subtables.into_iter().find_map(of_subtable)).sum()
 }
 
-/// The width of a text of this size, in its unit.
 pub(super) fn width(text: &str, size: f64) -> f64 {
     glyphs(text).last().map_or(0.0, |last| f64::from(last.x + last.advance) * size)
 }

@@ -36,7 +36,6 @@ pub struct TextStyle {
     pub anchor: Anchor,
 }
 
-/// A line of text.
 #[derive(Clone, Debug)]
 pub(super) struct Text {
     /// The anchor on the baseline.
@@ -50,7 +49,6 @@ impl Text {
         font::width(&self.text, self.style.size)
     }
 
-    /// Its left end.
     pub(super) fn left(&self) -> f64 {
         let share = match self.style.anchor {
             Anchor::Left => 0.0,
@@ -64,7 +62,6 @@ impl Text {
 /// A picture that covers a rectangle.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
-    /// The upper left corner.
     pub at: [f64; 2],
     pub size: [f64; 2],
     pub image: Image<u8>,
@@ -87,14 +84,6 @@ impl Picture {
     }
 }
 
-/// A line through points, with round ends and corners.
-#[derive(Clone, Debug)]
-pub(super) struct Stroke {
-    pub points: Vec<[f64; 2]>,
-    pub width: f64,
-    pub ink: [u8; 3],
-}
-
 /// A figure on white. Places are in points from the upper left corner, y down.
 #[derive(Clone, Debug)]
 pub struct Figure {
@@ -103,24 +92,18 @@ pub struct Figure {
     /// Pixels of a point in a PNG.
     pub scale: f64,
     pub(super) pictures: Vec<Picture>,
-    pub(super) strokes: Vec<Stroke>,
     pub(super) texts: Vec<Text>,
 }
 
 impl Figure {
     /// A figure of this size in points, with nothing in it.
     pub fn new(size: [f64; 2], scale: f64) -> Self {
-        Self { size, scale, pictures: Vec::new(), strokes: Vec::new(), texts: Vec::new() }
+        Self { size, scale, pictures: Vec::new(), texts: Vec::new() }
     }
 
     /// Puts a picture into a rectangle, over what is there.
     pub fn picture(&mut self, at: [f64; 2], size: [f64; 2], image: Image<u8>) {
         self.pictures.push(Picture { at, size, image });
-    }
-
-    /// Draws a line through points, over all pictures.
-    pub fn stroke(&mut self, points: Vec<[f64; 2]>, width: f64, ink: [u8; 3]) {
-        self.strokes.push(Stroke { points, width, ink });
     }
 
     /// Writes a text in lines of at most this width, the first below `top`; returns the bottom of the last.

@@ -4,13 +4,13 @@ use std::collections::BTreeMap;
 use std::io;
 
 use ab_glyph::Font as _;
-use pdf_writer::types::{CidFontType, FontFlags, LineCapStyle, LineJoinStyle, SystemInfo, UnicodeCmap};
+use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 use subsetter::GlyphRemapper;
 use svbrdf_core::image::Image;
 
 use super::font::{self, FILE, FONT, Placed};
-use super::layout::{Figure, Stroke};
+use super::layout::Figure;
 use crate::export::encode::{self, Entries, Provenance};
 
 /// Largest side of a page, in points: other programs open no larger one.
@@ -70,7 +70,6 @@ fn reference(number: usize) -> Ref {
     Ref::new(PICTURES + number as i32)
 }
 
-/// What is drawn.
 fn content(figure: &Figure, used: &mut Used) -> Vec<u8> {
     let height = figure.size[1];
     let mut content = Content::new();
@@ -78,16 +77,6 @@ fn content(figure: &Figure, used: &mut Used) -> Vec<u8> {
         let ([x, y], [wide, high]) = (picture.at, picture.size);
         let place = [wide, 0.0, 0.0, high, x, height - y - high].map(|number| number as f32);
         content.save_state().transform(place).x_object(Name(name(number).as_bytes())).restore_state();
-    }
-    content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
-    for Stroke { points, width, ink } in &figure.strokes {
-        let [r, g, b] = ink.map(|channel| f32::from(channel) / 255.0);
-        content.set_stroke_rgb(r, g, b).set_line_width(*width as f32);
-        for (number, [x, y]) in points.iter().enumerate() {
-            let [x, y] = [*x as f32, (height - y) as f32];
-            let _ = if number == 0 { content.move_to(x, y) } else { content.line_to(x, y) };
-        }
-        content.stroke();
     }
     for text in &figure.texts {
         let [r, g, b] = text.style.ink.map(|channel| f32::from(channel) / 255.0);
@@ -129,7 +118,6 @@ impl Used {
         code
     }
 
-    /// Writes the subset of the font.
     fn write(&self, pdf: &mut Pdf) -> io::Result<()> {
         let file = subsetter::subset(FILE, 0, &self.remapper).map_err(io::Error::other)?;
         pdf.stream(FONT_FILE, &file).pair(Name(b"Length1"), file.len() as i32);

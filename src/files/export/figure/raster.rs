@@ -1,11 +1,10 @@
 //! A figure in pixels.
 
 use ab_glyph::{Font as _, PxScale, point};
-use glam::DVec2;
 use svbrdf_core::image::Image;
 
 use super::font::{self, FONT};
-use super::layout::{Figure, Picture, Stroke, Text};
+use super::layout::{Figure, Picture, Text};
 
 const WHITE: [u8; 3] = [255; 3];
 
@@ -14,7 +13,6 @@ pub(super) fn image(figure: &Figure) -> Image<u8> {
     let [width, height] = figure.pixels();
     let mut image = Image { width, height, pixels: vec![WHITE; width * height] };
     figure.pictures.iter().for_each(|picture| put(&mut image, picture, figure.scale));
-    figure.strokes.iter().for_each(|stroke| draw(&mut image, stroke, figure.scale));
     figure.texts.iter().for_each(|text| write(&mut image, text, figure.scale));
     image
 }
@@ -27,24 +25,6 @@ fn put(image: &mut Image<u8>, picture: &Picture, scale: f64) {
         let row = &from.pixels[y * from.height / height * from.width..][..from.width];
         for x in 0..width.min(image.width.saturating_sub(left)) {
             image.pixels[(top + y) * image.width + left + x] = row[x * from.width / width];
-        }
-    }
-}
-
-/// Draws a line: a pixel is covered by how far it is within.
-fn draw(image: &mut Image<u8>, Stroke { points, width, ink }: &Stroke, scale: f64) {
-    for ends in points.windows(2) {
-        let [a, b] = [ends[0], ends[1]].map(|place| DVec2::from(place) * scale - 0.5);
-        let radius = 0.5 * width * scale + 0.5;
-        let low = (a.min(b) - radius).max(DVec2::ZERO).floor().as_usizevec2();
-        let high = (a.max(b) + radius + 1.0).max(DVec2::ZERO).as_usizevec2();
-        for y in low.y..high.y.min(image.height) {
-            for x in low.x..high.x.min(image.width) {
-                let from = DVec2::new(x as f64, y as f64) - a;
-                let along = (from.dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-                let cover = radius - from.distance(along * (b - a));
-                blend(&mut image.pixels[y * image.width + x], *ink, cover as f32);
-            }
         }
     }
 }

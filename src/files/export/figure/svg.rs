@@ -6,7 +6,7 @@ use std::io;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 
-use super::layout::{Anchor, Figure, MILLIMETRE, Picture, Stroke, Text};
+use super::layout::{Anchor, Figure, MILLIMETRE, Picture, Text};
 use crate::export::encode::{self, Entries};
 
 /// The figure with its metadata as a description.
@@ -28,14 +28,6 @@ pub(super) fn text(figure: &Figure, entries: &Entries) -> io::Result<String> {
         let _ = writeln!(
             svg,
             r#"<image x="{x:.3}" y="{y:.3}" width="{width:.3}" height="{height:.3}" preserveAspectRatio="none" href="data:image/png;base64,{data}"/>"#
-        );
-    }
-    for Stroke { points, width, ink: [r, g, b] } in &figure.strokes {
-        let places: String = points.iter().map(|[x, y]| format!("L{x:.3} {y:.3}")).collect();
-        let _ = writeln!(
-            svg,
-            r##"<path d="M{}" fill="none" stroke="#{r:02x}{g:02x}{b:02x}" stroke-width="{width:.3}" stroke-linecap="round" stroke-linejoin="round"/>"##,
-            places.trim_start_matches('L')
         );
     }
     for text in figure.texts.iter().filter(|text| !text.text.is_empty()) {

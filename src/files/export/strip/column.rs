@@ -20,7 +20,6 @@ impl Column {
         }
     }
 
-    /// Its name.
     pub(super) fn name(&self) -> String {
         content_name(&self.content)
     }
@@ -31,7 +30,6 @@ impl Column {
     }
 }
 
-/// What is shown, as a label.
 pub(super) fn content_name(content: &PictureContent) -> String {
     let quantity = content.quantity.name();
     match content.difference {
@@ -41,7 +39,6 @@ pub(super) fn content_name(content: &PictureContent) -> String {
     }
 }
 
-/// Light and view.
 pub(super) fn scene_text(scene: &Scene) -> String {
     let kind = match scene.kind {
         Kind::Near => "light",
@@ -52,7 +49,6 @@ pub(super) fn scene_text(scene: &Scene) -> String {
     format!("{kind} {}; view {}", point(scene.light), point(scene.view))
 }
 
-/// Stops as text.
 pub(super) fn stops(ev: f32) -> String {
     format!("exposure {}{ev} EV", if ev > 0.0 { "+" } else { "" })
 }

@@ -11,7 +11,6 @@ use crate::error::Error;
 /// with any colour vision tell apart.
 const COLOURS: [[u8; 3]; 6] =
     [[230, 159, 0], [86, 180, 233], [0, 158, 115], [240, 228, 66], [213, 94, 0], [204, 121, 167]];
-/// The least magnification.
 const LEAST: usize = 2;
 
 /// A rectangle of texels.
@@ -41,7 +40,6 @@ impl Crop {
         Err(Error::CropOutside { crop: [left, top, width, height], size })
     }
 
-    /// The colour of crop number `index`.
     pub(super) fn colour(index: usize) -> [u8; 3] {
         COLOURS[index % COLOURS.len()]
     }

@@ -7,7 +7,6 @@ use svbrdf_core::picture::quantity::Quantity;
 use super::sheet::{INK, SMALL, style};
 use crate::export::figure::{Anchor, Figure};
 
-/// Colours of the bar.
 const COLOURS: usize = 256;
 /// Height of the bar and of its ticks, and width of a tick, in ems.
 const BAR: f64 = 0.9;

@@ -97,7 +97,6 @@ impl MethodStrip {
         (sheet.column * self.dpi / INCH).round().max(1.0) as usize
     }
 
-    /// What all cells show.
     fn note(&self) -> String {
         let shown = content_name(&self.content);
         if self.content.quantity != Quantity::Rendering {
@@ -133,7 +132,6 @@ impl MethodStrip {
         Ok(below + texts + GAP * sheet.em)
     }
 
-    /// The pictures of a row.
     fn cells(&self, row: &MethodRow, side: usize, progress: &Progress) -> Result<Vec<Image<u8>>, Error> {
         let size = row.materials.first().and_then(Option::as_ref).map(Material::size);
         // A prediction of another size cannot be compared.

@@ -43,19 +43,15 @@ impl Default for Paper {
     }
 }
 
-/// The style of a text.
 pub(super) fn style(size: f64, anchor: Anchor) -> TextStyle {
     TextStyle { size, ink: INK, anchor }
 }
 
-/// Where the columns of a figure are.
 pub(super) struct Sheet {
     pub em: f64,
     /// Of the figure.
     pub width: f64,
-    /// Width of the names of rows.
     pub names: f64,
-    /// Width of a column.
     pub column: f64,
 }
 
@@ -90,7 +86,6 @@ impl Sheet {
         Ok(Self { em, width, names, column })
     }
 
-    /// The left edge of a column.
     pub(super) fn left(&self, column: usize) -> f64 {
         self.names + column as f64 * (self.column + GAP * self.em)
     }
@@ -189,7 +184,6 @@ impl Division {
     }
 }
 
-/// The picture within a frame.
 fn framed(picture: &Image<u8>, line: usize, colour: [u8; 3]) -> Image<u8> {
     let [width, height] = [picture.width, picture.height].map(|side| side + 2 * line);
     let mut pixels = vec![colour; width * height];
