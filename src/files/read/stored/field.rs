@@ -73,16 +73,6 @@ impl Field {
     /// Times `other`, texel by texel.
     #[must_use]
     pub(crate) fn times(self, other: Self) -> Self {
-        self.with(other, |a, b| a * b)
-    }
-
-    /// Plus `other`, texel by texel, at most 1.
-    #[must_use]
-    pub(crate) fn plus(self, other: Self) -> Self {
-        self.with(other, |a, b| (a + b).min(1.0))
-    }
-
-    fn with(self, other: Self, of: impl Fn(f32, f32) -> f32 + Sync) -> Self {
         let mut both = [self, other];
         let size = common_size(&mut both);
         let [a, b] = &both;
@@ -91,7 +81,7 @@ impl Field {
             let (x, y) = (a.plane(c), b.plane(c));
             (0..size[0] * size[1])
                 .into_par_iter()
-                .map(|i| of(x[i.min(x.len() - 1)], y[i.min(y.len() - 1)]))
+                .map(|i| x[i.min(x.len() - 1)] * y[i.min(y.len() - 1)])
                 .collect()
         };
         let planes = (0..count).map(plane).collect();
@@ -105,7 +95,6 @@ impl Field {
         self
     }
 
-    /// Whether it is `value` everywhere.
     pub(crate) fn is(&self, value: f32) -> bool {
         self.size == [1, 1] && self.planes.iter().all(|plane| (plane[0] - value).abs() < 1e-6)
     }

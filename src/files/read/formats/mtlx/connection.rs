@@ -2,7 +2,6 @@
 
 use roxmltree::Node;
 
-/// The input `name` of `node`.
 pub(super) fn input<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
     let is_named = |n: &Node<'_, '_>| n.attribute("name") == Some(name);
     node.children().filter(is_input).find(is_named)
@@ -12,7 +11,6 @@ pub(super) fn is_input(node: &Node<'_, '_>) -> bool {
     node.has_tag_name("input") || node.has_tag_name("parameter")
 }
 
-/// The node that an input is connected to.
 pub(super) fn target<'a, 'd>(input: Node<'a, 'd>) -> Option<Node<'a, 'd>> {
     fn named<'a, 'd>(scope: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
         scope.children().find(|n| !is_input(n) && n.attribute("name") == Some(name))

@@ -89,7 +89,6 @@ fn through(node: Node<'_, '_>, depth: usize) -> Result<Bound, Obstacle> {
     Ok(found)
 }
 
-/// The picture that `node` reads from `file`.
 fn picture(node: Node<'_, '_>, file: Node<'_, '_>, depth: usize) -> Result<BoundPicture, Obstacle> {
     let nowhere = || Obstacle::Nowhere("file".to_owned());
     let file = of_interface(file, depth);

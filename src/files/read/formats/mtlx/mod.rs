@@ -81,18 +81,15 @@ impl MtlxSurface<'_> {
         let dielectric = self.dielectric()?;
         let weight = self.weight(model.weight, 1.0)?;
         let transmission = self.weight(model.transmission, 0.0)?;
-        let subsurface = self.weight(model.subsurface.map(|[weight, _]| weight), 0.0)?;
-        if dielectric.is(DEFAULT) && weight.is(1.0) && transmission.is(0.0) && subsurface.is(0.0) {
+        if dielectric.is(DEFAULT) && weight.is(1.0) && transmission.is(0.0) {
             let encoding = base.encoding.clone();
             maps.add(Role::Metallic, metallic.source);
             maps.add(Role::Base, base.source.clone());
             self.colours.push(base);
             return Ok(encoding);
         }
-        let dielectric_share = metallic.numbers().complement();
         let [diffuse, specular] = separated(base.colours().times(weight), metallic.numbers(), dielectric);
         self.colours.push(base);
-        let diffuse = self.with_subsurface(diffuse, subsurface, dielectric_share)?;
         let diffuse = if transmission.is(0.0) { diffuse } else { diffuse.times(transmission.complement()) };
         maps.add(Role::Diffuse, self.computed(diffuse, "base colour and metallic"));
         maps.add(Role::Specular, self.computed(specular, "specular, its colour and index of refraction"));
@@ -103,17 +100,6 @@ impl MtlxSurface<'_> {
     fn weight(&self, input: Option<(&'static str, f32)>, usual: f32) -> Result<Field, Error> {
         let Some(input) = input else { return Ok(Field::constant(&[usual])) };
         Ok(self.input_or_default(input, Role::Base)?.numbers())
-    }
-
-    /// Diffuse with the share `weight` of it replaced by the colour of subsurface scattering.
-    fn with_subsurface(&mut self, diffuse: Field, weight: Field, dielectric: Field) -> Result<Field, Error> {
-        let Some([_, colour]) = self.located.model.subsurface.filter(|_| !weight.is(0.0)) else {
-            return Ok(diffuse);
-        };
-        let colour = self.input_or_default(colour, Role::Base)?;
-        let scattered = colour.colours().times(dielectric).times(weight.clone());
-        self.colours.push(colour);
-        Ok(diffuse.times(weight.complement()).plus(scattered))
     }
 
     fn computed(&self, field: Field, part: &str) -> StoredMap {

@@ -20,8 +20,6 @@ pub(super) struct SurfaceModel {
     pub ior: SurfaceInput,
     /// The share of light that the dielectric transmits, which leaves the rest to diffuse.
     pub transmission: Option<SurfaceInput>,
-    /// Weight and colour of subsurface scattering, which counts as diffuse.
-    pub subsurface: Option<[SurfaceInput; 2]>,
     /// Inputs that change the look and are not modelled, with the value that turns each off.
     pub not_modelled: &'static [SurfaceInput],
 }
@@ -37,7 +35,6 @@ pub(super) static MODELS: [SurfaceModel; 4] = [
         specular: &[("specular", 1.0), ("specular_color", 1.0)],
         ior: ("specular_IOR", 1.5),
         transmission: Some(("transmission", 0.0)),
-        subsurface: Some([("subsurface", 0.0), ("subsurface_color", 1.0)]),
         not_modelled: &[
             ("coat", 0.0),
             ("transmission", 0.0),
@@ -60,7 +57,6 @@ pub(super) static MODELS: [SurfaceModel; 4] = [
         specular: &[("specular", 1.0), ("specular_color", 1.0)],
         ior: ("ior", 1.5),
         transmission: Some(("transmission", 0.0)),
-        subsurface: None,
         not_modelled: &[
             ("clearcoat", 0.0),
             ("transmission", 0.0),
@@ -81,7 +77,6 @@ pub(super) static MODELS: [SurfaceModel; 4] = [
         specular: &[("specular_weight", 1.0), ("specular_color", 1.0)],
         ior: ("specular_ior", 1.5),
         transmission: Some(("transmission_weight", 0.0)),
-        subsurface: Some([("subsurface_weight", 0.0), ("subsurface_color", 0.8)]),
         not_modelled: &[
             ("coat_weight", 0.0),
             ("transmission_weight", 0.0),
@@ -104,7 +99,6 @@ pub(super) static MODELS: [SurfaceModel; 4] = [
         specular: &[],
         ior: ("ior", 1.5),
         transmission: None,
-        subsurface: None,
         not_modelled: &[("clearcoat", 0.0), ("emissiveColor", 0.0), ("opacity", 1.0)],
     },
 ];
@@ -131,7 +125,6 @@ impl SurfaceModel {
         let weight = self.weight.map(|(name, _)| (name, Role::Base));
         let specular = self.specular.iter().chain([&USD_SPECULAR]).map(|(name, _)| (*name, Role::Specular));
         let transmission = self.transmission.map(|(name, _)| (name, Role::Base));
-        let subsurface = self.subsurface.into_iter().flatten().map(|(name, _)| (name, Role::Base));
-        always.into_iter().chain(weight).chain(specular).chain(transmission).chain(subsurface).collect()
+        always.into_iter().chain(weight).chain(specular).chain(transmission).collect()
     }
 }
