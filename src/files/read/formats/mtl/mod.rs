@@ -1,27 +1,82 @@
-//! Materials of a Wavefront `.mtl`: maps out of its pictures and factors, with the extension for roughness (`Pr`) and
-//! metallic (`Pm`).
+//! Materials of a Wavefront `.mtl`: maps out of its pictures and numbers, with the extension for roughness (`Pr`) and metallic (`Pm`).
 
 mod statement;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use svbrdf_core::progress::Progress;
 
+use crate::disk::open::NamedFile;
+use crate::disk::{memory, refuse_pointer};
 use crate::error::Error;
 use crate::read::names::Label;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
 use crate::read::raster::channel_spread;
 use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score};
 use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
-use crate::read::stored::{DecodedPicture, Inferred, MapsByRole, StoredMap, StoredMaterial, decoded, notice};
+use crate::read::stored::{Inferred, MapsByRole, Picture, StoredMap, StoredMaterial, decoded, notice};
 
-pub(in crate::read) use statement::Mtl;
-use statement::{BUMPS, NORMALS, NamedTexture, names_picture};
+use statement::{MtlEntry, bytes_of, entries, file_and_options, named_file, names_picture};
 
+/// Statements of pictures of normals, the plainest first; those of `bump` may also hold heights.
+const NORMALS: [&str; 4] = ["norm", "map_kn", "map_bump", "bump"];
 /// Channels of a gray picture differ by no more: compression and rounding.
 const GRAY: f64 = 12.0 / 255.0;
 
+/// A material of an `.mtl`, its pictures located.
+#[derive(Debug)]
+pub(in crate::read) struct Mtl {
+    path: PathBuf,
+    entry: MtlEntry,
+    textures: Vec<MtlTexture>,
+    /// The names of all materials of the file, and which of them this is.
+    materials: (Vec<String>, usize),
+}
+
+/// A picture that a statement names.
+#[derive(Debug)]
+struct MtlTexture {
+    key: &'static str,
+    role: Role,
+    /// Its file as it is named.
+    named: String,
+    /// Options before that name which change the look.
+    options: Vec<String>,
+    /// The file that is there: beside the `.mtl`, or as named.
+    picture: Picture,
+}
+
 impl Mtl {
+    /// Locates material number `exemplar` of the file `path`.
+    pub(in crate::read) fn locate(path: &Path, options: &ReadOptions) -> Result<Self, Error> {
+        let bytes = NamedFile::by_user(path).bytes()?;
+        refuse_pointer(path, &bytes)?;
+        let _reserved =
+            memory::reserve(bytes_of(&bytes), || format!("the statements of {}", path.display()))?;
+        let mut all =
+            entries(&String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes)));
+        let index = options.exemplar_of(all.len(), path)?;
+        let names = all.iter().map(|entry| entry.name.clone()).collect();
+        if all.is_empty() {
+            return Err(Error::NotAMaterial {
+                path: path.to_owned(),
+                expected: "a material (newmtl NAME)".to_owned(),
+                found: "none".to_owned(),
+                remedy: "export the model with its materials".to_owned(),
+            });
+        }
+        let entry = all.swap_remove(index);
+        Ok(Self { path: path.to_owned(), textures: entry.textures(path), entry, materials: (names, index) })
+    }
+
+    pub(in crate::read) fn name(&self) -> &str {
+        &self.entry.name
+    }
+
+    pub(in crate::read) fn files(&self) -> Vec<NamedFile> {
+        self.textures.iter().filter_map(|texture| texture.picture.file().cloned()).collect()
+    }
+
     /// Reads its maps; each picture is one step of `progress`.
     ///
     /// # Errors
@@ -32,36 +87,163 @@ impl Mtl {
         progress: &Progress,
     ) -> Result<StoredMaterial, Error> {
         let pictures = decoded(self.textures.iter().map(|texture| &texture.picture), progress)?;
-        let mut statements = MtlMaps {
-            mtl: &self,
-            pictures: &pictures,
-            used: Vec::new(),
-            spaces: Vec::new(),
-            assumptions: Vec::new(),
-            notes: Vec::new(),
+        let (mut maps, mut notes) = (MapsByRole::default(), Vec::new());
+        for (texture, picture) in self.textures.iter().zip(&pictures) {
+            let map = picture.map.clone();
+            if let Some(why) = texture.contradiction(&map) {
+                notes.push(Note::Unused { what: map.file.display().to_string(), why });
+                continue;
+            }
+            if map.file != self.path.with_file_name(&texture.named) {
+                notes.push(Note::Substituted { file: texture.named.clone(), by: map.file.clone() });
+            }
+            notes.push(Note::MapFile { map: texture.role, file: map.file.display().to_string() });
+            if !texture.options.is_empty() {
+                notes.push(Note::OptionsUnused { map: texture.role, options: texture.options.clone() });
+            }
+            maps.add(texture.role, map);
+        }
+        let numbers = self.add_numbers(&mut maps)?;
+        notes.extend(self.unused(&numbers));
+        let space = |roles: &[Role]| {
+            let texture = self.textures.iter().position(|texture| roles.contains(&texture.role));
+            let is_float = texture.is_some_and(|place| pictures[place].map.raster.is_float());
+            Some(match is_float {
+                true => (Albedo::Linear, StorageConvention::Floats.into(), Certainty::Likely),
+                false => (Albedo::Srgb, StorageConvention::MtlColours.into(), Certainty::Likely),
+            })
         };
-        let maps = statements.recognized()?;
-        statements.note_unused();
-        let MtlMaps { assumptions, notes, spaces, .. } = statements;
+        let (albedo, specular) = (space(&[Role::Diffuse, Role::Base]), space(&[Role::Specular]));
         let name = self.entry.name.clone();
         let mut found = maps.material(&self.path, name, "the statements of the .mtl", options)?;
         found.add_file(self.path.clone());
-        let space = |map: Role| spaces.iter().find(|(whose, _)| *whose == map).map(|(_, space)| *space);
-        let hint = |space| {
-            let is_srgb = space == Albedo::Srgb;
-            let why = if is_srgb { StorageConvention::MtlColours } else { StorageConvention::Floats };
-            (space, why.into(), Certainty::Likely)
-        };
-        found.inferred.albedo = space(Role::Diffuse).map(hint);
-        found.inferred.specular = space(Role::Specular).map(hint);
+        (found.inferred.albedo, found.inferred.specular) = (albedo, specular);
         found.inferred.normal_y = found.normal.as_ref().and_then(|source| named_y(&source.file));
         let layout = Assumption::new(What::Layout, "MTL", StorageConvention::ListedTextures, Certainty::Sure);
         found.assumptions.insert(0, layout);
-        found.assumptions.extend(assumptions);
+        if self.entry.is_packed() {
+            let (why, chosen) =
+                (StorageConvention::NvdiffrecPacking, "map_Ks is occlusion | roughness | metallic");
+            found.assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Likely));
+        }
         found.notes.splice(0..0, notes);
-        found.note_document(Vec::new(), self.materials.clone());
+        found.note_document(Vec::new(), self.materials);
         notice(&mut found, &pictures, |_| true);
         Ok(found)
+    }
+
+    /// Adds the maps that are stated as numbers alone; returns the keywords of their statements.
+    fn add_numbers(&self, maps: &mut MapsByRole) -> Result<Vec<&'static str>, Error> {
+        let has = |key: &str| self.entry.line(key).is_some();
+        let is_packed = maps.has(Role::OcclusionRoughnessMetallic);
+        let colour = if self.entry.is_metallic() { Role::Base } else { Role::Diffuse };
+        let mut used = Vec::new();
+        for (key, role, is_stated) in [
+            ("kd", colour, !has("map_kd")),
+            ("pr", Role::Roughness, !has("map_pr") && !is_packed),
+            ("pm", Role::Metallic, !has("map_pm") && !has("map_ks")),
+        ] {
+            let factor = if is_stated { self.factor(key)? } else { None };
+            let Some(factor) = factor else { continue };
+            used.push(key);
+            let map = match role.is_colour() {
+                true => StoredMap::constant(&self.path, &[1.0; 3]).times(factor, Albedo::Srgb),
+                false => StoredMap::constant(&self.path, &factor[..1]),
+            };
+            maps.add(role, map);
+        }
+        Ok(used)
+    }
+
+    /// One or three numbers.
+    fn factor(&self, key: &str) -> Result<Option<[f32; 3]>, Error> {
+        let Some(rest) = self.entry.line(key) else { return Ok(None) };
+        let numbers: Option<Vec<f32>> = rest.split_whitespace().map(|word| word.parse().ok()).collect();
+        match numbers.as_deref() {
+            Some([all]) => Ok(Some([*all; 3])),
+            Some([r, g, b]) => Ok(Some([*r, *g, *b])),
+            _ => Err(Error::BadImage {
+                path: self.path.clone(),
+                problem: format!(
+                    "{}: expected one or three numbers after {key}, found `{rest}`",
+                    self.entry.name
+                ),
+                remedy: "write linear red, green and blue from 0 to 1".to_owned(),
+            }),
+        }
+    }
+
+    /// Notes on the statements but those of the pictures and of these `numbers`.
+    fn unused(&self, numbers: &[&str]) -> Vec<Note> {
+        let is_used = |key: &str| {
+            // A Kd beside its picture is told with the options of that.
+            let picture = if key == "kd" { "map_kd" } else { key };
+            numbers.contains(&key) || self.textures.iter().any(|one| one.key == picture)
+        };
+        let left = self.entry.lines.iter().filter(|(key, _)| !is_used(key));
+        let (pictures, others): (Vec<_>, Vec<_>) = left.partition(|(key, _)| names_picture(key));
+        let text = |(key, rest): &(String, String)| format!("{key} {rest}");
+        let unused = |line| Note::Unused { what: text(line), why: Unused::NotAMap };
+        let others: Vec<_> = others.into_iter().map(text).collect();
+        let others = (!others.is_empty()).then_some(Note::StatementsUnused(others));
+        pictures.into_iter().map(unused).chain(others).collect()
+    }
+}
+
+impl MtlEntry {
+    /// Whether `map_Ks` holds roughness and metallic: by the name of its file, or by the `bsdf` of nvdiffrec.
+    fn is_packed(&self) -> bool {
+        let has = |key: &str| self.line(key).is_some();
+        let is_named = |rest: &str| {
+            let (file, _) = file_and_options(rest);
+            let stem = Path::new(&file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            Label::of(&stem).is_some_and(|label| label.role == Role::OcclusionRoughnessMetallic)
+        };
+        has("map_kd")
+            && !has("map_pr")
+            && !has("map_pm")
+            && self.line("map_ks").is_some_and(|rest| has("bsdf") || is_named(rest))
+    }
+
+    fn is_metallic(&self) -> bool {
+        let has = |key: &str| self.line(key).is_some();
+        self.is_packed() || has("map_pm") || (has("pm") && !has("map_ks"))
+    }
+
+    fn textures(&self, path: &Path) -> Vec<MtlTexture> {
+        let specular = if self.is_packed() { Role::OcclusionRoughnessMetallic } else { Role::Specular };
+        let is_specular = self.is_packed() || !self.is_metallic();
+        let normal = NORMALS.into_iter().find(|key| self.line(key).is_some());
+        let keys = [
+            (Some("map_kd"), if self.is_metallic() { Role::Base } else { Role::Diffuse }),
+            (Some("map_pr"), Role::Roughness),
+            (Some("map_pm"), Role::Metallic),
+            (is_specular.then_some("map_ks"), specular),
+            (normal, Role::Normal),
+        ];
+        let texture = |(key, role): (Option<&'static str>, Role)| {
+            let key = key?;
+            let (named, mut options) = file_and_options(self.line(key)?);
+            // A factor beside a picture of colours: some programs multiply, others use the picture alone.
+            let factor = self.line("kd").filter(|_| key == "map_kd");
+            let is_one = |rest: &&str| rest.split_whitespace().all(|number| number.parse() == Ok(1.0));
+            options.extend(factor.filter(|rest| !is_one(rest)).map(|rest| format!("Kd {rest}")));
+            let picture = Picture::of_file(named_file(&named, path), role);
+            Some(MtlTexture { key, role, named, options, picture })
+        };
+        keys.into_iter().filter_map(texture).collect()
+    }
+}
+
+impl MtlTexture {
+    /// Why its pixels are not those of its map.
+    fn contradiction(&self, map: &StoredMap) -> Option<Unused> {
+        let may_be_heights = self.key.ends_with("bump") && !map.raster.is_float();
+        if !may_be_heights || normal_score(&map.raster) >= NORMAL_AT_LEAST {
+            return None;
+        }
+        let is_gray = channel_spread(&map.raster.channels) <= GRAY;
+        Some(if is_gray { Unused::Heights } else { Unused::NotNormals })
     }
 }
 
@@ -70,202 +252,4 @@ fn named_y(file: &Path) -> Inferred<NormalY> {
     let name = file.file_name()?.to_string_lossy().into_owned();
     let y = Label::of(&file.file_stem()?.to_string_lossy())?.normal_y?;
     Some((y, Reason::FileName { file: name }, Certainty::Sure))
-}
-
-/// The statements of a material while its maps are recognized.
-struct MtlMaps<'a> {
-    mtl: &'a Mtl,
-    pictures: &'a [DecodedPicture],
-    /// Keywords that have been used.
-    used: Vec<&'a str>,
-    /// How each map of colours is stored.
-    spaces: Vec<(Role, Albedo)>,
-    assumptions: Vec<Assumption>,
-    notes: Vec<Note>,
-}
-
-impl<'a> MtlMaps<'a> {
-    /// The maps of the statements.
-    fn recognized(&mut self) -> Result<MapsByRole, Error> {
-        let mut maps = MapsByRole::default();
-        let colour = self.colour("map_kd", "kd", Role::Diffuse)?;
-        let packed = self.mtl.packed;
-        let packed = packed.and_then(|(key, role)| Some((key, role, self.picture(&[key], role)?)));
-        let is_packed = packed.is_some();
-        // A picture of its own, or without a packed one a number, too.
-        let is_stated = |this: &Self, map: &str| !is_packed || this.has(map);
-        let roughness = match is_stated(self, "map_pr") {
-            true => self.value("map_pr", "pr", Role::Roughness)?,
-            false => None,
-        };
-        let metallic = match is_stated(self, "map_pm") && (self.has("map_pm") || !self.has("map_ks")) {
-            true => self.value("map_pm", "pm", Role::Metallic)?,
-            false => None,
-        };
-        let is_metallic = is_packed || metallic.is_some();
-        if let Some((key, role, source)) = packed {
-            if key == "map_ks" {
-                let why = StorageConvention::NvdiffrecPacking;
-                let layout = "map_Ks is occlusion | roughness | metallic";
-                self.assumptions.push(Assumption::new(What::Layout, layout, why, Certainty::Likely));
-            }
-            maps.add(role, source);
-        } else if !is_metallic && self.has("map_ks") {
-            let specular = self.colour("map_ks", "ks", Role::Specular)?;
-            specular.into_iter().for_each(|source| maps.add(Role::Specular, source));
-        }
-        if let Some(metallic) = metallic {
-            maps.add(Role::Metallic, metallic);
-        }
-        if let Some(colour) = colour {
-            maps.add(if is_metallic { Role::Base } else { Role::Diffuse }, colour);
-        }
-        let roughness = if is_packed { roughness } else { roughness.or_else(|| self.by_exponent()) };
-        if let Some(roughness) = roughness {
-            maps.add(Role::Roughness, roughness);
-        }
-        if let Some(normal) = self.normal() {
-            maps.add(Role::Normal, normal);
-        }
-        Ok(maps)
-    }
-
-    fn has(&self, key: &str) -> bool {
-        self.mtl.entry.lines.iter().any(|(k, _)| k == key)
-    }
-
-    /// The keyword and the rest of the first line of one of `keys`, which counts as used from now on.
-    fn used(&mut self, keys: &[&str]) -> Option<&'a (String, String)> {
-        let lines = &self.mtl.entry.lines;
-        let line = keys.iter().find_map(|key| lines.iter().find(|(k, _)| k == key))?;
-        self.used.push(&line.0);
-        Some(line)
-    }
-
-    /// One or three numbers.
-    fn factor(&mut self, key: &str) -> Result<Option<[f32; 3]>, Error> {
-        let Some((_, rest)) = self.used(&[key]) else { return Ok(None) };
-        let numbers: Option<Vec<f32>> = rest.split_whitespace().map(|word| word.parse().ok()).collect();
-        match numbers.as_deref() {
-            Some([all]) => Ok(Some([*all; 3])),
-            Some([r, g, b]) => Ok(Some([*r, *g, *b])),
-            _ => Err(Error::BadImage {
-                path: self.mtl.path.clone(),
-                problem: format!(
-                    "{}: expected one or three numbers after {key}, found `{rest}`",
-                    self.mtl.entry.name
-                ),
-                remedy: "write linear red, green and blue from 0 to 1".to_owned(),
-            }),
-        }
-    }
-
-    /// The factor beside a picture of colours, recorded.
-    fn beside(&mut self, key: &str, map: Role) -> Result<[f32; 3], Error> {
-        const ALONE: [f32; 3] = [1.0; 3];
-        let Some(factor) = self.factor(key)?.filter(|f| *f != ALONE) else { return Ok(ALONE) };
-        if factor == [0.0; 3] {
-            let what = format!("{key} 0");
-            self.notes.push(Note::Unused { what, why: Unused::FactorZero { map } });
-            return Ok(ALONE);
-        }
-        if self.mtl.is_by_blender {
-            self.notes.push(Note::Unused { what: format!("{key} {factor:?}"), why: Unused::Blender });
-            return Ok(ALONE);
-        }
-        let chosen = format!("{} times {factor:?}", map.name());
-        let why = Reason::MtlFactor { key: key.to_owned() };
-        self.assumptions.push(Assumption::new(What::Values, chosen, why, Certainty::Unsure));
-        Ok(factor)
-    }
-
-    fn colour(&mut self, map: &str, key: &str, role: Role) -> Result<Option<StoredMap>, Error> {
-        match self.picture(&[map], role) {
-            Some(source) => {
-                let space = if source.raster.is_float() { Albedo::Linear } else { Albedo::Srgb };
-                self.spaces.push((role, space));
-                Ok(Some(source.times(self.beside(key, role)?, space)))
-            }
-            None => {
-                self.spaces.push((role, Albedo::Srgb));
-                let white = StoredMap::constant(&self.mtl.path, &[1.0; 3]);
-                Ok(self.factor(key)?.map(|factor| white.times(factor, Albedo::Srgb)))
-            }
-        }
-    }
-
-    /// A picture, or a value where there is none.
-    fn value(&mut self, map: &str, key: &str, role: Role) -> Result<Option<StoredMap>, Error> {
-        match self.picture(&[map], role) {
-            Some(source) => Ok(Some(source)),
-            None => Ok(self.factor(key)?.map(|factor| StoredMap::constant(&self.mtl.path, &factor[..1]))),
-        }
-    }
-
-    /// The roughness of the highlight that Blinn and Phong's exponent `Ns` makes.
-    fn by_exponent(&mut self) -> Option<StoredMap> {
-        let exponent: f32 =
-            self.used(&["ns"])?.1.parse().ok().filter(|n: &f32| n.is_finite() && *n >= 0.0)?;
-        let roughness = (2.0 / (exponent + 2.0)).powf(0.25);
-        let why = Reason::Exponent(exponent);
-        let chosen = format!("roughness {roughness:.3}");
-        self.assumptions.push(Assumption::new(What::Missing, chosen, why, Certainty::Unsure));
-        Some(StoredMap::constant(&self.mtl.path, &[roughness]))
-    }
-
-    fn normal(&mut self) -> Option<StoredMap> {
-        if let Some(normal) = self.picture(&NORMALS, Role::Normal) {
-            return Some(normal);
-        }
-        let bump = self.picture(&BUMPS, Role::Normal)?;
-        if bump.raster.is_float() || normal_score(&bump.raster) >= NORMAL_AT_LEAST {
-            return Some(bump);
-        }
-        let what = bump.file.display().to_string();
-        let is_gray = channel_spread(&bump.raster.channels) <= GRAY;
-        let why = if is_gray { Unused::Heights } else { Unused::NotNormals };
-        self.notes.push(Note::Unused { what, why });
-        None
-    }
-
-    /// The picture that the first of the statements `keys` names.
-    fn picture(&mut self, keys: &[&str], map: Role) -> Option<StoredMap> {
-        let key = self.used(keys)?.0.as_str();
-        let place = self.mtl.textures.iter().position(|texture| texture.key == key)?;
-        let NamedTexture { file: named, channel, unused } = &self.mtl.textures[place].named;
-        let DecodedPicture { map: StoredMap { mut raster, file, .. }, notes, .. } =
-            self.pictures[place].clone();
-        if file != self.mtl.path.with_file_name(named) {
-            self.notes.push(Note::Substituted { file: named.clone(), by: file.clone() });
-        }
-        self.notes.push(Note::MapFile { map, file: file.display().to_string() });
-        self.notes.extend(notes);
-        if !unused.is_empty() {
-            self.notes.push(Note::OptionsUnused { map, options: unused.clone() });
-        }
-        match *channel {
-            Some(3) => {
-                raster = raster.alpha.clone().map_or_else(|| raster.channel(0), |alpha| raster.of(alpha))
-            }
-            Some(channel) => raster = raster.channel(channel),
-            None => {}
-        }
-        Some(StoredMap { raster, file, part: String::new() })
-    }
-
-    fn note_unused(&mut self) {
-        let (mut pictures, mut others): (Vec<_>, Vec<_>) = (Vec::new(), Vec::new());
-        for (key, rest) in self.mtl.entry.lines.iter().filter(|(key, _)| !self.used.contains(&key.as_str())) {
-            if names_picture(key) {
-                pictures.push(format!("{key} {rest}"))
-            } else {
-                others.push(format!("{key} {rest}"))
-            }
-        }
-        let unused = |what| Note::Unused { what, why: Unused::NotAMap };
-        self.notes.extend(pictures.into_iter().map(unused));
-        if !others.is_empty() {
-            self.notes.push(Note::StatementsUnused(others));
-        }
-    }
 }
