@@ -236,81 +236,46 @@ fn is_hdr_head_short(reader: &mut Reader<'_>) -> io::Result<bool> {
 }
 
 /// The fields of a PNG before its pixels.
-#[derive(Debug, Default)]
+#[derive(Default)]
 struct PngHead {
     /// The chunk that declares its values linear: cICP, or else gAMA without sRGB.
-    pub linear: Option<&'static str>,
+    linear: Option<&'static str>,
     /// The chunk that declares primaries other than those of Rec. 709: cICP, or else cHRM without sRGB.
-    pub other_primaries: Option<&'static str>,
-    /// Whether it is an animation.
-    pub is_animated: bool,
+    other_primaries: Option<&'static str>,
+    is_animated: bool,
     /// The text that this program writes into its pictures: their order and encoding.
-    pub meaning: Option<String>,
+    meaning: Option<String>,
 }
-
-/// Longest text that is looked at.
-const LONGEST: u32 = 1 << 10;
 
 /// The code of linear values in cICP (ITU-T H.273).
 const LINEAR: u8 = 8;
 /// The chromaticities of red, green and blue of Rec. 709, in 1/100000.
-const REC709: [u32; 6] = [64_000, 33_000, 30_000, 60_000, 15_000, 6_000];
+const REC709: [[u32; 2]; 3] = [[64_000, 33_000], [30_000, 60_000], [15_000, 6_000]];
 
-/// The first numbers of a chunk, of whose bytes so many are `left`.
-fn numbers<const N: usize>(reader: &mut Reader<'_>, left: &mut i64) -> io::Result<[u32; N]> {
-    let mut numbers = [0; N];
-    for number in &mut numbers {
-        let mut bytes = [0; 4];
-        reader.read_exact(&mut bytes)?;
-        *number = u32::from_be_bytes(bytes);
-        *left -= 4;
-    }
-    Ok(numbers)
-}
-
-fn png_head(reader: &mut Reader<'_>) -> io::Result<PngHead> {
-    const KEYWORD: &[u8] = b"svbrdf\0";
-    let (mut gamma_is_one, mut srgb, mut is_animated, mut meaning) = (false, false, false, None);
-    let (mut cicp, mut primaries): (Option<[u8; 4]>, Option<[u32; 6]>) = (None, None);
-    reader.seek_relative(8)?;
-    loop {
-        let (mut length, mut name) = ([0; 4], [0; 4]);
-        reader.read_exact(&mut length)?;
-        reader.read_exact(&mut name)?;
-        let length = u32::from_be_bytes(length);
-        let mut left = i64::from(length) + 4;
-        match &name {
-            b"IDAT" => {
-                let linear = match cicp {
-                    Some([_, transfer, ..]) => (transfer == LINEAR).then_some("cICP chunk"),
-                    None => (gamma_is_one && !srgb).then_some("gAMA chunk"),
-                };
-                // Of cICP, 2 are not specified.
-                let is_far = |all: &[u32; 6]| all.iter().zip(REC709).any(|(a, b)| a.abs_diff(b) > 1000);
-                let other_primaries = match cicp {
-                    Some([primaries, ..]) => (!matches!(primaries, 1 | 2)).then_some("cICP chunk"),
-                    None => primaries.filter(is_far).filter(|_| !srgb).map(|_| "cHRM chunk"),
-                };
-                return Ok(PngHead { linear, other_primaries, is_animated, meaning });
-            }
-            b"sRGB" => srgb = true,
-            b"acTL" => is_animated = numbers::<1>(reader, &mut left)?[0] > 1,
-            b"tEXt" if length <= LONGEST => {
-                let mut text = vec![0; length as usize];
-                reader.read_exact(&mut text)?;
-                left -= i64::from(length);
-                let written =
-                    text.strip_prefix(KEYWORD).map(|text| String::from_utf8_lossy(text).into_owned());
-                meaning = written.or(meaning);
-            }
-            b"gAMA" => gamma_is_one = numbers::<1>(reader, &mut left)?[0].abs_diff(100_000) < 1000,
-            b"cHRM" => {
-                let [_, _, rest @ ..]: [u32; 8] = numbers(reader, &mut left)?;
-                primaries = Some(rest);
-            }
-            b"cICP" => cicp = Some(numbers::<1>(reader, &mut left)?[0].to_be_bytes()),
-            _ => (),
+fn png_head(reader: &mut Reader<'_>) -> Option<PngHead> {
+    let opened = png::Decoder::new(reader).read_info().ok()?;
+    let info = opened.info();
+    let has_no_srgb = info.srgb.is_none();
+    let cicp = info.coding_independent_code_points;
+    let linear = match cicp {
+        Some(points) => (points.transfer_function == LINEAR).then_some("cICP chunk"),
+        None => {
+            let is_one = info.gama_chunk.is_some_and(|gamma| gamma.into_scaled().abs_diff(100_000) < 1000);
+            (is_one && has_no_srgb).then_some("gAMA chunk")
         }
-        reader.seek_relative(left)?;
-    }
+    };
+    let other_primaries = match cicp {
+        // 2 are not specified.
+        Some(points) => (!matches!(points.color_primaries, 1 | 2)).then_some("cICP chunk"),
+        None => {
+            let is_other = info.chrm_chunk.is_some_and(|of| {
+                let found = [of.red, of.green, of.blue].map(|(x, y)| [x, y].map(|part| part.into_scaled()));
+                found.as_flattened().iter().zip(REC709.as_flattened()).any(|(a, b)| a.abs_diff(*b) > 1000)
+            });
+            (is_other && has_no_srgb).then_some("cHRM chunk")
+        }
+    };
+    let is_animated = info.animation_control.is_some_and(|control| control.num_frames > 1);
+    let written = info.uncompressed_latin1_text.iter().rev().find(|text| text.keyword == "svbrdf");
+    Some(PngHead { linear, other_primaries, is_animated, meaning: written.map(|text| text.text.clone()) })
 }
