@@ -50,15 +50,13 @@ struct Image {
     mime_type: Option<String>,
 }
 
-/// A part of a buffer.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct View {
+struct View {
     buffer: usize,
     #[serde(default)]
     byte_offset: usize,
     byte_length: usize,
-    pub byte_stride: Option<usize>,
 }
 
 #[derive(Deserialize)]
@@ -115,7 +113,6 @@ impl Document {
         array(&self.declared, name)
     }
 
-    /// The extensions of a texture.
     pub(super) fn extensions_of(&self, texture: usize) -> Option<&Map<String, Value>> {
         Some(&self.textures.get(texture)?.extensions)
     }
@@ -131,7 +128,7 @@ impl Document {
             (Some(uri), _) if uri.starts_with("data:") => self.data(uri)?,
             (Some(uri), _) => return Ok(PictureSource::File(self.beside(uri))),
             (None, view) => {
-                let view = view.and_then(|view| self.view(view)).ok_or_else(|| within("file"))?;
+                let view = view.and_then(|view| self.views.get(view)).ok_or_else(|| within("file"))?;
                 self.bytes(view)?.ok_or_else(|| within("buffer"))?
             }
         };
@@ -153,15 +150,8 @@ impl Document {
         })
     }
 
-    pub(super) fn view(&self, index: usize) -> Option<&View> {
-        self.views.get(index)
-    }
-
     /// The bytes of a view of a buffer; `None` where the buffer is shorter, or not there.
-    ///
-    /// # Errors
-    /// [`Error::BadImage`], [`Error::Unreadable`] where the buffer cannot be read.
-    pub(super) fn bytes(&self, view: &View) -> Result<Option<Vec<u8>>, Error> {
+    fn bytes(&self, view: &View) -> Result<Option<Vec<u8>>, Error> {
         let Some(buffer) = self.buffers.get(view.buffer) else { return Ok(None) };
         let buffer = match &buffer.uri {
             Some(uri) if uri.starts_with("data:") => Cow::Owned(self.data(uri)?),

@@ -94,7 +94,9 @@ pub(super) fn ignored(file: &Document, index: usize) -> Vec<String> {
     names.extend(emission.into_iter().chain(occlusion));
     names.dedup();
     if has_vertex_colours(file, index) {
-        names.push("vertex colours (COLOR_0), which multiply the base colour".to_owned());
+        names.push(
+            "vertex colours (COLOR_0), which multiply the base colour unless they are white".to_owned(),
+        );
     }
     names.extend(unlike_coordinates(material));
     names
@@ -128,53 +130,10 @@ fn extensions<'a>(file: &'a Document, material: &'a Material) -> Vec<(&'a String
     found
 }
 
-/// Whether a primitive with material number `material` has colours other than white, or such that cannot be read: they multiply its
-/// base colour (glTF 2.0, 3.9.2).
+/// Whether a primitive with material number `material` has colours of its vertices (glTF 2.0, 3.9.2).
 fn has_vertex_colours(file: &Document, material: usize) -> bool {
-    let number = |value: Option<&Value>| value.and_then(Value::as_u64).and_then(|n| usize::try_from(n).ok());
     let primitives = file.array("meshes").iter().flat_map(|mesh| array(mesh, "primitives"));
-    let of_material = primitives.filter(|primitive| number(primitive.get("material")) == Some(material));
-    let mut accessors: Vec<usize> =
-        of_material.filter_map(|primitive| number(primitive.pointer("/attributes/COLOR_0"))).collect();
-    accessors.sort_unstable();
-    accessors.dedup();
-    let all = file.array("accessors");
-    accessors.into_iter().any(|index| !all.get(index).and_then(|one| is_white(file, one)).unwrap_or(false))
-}
-
-/// Whether red, green and blue of an accessor are 1 everywhere; `None` where its values cannot be read.
-fn is_white(file: &Document, accessor: &Value) -> Option<bool> {
-    let number = |name: &str| accessor.get(name).and_then(Value::as_u64);
-    let bound = |name: &str| -> Option<Vec<f64>> {
-        accessor.get(name)?.as_array()?.iter().take(3).map(Value::as_f64).collect()
-    };
-    let (bytes, one): (usize, &[u8]) = match number("componentType")? {
-        5126 => (4, &[0, 0, 128, 63]),
-        5123 => (2, &[255; 2]),
-        5121 => (1, &[255]),
-        _ => return None,
-    };
-    let white = if bytes == 4 { 1.0 } else { f64::from((1_u32 << (8 * bytes)) - 1) };
-    if accessor.get("sparse").is_some() {
-        return None;
-    }
-    if let (Some(least), Some(most)) = (bound("min"), bound("max")) {
-        return Some(least.iter().chain(&most).all(|value| (value - white).abs() < 1e-6));
-    }
-    let channels = match accessor.get("type")?.as_str()? {
-        "VEC3" => 3,
-        "VEC4" => 4,
-        _ => return None,
-    };
-    let size = |value: Option<u64>| usize::try_from(value.unwrap_or(0)).ok();
-    let view = file.view(usize::try_from(number("bufferView")?).ok()?)?;
-    let stride = view.byte_stride.unwrap_or(channels * bytes);
-    let data = file.bytes(view).ok()??;
-    let (from, count) = (size(number("byteOffset"))?, size(number("count"))?);
-    let mut whites = (0..count).map(|index| {
-        let place = index.checked_mul(stride)?.checked_add(from)?;
-        let rgb = data.get(place..place.checked_add(3 * bytes)?)?;
-        Some(rgb.chunks(bytes).all(|value| value == one))
-    });
-    whites.try_fold(true, |all, white| Some(all && white?))
+    let is_of_material =
+        |primitive: &&Value| primitive.get("material").and_then(Value::as_u64) == Some(material as u64);
+    primitives.filter(is_of_material).any(|primitive| primitive.pointer("/attributes/COLOR_0").is_some())
 }
