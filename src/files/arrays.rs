@@ -15,9 +15,7 @@ use crate::disk::{atomic, inputs, memory};
 use crate::error::Error;
 use crate::npy::Header;
 
-/// Most values of one array: 64 MiB.
 const MOST_VALUES: u64 = 1 << 23;
-/// Most arrays of a file.
 const MOST_ARRAYS: usize = 64;
 
 /// An array: its values with the last index fastest.
@@ -109,16 +107,10 @@ fn values(file: impl Read, header: &Header, count: usize) -> Result<Vec<f64>, St
 fn last_fastest(values: &[f64], shape: &[u64]) -> Vec<f64> {
     let at = |index: usize| {
         let (mut rest, mut stride, mut at) = (index, values.len(), 0);
-        let mut position = Vec::with_capacity(shape.len());
-        for &side in shape {
-            stride /= (side as usize).max(1);
-            position.push(rest / stride.max(1));
-            rest %= stride.max(1);
-        }
-        let mut stride = 1;
-        for (index, &side) in position.into_iter().zip(shape) {
-            at += index * stride;
-            stride *= side as usize;
+        for side in shape.iter().rev().map(|&side| side as usize) {
+            stride /= side;
+            at += rest % side * stride;
+            rest /= side;
         }
         at
     };

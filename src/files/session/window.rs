@@ -31,11 +31,8 @@ pub struct SessionInspection {
     pub rectangle: Option<[[usize; 2]; 2]>,
 }
 
-/// The key of [`SessionWindow::display`] in a file.
 const DISPLAY: &str = "view";
-/// The key of [`SessionWindow::loss`] in a file.
 const LOSS: &str = "loss";
-/// The key of [`SessionWindow::inspection`] in a file.
 const INSPECTION: &str = "texels";
 
 /// How the panes are arranged.

@@ -73,13 +73,11 @@ fn several(place: DecodedFile<'_>) -> Error {
 struct Masks {
     size: [u32; 2],
     is_one: bool,
-    /// Bytes of a pixel.
     bytes: usize,
     masks: Vec<u32>,
 }
 
 impl Masks {
-    /// Bytes before the pixels.
     const HEAD: usize = 128;
 
     /// `None` of blocks and formats of DXGI, of signed pixels, and of none at all.

@@ -6,17 +6,13 @@
 
 use crate::read::record::Note;
 
-/// Most channels of a picture.
 const MOST: u64 = 4;
 
-/// An array as a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ArrayAxes {
     pub height: u64,
     pub width: u64,
-    /// Channels of a texel.
     pub count: u64,
-    /// Whether the channels come first.
     pub planar: bool,
     /// Whether the channels could as well be at the other end.
     pub is_ambiguous: bool,

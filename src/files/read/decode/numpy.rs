@@ -16,7 +16,6 @@ use crate::read::record::{Note, Subject, Unused};
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
 
-/// Every array of an archive, by its name.
 pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |e: zip::result::ZipError| place.invalid("npz", e);
     let mut archive = zip::ZipArchive::new(reader).map_err(invalid)?;
@@ -84,12 +83,10 @@ pub(crate) fn batch(reader: Reader<'_>) -> Option<usize> {
     layout::batch(&shapes).map(|count| count as usize)
 }
 
-/// The name of an array by the file in its archive.
 fn stem(file: &str) -> &str {
     file.trim_end_matches(".npy")
 }
 
-/// A file of one array.
 pub(crate) fn decode_array(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let shape = Header::read(&mut reader).map_err(|e| broken(&e, "", place))?.shape;
     reader.rewind().map_err(|source| Error::unreadable(place.path, source))?;

@@ -61,11 +61,9 @@ pub(crate) struct Layer {
     pub raster: Raster,
     /// All that is stored, where the picture is another part of the plane.
     pub uncropped: Option<Raster>,
-    /// As that of [`Decoded`].
     pub meaning: Option<String>,
 }
 
-/// The content of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Decoded {
     pub layers: Vec<Layer>,
@@ -75,7 +73,6 @@ pub(crate) struct Decoded {
     pub native: bool,
     /// The order and encoding that this program wrote into a picture.
     pub meaning: Option<String>,
-    /// Other things that were noticed.
     pub notes: Vec<Note>,
 }
 
@@ -84,7 +81,6 @@ pub(crate) struct Decoded {
 pub(crate) struct DecodedFile<'a> {
     pub path: &'a Path,
     pub what: Subject,
-    /// Its bytes.
     pub length: u64,
 }
 

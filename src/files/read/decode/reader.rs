@@ -15,7 +15,6 @@ impl<'a> Reader<'a> {
         Self::Memory(Cursor::new(bytes))
     }
 
-    /// The bytes of the file.
     pub(crate) fn length(&self) -> io::Result<u64> {
         match self {
             Self::File(reader) => reader.get_ref().metadata().map(|found| found.len()),

@@ -79,7 +79,6 @@ fn with_metadata(
     Ok(Decoded { notes, ..alone(raster) })
 }
 
-/// The error of the library.
 fn explained(error: tiff::TiffError, place: DecodedFile<'_>) -> Error {
     match error {
         tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
@@ -109,7 +108,6 @@ fn unpacked(packed: &[u8], width: usize, bits: usize) -> Vec<u8> {
     rows.flat_map(|row| (0..width).map(move |x| code(row, x) * (u8::MAX / most))).collect()
 }
 
-/// The name of a compression by its code.
 fn compression(code: u16) -> Option<&'static str> {
     Some(match code {
         33_003 | 33_005 | 34_712 => "JPEG 2000",

@@ -156,7 +156,6 @@ fn two_channels(raster: &Raster) -> (NormalEncoding, Reason) {
     (NormalEncoding::Xy, Reason::TwoChannels)
 }
 
-/// The vector at `index`, y as stored.
 fn vector(raster: &Raster, encoding: NormalEncoding, index: usize) -> [f64; 3] {
     let mut stored = [0.0; 3];
     stored.iter_mut().zip(components(raster, encoding)).for_each(|(value, plane)| *value = plane.at(index));

@@ -83,7 +83,6 @@ impl Clamped {
         }
     }
 
-    /// Records the values that have been clamped.
     pub(crate) fn record(self, assumptions: &mut Vec<Assumption>) {
         for (map, OutOfRange { count, low, high }) in self.maps {
             let why = Reason::OutsideUnit { map, count, low, high };

@@ -75,7 +75,6 @@ impl Label {
     }
 }
 
-/// Words of maps of heights.
 const HEIGHTS: [&str; 11] =
     ["displacement", "displace", "disp", "dsp", "height", "heightmap", "heights", "ht", "h", "bump", "bmp"];
 

@@ -30,7 +30,6 @@ pub enum Role {
     Ignored,
 }
 
-/// Words of maps of base colour.
 const BASE: &[&str] = &[
     "basecolor",
     "basecolour",
@@ -51,7 +50,6 @@ const BASE: &[&str] = &[
     "basecoloralpha",
 ];
 
-/// Words of maps of specular.
 const SPECULAR: &[&str] = &[
     "specular",
     "spec",
@@ -72,7 +70,6 @@ const SPECULAR: &[&str] = &[
     "ps",
 ];
 
-/// Words of pictures of roughness in green and metallic in blue.
 const PACKED: &[&str] = &[
     "occlusionroughnessmetallic",
     "occlusionroughmetal",
@@ -232,7 +229,6 @@ impl Role {
         }
     }
 
-    /// Whether it holds colours.
     pub(crate) fn is_colour(self) -> bool {
         matches!(self, Self::Base | Self::Diffuse | Self::Specular | Self::SpecularGlossiness)
     }

@@ -9,7 +9,6 @@ use svbrdf_core::error::Error;
 
 use super::role::Role;
 
-/// Most tiles of a material.
 const MOST: usize = 6;
 
 /// The order of the tiles of a packed image, row by row, a letter each: N normal, D diffuse, R roughness, S specular,
@@ -51,7 +50,6 @@ impl Order {
         // Base colour, normal, height, roughness, metallic.
         Self::of(b"bnirm"),
     ];
-    /// Orders of 2 x 2 tiles.
     pub(crate) const SQUARES: [Self; 2] = [Self::NDSR, Self::DSRN];
 
     /// A picture that is all diffuse.
@@ -75,7 +73,6 @@ impl Order {
         self.roles().count()
     }
 
-    /// The map of each tile.
     pub(crate) fn roles(self) -> impl Iterator<Item = Role> {
         self.letters.into_iter().map_while(role)
     }

@@ -40,7 +40,6 @@ impl Buffer {
         }
     }
 
-    /// Whether both are one.
     pub(crate) fn is(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Bytes(a), Self::Bytes(b)) => Arc::ptr_eq(a, b),
@@ -54,13 +53,11 @@ impl Buffer {
 /// Where the samples of a channel lie in a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ChannelView {
-    /// The place of sample 0.
     pub first: usize,
     /// From one sample of a row to the next.
     pub step: usize,
     /// From one row to the next.
     pub stride: usize,
-    /// Samples of a row.
     pub width: usize,
     pub count: usize,
 }

@@ -67,7 +67,6 @@ pub(crate) fn curl(width: usize, height: usize, normal: impl Fn(usize) -> [f64; 
     correlation.value()
 }
 
-/// The sums of a correlation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Correlation {
     sums: [f64; 6],
@@ -148,7 +147,6 @@ pub(crate) fn is_constant(raster: &Raster, channel: usize) -> bool {
     high - low <= CONSTANT
 }
 
-/// Whether the picture is the same everywhere.
 pub(crate) fn is_flat(raster: &Raster) -> bool {
     (0..3).all(|channel| is_constant(raster, channel))
 }

@@ -39,7 +39,6 @@ impl Raster {
         }
     }
 
-    /// Only channel number `index`.
     pub(crate) fn channel(&self, index: usize) -> Self {
         let channels = self.channels.get(index).or(self.channels.last()).cloned();
         Self { channels: channels.into_iter().collect(), ..self.without_samples() }

@@ -8,7 +8,6 @@ use svbrdf_core::math::real::Real;
 
 use super::buffer::{Buffer, ChannelView, OutOfRange};
 
-/// Samples that one task converts.
 const CHUNK: usize = 1 << 16;
 
 /// One channel of a picture, row 0 on top.
@@ -168,7 +167,6 @@ impl Samples {
         }
     }
 
-    /// Whether the samples of the channels lie beside one another.
     fn are_one_picture(channels: [&Self; 3]) -> bool {
         let [first, others @ ..] = channels;
         let follows = |(number, other): (usize, &&Self)| {

@@ -12,7 +12,6 @@ use crate::read::stored::Picture;
 /// The word of files that are maps by their numbers alone.
 pub(crate) const NUMBERED: &str = "0 to 3";
 
-/// A file whose name names a map.
 #[derive(Clone, Debug)]
 pub(crate) struct LabelledFile {
     pub file: String,
@@ -79,18 +78,15 @@ impl SetFiles {
     }
 }
 
-/// The set of a material, in one folder.
 #[derive(Debug)]
 pub(in crate::read) struct Set {
     /// The path that the user gave, for messages.
     pub path: PathBuf,
     pub folder: PathBuf,
-    /// The name of the material.
     pub name: String,
     pub files: SetFiles,
     /// Documents beside them that list them, too.
     pub documents: Vec<ListingDocument>,
-    /// The files of the folder, for messages.
     pub listing: String,
     /// Whether a folder of renderings is beside the files, as in the data sets of SurfaceNet.
     pub has_renderings: bool,
@@ -102,7 +98,6 @@ impl Set {
         NamedFile::by_file(self.folder.join(name), &self.folder)
     }
 
-    /// The pictures of the chosen files.
     pub(crate) fn pictures(&self) -> Vec<Picture> {
         let picture =
             |LabelledFile { file, label }: &LabelledFile| Picture::of_file(self.file(file), label.role);
@@ -114,7 +109,6 @@ impl Set {
         self.files.files.iter().find(|file| file.label.role == role).map(|file| file.label.word.as_str())
     }
 
-    /// The path of a file of the folder.
     pub(crate) fn path_of(&self, name: &str) -> PathBuf {
         self.folder.join(name)
     }
