@@ -186,21 +186,4 @@ mod tests {
         assert!(serde_json::from_str::<Change>(r#"{"symmetry":"twist"}"#).is_err());
         assert_ne!(Change::Shift([1, 0]).applied(&square, &Storage::default()).unwrap(), square);
     }
-
-    #[test]
-    fn changes_in_words() {
-        let words = [
-            (Change::Shift([3, -1]), "moved 3 texels left and 1 texel down"),
-            (Change::Shift([0, 2]), "moved 2 texels up"),
-            (Change::Placement(Placement { scale: 1.0, by: [0.5, 0.0] }), "moved 0.5 texels left"),
-            (Change::Placement(Placement { scale: 1.25, by: [0.0; 2] }), "scaled by 0.8000"),
-            (Change::SpecularFactor(2.5), "specular times 2.500"),
-            (Change::Exposure([-0.25; 3]), "exposure -0.25 stops"),
-            (Change::Symmetry(Symmetry::ALL[2]), "rotated by 180 degrees"),
-            (Change::Reading(Reading::NormalY), "Y of normals flipped"),
-        ];
-        for (change, expected) in words {
-            assert_eq!(change.to_string(), expected);
-        }
-    }
 }
