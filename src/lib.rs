@@ -47,7 +47,7 @@ pub use svbrdf_evaluate::Error;
 pub use svbrdf_evaluate::why::attribute;
 pub use svbrdf_files::read::{Read, ReadOptions, read};
 pub use svbrdf_files::samples::load as built_in;
-pub use svbrdf_files::write::{FileKind, WriteOptions, write};
+pub use svbrdf_files::write::{FileKind, write};
 
 #[cfg(feature = "viewer")]
 pub use svbrdf_viewer::{OpenDataset, ViewerOptions, run as open_viewer};

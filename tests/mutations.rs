@@ -71,8 +71,7 @@ fn is_of_damage(error: &Error, own: &Path) -> bool {
         Error::BadImage { path, .. }
         | Error::NotPacked { path, .. }
         | Error::NotAMaterial { path, .. }
-        | Error::MissingMap { path, .. }
-        | Error::BadSidecar { path, .. } => is_there(path),
+        | Error::MissingMap { path, .. } => is_there(path),
         Error::NoSuchExemplar { .. } | Error::MapSizesDiffer { .. } => true,
         // A picture that the file names now, or a text that is no UTF-8.
         Error::Unreadable { .. } | Error::NotAFile { .. } | Error::Outside { .. } => {
@@ -85,7 +84,7 @@ fn is_of_damage(error: &Error, own: &Path) -> bool {
 }
 
 fn is_picture(extension: &std::ffi::OsStr) -> bool {
-    !["gltf", "glb", "mtl", "mtlx", "json"].iter().any(|document| extension == *document)
+    !["gltf", "glb", "mtl", "mtlx"].iter().any(|document| extension == *document)
 }
 
 /// Opens damaged copies of `whole`, each made by `damage`; returns how many opened and were refused.
@@ -130,11 +129,6 @@ fn try_seeds(is: impl Fn(&str) -> bool + Sync) {
         let own = if is_picture(extension) && extension != "tga" { Path::new("damaged") } else { &named };
         let options = if case.is_strip() { STRIP } else { ANY };
         let open = |bytes: &[u8]| match own == named && extension != "tga" {
-            // Its documents and sidecar files keep their names: others name them.
-            true if extension == "json" => {
-                std::fs::write(path, bytes).unwrap();
-                read(path, &ANY, &Progress::default())
-            }
             true => {
                 std::fs::write(&named, bytes).unwrap();
                 read(&named, &ANY, &Progress::default())
@@ -142,7 +136,7 @@ fn try_seeds(is: impl Fn(&str) -> bool + Sync) {
             false => read_bytes(&own.display().to_string(), bytes, &options),
         };
         let counts = try_all(&case.name, &whole, damaged, open, |error| is_of_damage(error, own));
-        assert!(counts[1] > 0 || extension == "json", "{}", case.name);
+        assert!(counts[1] > 0, "{}", case.name);
     });
 }
 
@@ -208,7 +202,7 @@ fn the_seeds_of_the_fuzz_target() {
         std::fs::create_dir_all(root.join(name)).unwrap();
     }
     for (number, (_, folder, path)) in seeds().into_iter().enumerate() {
-        let kinds = ["gltf", "glb", "mtl", "mtlx", "json"];
+        let kinds = ["gltf", "glb", "mtl", "mtlx"];
         let kind = kinds.iter().position(|kind| path.extension().is_some_and(|own| own == *kind));
         let seed = [vec![kind.map_or(0, |kind| kind as u8 + 1)], std::fs::read(&path).unwrap()].concat();
         std::fs::write(root.join("any").join(format!("{number:02}")), seed).unwrap();

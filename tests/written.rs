@@ -10,14 +10,11 @@ use tempfile::tempdir;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
-use svbrdf_files::read::{Binding, Preset, Read, ReadOptions, Sidecar, read, read_bytes};
-use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
+use svbrdf_files::read::{Binding, Read, ReadOptions, Sidecar, read, read_bytes};
+use svbrdf_files::write::{self, Depth, FileKind};
 use svbrdf_needs::needs;
 
 use crate::materials::formula::{Place, values};
-
-/// Half a code of 8 bits, and as much of an encoding.
-const EIGHT_BITS: f32 = 0.006;
 
 /// Normals, diffuse, specular and roughness by formulas.
 fn material(size: [usize; 2], formulas: [&str; 4]) -> Material<f32> {
@@ -72,8 +69,8 @@ fn open(path: &Path) -> Read<f32> {
     read(path, &ReadOptions::AUTO, &Progress::default()).unwrap()
 }
 
-fn kind(path: &Path, options: &WriteOptions) -> FileKind {
-    FileKind::new(path, options).unwrap()
+fn kind(path: &Path, depth: Option<Depth>) -> FileKind {
+    FileKind::new(path, depth).unwrap()
 }
 
 /// The largest difference of two materials.
@@ -90,28 +87,19 @@ fn off(a: &Material<f32>, b: &Material<f32>) -> f32 {
 fn what_is_written_is_read_back() {
     let folder = tempdir().unwrap();
     let original = same();
-    let gan = Some(Preset::MaterialGan);
-    for (name, depth, like, bound) in [
-        ("h.exr", None, None, 0.001),
-        ("f.exr", Some(Depth::Float), None, 1e-7),
-        ("p.png", None, None, 0.005),
-        ("q.png", Some(Depth::Sixteen), None, 3e-5),
-        ("folder", Some(Depth::Sixteen), None, 1e-4),
-        ("g.png", Some(Depth::Sixteen), Some(Preset::Gao), EIGHT_BITS),
-        ("m.png", Some(Depth::Sixteen), gan, EIGHT_BITS),
-        ("l.png", Some(Depth::Sixteen), Some(Preset::LookAhead), EIGHT_BITS),
-        ("x.png", Some(Depth::Sixteen), Some(Preset::MatFusion), EIGHT_BITS),
-        ("materialgan", Some(Depth::Sixteen), gan, EIGHT_BITS),
+    for (name, depth, bound) in [
+        ("h.exr", None, 0.001),
+        ("f.exr", Some(Depth::Float), 1e-7),
+        ("p.png", None, 0.005),
+        ("q.png", Some(Depth::Sixteen), 3e-5),
+        ("folder", Some(Depth::Sixteen), 1e-4),
     ] {
         let out = folder.path().join(name);
-        write::write(&original, &out, kind(&out, &WriteOptions { depth, like })).unwrap();
-        // By what the file states or its names, and by the preset.
-        for preset in [None, like] {
-            let options = ReadOptions { preset, ..ReadOptions::AUTO };
-            let again = read(&out, &options, &Progress::default()).unwrap();
-            let worst = off(&original, &again.material);
-            assert!(worst <= bound, "{name}: off by {worst}");
-        }
+        write::write(&original, &out, kind(&out, depth)).unwrap();
+        // By what the file states, or its names.
+        let again = open(&out);
+        let worst = off(&original, &again.material);
+        assert!(worst <= bound && again.unsure().count() == 0, "{name}: off by {worst}");
     }
 }
 
@@ -120,28 +108,19 @@ fn a_native_exr_that_is_read_and_written_again_is_the_same_file() {
     let folder = tempdir().unwrap();
     let [one, two] = ["one.exr", "two.exr"].map(|name| folder.path().join(name));
     for depth in [Depth::Half, Depth::Float] {
-        let options = WriteOptions { depth: Some(depth), ..WriteOptions::default() };
-        write::write(&same(), &one, kind(&one, &options)).unwrap();
-        write::write(&open(&one).material, &two, kind(&two, &options)).unwrap();
+        write::write(&same(), &one, kind(&one, Some(depth))).unwrap();
+        write::write(&open(&one).material, &two, kind(&two, Some(depth))).unwrap();
         assert!(fs::read(&one).unwrap() == fs::read(&two).unwrap(), "{depth:?}");
     }
 }
 
 #[test]
-fn forms_have_their_depths_and_presets() {
-    let new = |name: &str, depth, like| FileKind::new(Path::new(name), &WriteOptions { depth, like });
-    assert_eq!(new("a.GLB", None, None).unwrap(), FileKind::Glb { sixteen: false });
-    assert!(new("brick.v2/", None, None).is_ok(), "a folder ends with a slash");
-    for (name, depth, like) in [
-        ("brick.v2", None, None),
-        ("a.glb", Some(Depth::Half), None),
-        ("a.glb", None, Some(Preset::Gltf)),
-        ("a.gltf", None, None),
-        ("a.png", None, Some(Preset::Gltf)),
-        ("a", None, Some(Preset::Gao)),
-        ("a.exr", None, Some(Preset::Gao)),
-    ] {
-        let refused = new(name, depth, like);
+fn forms_have_their_depths() {
+    let new = |name: &str, depth| FileKind::new(Path::new(name), depth);
+    assert_eq!(new("a.GLB", None).unwrap(), FileKind::Glb { sixteen: false });
+    assert!(new("brick.v2/", None).is_ok(), "a folder ends with a slash");
+    for (name, depth) in [("brick.v2", None), ("a.glb", Some(Depth::Half)), ("a.gltf", None)] {
+        let refused = new(name, depth);
         assert!(matches!(refused, Err(Error::UnsupportedOutput { .. })), "{name}: {refused:?}");
     }
 }
@@ -173,27 +152,6 @@ fn a_glb_opens_again_within_one_step_of_8_bits() {
             assert!(off <= 1.0, "{number}: off by {off} steps");
             assert!(again.unsure().count() == 0 && again.notes.is_empty(), "{number}: {:?}", again.notes);
         }
-    }
-}
-
-#[test]
-fn the_comparison_sees_every_convention_that_can_be_taken_wrongly() {
-    let original = coloured([16, 16], "0.3");
-    let changed = |change: &dyn Fn(&mut Planes<f32>)| {
-        let mut planes = original.planes().clone();
-        change(&mut planes);
-        steps(&original, &Material::new("changed", 16, 16, planes).unwrap())
-    };
-    assert_eq!(changed(&|_| {}), 0.0);
-    for (what, off) in [
-        ("y down", changed(&|planes| planes.normal[1].iter_mut().for_each(|y| *y = -*y))),
-        ("alpha for r", changed(&|planes| planes.roughness.iter_mut().for_each(|r| *r *= *r))),
-        ("linear for sRGB", changed(&|planes| planes.diffuse[2].iter_mut().for_each(|d| *d = d.powf(0.45)))),
-        ("red for blue", changed(&|planes| planes.specular.swap(0, 2))),
-        ("rows upside down", changed(&|planes| planes.roughness.reverse())),
-        ("1.1 steps", changed(&|planes| planes.roughness.iter_mut().for_each(|r| *r -= 1.1 / 255.0))),
-    ] {
-        assert!(off > 1.0, "{what}: {off}");
     }
 }
 
@@ -343,44 +301,53 @@ fn the_validator_of_khronos_finds_nothing_in_a_glb_and_sees_planted_faults() {
 }
 
 #[test]
+fn the_comparison_sees_every_convention_that_can_be_taken_wrongly() {
+    let original = coloured([16, 16], "0.3");
+    let changed = |change: &dyn Fn(&mut Planes<f32>)| {
+        let mut planes = original.planes().clone();
+        change(&mut planes);
+        steps(&original, &Material::new("changed", 16, 16, planes).unwrap())
+    };
+    assert_eq!(changed(&|_| {}), 0.0);
+    for (what, off) in [
+        ("y down", changed(&|planes| planes.normal[1].iter_mut().for_each(|y| *y = -*y))),
+        ("alpha for r", changed(&|planes| planes.roughness.iter_mut().for_each(|r| *r *= *r))),
+        ("linear for sRGB", changed(&|planes| planes.diffuse[2].iter_mut().for_each(|d| *d = d.powf(0.45)))),
+        ("red for blue", changed(&|planes| planes.specular.swap(0, 2))),
+        ("rows upside down", changed(&|planes| planes.roughness.reverse())),
+        ("1.1 steps", changed(&|planes| planes.roughness.iter_mut().for_each(|r| *r -= 1.1 / 255.0))),
+    ] {
+        assert!(off > 1.0, "{what}: {off}");
+    }
+}
+
+#[test]
 fn everything_that_can_be_specified_can_be_saved() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("a.png");
-    write::write(&same(), &path, kind(&path, &WriteOptions::default())).unwrap();
+    write::write(&same(), &path, kind(&path, None)).unwrap();
     let options = "albedo=linear,dielectric-f0=0.05,energy=unscaled,exemplar=1,flip-v=true,grid=4x1,non-finite=replace,\
         normal-encoding=xy,normal-y=down,order=ndrs,preset=gao,roughness=gloss,specular-albedo=gamma2.2,workflow=specular";
-    let bindings: Vec<Binding> = ["normal", "specular"]
-        .map(|map| format!("{map}={}:r", folder.path().join("a b.png").display()).parse().unwrap())
-        .into();
-    let saved = Sidecar { options: options.parse().unwrap(), bindings };
-    let place = saved.save(&path, &Progress::default()).unwrap();
-    assert_eq!(Sidecar::load(&path).unwrap(), saved);
-    let written = fs::read_to_string(place).unwrap();
+    let binding: Binding = format!("normal={}:r", folder.path().join("a b.png").display()).parse().unwrap();
+    let given = Sidecar::default().overridden_by(&options.parse().unwrap(), &[binding]);
+    let place = given.save(&path, &Progress::default()).unwrap();
+    let written = fs::read_to_string(&place).unwrap();
     for line in
         [r#""dielectric-f0": 0.05"#, r#""grid": "4x1""#, r#""normal": "a b.png:r""#, r#""flip-v": true"#]
     {
         assert!(written.contains(line), "{line} is missing in {written}");
     }
-    // The name of a map alone does not make it one.
-    fs::copy(&path, folder.path().join("metal.png")).unwrap();
-    assert!(Sidecar::path_for(&folder.path().join("metal.png")).ends_with("metal.svbrdf.json"));
-    Sidecar::default().save(&path, &Progress::default()).unwrap();
-    assert_eq!(fs::read_to_string(Sidecar::path_for(&path)).unwrap(), "{}\n");
-    // What is saved for a file of a folder with options is its own.
-    fs::write(folder.path().join("svbrdf.json"), r#"{"albedo": "log0.01", "maps": {"roughness": "x.png"}}"#)
-        .unwrap();
-    let wood = folder.path().join("wood.png");
-    fs::copy(&path, &wood).unwrap();
-    let of_folder = Sidecar::load(&wood).unwrap();
-    assert!(of_folder.bindings.is_empty() && of_folder.options.albedo.is_some());
-    assert_eq!(of_folder.save(&wood, &Progress::default()).unwrap(), folder.path().join("wood.svbrdf.json"));
+    let loaded = Sidecar::load(&path).unwrap();
+    assert_eq!(loaded.options, given.options);
+    loaded.save(&path, &Progress::default()).unwrap();
+    assert_eq!(fs::read_to_string(&place).unwrap(), written);
 }
 
 #[test]
 fn reading_reports_progress_stops_when_asked_and_takes_pictures_in_memory() {
     let folder = tempdir().unwrap();
     let path = folder.path().join("maps");
-    write::write(&same(), &path, kind(&path, &WriteOptions::default())).unwrap();
+    write::write(&same(), &path, kind(&path, None)).unwrap();
     let progress = Progress::default();
     read::<f32>(&path, &ReadOptions::AUTO, &progress).unwrap();
     assert_eq!(progress.counts(), (4, 4));
@@ -397,7 +364,7 @@ fn reading_reports_progress_stops_when_asked_and_takes_pictures_in_memory() {
         .is_err()
     );
     let strip = folder.path().join("a.png");
-    write::write(&same(), &strip, kind(&strip, &WriteOptions::default())).unwrap();
+    write::write(&same(), &strip, kind(&strip, None)).unwrap();
     let bytes = fs::read(&strip).unwrap();
     let found = read_bytes::<f32>("some name", &bytes, &ReadOptions::AUTO).unwrap();
     assert!(found.material.name() == "some name" && found.files.is_empty());

@@ -12,7 +12,7 @@ use svbrdf_files::Error;
 use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::read::{self as reading, Certainty, Read, ReadOptions};
 use svbrdf_files::samples;
-use svbrdf_files::write::{self as writing, WriteOptions};
+use svbrdf_files::write as writing;
 
 use crate::errors::exception;
 use crate::material::{CoreMaterial, Values, read_options};
@@ -28,7 +28,7 @@ pub struct Found {
     files: Vec<PathBuf>,
 }
 
-/// Reads a material; `options` are those of a sidecar file, as JSON.
+/// Reads a material; `options` are read options as JSON.
 #[pyfunction]
 pub fn read(
     py: Python<'_>,
@@ -109,11 +109,9 @@ pub fn write(
     path: PathBuf,
     files: Vec<PathBuf>,
     depth: Option<&str>,
-    preset: Option<&str>,
 ) -> PyResult<Option<&'static str>> {
     let depth = depth.map(str::parse).transpose().map_err(exception)?;
-    let like = preset.map(str::parse).transpose().map_err(exception)?;
-    let kind = writing::FileKind::new(&path, &WriteOptions { depth, like }).map_err(exception)?;
+    let kind = writing::FileKind::new(&path, depth).map_err(exception)?;
     check_output_of(&path, &files).map_err(exception)?;
     let material = material.single();
     work::run(py, None, |progress| writing::write_watched(&material, &path, kind, progress))

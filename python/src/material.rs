@@ -157,7 +157,7 @@ fn map<'py, T: Element + Real>(
     arrays::array(py, numbers, size, 3)
 }
 
-/// The read options of a sidecar file's JSON.
+/// The read options of JSON.
 ///
 /// # Errors
 /// Where an option has no such value.

@@ -166,7 +166,7 @@ def test_the_files_of_a_material_are_not_replaced(tmp_path: Path) -> None:
         with pytest.raises(svbrdf.Error, match=r"cannot write .*\.png: it is the file .*tiles\.png, which"):
             svbrdf.write(material, path, depth="16")
     with pytest.raises(svbrdf.Error, match="which the result is made from; name another file"):
-        svbrdf.write(str(tmp_path / "tiles.png"), tmp_path / "tiles.png", preset="gao")
+        svbrdf.write(str(tmp_path / "tiles.png"), tmp_path / "tiles.png")
     assert (tmp_path / "tiles.png").read_bytes() == before
     svbrdf.write(material, tmp_path / "other.png")
     assert (tmp_path / "other.png").exists()

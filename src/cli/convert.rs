@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use svbrdf_core::material::Material;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::read::{Binding, Preset};
-use svbrdf_files::write::{self, Depth, FileKind, WriteOptions};
+use svbrdf_files::read::Binding;
+use svbrdf_files::write::{self, Depth, FileKind};
 
 use super::args::reading::ReadingArgs;
 use super::args::{NamedPath, offered};
@@ -35,13 +35,6 @@ pub struct ConvertArgs {
     #[arg(value_parser = offered(str::parse::<Depth>, ["8", "16", "half", "float"]), hide_possible_values = true)]
     depth: Option<Depth>,
 
-    /// Source of materials whose order of maps, file names and encoding are used
-    ///
-    /// For a packed PNG: deschaintre (the default), gao, materialgan, lookahead or matfusion. For a folder: materialgan.
-    #[arg(long, value_name = "PRESET")]
-    #[arg(value_parser = offered(str::parse::<Preset>, Preset::ALL), hide_possible_values = true)]
-    like: Option<Preset>,
-
     /// Takes a map from another file, or from a channel or layer of it; may be given several times
     ///
     /// MAP is normal, diffuse, base, specular, roughness or metallic; PART is r, g, b, a or the name of a layer; a
@@ -63,8 +56,8 @@ struct ConvertJob {
 
 impl ConvertArgs {
     pub fn job(self) -> NewJob {
-        let Self { material, output, depth, like, bindings, reading } = self;
-        let kind = FileKind::new(&output, &WriteOptions { depth, like })?;
+        let Self { material, output, depth, bindings, reading } = self;
+        let kind = FileKind::new(&output, depth)?;
         let material = OneMaterial::new(material, bindings, &reading)?;
         Ok(Box::new(ConvertJob { material, output, kind }))
     }

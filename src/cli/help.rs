@@ -47,7 +47,6 @@ info: what files hold, and what is assumed in reading them
 convert: the same material as EXR, PNG, glTF or a folder
   textures/ brick.exr
   textures/ brick.glb
-  textures/ gao.png --like gao
 conventions: lists the named conventions, or prints one
   svbrdf-estimation-2022
   loss

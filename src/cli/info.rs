@@ -92,7 +92,7 @@ fn text(info: &InfoReport) -> String {
     }
     text += "\nAssumed:\n";
     for assumption in &info.assumptions {
-        let _ = writeln!(text, "  {}", line(&advice::assumption_with_option(assumption)));
+        let _ = writeln!(text, "  {}", line(&assumption.to_string()));
     }
     if !info.notes.is_empty() {
         text += "\nNoticed:\n";

@@ -194,13 +194,6 @@ pub enum OutputProblem {
     Kind,
     #[error("cannot have that depth; EXR has half and float, every other form 8 and 16")]
     Depth,
-    /// EXR and glTF state what they hold.
-    #[error("cannot follow a preset; only a packed PNG and a folder do")]
-    NoPreset,
-    #[error("cannot be packed in that way; deschaintre, gao, materialgan, lookahead and matfusion pack")]
-    PackedPreset,
-    #[error("cannot be a folder of that preset; materialgan has one")]
-    FolderPreset,
 }
 
 /// A number of bytes in GiB or MiB.

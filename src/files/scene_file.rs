@@ -11,7 +11,6 @@ use crate::disk::inputs;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::photograph::Calibration;
-use crate::read::Sidecar;
 use crate::session::Session;
 
 /// Reads a scene file: JSON, `{"scenes": [{"kind": "near", "view": [x, y, z], "light": [x, y, z]}, ...]}`, or the
@@ -28,10 +27,10 @@ pub fn read(path: &Path) -> Result<Vec<Scene>, Error> {
     parse(&text).map_err(|problem| Error::BadScene { path: path.to_owned(), problem })
 }
 
-/// Whether `path` is named like a scene file: JSON, but neither a session nor a sidecar file of a material.
+/// Whether `path` is named like a scene file: JSON, but no session.
 pub fn is_named(path: &Path) -> bool {
     let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
-    is_json && !Session::is_named(path) && !Sidecar::is_named(path)
+    is_json && !Session::is_named(path)
 }
 
 /// The destination of a scene file. Checks `path` before there is anything to write.
@@ -41,12 +40,7 @@ pub fn is_named(path: &Path) -> bool {
 /// its folder is missing or it is itself a folder.
 pub fn destination(path: &Path) -> Result<Destination<()>, Error> {
     let format = |_: &str| is_named(path).then_some(());
-    Destination::among(
-        path,
-        format,
-        "name of a scene file",
-        "NAME.json, other than a sidecar or session file",
-    )
+    Destination::among(path, format, "name of a scene file", "NAME.json, other than a session file")
 }
 
 /// Reads the scenes of a file, with its name.
@@ -120,11 +114,11 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_file_is_json_that_is_no_session_and_no_sidecar_file() {
+    fn a_scene_file_is_json_that_is_no_session() {
         for name in ["scenes.json", "a/render.JSON"] {
             assert!(is_named(Path::new(name)), "{name}");
         }
-        for name in ["a.png", "json", "a.svbrdf-session.json", "a.svbrdf.json", "maps/svbrdf.json"] {
+        for name in ["a.png", "json", "a.svbrdf-session.json"] {
             assert!(!is_named(Path::new(name)), "{name}");
         }
     }

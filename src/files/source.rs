@@ -39,8 +39,6 @@ pub struct MaterialSource {
     pub place: Place,
     /// What is specified, which a sidecar file completes; a built-in material is read in its own way.
     pub options: ReadOptions,
-    /// The options of a session, or chosen in the window, which alone count.
-    pub chosen: Option<ReadOptions>,
     /// Whether the material is resized to the ground truth.
     pub fit: bool,
 }
@@ -57,14 +55,14 @@ impl MaterialSource {
     }
 
     fn at(place: Place) -> Self {
-        Self { name: None, place, options: ReadOptions::AUTO, chosen: None, fit: false }
+        Self { name: None, place, options: ReadOptions::AUTO, fit: false }
     }
 
-    /// An entry of a session, which alone specifies how the material is read.
+    /// An entry of a session.
     pub fn of_session(entry: &SessionMaterial) -> Self {
         let SessionMaterial { name, path, built_in, read: options, fit } = entry.clone();
         let Some(path) = path else { return Self { name, fit, ..Self::built_in(built_in.unwrap_or(0)) } };
-        Self { name, place: Place::Path(path), options, chosen: Some(options), fit }
+        Self { name, place: Place::Path(path), options, fit }
     }
 
     /// Its path; empty for a built-in material.
@@ -80,10 +78,9 @@ impl MaterialSource {
     /// # Errors
     /// As [`MaterialPath::read`]; [`Error::NoSuchBuiltIn`].
     pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
-        let read: Read<T> = match (&self.place, &self.chosen) {
-            (Place::BuiltIn(number), _) => samples::load_one(*number),
-            (Place::Path(path), Some(options)) => MaterialPath::new(path, options).alone().read(progress),
-            (Place::Path(path), None) => MaterialPath::new(path, &self.options).read(progress),
+        let read: Read<T> = match &self.place {
+            Place::BuiltIn(number) => samples::load_one(*number),
+            Place::Path(path) => MaterialPath::new(path, &self.options).read(progress),
         }?;
         Ok(match &self.name {
             Some(name) => Read { material: read.material.renamed(name.clone()), ..read },

@@ -41,7 +41,7 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
         2 => material(&written("fuzzed.glb")),
         3 => material(&written("fuzzed.mtl")),
         4 => material(&written("fuzzed.mtlx")),
-        5 => material(&written("packed.svbrdf.json")),
+        5 => material(&written("packed.svbrdf.json").with_file_name("packed.png")),
         6 => drop(scene_file::read(&written("fuzzed.json"))),
         _ => drop(Session::read(&written("fuzzed.svbrdf-session.json"))),
     }

@@ -100,35 +100,6 @@ fn tiles_that_are_not_square_open_with_their_grid_and_f0_with_its_number() {
 }
 
 #[needs(adapter)]
-fn chosen_assumptions_are_saved_beside_the_material_by_a_click() {
-    let (folder, paths) = two_strips();
-    let kept = folder.path().join("guess.svbrdf.json");
-    let mut window = on_two_strips(paths.clone());
-    let before = material(&window, 1);
-    assert!(window.query_by_label("Save assumptions of guess").is_none(), "there is nothing to keep");
-    choose(&mut window, "roughness of guess", "roughness gloss");
-    wait(&mut window, "the material to be read again", |app| *app.materials().nth(1).unwrap() != before);
-    let gloss = material(&window, 1);
-    assert!(!kept.exists());
-    click(&mut window, "Save assumptions of guess");
-    wait(&mut window, "the material to be opened again", |app| !app.is_reading());
-    let text: serde_json::Value = serde_json::from_slice(&std::fs::read(&kept).unwrap()).unwrap();
-    assert_eq!(text, serde_json::json!({"roughness": "gloss"}));
-    window.get_by_label("roughness: gloss: as saved in guess.svbrdf.json");
-    assert!(window.query_by_label("Save assumptions of guess").is_none(), "it is kept");
-
-    // A new window opens it so; a drop-down wins over it, also over what it says.
-    let mut window = on_two_strips(paths);
-    assert!(material(&window, 1) == gloss);
-    choose(&mut window, "roughness of guess", "auto: infer roughness");
-    wait(&mut window, "auto", |app| *app.materials().nth(1).unwrap() == before);
-    click(&mut window, "Save assumptions of guess");
-    wait(&mut window, "the material to be opened again", |app| !app.is_reading());
-    assert_eq!(std::fs::read_to_string(&kept).unwrap(), "{}\n");
-    assert!(material(&window, 1) == before);
-}
-
-#[needs(adapter)]
 fn a_file_of_several_materials_has_a_chooser() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("two.mtl");

@@ -231,7 +231,6 @@ def write(
     path: Source,
     *,
     depth: Literal["8", "16", "half", "float"] | None = None,
-    preset: str | None = None,
 ) -> str | None:
     """Writes a material by the extension of `path`: layered EXR, packed PNG, glTF, or a folder of PNG files.
 
@@ -242,18 +241,17 @@ def write(
         material: A material, or the path of one.
         path: Ends with .exr, .png or .glb, or names a folder that is empty or does not exist.
         depth: Bits of a PNG ("8", "16") or numbers of an EXR ("half", "float").
-        preset: Whose names, order and encoding the files get.
 
     Returns:
         A note where some programs show less than the file has.
 
     Raises:
         OSError: The file cannot be written.
-        svbrdf.Error: The kind of file does not have this depth or preset, or `path` is a file that the material was
+        svbrdf.Error: The kind of file does not have this depth, or `path` is a file that the material was
             read from.
     """
     material = opened(material)
-    return _core.write(material._core, path, material._files, depth, preset)
+    return _core.write(material._core, path, material._files, depth)
 
 
 def built_in(*, precision: Precision = "f32") -> list[Material]:

@@ -284,7 +284,7 @@ impl OneMaterial {
 
 /// The assumptions and notes of reading one material, as `svbrdf info` prints them.
 fn reading<T: Real>(read: &Read<T>) -> Vec<String> {
-    let assumptions = read.assumptions.iter().map(advice::assumption_with_option);
+    let assumptions = read.assumptions.iter().map(ToString::to_string);
     assumptions.chain(read.notes.iter().map(advice::with_option)).collect()
 }
 
@@ -293,7 +293,7 @@ fn reading<T: Real>(read: &Read<T>) -> Vec<String> {
 pub fn noted<T: Real>(read: Read<T>, verbose: bool) -> Material<T> {
     let is_doubtful = |a: &&Assumption| verbose || a.is_doubtful();
     let notes = read.notes.iter().filter(|note| verbose || !note.is_routine()).map(advice::with_option);
-    let doubtful = read.assumptions.iter().filter(is_doubtful).map(advice::assumption_with_option);
+    let doubtful = read.assumptions.iter().filter(is_doubtful).map(ToString::to_string);
     for note in notes.chain(doubtful) {
         exit::tell(&format!("note: {}: {note}", read.material.name()));
     }

@@ -1,7 +1,7 @@
 //! Advice: the options of the command line that help with an error or a note. The library names none.
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_files::read::{Assumption, Note, ReadOptions, Reason, Subject};
+use svbrdf_files::read::{Note, ReadOptions, Subject};
 use svbrdf_files::{Error, Guess, OutputProblem};
 
 use super::error::CommandError;
@@ -28,11 +28,7 @@ pub fn of_error(error: &CommandError) -> Option<&'static str> {
         Error::NotPacked { grid: None, .. } => {
             "--read order=LETTERS,grid=COLUMNSxROWS specifies the tiles; --read order=d reads the whole picture as diffuse"
         }
-        Error::UnsupportedOutput { problem: OutputProblem::NoPreset, .. } => "leave out --like",
         Error::UnsupportedOutput { problem: OutputProblem::Depth, .. } => "leave out --depth",
-        Error::UnsupportedOutput { problem: OutputProblem::FolderPreset, .. } => {
-            "--like materialgan, or no --like, writes a folder"
-        }
         _ => return None,
     })
 }
@@ -53,13 +49,5 @@ pub fn with_option(note: &Note) -> String {
             format!("{note} --read albedo=linear uses it.")
         }
         _ => note.to_string(),
-    }
-}
-
-/// An assumption with the option that would change it, where its name alone does not tell.
-pub fn assumption_with_option(assumption: &Assumption) -> String {
-    match assumption.why {
-        Reason::MtlFactor { .. } => format!("{assumption}; --map specifies the picture alone"),
-        _ => assumption.to_string(),
     }
 }

@@ -24,7 +24,7 @@ use super::record::{
     CandidateFile, Case, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
 };
 use super::remark::MASK;
-use super::results::{Key, KnownNeighbours, PairResult, ResultsFolder};
+use super::results::{Key, PairResult, ResultsFolder};
 use svbrdf_files::read::{Dependencies, MaterialPath, ReadOptions};
 
 /// The results of a run over a data set.
@@ -220,7 +220,7 @@ impl<'a> Evaluation<'a> {
         if let Some(scenes) = scenes {
             of["scenes"] = scenes.key();
         }
-        Some(Key::new(of, truth.files.iter().chain(&prediction.files).cloned().collect()))
+        Some(Key::new(of))
     }
 
     /// The result of a prediction that is not known, which is kept if it has a loss.
@@ -236,15 +236,11 @@ impl<'a> Evaluation<'a> {
         // Not of files that were written while they were read.
         let found = self.dependencies(&case.ground_truth, &self.reading.ground_truths);
         let now = found.and_then(|found| self.key(case, candidate, &found, seed));
-        let kept = key.filter(|key| now.as_ref() == Some(key)).and_then(|key| {
-            let looked_at = truth.neighbours.iter().chain(&opened.neighbours);
-            let neighbours: Option<Vec<_>> = looked_at.map(|one| KnownNeighbours::of(one, &key)).collect();
-            Some((key, neighbours?))
-        });
+        let kept = key.filter(|key| now.as_ref() == Some(key));
         let prediction = self.prediction(candidate, truth, opened, floor.unwrap_or(0.0), seed)?;
-        if let (Some(folder), Some((key, neighbours)), Some(_)) = (&self.results, kept, prediction.known) {
+        if let (Some(folder), Some(key), Some(_)) = (&self.results, kept, prediction.known) {
             let (reading, prediction) = (truth.remarks.clone(), prediction.clone());
-            let result = PairResult { reading, floor, prediction, neighbours };
+            let result = PairResult { reading, floor, prediction };
             folder.add(&case.material, &key, &result, self.progress)?;
         }
         Ok(prediction)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use svbrdf_core::loss::check_same_size;
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::read::{self, Neighbours, ReadOptions};
+use svbrdf_files::read::{self, ReadOptions};
 
 use super::reading::DatasetReading;
 use super::record::CandidateFile;
@@ -24,7 +24,6 @@ pub(super) struct Opened {
     /// Which texels a mask keeps.
     pub(super) kept: Option<Arc<[bool]>>,
     pub(super) remarks: Vec<Remark>,
-    pub(super) neighbours: Option<Neighbours>,
 }
 
 /// A material that was read, and how it is stored.
@@ -37,7 +36,7 @@ pub(super) struct OpenedMaterial {
 
 impl Opened {
     fn failed(problem: String) -> Self {
-        Self { found: Err(problem), truth: None, kept: None, remarks: Vec::new(), neighbours: None }
+        Self { found: Err(problem), truth: None, kept: None, remarks: Vec::new() }
     }
 
     /// Reads a ground truth.
@@ -109,5 +108,5 @@ fn open(path: &Path, options: &ReadOptions, roughness: Option<[f64; 2]>, strict:
     };
     let found = guesses.map(|()| OpenedMaterial { material, mask: read.mask, storage });
     let found = found.map_err(|problem| problem.to_string());
-    Opened { found, truth: None, kept: None, remarks, neighbours: read.neighbours }
+    Opened { found, truth: None, kept: None, remarks }
 }

@@ -23,7 +23,6 @@ use svbrdf_files::disk::atomic::{SOFTWARE, update};
 use svbrdf_files::disk::open::{NamedFile, hexadecimal};
 use svbrdf_files::disk::paths::plain;
 use svbrdf_files::disk::{inputs, own};
-use svbrdf_files::read::Neighbours;
 
 /// The result of a pair of a ground truth and a prediction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,55 +33,26 @@ pub(super) struct PairResult {
     pub(super) floor: Option<f64>,
     /// One with a loss: what fails is tried again.
     pub(super) prediction: PredictionResult,
-    /// Those that the readings looked at.
-    pub(super) neighbours: Vec<KnownNeighbours>,
-}
-
-/// The neighbours that a reading looked at.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct KnownNeighbours {
-    /// The pictures of diffuse and specular whose neighbours they are, among [`Key::files`].
-    of: [usize; 2],
-    sha256: String,
-}
-
-impl KnownNeighbours {
-    /// `None` where they cannot be read, or were written since they were looked at.
-    pub(super) fn of(neighbours: &Neighbours, key: &Key) -> Option<Self> {
-        let sha256 = neighbours.digest().ok()?;
-        let is_current = Neighbours::of(neighbours.maps().clone()) == *neighbours;
-        let place = |map: &PathBuf| key.files.iter().position(|file| file == map);
-        let [diffuse, specular] = neighbours.maps().each_ref().map(place);
-        Some(Self { of: [diffuse?, specular?], sha256 }).filter(|_| is_current)
-    }
-
-    fn are_current(&self, key: &Key) -> bool {
-        let maps = self.of.map(|place| key.files.get(place).cloned().unwrap_or_default());
-        Neighbours::of(maps).digest().is_ok_and(|now| now == self.sha256)
-    }
 }
 
 /// What the result of a pair depends on.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Key {
-    /// Everything but the neighbours.
     pub(super) of: Value,
-    /// The files of the ground truth, then those of the prediction.
-    pub(super) files: Vec<PathBuf>,
 }
 
 impl Key {
     /// That of a result of this program on this machine.
-    pub(super) fn new(of: Value, files: Vec<PathBuf>) -> Self {
-        Self::at(Level::best(), of, files)
+    pub(super) fn new(of: Value) -> Self {
+        Self::at(Level::best(), of)
     }
 
     /// Another version may compute other numbers, and remark on other things. The sums of another instruction set differ in their last
     /// digits.
-    fn at(level: Level, mut of: Value, files: Vec<PathBuf>) -> Self {
+    fn at(level: Level, mut of: Value) -> Self {
         of["software"] = SOFTWARE.into();
         of["simd"] = level.name().into();
-        Self { of, files }
+        Self { of }
     }
 
     /// `m0_ours_0123456789abcdef.json`.
@@ -159,7 +129,7 @@ impl ResultsFolder {
     pub(super) fn load(&self, material: &str, key: &Key) -> Option<PairResult> {
         let path = self.path.join(key.name(material));
         fs::symlink_metadata(&path).ok()?;
-        let found = self.read(&path, key);
+        let found = self.read(&path, key).map(Some);
         found.unwrap_or_else(|problem| {
             let note = format!("{} cannot be used ({problem}): computed again", path.display());
             self.notes.lock().unwrap_or_else(PoisonError::into_inner).push(note);
@@ -167,8 +137,8 @@ impl ResultsFolder {
         })
     }
 
-    /// The result in the file `path`; `None` where its neighbours have changed.
-    fn read(&self, path: &Path, key: &Key) -> Result<Option<PairResult>, String> {
+    /// The result in the file `path`.
+    fn read(&self, path: &Path, key: &Key) -> Result<PairResult, String> {
         let text = NamedFile::by_file(path, &self.path).text().map_err(|problem| problem.to_string())?;
         inputs::protect(path);
         let read = || -> Result<_, serde_json::Error> {
@@ -177,9 +147,8 @@ impl ResultsFolder {
             Ok((found.of == expected.of && found.sha256 == expected.sha256).then_some(found.result))
         };
         let result = read().map_err(|problem| problem.to_string())?;
-        let result =
-            result.ok_or("its SHA-256 is another: it was changed, or is the result of another pair")?;
-        Ok(Some(result).filter(|result| result.neighbours.iter().all(|one| one.are_current(key))))
+        let other = "its SHA-256 is another: it was changed, or is the result of another pair";
+        result.ok_or_else(|| other.to_owned())
     }
 
     /// Adds the result of a pair of this material. Where it cannot be written, that is tried again after the next one that can, and at
@@ -260,9 +229,9 @@ mod tests {
     fn every_instruction_set_has_its_own_keys() {
         let levels: Vec<_> = Level::all().into_iter().filter_map(|(_, level)| level).collect();
         let of = serde_json::json!({ "method": "m" });
-        let key = |level: &Level| Key::at(*level, of.clone(), Vec::new()).name("a");
+        let key = |level: &Level| Key::at(*level, of.clone()).name("a");
         assert_eq!(levels.iter().map(key).collect::<BTreeSet<_>>().len(), levels.len());
-        assert_eq!(Key::new(of.clone(), Vec::new()).name("a"), key(&Level::best()));
+        assert_eq!(Key::new(of.clone()).name("a"), key(&Level::best()));
     }
 
     #[test]
@@ -271,8 +240,8 @@ mod tests {
         let path = above.path().join("kept");
         let progress = Progress::default();
         let prediction = PredictionResult::default();
-        let result = PairResult { reading: Vec::new(), floor: None, prediction, neighbours: Vec::new() };
-        let key = |number: u32| Key::new(serde_json::json!({ "method": "m", "n": number }), Vec::new());
+        let result = PairResult { reading: Vec::new(), floor: None, prediction };
+        let key = |number: u32| Key::new(serde_json::json!({ "method": "m", "n": number }));
         let count = || fs::read_dir(&path).map_or(0, |entries| entries.count());
         let folder = ResultsFolder::open(&path).unwrap();
         let add = |number| folder.add("a", &key(number), &result, &progress).unwrap();

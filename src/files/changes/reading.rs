@@ -168,8 +168,8 @@ fn scale(planes: &mut Planes<f32>, scaled: impl Fn(f32, f32) -> f32) {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
     NormalY(&'static str),
-    /// Of diffuse or base colour, and of specular where it has a map: `albedo` alone would change specular, too, unless an option or
-    /// a sidecar file specifies `specular-albedo`.
+    /// Of diffuse or base colour, and of specular where it has a map: `albedo` alone would change specular, too, unless an option
+    /// specifies `specular-albedo`.
     Albedo(&'static str, Option<&'static str>),
     SpecularAlbedo(&'static str),
     Roughness(&'static str),

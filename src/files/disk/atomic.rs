@@ -199,7 +199,6 @@ pub fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Fills a file.
 type Fill<'a> = Box<dyn FnOnce(&mut File) -> io::Result<()> + 'a>;
 
 /// A temporary file that `fill` has filled, on the disk: its name must not lead to content that a loss of power takes away. It has the

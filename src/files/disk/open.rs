@@ -64,10 +64,6 @@ impl NamedFile {
         &self.path
     }
 
-    pub fn named_by(&self) -> &NamedBy {
-        &self.by
-    }
-
     /// An error where it was named by an absolute path. A name that is refused must not be looked up either: on a network
     /// share of Windows, that alone tells another machine who the user is.
     ///

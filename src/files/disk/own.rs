@@ -35,7 +35,6 @@ pub fn folder(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// The error of a path that is not as `expected`.
 fn refused(path: &Path, expected: &str) -> Error {
     let (problem, remedy) = match fs::read_link(path) {
         Ok(target) => (format!("it is a link to {}", target.display()), "remove the link"),

@@ -3,10 +3,9 @@
 //! | stage | from | to |
 //! |---|---|---|
 //! | `formats` | a path | maps by role as stored (`stored`): a file or folder for each format, which locates, decodes and recognizes |
-//! | `interpret` | stored maps | evidence of pixels, also of neighbouring materials, and the planes of a [`Material`](svbrdf_core::material::Material), with the [record](Read) of its reading |
+//! | `interpret` | stored maps | evidence of pixels, and the planes of a [`Material`](svbrdf_core::material::Material), with the [record](Read) of its reading |
 //!
-//! A path enters as a [`MaterialPath`]: its sidecar file completes what is specified, and what is used of both goes with it through
-//! all stages. [`read()`] is the short form; [`read_bytes`] begins with a picture in memory; a photograph, which is no
+//! A path enters as a [`MaterialPath`]. [`read()`] is the short form; [`read_bytes`] begins with a picture in memory; a photograph, which is no
 //! material, is [decoded](read_photograph) alone.
 //!
 //! `docs/formats.md` lists every form that opens. Colour chunks are ignored. [`ReadOptions`] specify how values are stored; the
@@ -27,16 +26,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use formats::{Binding, Sidecar, is_prefix};
-pub use interpret::Neighbours;
 pub use names::{EXTENSIONS, sets};
 pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
     Roughness, TileGrid, Workflow,
 };
 pub use photograph::{Photograph, Transfer, read_photograph};
-pub use record::{
-    Assumption, Certainty, Evidence, Note, Reason, SpecifiedBy, StorageConvention, Subject, Unused, What,
-};
+pub use record::{Assumption, Certainty, Evidence, Note, Reason, StorageConvention, Subject, Unused, What};
 pub use result::{MapContent, Read};
 
 use sha2::{Digest as _, Sha256};
@@ -49,11 +45,11 @@ use crate::disk::{inputs, memory};
 use crate::error::Error;
 
 use decode::reader::Reader;
-use formats::{Located, WholePicture};
+use formats::WholePicture;
 use stored::StoredMaterial;
 
-/// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them; its sidecar file
-/// completes `options`. The short form of [`MaterialPath::read`].
+/// Reads the material at `path`: a packed or layered image, a folder, the common prefix of files, or one of them.
+/// The short form of [`MaterialPath::read`].
 ///
 /// # Errors
 /// As [`MaterialPath::read`].
@@ -76,7 +72,6 @@ pub struct MaterialPath<'a> {
     path: &'a Path,
     options: ReadOptions,
     bindings: &'a [Binding],
-    is_alone: bool,
 }
 
 impl<'a> MaterialPath<'a> {
@@ -88,19 +83,13 @@ impl<'a> MaterialPath<'a> {
             Some((file, number)) => (file, ReadOptions { exemplar: Some(number), ..*options }),
             None => (path, *options),
         };
-        Self { path, options, bindings: &[], is_alone: false }
+        Self { path, options, bindings: &[] }
     }
 
     /// With the maps of `bindings` in place of those at the path.
     #[must_use]
     pub fn bound(self, bindings: &'a [Binding]) -> Self {
         Self { bindings, ..self }
-    }
-
-    /// With exactly these options: of the sidecar file only the maps count.
-    #[must_use]
-    pub fn alone(self) -> Self {
-        Self { is_alone: true, ..self }
     }
 
     /// Reads the material. Each file is one step of `progress`.
@@ -112,17 +101,16 @@ impl<'a> MaterialPath<'a> {
     /// shape, [`Error::NotFinite`] at NaN and infinity, [`Error::NoSuchExemplar`], [`Error::BadSidecar`],
     /// [`Cancelled`](Error::is_cancelled).
     pub fn read<T: Real>(&self, progress: &Progress) -> Result<Read<T>, Error> {
-        let (saved, used, located) = self.located()?;
+        let used = self.used()?;
         let options = &used.options.with_preset();
+        let located = formats::locate(self.path, options, &used.bindings)?;
         let mut read = finish(located.read(options, progress)?, options)?;
-        (read.options, read.saved) = (used.options, saved.options);
-        if saved != Sidecar::default() {
-            let file = Sidecar::path_for(self.path);
-            saved.attribute(&file, &used.options, &mut read.assumptions, &mut read.notes);
-            read.files.push(file);
+        if let Some(file) = used.file {
+            read.files.push(file.clone());
+            read.notes.insert(0, Note::SidecarUsed { file });
         }
         read.files.iter().for_each(|file| inputs::protect(file));
-        Ok(read)
+        Ok(Read { options: used.options, ..read })
     }
 
     /// What its reading depends on.
@@ -130,10 +118,10 @@ impl<'a> MaterialPath<'a> {
     /// # Errors
     /// Where the material cannot be located, or one of the files not be read.
     pub fn dependencies(&self) -> Result<Dependencies, Error> {
-        let (saved, used, located) = self.located()?;
-        let sidecar = Sidecar::path_for(self.path);
+        let used = self.used()?;
+        let located = formats::locate(self.path, &used.options.with_preset(), &used.bindings)?;
         let mut hash = Sha256::new();
-        hash.update(format!("{sidecar:?} {saved:?} {used:?} {located:?}"));
+        hash.update(format!("{used:?} {located:?}"));
         let mut files = Vec::new();
         for file in located.files() {
             hash.update(file.digest()?);
@@ -144,8 +132,8 @@ impl<'a> MaterialPath<'a> {
 
     /// The names that the material may have once it is read, found without its pixels; at least one.
     pub fn possible_names(&self) -> Vec<String> {
-        let used = self.used(&Sidecar::load(self.path).unwrap_or_default()).options;
-        let found = formats::names(self.path, &used).unwrap_or_default();
+        let options = self.used().map_or(self.options, |used| used.options);
+        let found = formats::names(self.path, &options.with_preset()).unwrap_or_default();
         if found.is_empty() {
             vec![self.path.file_stem().unwrap_or(self.path.as_os_str()).to_string_lossy().into_owned()]
         } else {
@@ -153,26 +141,16 @@ impl<'a> MaterialPath<'a> {
         }
     }
 
-    /// What is used of what is specified here and `saved` in the sidecar file.
-    fn used(&self, saved: &Sidecar) -> Sidecar {
-        let used = saved.clone().overridden_by(&self.options, self.bindings);
-        if self.is_alone { Sidecar { options: self.options, ..used } } else { used }
-    }
-
-    /// The content of the sidecar file, what is used of it and what is specified, and what is at the path.
-    fn located(&self) -> Result<(Sidecar, Sidecar, Located), Error> {
-        let saved = Sidecar::load(self.path)?;
-        let used = self.used(&saved);
-        let located = formats::locate(self.path, &used)?;
-        Ok((saved, used, located))
+    /// What is specified here, and in the sidecar file where nothing is.
+    fn used(&self) -> Result<Sidecar, Error> {
+        Ok(Sidecar::load(self.path)?.overridden_by(&self.options, self.bindings))
     }
 }
 
-/// What the reading of a material depends on, but for [`Neighbours`]: only the pixels tell whether these count.
+/// What the reading of a material depends on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dependencies {
-    /// In hexadecimal: of the options, of what was located by names, listings and documents, and of the content of the sidecar file and
-    /// of `files`.
+    /// In hexadecimal: of the options, also those of the sidecar file, of what was located by names, listings and documents, and of the content of `files`.
     pub sha256: String,
     /// Every file that may be decoded.
     pub files: Vec<PathBuf>,
@@ -197,17 +175,15 @@ fn finish<T: Real>(mut stored: StoredMaterial, options: &ReadOptions) -> Result<
     let memory = memory::reserve(bytes, || format!("the material {}", stored.name))?;
     let maps = result::reports(&stored);
     let mask = interpret::mask(&mut stored, options);
-    let (material, neighbours) = interpret::interpret(&mut stored, options)?;
+    let material = interpret::interpret(&mut stored, options)?;
     Ok(Read {
         material,
         mask,
         assumptions: stored.assumptions,
         notes: stored.notes,
         files: stored.files,
-        neighbours,
         maps,
         options: *options,
-        saved: ReadOptions::AUTO,
         memory: Arc::new(memory),
     })
 }

@@ -11,7 +11,6 @@ use svbrdf_core::material::Material;
 use crate::changes::{Storage, StoredEncoding};
 use crate::disk::memory::Reserved;
 use crate::error::{Error, Guess};
-use crate::read::interpret::Neighbours;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
 use crate::read::raster::{Raster, Samples, measure};
 use crate::read::record::{Assumption, Certainty, Note, What};
@@ -29,14 +28,10 @@ pub struct Read<T> {
     pub notes: Vec<Note>,
     /// The files that were read, each once, for watching. None for a material from memory.
     pub files: Vec<PathBuf>,
-    /// The pictures of other materials that were looked at, where its own pixels leave the encoding of its colours open.
-    pub neighbours: Option<Neighbours>,
     /// A report on each map as stored.
     pub maps: Vec<MapContent>,
-    /// The options that it was read with: those of the caller and, unless it excluded them, those of the sidecar file.
+    /// The options that it was read with: those of the caller and of the sidecar file.
     pub options: ReadOptions,
-    /// The options of the sidecar file.
-    pub saved: ReadOptions,
     /// The memory of the material. It counts towards the limit while this lives.
     pub memory: Arc<Reserved>,
 }

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use svbrdf_core::material::{DIELECTRIC, Material, Planes, base_and_metallic};
 use svbrdf_core::progress::Progress;
 
-use super::png::{self, FolderPicture, MapEncoding, WrittenMap, code, picture};
+use super::png::{self, NamedMap, WrittenMap, code};
 use crate::disk::atomic::SOFTWARE;
 use crate::read::Albedo;
 use crate::read::options::transfer::{encoded, linear};
@@ -67,9 +67,9 @@ pub(super) fn write(
     progress: &Progress,
 ) -> io::Result<()> {
     let pictures = pictures(ior);
-    let encoded = |picture: &FolderPicture<'_>| {
+    let encoded = |(_, map): &NamedMap| {
         let mut bytes = Vec::new();
-        png::one(&mut bytes, material, picture, sixteen, progress).map(|()| bytes)
+        png::one(&mut bytes, material, *map, sixteen, progress).map(|()| bytes)
     };
     let encoded = pictures.par_iter().map(encoded).collect::<io::Result<Vec<_>>>()?;
     let mut binary = Binary::default();
@@ -77,8 +77,8 @@ pub(super) fn write(
     let images: Vec<Value> = pictures
         .iter()
         .zip(encoded)
-        .map(|(picture, bytes)| {
-            json!({"name": picture.name, "mimeType": "image/png", "bufferView": binary.view(&bytes, None)})
+        .map(|((name, _), bytes)| {
+            json!({"name": name, "mimeType": "image/png", "bufferView": binary.view(&bytes, None)})
         })
         .collect();
     let textures: Vec<Value> = (0..images.len()).map(|source| json!({"source": source})).collect();
@@ -116,17 +116,14 @@ pub(super) fn write(
 }
 
 /// The pictures in the order of the textures in [`material_of`].
-fn pictures(ior: Option<f64>) -> Vec<FolderPicture<'static>> {
-    let of = |name, map| picture(name, map, MapEncoding::SRGB);
-    let normal = of("normal", WrittenMap::Normal);
+fn pictures(ior: Option<f64>) -> Vec<NamedMap> {
+    let normal = ("normal", WrittenMap::Normal);
     match ior {
-        None => {
-            vec![of("base colour", WrittenMap::Base), of("roughness and metallic", WrittenMap::Orm), normal]
-        }
+        None => vec![("base colour", WrittenMap::Base), ("roughness and metallic", WrittenMap::Orm), normal],
         Some(ior) => {
             let tint = WrittenMap::SpecularTint(((ior - 1.0) / (ior + 1.0)).powi(2));
-            let roughness = of("roughness", WrittenMap::Roughness);
-            vec![of("diffuse", WrittenMap::Diffuse), roughness, normal, of("specular", tint)]
+            let roughness = ("roughness", WrittenMap::Roughness);
+            vec![("diffuse", WrittenMap::Diffuse), roughness, normal, ("specular", tint)]
         }
     }
 }

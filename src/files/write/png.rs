@@ -11,55 +11,33 @@ use svbrdf_core::progress::Progress;
 
 use crate::disk::atomic::SOFTWARE;
 use crate::disk::{atomic, new_folder};
-use crate::read::options::transfer::{encoded, encoded_roughness};
-use crate::read::{Albedo, Energy, NormalY, Order, Preset, ReadOptions, Roughness};
+use crate::read::Albedo;
+use crate::read::options::transfer::{PACKED, encoded, written};
 
 /// About how many bytes of a picture are computed before they are compressed.
 const BAND_BYTES: usize = 1 << 20;
 
-/// A file of a folder.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct FolderPicture<'a> {
-    pub name: &'a str,
-    pub map: WrittenMap,
-    pub encoding: MapEncoding,
-}
+pub(super) type NamedMap = (&'static str, WrittenMap);
 
-pub(super) const fn picture(name: &str, map: WrittenMap, encoding: MapEncoding) -> FolderPicture<'_> {
-    FolderPicture { name, map, encoding }
-}
+const FILES: [NamedMap; 4] = [
+    ("normal_gl", WrittenMap::Normal),
+    ("diffuse", WrittenMap::Diffuse),
+    ("roughness", WrittenMap::Roughness),
+    ("specular", WrittenMap::Specular),
+];
 
-pub(super) const PLAIN: [FolderPicture<'_>; 4] = [
-    picture("normal_gl", WrittenMap::Normal, MapEncoding::SRGB),
-    picture("diffuse", WrittenMap::Diffuse, MapEncoding::SRGB),
-    picture("roughness", WrittenMap::Roughness, MapEncoding::SRGB),
-    picture("specular", WrittenMap::Specular, MapEncoding::SRGB),
-];
-pub(super) const MATERIAL_GAN: [FolderPicture<'_>; 4] = [
-    picture("nom", WrittenMap::Normal, MapEncoding::MATERIAL_GAN),
-    picture("dif", WrittenMap::Diffuse, MapEncoding::MATERIAL_GAN),
-    picture("rgh", WrittenMap::Roughness, MapEncoding::MATERIAL_GAN),
-    picture("spe", WrittenMap::Specular, MapEncoding::MATERIAL_GAN),
-];
-/// Four tiles in a row, as `like` orders and encodes them.
+const TILES: [WrittenMap; 4] =
+    [WrittenMap::Normal, WrittenMap::Diffuse, WrittenMap::Roughness, WrittenMap::Specular];
+
+/// Four tiles N D R S in a row, linear.
 pub(super) fn packed(
     file: impl Write,
     material: &Material<f32>,
-    like: Preset,
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    let (order, encoding) = (like.order().unwrap_or(Order::NDRS), MapEncoding::from(like));
-    let tiles = order.to_string();
-    let map = |letter| match letter {
-        'n' => WrittenMap::Normal,
-        'd' => WrittenMap::Diffuse,
-        'r' => WrittenMap::Roughness,
-        _ => WrittenMap::Specular,
-    };
-    let maps: Vec<WrittenMap> = tiles.chars().map(map).collect();
-    let rows = TileRows { material, tiles: &maps, encoding, sixteen, progress };
-    let meaning = format!("packed {order}, {}", encoding.text());
+    let rows = TileRows { material, tiles: &TILES, albedo: Albedo::Linear, sixteen, progress };
+    let meaning = format!("{PACKED}{}", written(Albedo::Linear));
     // One picture: the other cores compute its rows.
     rows.write(file, &meaning, |first, band| {
         let bytes = rows.row_bytes();
@@ -67,33 +45,31 @@ pub(super) fn packed(
     })
 }
 
-/// A new folder of pictures.
 pub(super) fn folder(
     path: &Path,
     material: &Material<f32>,
-    files: &[FolderPicture<'_>],
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
     new_folder::new_folder(path, progress, |folder| {
-        files.par_iter().try_for_each(|picture| {
-            new_folder::new_file(&folder.join(format!("{}.png", picture.name)), progress, |file| {
-                one(file, material, picture, sixteen, progress)
+        FILES.par_iter().try_for_each(|(name, map)| {
+            new_folder::new_file(&folder.join(format!("{name}.png")), progress, |file| {
+                one(file, material, *map, sixteen, progress)
             })
         })
     })
 }
 
-/// The picture of one map.
+/// The picture of one map, colours in sRGB.
 pub(super) fn one(
     file: impl Write,
     material: &Material<f32>,
-    FolderPicture { map, encoding, .. }: &FolderPicture<'_>,
+    map: WrittenMap,
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    let rows = TileRows { material, tiles: &[*map], encoding: *encoding, sixteen, progress };
-    rows.write(file, &encoding.text(), |first, band| {
+    let rows = TileRows { material, tiles: &[map], albedo: Albedo::Srgb, sixteen, progress };
+    rows.write(file, &written(Albedo::Srgb), |first, band| {
         band.chunks_mut(rows.row_bytes())
             .enumerate()
             .try_for_each(|(row, bytes)| rows.put(first + row, bytes))
@@ -104,7 +80,7 @@ pub(super) fn one(
 struct TileRows<'a> {
     material: &'a Material<f32>,
     tiles: &'a [WrittenMap],
-    encoding: MapEncoding,
+    albedo: Albedo,
     sixteen: bool,
     progress: &'a Progress,
 }
@@ -124,7 +100,7 @@ impl TileRows<'_> {
         let (width, pixel) = (self.material.width(), self.pixel_bytes());
         for (map, tile) in self.tiles.iter().zip(bytes.chunks_exact_mut(width * pixel)) {
             for (index, out) in (row * width..).zip(tile.chunks_exact_mut(pixel)) {
-                put(self.encoding.values(self.material, *map, index), out);
+                put(map.values(self.material, self.albedo, index), out);
             }
         }
         Ok(())
@@ -168,7 +144,6 @@ fn put(rgb: [f64; 3], out: &mut [u8]) {
     }
 }
 
-/// The map in a picture.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum WrittenMap {
     Normal,
@@ -182,79 +157,22 @@ pub(super) enum WrittenMap {
     SpecularTint(f64),
 }
 
-/// The encoding of colours and roughness.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct MapEncoding {
-    diffuse: Albedo,
-    specular: Albedo,
-    roughness: Roughness,
-    normal_y: NormalY,
-    energy: Energy,
-}
-
-impl From<Preset> for MapEncoding {
-    fn from(preset: Preset) -> Self {
-        let ReadOptions { albedo, specular, roughness, normal_y, energy, .. } = preset.options();
-        let diffuse = albedo.unwrap_or(Albedo::Linear);
-        Self {
-            diffuse,
-            specular: specular.unwrap_or(diffuse),
-            roughness: roughness.unwrap_or(Roughness::R),
-            normal_y: normal_y.unwrap_or(NormalY::Up),
-            energy: energy.unwrap_or(Energy::Scaled),
-        }
-    }
-}
-
-impl MapEncoding {
-    pub(super) const SRGB: Self = Self {
-        diffuse: Albedo::Srgb,
-        specular: Albedo::Srgb,
-        roughness: Roughness::R,
-        normal_y: NormalY::Up,
-        energy: Energy::Scaled,
-    };
-    pub(super) const MATERIAL_GAN: Self = Self {
-        diffuse: Albedo::Gamma22,
-        specular: Albedo::Gamma22,
-        roughness: Roughness::Gamma22,
-        ..Self::SRGB
-    };
-
-    /// For the metadata of a picture.
-    pub(super) fn text(&self) -> String {
-        let Self { diffuse, specular, roughness, normal_y, energy } = self;
-        format!(
-            "diffuse {diffuse}, specular {specular}, roughness {roughness}, normal y {normal_y}, energy {energy}"
-        )
-    }
-
+impl WrittenMap {
     /// (red, green, blue) of the texel at `index` as they are stored, in [0, 1].
-    pub(super) fn values(&self, material: &Material<f32>, map: WrittenMap, index: usize) -> [f64; 3] {
+    fn values(self, material: &Material<f32>, albedo: Albedo, index: usize) -> [f64; 3] {
         let Planes { normal, diffuse, specular, roughness } = material.planes();
         let at = |planes: &[Vec<f32>; 3]| planes.each_ref().map(|plane| f64::from(plane[index]));
-        let rough = || encoded_roughness(roughness[index].into(), self.roughness);
         let base_and_metallic = || base_and_metallic(at(diffuse), at(specular));
-        let diffuse_code = |value| encoded(value, self.diffuse);
-        let specular_code = |value| encoded(value, self.specular);
-        match map {
-            WrittenMap::Normal => {
-                let [x, y, z] = at(normal);
-                let y = if self.normal_y == NormalY::Up { y } else { -y };
-                [x, y, z].map(|n| (0.5 * n + 0.5).clamp(0.0, 1.0))
-            }
-            WrittenMap::Diffuse if self.energy == Energy::Unscaled => {
-                let [d, s] = [at(diffuse), at(specular)];
-                [0, 1, 2].map(|c| diffuse_code(d[c] * (1.0 - s[c])))
-            }
-            WrittenMap::Diffuse => at(diffuse).map(diffuse_code),
-            WrittenMap::Specular => at(specular).map(specular_code),
-            WrittenMap::Roughness => [rough(); 3],
-            WrittenMap::Base => base_and_metallic().0.map(diffuse_code),
-            WrittenMap::Orm => [1.0, rough(), base_and_metallic().1],
-            WrittenMap::SpecularTint(reflectance) => {
-                at(specular).map(|s| specular_code((s / reflectance).min(1.0)))
-            }
+        let rough = f64::from(roughness[index]);
+        let code = |value| encoded(value, albedo);
+        match self {
+            Self::Normal => at(normal).map(|n| (0.5 * n + 0.5).clamp(0.0, 1.0)),
+            Self::Diffuse => at(diffuse).map(code),
+            Self::Specular => at(specular).map(code),
+            Self::Roughness => [rough; 3],
+            Self::Base => base_and_metallic().0.map(code),
+            Self::Orm => [1.0, rough, base_and_metallic().1],
+            Self::SpecularTint(reflectance) => at(specular).map(|s| code((s / reflectance).min(1.0))),
         }
     }
 }

@@ -9,7 +9,7 @@ use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{self, FontId, RichText};
 
 use svbrdf_evaluate::diagnose::{Finding, sentence_of};
-use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions, Sidecar};
+use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions};
 use svbrdf_files::source::Place;
 
 use crate::files::read_options::{is_offered, read_options, remedy_button};
@@ -76,25 +76,6 @@ fn decisions(ui: &mut egui::Ui, open: &OpenDataset) {
     }
     for decision in &reading.decisions {
         ui.label(RichText::new(drawable(decision)).small());
-    }
-}
-
-/// The button that saves the chosen assumptions, where they are not the saved ones.
-fn save_button(ui: &mut egui::Ui, index: usize, material: &LoadedMaterial, next: &mut Model) {
-    let (Place::Path(path), record) = (&material.read.source.place, &material.read.record) else { return };
-    if record.options == record.saved {
-        return;
-    }
-    let button = ui.button("Save assumptions");
-    let name = format!("Save assumptions of {}", material.name());
-    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
-    let place = Sidecar::path_for(path);
-    let hover = format!(
-        "Write these assumptions to {}, which is read whenever the material is opened",
-        place.display()
-    );
-    if button.on_hover_text(hover).clicked() {
-        opening::save_assumptions(next, index);
     }
 }
 
@@ -205,7 +186,6 @@ fn section(
         if read != record.options {
             opening::read_as(next, index, read);
         }
-        save_button(ui, index, material, next);
     }
     let stored = ui.collapsing("As stored", |ui| {
         for map in &record.maps {

@@ -18,7 +18,7 @@ use crate::model::Model;
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::effect::Effect;
 use crate::model::material::request::{ReadRequest, Target};
-use crate::model::message::{Message, Retry};
+use crate::model::message::Retry;
 
 /// Opens materials: the first as ground truth where there is none or where `replace` is set, the others as predictions. Scene files,
 /// conventions, sessions and data sets among them are what they are.
@@ -160,14 +160,6 @@ pub fn reload(model: &mut Model) {
 /// Reads the material at this index again under other assumptions.
 pub fn read_as(model: &mut Model, index: usize, read: ReadOptions) {
     model.effects.extend(model.materials.read_as(index, read).map(Effect::Read));
-}
-
-/// Saves the assumptions specified for the material at this index in a sidecar file, and reads it again.
-pub fn save_assumptions(model: &mut Model, index: usize) {
-    match model.materials.save_assumptions(index) {
-        Ok(request) => model.effects.extend(request.map(Effect::Read)),
-        Err(error) => model.report([Message::Failed(error)]),
-    }
 }
 
 /// Closes the prediction at `index`; the chosen prediction stays the same one where it can.

@@ -16,13 +16,13 @@ use crate::read::record::Subject;
 use crate::read::stored::StoredMap;
 
 /// `normal=FILE`, `roughness=FILE:g` for one channel or layer of the file, or `roughness=0.5` for a constant.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Binding {
     role: Role,
     source: Source,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Source {
     /// The part is r, g, b, a, or the name of a layer.
     File { file: NamedFile, part: Option<String> },
@@ -30,7 +30,6 @@ enum Source {
     Constant(Vec<f32>),
 }
 
-/// The maps that can be specified.
 const ROLES: [(&str, Role); 6] = [
     ("normal", Role::Normal),
     ("diffuse", Role::Diffuse),
@@ -81,13 +80,6 @@ fn constant(text: &str) -> Option<Vec<f32>> {
     matches!(values.len(), 1 | 3).then_some(values)
 }
 
-impl PartialEq for Binding {
-    /// Whoever names the file.
-    fn eq(&self, other: &Self) -> bool {
-        self.relative_to(Path::new("")) == other.relative_to(Path::new(""))
-    }
-}
-
 impl Binding {
     pub(crate) fn role(&self) -> Role {
         self.role
@@ -134,7 +126,6 @@ impl Binding {
         })?;
         Ok((role, StoredMap { raster, file, part }))
     }
-
     /// The same as the sidecar file `sidecar` has it: the path of the file is relative to its folder.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use super::set::Set;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::read::options::{ReadOptions, Role};
-use crate::read::record::{Note, SpecifiedBy};
+use crate::read::record::Note;
 use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// All that may be at a path.
@@ -67,7 +67,7 @@ impl Located {
         Err(refusal.unwrap_or_else(|| Error::Internal("no candidate was located".to_owned())))
     }
 
-    /// Every file that may be decoded, neighbours excepted.
+    /// Every file that may be decoded.
     pub(crate) fn files(&self) -> impl Iterator<Item = NamedFile> + '_ {
         let bound = self.bound.iter().filter_map(|binding| binding.file().cloned());
         bound.chain(self.candidates.iter().flat_map(Candidate::files))
@@ -85,7 +85,7 @@ pub(crate) enum Candidate {
 }
 
 impl Candidate {
-    /// Every file that may be decoded, neighbours excepted.
+    /// Every file that may be decoded.
     fn files(&self) -> Vec<NamedFile> {
         match self {
             Self::Picture(picture) => vec![picture.file.clone()],
@@ -96,7 +96,6 @@ impl Candidate {
         }
     }
 
-    /// Its material with the maps `bound`.
     fn read(
         self,
         bound: &[(Role, StoredMap)],
@@ -111,17 +110,12 @@ impl Candidate {
             Self::Mtlx(mtlx) => mtlx.read(options, progress)?,
         };
         for (role, map) in bound {
-            found.notes.push(Note::MapSpecified {
-                map: *role,
-                file: map.file.clone(),
-                by: SpecifiedBy::Caller,
-            });
+            found.notes.push(Note::MapSpecified { map: *role, file: map.file.clone() });
             found.replace(*role, map.clone());
         }
         Ok(found)
     }
 
-    /// The name of the material.
     pub(crate) fn name(&self) -> String {
         match self {
             Self::Picture(picture) => {

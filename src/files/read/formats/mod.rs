@@ -31,22 +31,15 @@ use gltf::Gltf;
 use mtl::Mtl;
 use mtlx::Mtlx;
 
-/// Locates the material at `path` with the options and bindings `used`.
-///
-/// # Errors
-/// [`Error::Unreadable`], [`Error::BadImage`] where a document is broken, [`Error::NotAMaterial`] where maps are missing
-/// or claimed twice by their names, [`Error::NoSuchExemplar`], [`Error::BadSidecar`].
-pub(super) fn locate(path: &Path, used: &Sidecar) -> Result<Located, Error> {
-    used.check_maps(path)?;
-    let roles: Vec<_> = used.bindings.iter().map(Binding::role).collect();
-    let mut found = candidates(&sidecar::material_of(path)?, &roles, &used.options.with_preset())?;
-    found.bound.clone_from(&used.bindings);
-    Ok(found)
+/// Locates the material at `path` with the maps of `bindings` in place of its own.
+pub(super) fn locate(path: &Path, options: &ReadOptions, bindings: &[Binding]) -> Result<Located, Error> {
+    let roles: Vec<_> = bindings.iter().map(Binding::role).collect();
+    Ok(Located { bound: bindings.to_vec(), ..candidates(path, &roles, options)? })
 }
 
 /// The names that the material at `path` may have, the most likely first: which of them, its pixels decide.
 pub(super) fn names(path: &Path, options: &ReadOptions) -> Result<Vec<String>, Error> {
-    let found = candidates(&sidecar::material_of(path)?, &[], &options.with_preset())?;
+    let found = candidates(path, &[], options)?;
     Ok(match found.name {
         Some(name) => vec![name],
         None => found.candidates.iter().map(Candidate::name).collect(),
@@ -95,28 +88,5 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
             })]))
         }
         _ => Ok(Located::new([first])),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::disk::open::NamedBy;
-
-    #[test]
-    fn a_located_file_knows_who_named_it() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path();
-        for name in ["a_diffuse.png", "a_roughness.png", "n.png", "m.png"] {
-            std::fs::write(path.join(name), "").unwrap();
-        }
-        std::fs::write(path.join("svbrdf.json"), r#"{"maps": {"normal": "n.png"}}"#).unwrap();
-        let caller: Binding = "metallic=m.png".parse().unwrap();
-        let used = Sidecar::load(path).unwrap().overridden_by(&ReadOptions::AUTO, &[caller]);
-        let found = locate(path, &used).unwrap();
-        let by: Vec<_> = found.bound.iter().map(|bound| bound.file().unwrap().named_by().clone()).collect();
-        assert_eq!(by, [NamedBy::File(path.join("svbrdf.json")), NamedBy::User]);
-        let Candidate::Set(set) = &found.candidates[0] else { panic!("{found:?}") };
-        assert_eq!(set.file("a_diffuse.png").named_by(), &NamedBy::File(path.to_owned()));
     }
 }

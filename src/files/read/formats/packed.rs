@@ -5,11 +5,12 @@ use std::path::Path;
 
 use super::tile;
 use crate::error::Error;
+use crate::read::options::transfer::PACKED;
 use crate::read::options::{Albedo, NormalY, Order, Preset, ReadOptions, Role, Roughness, TileGrid};
 use crate::read::raster::Raster;
 use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
-use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, What};
-use crate::read::stored::{MapsByRole, StoredMap, StoredMaterial, WrittenEncoding};
+use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, What};
+use crate::read::stored::{MapsByRole, StoredMap, StoredMaterial, written_albedo};
 
 /// Of a picture of diffuse alone.
 const ROUGHNESS: f32 = 0.5;
@@ -38,10 +39,10 @@ pub(super) fn material(
     let is_divided = options.grid.is_some() || (options.order.is_some() && !grids(image, options).is_empty());
     let cut = if is_divided { None } else { tile::without_borders(image) };
     let (image, border) = cut.as_ref().map_or((image, 0), |(tiles, border)| (tiles, *border));
-    let own = meaning
-        .and_then(|text| WrittenStrip::of(text, image))
-        .filter(|_| options.order.is_none() && options.grid.is_none());
-    let chosen = own.as_ref().map(WrittenStrip::tiling).or_else(|| choose(image, &name, options));
+    let own = meaning.and_then(|text| written_albedo(text.strip_prefix(PACKED)?)).filter(|_| {
+        image.width.is_multiple_of(Order::NDRS.len()) && options.order.is_none() && options.grid.is_none()
+    });
+    let chosen = own.map(|_| own_tiling()).or_else(|| choose(image, &name, options));
     let refused = || refusal(path, image, options);
     let Tiling { grid, order, first, why, certainty } = chosen.ok_or_else(refused)?;
     if is_stack(grid, order.len()) {
@@ -64,7 +65,7 @@ pub(super) fn material(
         found.assumptions.push(missing);
     }
     match own {
-        Some(own) => found.specify(&own.encoding, &Role::ALL),
+        Some(albedo) => found.specify(albedo, &Role::ALL),
         None => add_usual(&mut found, order, grid, image),
     }
     let maps = order.roles().map(Role::name).collect::<Vec<_>>().join(", ");
@@ -84,30 +85,10 @@ pub(super) fn material(
     Ok(found)
 }
 
-/// The order and encoding that this program wrote into a strip, as in `packed ndrs, diffuse linear, ..., energy scaled`.
-struct WrittenStrip {
-    order: Order,
-    encoding: WrittenEncoding,
-}
-
-impl WrittenStrip {
-    /// `None` where the text or the shape of the picture is none that this program writes.
-    fn of(text: &str, image: &Raster) -> Option<Self> {
-        let (order, encoding) = text.strip_prefix("packed ")?.split_once(", ")?;
-        let (order, encoding) = (order.parse::<Order>().ok()?, WrittenEncoding::of(encoding)?);
-        image.width.is_multiple_of(order.len()).then_some(Self { order, encoding })
-    }
-
-    fn tiling(&self) -> Tiling {
-        let grid = TileGrid { columns: self.order.len(), rows: 1 };
-        Tiling {
-            grid,
-            order: self.order,
-            first: 0,
-            why: StorageConvention::NativeText.into(),
-            certainty: Certainty::Sure,
-        }
-    }
+fn own_tiling() -> Tiling {
+    let grid = TileGrid { columns: Order::NDRS.len(), rows: 1 };
+    let why = StorageConvention::NativeText.into();
+    Tiling { grid, order: Order::NDRS, first: 0, why, certainty: Certainty::Sure }
 }
 
 /// Adds the encoding that goes with an order in this grid; nothing where none is known: pixels decide then.
@@ -154,7 +135,7 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Tiling> {
     if let Some(order) = options.order {
         let whole = (order.len() == 1 && options.grid.is_none()).then_some(TileGrid { columns: 1, rows: 1 });
         let grid = whole.or_else(|| grids.iter().copied().find(|grid| grid.count() >= order.len()))?;
-        return Some(placed(grid, order, options, Reason::Specified(SpecifiedBy::Caller), Certainty::Given));
+        return Some(placed(grid, order, options, Reason::Specified, Certainty::Given));
     }
     if let Some(choice) = grids.iter().find_map(|&grid| recognized(image, grid, options)) {
         return Some(choice);

@@ -1,37 +1,30 @@
 //! Encodings of colours: of each map as specified, as its own file tells, or as the evidence of pixels suggests.
 
 use super::evidence::{self, CUSTOM, PRIOR, SURE};
-use super::neighbours::Neighbours;
 use crate::read::options::{Albedo, ReadOptions, Roughness};
 use crate::read::raster::measure;
-use crate::read::record::{
-    Assumption, Certainty, Evidence, Note, Reason, SpecifiedBy, StorageConvention, What,
-};
+use crate::read::record::{Assumption, Certainty, Evidence, Note, Reason, StorageConvention, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// An encoding with its reason and certainty.
 type Choice = (Albedo, Reason, Certainty);
 
-/// How diffuse (or a base colour) and specular are stored, recorded; with the neighbours that were looked at.
-pub(super) fn encodings(
-    found: &mut StoredMaterial,
-    options: &ReadOptions,
-) -> ([Albedo; 2], Option<Neighbours>) {
+/// How diffuse (or a base colour) and specular are stored, recorded.
+pub(super) fn encodings(found: &mut StoredMaterial, options: &ReadOptions) -> [Albedo; 2] {
     let given = [options.albedo, options.specular.or(options.albedo)];
     let known = [found.inferred.albedo.take(), found.inferred.specular.take()];
     let is_open = |which: usize| {
         given[which].is_none() && known[which].as_ref().is_none_or(|(_, why, _)| why.is_custom_of_codes())
     };
     let open = [is_open(0), is_open(1) && found.specular.is_some()];
-    let is_known = known.iter().any(Option::is_some);
-    let (evidence, neighbours) = evidence_of(found, open, is_known, options);
+    let evidence = evidence_of(found, open, options);
     let mut chosen = [Albedo::Srgb; 2];
     for (which, (known, evidence)) in known.into_iter().zip(evidence).enumerate() {
         let Some(map) = [Some(&found.colour), found.specular.as_ref()][which] else { continue };
         let (albedo, mut why, mut certainty) = match (given[which], known) {
             (Some(given), _) => {
                 found.notes.extend((which == 1).then(|| contradiction(map, given)).flatten());
-                (given, Reason::Specified(SpecifiedBy::Caller), Certainty::Given)
+                (given, Reason::Specified, Certainty::Given)
             }
             (None, Some(known)) => judged(known, evidence, &mut found.inferred.roughness),
             (None, None) if which == 0 && open != [true; 2] => alone(evidence),
@@ -49,17 +42,11 @@ pub(super) fn encodings(
             certainty,
         ));
     }
-    (chosen, neighbours)
+    chosen
 }
 
-/// The evidence of the pixels about each colour that is `open`: of both together only where both are. Neighbours are asked where nothing
-/// else is known.
-fn evidence_of(
-    found: &StoredMaterial,
-    open: [bool; 2],
-    is_known: bool,
-    options: &ReadOptions,
-) -> ([Vec<Evidence>; 2], Option<Neighbours>) {
+/// The evidence of the pixels about each colour that is `open`: of both together only where both are.
+fn evidence_of(found: &StoredMaterial, open: [bool; 2], options: &ReadOptions) -> [Vec<Evidence>; 2] {
     let roughness = options.roughness.or(found.inferred.roughness.as_ref().map(|known| known.0));
     // Glossiness is how artists name it.
     let prior = if roughness == Some(Roughness::Gloss) { Evidence::Prior } else { Evidence::Research };
@@ -70,21 +57,17 @@ fn evidence_of(
         Some(specular) if open == [true; 2] => {
             let mut common: Vec<_> = [prior].into_iter().chain(jpeg(&[diffuse, specular])).collect();
             common.extend(evidence::measured(&diffuse.raster, &specular.raster));
-            let total: f64 = common.iter().map(|one| one.log_odds()).sum();
-            let pictures = || [diffuse.file.clone(), specular.file.clone()];
-            let neighbours = (!is_known && total.abs() < SURE).then(|| Neighbours::of(pictures()));
-            common.extend(neighbours.as_ref().and_then(Neighbours::evidence));
             // The two differ only where evidence about diffuse alone does.
             let bright = evidence::too_bright(&diffuse.raster, &specular.raster);
-            ([common.iter().copied().chain(bright).collect(), common], neighbours)
+            [common.iter().copied().chain(bright).collect(), common]
         }
         Some(specular) if open[1] => {
             let of_specular = evidence::dielectrics(&specular.raster);
             let all = [prior].into_iter().chain(jpeg(&[specular])).chain(of_specular);
-            ([Vec::new(), all.collect()], None)
+            [Vec::new(), all.collect()]
         }
-        _ if open[0] => ([evidence::alone(&diffuse.raster).into_iter().collect(), Vec::new()], None),
-        _ => (Default::default(), None),
+        _ if open[0] => [evidence::alone(&diffuse.raster).into_iter().collect(), Vec::new()],
+        _ => Default::default(),
     }
 }
 
@@ -141,5 +124,5 @@ fn contradiction(map: &StoredMap, chosen: Albedo) -> Option<Note> {
         _ => return None,
     };
     let is_other = (suggests == Albedo::Linear) != (chosen == Albedo::Linear) && !map.raster.is_float();
-    is_other.then_some(Note::SpecularMedian { chosen, by: SpecifiedBy::Caller, median, suggests })
+    is_other.then_some(Note::SpecularMedian { chosen, median, suggests })
 }

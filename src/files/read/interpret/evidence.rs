@@ -148,8 +148,6 @@ pub(super) const ALBEDO: [f64; 2] = [-1.61, 1.1];
 pub(super) const METAL: [f64; 2] = [-0.43, 0.4];
 /// Evidence of darkness from which on a colour by itself is unsure: a base colour is hardly ever linear.
 pub(super) const DARK: f64 = 3.5;
-/// The evidence of neighbours counts half, and no more than this.
-pub(super) const MOST_OF_NEIGHBOURS: f64 = 3.0;
 
 impl Evidence {
     /// Its part of the log odds of linear.
@@ -163,7 +161,7 @@ impl Evidence {
             Self::NoMaterial(share) => -DIELECTRICS * (share - CHANCE),
             Self::TooBright(share) => TOO_BRIGHT * (share - BRIGHT_CHANCE).min(0.5),
             Self::Dark(median) => likelihood(median, ALBEDO),
-            Self::Metals { log_odds, .. } | Self::Neighbours { log_odds, .. } => log_odds,
+            Self::Metals { log_odds, .. } => log_odds,
         }
     }
 }

@@ -3,7 +3,6 @@
 mod colours;
 mod evidence;
 mod heights;
-mod neighbours;
 mod normals;
 mod values;
 
@@ -17,27 +16,21 @@ use svbrdf_core::math::real::Real;
 
 use crate::error::Error;
 use crate::read::options::{Energy, Preset, ReadOptions, Reflectance, Role};
-use crate::read::record::{Assumption, Certainty, Note, Reason, SpecifiedBy, What};
-use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+use crate::read::record::{Assumption, Certainty, Note, Reason, What};
+use crate::read::stored::{StoredMap, StoredMaterial};
 
-pub use neighbours::Neighbours;
 use values::{Clamped, colour_planes, gray_plane, roughness_encoding, roughness_plane};
 
-/// The material of the stored maps of `found`, by the `options`, the files and their pixels, and the neighbours that were looked at; each
-/// map is dropped once it is linear.
-///
-/// # Errors
-/// [`Error::NotFinite`] at NaN and infinity, [`Error::MapSizesDiffer`] where maps have another shape,
-/// [`Error::NotAMaterial`] where the normal map is gray.
+/// The material of the stored maps of `found`, by the `options`, the files and their pixels; each map is dropped once it is linear.
 pub(super) fn interpret<T: Real>(
     found: &mut StoredMaterial,
     options: &ReadOptions,
-) -> Result<(Material<T>, Option<Neighbours>), Error> {
+) -> Result<Material<T>, Error> {
     note_alpha(found);
     refuse_two_channels(found)?;
     let size = found.common_size()?;
     values::check(found, options)?;
-    let ([colour_encoding, specular_encoding], neighbours) = colours::encodings(found, options);
+    let [colour_encoding, specular_encoding] = colours::encodings(found, options);
     let roughness_encoding = roughness_encoding(found, options);
     let normal = normals::planes(found, options, size)?;
     let mut clamped = Clamped::default();
@@ -55,14 +48,13 @@ pub(super) fn interpret<T: Real>(
     });
     clamped.record(&mut found.assumptions);
     let maps = Reflection { colour, specular, metallic, level };
-    let (energy, assumptions) = (found.inferred.energy.take(), &mut found.assumptions);
-    let (diffuse, specular) = separated(maps, energy, options, assumptions);
+    let (diffuse, specular) = separated(maps, options, &mut found.assumptions);
     let mut planes = Planes { normal, diffuse, specular, roughness };
     if options.flip_v == Some(true) {
         mirror(&mut planes, size[0]);
-        found.notes.push(Note::RowsFlipped { by: SpecifiedBy::Caller });
+        found.notes.push(Note::RowsFlipped);
     }
-    Ok((Material::new(found.name.as_str(), size[0], size[1], planes)?, neighbours))
+    Ok(Material::new(found.name.as_str(), size[0], size[1], planes)?)
 }
 
 /// The share of the samples of a mask that are neither 0 nor 1, at most: those at its border.
@@ -139,7 +131,6 @@ fn level_assumed(map: &StoredMap) -> Assumption {
 /// The reflectance of dielectrics where the map of its level is 1.
 const MOST_DIELECTRIC: f64 = 0.08;
 
-/// The three planes of a colour.
 type Colour<T> = [Vec<T>; 3];
 
 /// Linear maps of one size, from which diffuse and specular follow.
@@ -155,7 +146,6 @@ struct Reflection<T> {
 /// Diffuse and specular of a material; the choices that are made here are recorded.
 fn separated<T: Real>(
     maps: Reflection<T>,
-    energy: Inferred<Energy>,
     options: &ReadOptions,
     assumptions: &mut Vec<Assumption>,
 ) -> (Colour<T>, Colour<T>) {
@@ -177,7 +167,7 @@ fn separated<T: Real>(
             (colour, specular)
         }
     };
-    unscale_diffuse(&mut diffuse, &specular, energy, options, assumptions);
+    unscale_diffuse(&mut diffuse, &specular, options, assumptions);
     (diffuse, specular)
 }
 
@@ -226,12 +216,10 @@ fn from_base<T: Real>(
 fn unscale_diffuse<T: Real>(
     diffuse: &mut [Vec<T>; 3],
     specular: &[Vec<T>; 3],
-    inferred: Inferred<Energy>,
     options: &ReadOptions,
     assumptions: &mut Vec<Assumption>,
 ) {
-    let energy = options.energy.or(inferred.as_ref().map(|known| known.0));
-    if energy != Some(Energy::Unscaled) {
+    if options.energy != Some(Energy::Unscaled) {
         return;
     }
     let mut clamped = 0;
@@ -241,10 +229,7 @@ fn unscale_diffuse<T: Real>(
         *d = if value >= left { T::of(f64::from(value > 0.0)) } else { T::of(value / left) };
     }
     let chosen = "diffuse not scaled by (1 - specular): d / (1 - s) is used";
-    assumptions.push(match (options.energy, inferred) {
-        (None, Some((_, why, certainty))) => Assumption::new(What::Energy, chosen, why, certainty),
-        _ => Assumption::given(What::Energy, chosen),
-    });
+    assumptions.push(Assumption::given(What::Energy, chosen));
     if clamped > 0 {
         let why = Reason::MoreThanAllLight { count: clamped };
         assumptions.push(Assumption::new(What::Values, "diffuse 1", why, Certainty::Unsure));

@@ -40,14 +40,12 @@ pub(crate) fn roughness(value: f64, code: Roughness) -> f64 {
     }
 }
 
-/// The stored value of the roughness `r`: the inverse of [`roughness`].
-pub(crate) fn encoded_roughness(r: f64, code: Roughness) -> f64 {
-    match code {
-        Roughness::R => r,
-        Roughness::Gloss => 1.0 - r,
-        Roughness::Alpha | Roughness::Anisotropic => r * r,
-        Roughness::Gamma22 => r.powf(1.0 / 2.2),
-    }
+/// What a strip has before the encoding of its tiles.
+pub(crate) const PACKED: &str = "packed ndrs, ";
+
+/// The encoding that this program states in a picture whose colours it stores so.
+pub(crate) fn written(albedo: Albedo) -> String {
+    format!("diffuse {albedo}, specular {albedo}, roughness r, normal y up, energy scaled")
 }
 
 /// ACES AP1, by the matrix of MaterialX (`cmlib_defs`), column by column.
@@ -82,7 +80,6 @@ const D65: [f64; 2] = [0.3127, 0.3290];
 const P3: Chromaticities = [[0.68, 0.32], [0.265, 0.69], [0.15, 0.06], D65];
 /// Adobe RGB (1998).
 const ADOBE: Chromaticities = [[0.64, 0.33], [0.21, 0.71], [0.15, 0.06], D65];
-/// Rec. 2020.
 const REC2020: Chromaticities = [[0.708, 0.292], [0.17, 0.797], [0.131, 0.046], D65];
 /// The exponent of Adobe RGB (1998).
 const ADOBE_GAMMA: f64 = 563.0 / 256.0;
@@ -182,12 +179,6 @@ mod tests {
             let value = f64::from(step) / 1000.0;
             for albedo in Albedo::ALL {
                 assert!((linear(encoded(value, albedo), albedo) - value).abs() < 1e-7, "{albedo}: {value}");
-            }
-            for code in Roughness::ALL {
-                assert!(
-                    (roughness(encoded_roughness(value, code), code) - value).abs() < 1e-12,
-                    "{code}: {value}"
-                );
             }
         }
     }

@@ -35,14 +35,6 @@ pub enum Evidence {
         suggested(*log_odds)
     )]
     Metals { median: f64, log_odds: f64 },
-    /// Pictures of neighbouring materials with the same file names: their count and log odds.
-    #[display(
-        "{count} neighbouring {} of the same file names {} {} colours",
-        if *count == 1 { "material" } else { "materials" },
-        if *count == 1 { "suggests" } else { "suggest" },
-        suggested(*log_odds)
-    )]
-    Neighbours { count: usize, log_odds: f64 },
 }
 
 fn suggested(log_odds: f64) -> &'static str {

@@ -11,7 +11,7 @@ use serde::Serialize;
 use svbrdf_core::material::Map;
 
 pub use evidence::{Evidence, StorageConvention};
-pub use note::{Note, SpecifiedBy, Subject, Unused};
+pub use note::{Note, Subject, Unused};
 pub use reason::Reason;
 
 /// The subject of an assumption.
@@ -61,25 +61,19 @@ impl What {
         }
     }
 
-    /// The keys of the options of reading that specify it, the most specific first.
-    pub fn keys(self) -> &'static [&'static str] {
-        match self {
-            Self::Layout => &["order", "grid"],
-            Self::Workflow => &["workflow"],
-            Self::Albedo => &["albedo"],
-            Self::Specular => &["specular-albedo", "albedo"],
-            Self::NormalY => &["normal-y", "preset"],
-            Self::NormalEncoding => &["normal-encoding"],
-            Self::Roughness => &["roughness"],
-            Self::Energy => &["energy"],
-            Self::Missing => &["dielectric-f0"],
-            Self::Size | Self::Values => &[],
-        }
-    }
-
-    /// The key of the option that specifies it, where a value of it is refused as a guess.
+    /// The key of the option of reading that specifies it, where a value of it is refused as a guess.
     pub fn key(self) -> Option<&'static str> {
-        self.keys().first().copied().filter(|_| self != Self::Missing)
+        Some(match self {
+            Self::Layout => "order",
+            Self::Workflow => "workflow",
+            Self::Albedo => "albedo",
+            Self::Specular => "specular-albedo",
+            Self::NormalY => "normal-y",
+            Self::NormalEncoding => "normal-encoding",
+            Self::Roughness => "roughness",
+            Self::Energy => "energy",
+            Self::Missing | Self::Size | Self::Values => return None,
+        })
     }
 }
 
@@ -94,7 +88,7 @@ pub enum Certainty {
     Likely,
     /// The file declares it, or the specification of its format does.
     Sure,
-    /// The user or a sidecar file specified it.
+    /// The user specified it.
     Given,
 }
 
@@ -144,8 +138,8 @@ impl Assumption {
                 Reason::NoNormalMap | Reason::NoDirection { .. } => Some(Map::Normal),
                 Reason::StorageConvention(StorageConvention::NoListedNormals) => Some(Map::Normal),
                 // The specified reflectance of dielectrics stands for a specular map.
-                Reason::NoSpecularMap | Reason::Specified(_) => Some(Map::Specular),
-                Reason::Exponent(_) | Reason::DiffuseAlone => Some(Map::Roughness),
+                Reason::NoSpecularMap | Reason::Specified => Some(Map::Specular),
+                Reason::DiffuseAlone => Some(Map::Roughness),
                 Reason::MoreThanAllLight { .. } => Some(Map::Diffuse),
                 Reason::NotFinite { map, .. } | Reason::OutsideUnit { map, .. } => map.map(),
                 _ => None,
@@ -156,7 +150,7 @@ impl Assumption {
 
     /// A choice that the caller specified.
     pub fn given(what: What, chosen: impl fmt::Display) -> Self {
-        Self::new(what, chosen, Reason::Specified(SpecifiedBy::Caller), Certainty::Given)
+        Self::new(what, chosen, Reason::Specified, Certainty::Given)
     }
 }
 

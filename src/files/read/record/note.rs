@@ -6,17 +6,6 @@ use derive_more::Display;
 
 use crate::read::options::{Albedo, Role, Workflow};
 
-/// The source of an option or a map that was specified.
-#[derive(Clone, Debug, PartialEq, Eq, Display)]
-pub enum SpecifiedBy {
-    /// The caller of this reading.
-    #[display("as specified")]
-    Caller,
-    /// The sidecar file of this name.
-    #[display("as saved in {_0}")]
-    Sidecar(String),
-}
-
 /// The reason why a file, a layer or a statement is not used, as the end of a sentence.
 #[derive(Clone, Debug, PartialEq, Eq, Display)]
 pub enum Unused {
@@ -46,12 +35,6 @@ pub enum Unused {
     /// Its pixels are neither normals nor heights.
     #[display(": its pixels do not look like normals")]
     NotNormals,
-    /// A factor of 0 would leave nothing of the map.
-    #[display(": nothing would be left of the {} map", map.name())]
-    FactorZero { map: Role },
-    /// Blender writes this factor, and uses the picture alone.
-    #[display(": Blender, which wrote it, uses the picture alone")]
-    Blender,
 }
 
 /// The subject of a decoding, for messages.
@@ -78,14 +61,14 @@ pub enum Note {
     #[display("The {} map is {file}.", map.name())]
     MapFile { map: Role, file: String },
     /// A file is a map because someone specified it.
-    #[display("The {} map is {}, {by}.", map.name(), file.display())]
-    MapSpecified { map: Role, file: PathBuf, by: SpecifiedBy },
+    #[display("The {} map is {}, as specified.", map.name(), file.display())]
+    MapSpecified { map: Role, file: PathBuf },
     #[display("{} specifies how the material is read, unless an option does.", file.display())]
     SidecarUsed { file: PathBuf },
     #[display("{} lies outside of the folder of {}, which names it.", file.display(), by.display())]
     OutsideFolder { file: PathBuf, by: PathBuf },
-    #[display("Row 0 is the lowest row, {by}: the material is mirrored.")]
-    RowsFlipped { by: SpecifiedBy },
+    #[display("Row 0 is the lowest row, as specified: the material is mirrored.")]
+    RowsFlipped,
     /// A file, a layer or a statement is not used.
     #[display("{what} is not used{why}.")]
     Unused { what: String, why: Unused },
@@ -131,9 +114,9 @@ pub enum Note {
     Anisotropic { channel_spread: f64 },
     /// The encoding that was specified for specular contradicts its median.
     #[display(
-        "Specular is read as {chosen}, {by}, but its median is {median:.3}, which suggests {suggests}: check it."
+        "Specular is read as {chosen}, as specified, but its median is {median:.3}, which suggests {suggests}: check it."
     )]
-    SpecularMedian { chosen: Albedo, by: SpecifiedBy, median: f64, suggests: Albedo },
+    SpecularMedian { chosen: Albedo, median: f64, suggests: Albedo },
     #[display("{file} is read as a factor on 0.04, as OpenSVBRDF writes it.")]
     SpecularFactor { file: String },
     #[display("The unnamed layer is taken as a preview and ignored.")]
@@ -188,11 +171,7 @@ pub enum Note {
 impl Note {
     /// Whether a user need not be told unless they ask: a file is the map that its name or the user specifies.
     pub fn is_routine(&self) -> bool {
-        match self {
-            Self::MapFile { .. } => true,
-            Self::MapSpecified { by, .. } => *by == SpecifiedBy::Caller,
-            _ => false,
-        }
+        matches!(self, Self::MapFile { .. } | Self::MapSpecified { .. })
     }
 
     /// Whether it reports that something is ignored or changed that may alter the look of the material.
@@ -207,22 +186,9 @@ impl Note {
             Self::DataWindow { .. } | Self::PartialData { .. } | Self::OptionsUnused { .. } => true,
             Self::FirstOnly(_) | Self::MaskInAlpha { .. } => true,
             Self::Unused { why, .. } => {
-                matches!(
-                    why,
-                    Unused::FactorZero { .. } | Unused::Heights | Unused::NotNormals | Unused::Format
-                )
+                matches!(why, Unused::Heights | Unused::NotNormals | Unused::Format)
             }
             _ => false,
-        }
-    }
-
-    /// Who specified what this note reports, where someone did.
-    pub(crate) fn specified_by(&mut self) -> Option<&mut SpecifiedBy> {
-        match self {
-            Self::MapSpecified { by, .. } | Self::RowsFlipped { by } | Self::SpecularMedian { by, .. } => {
-                Some(by)
-            }
-            _ => None,
         }
     }
 }

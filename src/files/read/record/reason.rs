@@ -6,16 +6,16 @@ use derive_more::Display;
 
 use super::evidence::Evidence;
 use super::evidence::StorageConvention;
-use super::note::SpecifiedBy;
 use crate::read::options::{NormalY, Role};
 
 /// The reason of an assumption.
 #[derive(Clone, Debug, PartialEq, Display)]
 #[non_exhaustive]
 pub enum Reason {
-    Specified(SpecifiedBy),
-    #[display("{_0}, but there is no metallic map")]
-    NoMetallicMap(SpecifiedBy),
+    #[display("as specified")]
+    Specified,
+    #[display("as specified, but there is no metallic map")]
+    NoMetallicMap,
     StorageConvention(StorageConvention),
     /// A convention that a measurement contradicts.
     #[display("{_0}, but {_1}: check it")]
@@ -206,16 +206,6 @@ pub enum Reason {
     MoreThanAllLight {
         count: usize,
     },
-    /// Roughness from the exponent of Blinn and Phong.
-    #[display(
-        "there is neither map_Pr nor Pr; the highlight of Ns {_0} is as wide: r = (2 / (Ns + 2))^(1/4)"
-    )]
-    Exponent(f32),
-    /// A factor of an .mtl beside a picture.
-    #[display("{key} is a factor by the definition of MTL; some programs use the picture alone")]
-    MtlFactor {
-        key: String,
-    },
 }
 
 fn curl(correlation: f64) -> String {
@@ -233,9 +223,7 @@ impl Reason {
     pub fn is_stated(&self) -> bool {
         use StorageConvention as C;
         match self {
-            Self::Specified(_) | Self::NoMetallicMap(_) | Self::FileName { .. } | Self::NormalName { .. } => {
-                true
-            }
+            Self::Specified | Self::NoMetallicMap | Self::FileName { .. } | Self::NormalName { .. } => true,
             Self::MetallicMap { .. } | Self::SpecularMap | Self::NeitherMap => true,
             Self::ColourSpace { is_known, .. } => *is_known,
             // A flat map points nowhere.
@@ -281,14 +269,6 @@ impl Reason {
                 | C::DeschaintreNames
                 | C::SurfaceNetFolder
         )
-    }
-
-    /// Who specified it, where someone did.
-    pub(crate) fn specified_by(&mut self) -> Option<&mut SpecifiedBy> {
-        match self {
-            Self::Specified(by) | Self::NoMetallicMap(by) => Some(by),
-            _ => None,
-        }
     }
 }
 

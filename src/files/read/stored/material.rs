@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::read::options::transfer::{encoded, linear};
-use crate::read::options::{Albedo, Energy, NormalEncoding, NormalY, Role, Roughness, Workflow};
+use crate::read::options::{Albedo, NormalEncoding, NormalY, Role, Roughness, Workflow};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
 
@@ -20,7 +20,6 @@ pub(crate) struct Inferences {
     pub normal_y: Inferred<NormalY>,
     /// Where three channels are those of a vector.
     pub normal_encoding: Inferred<NormalEncoding>,
-    pub energy: Inferred<Energy>,
 }
 
 /// A choice with its reason and certainty, if there is any.
@@ -46,14 +45,12 @@ pub(crate) struct StoredMaterial {
     pub is_mapped: bool,
     pub inferred: Inferences,
     pub assumptions: Vec<Assumption>,
-    /// What else was noticed.
     pub notes: Vec<Note>,
     /// Every file that was read, once.
     pub files: Vec<PathBuf>,
 }
 
 impl StoredMaterial {
-    /// Adds a file that was read.
     pub(crate) fn add_file(&mut self, file: PathBuf) {
         self.files.push(file);
         self.files.sort();
@@ -108,7 +105,6 @@ impl StoredMaterial {
         }
     }
 
-    /// Every map with its role.
     pub(crate) fn sources(&self) -> Vec<(Role, &StoredMap)> {
         let colour = if self.metallic.is_some() { Role::Base } else { Role::Diffuse };
         let optional = [
@@ -185,7 +181,6 @@ pub(crate) enum StoredHeight {
     },
 }
 
-/// A map as stored.
 #[derive(Clone, Debug)]
 pub(crate) struct StoredMap {
     pub raster: Raster,

@@ -10,4 +10,4 @@ pub(super) use field::{Field, reflectance, separated};
 pub(super) use material::{Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial};
 pub(super) use picture::{DecodedPicture, Picture, PictureSource, decoded, notice};
 pub(super) use roles::{CHANNELS, MapsByRole};
-pub(super) use written::WrittenEncoding;
+pub(super) use written::written_albedo;

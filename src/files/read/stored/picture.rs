@@ -17,7 +17,6 @@ use crate::read::options::Role;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
 
-/// A picture that has not been decoded.
 #[derive(Clone, Debug)]
 pub(crate) struct Picture {
     pub source: PictureSource,
@@ -28,11 +27,7 @@ pub(crate) struct Picture {
 #[derive(Clone)]
 pub(crate) enum PictureSource {
     File(NamedFile),
-    /// Bytes within the file of this path.
-    Embedded {
-        within: PathBuf,
-        bytes: Vec<u8>,
-    },
+    Embedded { within: PathBuf, bytes: Vec<u8> },
 }
 
 /// Without the bytes: there may be millions.
@@ -58,7 +53,6 @@ pub(crate) struct DecodedPicture {
 }
 
 impl Picture {
-    /// The picture of a file that is read as this map.
     pub(crate) fn of_file(file: NamedFile, role: Role) -> Self {
         Self { source: PictureSource::File(file), subject: Subject::Map(role) }
     }

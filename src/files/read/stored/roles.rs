@@ -7,9 +7,8 @@ use super::material::{Inferences, StoredMaterial};
 use crate::error::Error;
 use crate::read::names::{Label, word_beside};
 use crate::read::options::{Preset, ReadOptions, Role, Workflow};
-use crate::read::record::{Assumption, Certainty, Reason, SpecifiedBy, What};
+use crate::read::record::{Assumption, Certainty, Reason, What};
 
-/// The names of the channels of a picture.
 pub(crate) const CHANNELS: [&str; 4] = ["red", "green", "blue", "alpha"];
 
 /// The maps of a material that have been recognized, by role.
@@ -69,7 +68,6 @@ impl MapsByRole {
         self.take(Role::Metallic).or_else(|| self.packed(1))
     }
 
-    /// The telling words of the files.
     fn words(&self) -> Vec<String> {
         let label = |source: &StoredMap| Label::of(&source.file.file_stem()?.to_string_lossy());
         self.all.iter().filter_map(|(_, source)| label(source)).map(|label| label.word).collect()
@@ -192,7 +190,7 @@ fn workflow(chosen: Workflow, has_specular: bool, is_ambiguous: bool, options: &
     match options.workflow {
         Some(given) if given == chosen => Assumption::given(What::Workflow, given),
         Some(given) => {
-            let why = Reason::NoMetallicMap(SpecifiedBy::Caller);
+            let why = Reason::NoMetallicMap;
             Assumption::new(What::Workflow, given, why, Certainty::Given)
         }
         None if is_ambiguous => {

@@ -54,8 +54,7 @@ impl OpenDataset {
     pub fn of_many(all: &[MaterialSource], rules: Rules) -> Option<Self> {
         let [truth, predictions @ ..] = all else { return None };
         let first = predictions.first()?;
-        let is_file =
-            |one: &MaterialSource| matches!(one.place, Place::Path(_)) && one.chosen.is_none() && !one.fit;
+        let is_file = |one: &MaterialSource| matches!(one.place, Place::Path(_)) && !one.fit;
         let are_alike = all.iter().all(is_file) && predictions.iter().all(|one| one.options == first.options);
         if predictions.len() <= MOST_PANES || !are_alike || rules.fit {
             return None;

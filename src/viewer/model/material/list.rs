@@ -3,10 +3,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::progress::Progress;
-use svbrdf_files::read::{ReadOptions, Sidecar};
+use svbrdf_files::read::ReadOptions;
 
-use crate::error::Error;
 use crate::model::material::loaded::{LoadedMaterial, mismatch, rename};
 use crate::model::material::problem::MaterialProblem;
 use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
@@ -183,7 +181,7 @@ impl MaterialList {
 
     /// The request that reads the material at `index` again with these options alone.
     pub fn read_as(&self, index: usize, options: ReadOptions) -> Option<ReadRequest> {
-        self.again(index, |source| source.chosen = Some(options))
+        self.again(index, |source| source.options = options)
     }
 
     /// The request that reads the material at `index` again, with changes of its source; `None` for a built-in one.
@@ -195,18 +193,6 @@ impl MaterialList {
         let (mut source, target) = (material.read.reopened(), Target::Again(material.id()));
         change(&mut source);
         Some(ReadRequest::new(vec![source], target))
-    }
-
-    /// Saves the assumptions specified for the material at `index` in a sidecar file; the request that opens it again.
-    ///
-    /// # Errors
-    /// Those of [`Sidecar`].
-    pub fn save_assumptions(&self, index: usize) -> Result<Option<ReadRequest>, Error> {
-        let Some(material) = self.all.get(index) else { return Ok(None) };
-        let Place::Path(path) = &material.read.source.place else { return Ok(None) };
-        Sidecar { options: material.read.record.options, ..Sidecar::load(path)? }
-            .save(path, &Progress::default())?;
-        Ok(self.again(index, |source| (source.options, source.chosen) = (ReadOptions::AUTO, None)))
     }
 
     /// Closes the prediction at `index`. Those after it move up, unless they are methods of a data set.

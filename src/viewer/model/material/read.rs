@@ -68,10 +68,10 @@ impl ReadMaterial {
 
     /// What it takes to open it again.
     pub fn reopened(&self) -> MaterialSource {
-        let Read { options, saved, .. } = self.record;
-        let is_chosen =
-            matches!(self.source.place, Place::Path(_)) && options != self.source.options.over(saved);
-        MaterialSource { chosen: is_chosen.then_some(options), ..self.source.clone() }
+        match self.source.place {
+            Place::Path(_) => MaterialSource { options: self.record.options, ..self.source.clone() },
+            Place::BuiltIn(_) => self.source.clone(),
+        }
     }
 }
 

@@ -10,11 +10,9 @@ use svbrdf_core::progress::Progress;
 use crate::error::Error;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness, Workflow};
 use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score};
-use crate::read::record::{
-    Assumption, Certainty, Note, Reason, SpecifiedBy, StorageConvention, Unused, What,
-};
+use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
 use crate::read::stored::{
-    DecodedPicture, Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial, WrittenEncoding, decoded,
+    DecodedPicture, Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial, decoded, written_albedo,
 };
 
 pub(super) use files::Set;
@@ -39,8 +37,8 @@ impl Set {
         for (file, DecodedPicture { map, notes, meaning, .. }) in
             self.files.files.iter().zip(decoded(&self.pictures(), progress)?)
         {
-            let meaning = meaning.as_deref().and_then(WrittenEncoding::of);
-            written.extend(meaning.map(|meaning| (file.label.role, meaning)));
+            let meaning = meaning.as_deref().and_then(written_albedo);
+            written.extend(meaning.map(|albedo| (file.label.role, albedo)));
             let (file, raster, notes) = match set.other_normals(file, &map.raster) {
                 Some(other) => other,
                 None => (file, map.raster, notes),
@@ -60,11 +58,7 @@ impl Set {
             bound.iter().any(|(role, _)| *role == Role::Specular) && options.workflow.is_none();
         let workflow = if has_specular { Some(Workflow::Specular) } else { options.workflow };
         for (role, map) in bound {
-            set.notes.push(Note::MapSpecified {
-                map: *role,
-                file: map.file.clone(),
-                by: SpecifiedBy::Caller,
-            });
+            set.notes.push(Note::MapSpecified { map: *role, file: map.file.clone() });
             set.maps.replace(*role, map.clone());
         }
         set.rescue_bump();
@@ -81,7 +75,10 @@ impl Set {
         doubt_filled_metallic(&mut found);
         add_hints(&mut found, self, is_glossy);
         let is_own = |role: Role| bound.iter().all(|(other, _)| *other != role);
-        written.iter().filter(|one| is_own(one.0)).for_each(|(role, one)| found.specify(one, &[*role]));
+        written
+            .iter()
+            .filter(|one| is_own(one.0))
+            .for_each(|(role, albedo)| found.specify(*albedo, &[*role]));
         let heights = self.files.heights.iter().find(|file| Some(*file) != normal_bump);
         let file = heights.map(|file| StoredHeight::File(self.file(file)));
         found.height = file.or(height);
@@ -160,7 +157,6 @@ fn is_diffmat(files: &[LabelledFile], found: &StoredMaterial) -> bool {
         && found.metallic.as_ref().is_some_and(deep)
 }
 
-/// The inferences of the names about values.
 fn inferred(set: &Set) -> Inferences {
     let files = &set.files.files;
     let named = |f: &LabelledFile| {
