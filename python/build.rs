@@ -182,16 +182,6 @@ fn arguments(analysis: &AnyAnalysis) -> Vec<[String; 3]> {
             OptionValue::Count(default, _) => format!("int = {default}"),
             OptionValue::Share(default) => format!("float = {default:?}"),
             OptionValue::Stops(default) => format!("float = {default:?}"),
-            OptionValue::Direction(default) => {
-                format!(
-                    "tuple[float, float, float] = ({})",
-                    default.map(|number| number.to_string()).join(", ")
-                )
-            }
-            OptionValue::Choice(words) => {
-                let words: Vec<_> = words.iter().map(|[word, _]| format!("{word:?}")).collect();
-                format!("Literal[{}] = {}", words.join(", "), words[0])
-            }
             OptionValue::Words(_) => "Sequence[str] = ()".to_owned(),
         };
         [option.name.to_owned(), kind, format!("{}.", option.about)]

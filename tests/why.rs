@@ -1,8 +1,8 @@
-//! Causes of a loss: maps, scenes, directions, texels.
+//! Causes of a loss: maps, texels, the worst scene.
 
 mod attribution;
-mod directions;
 mod texels;
+mod worst;
 
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::Convention;

@@ -9,7 +9,7 @@ use svbrdf_core::loss::Precision;
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analyses::{AnyAnalysis, Precise};
-use svbrdf_evaluate::report::{AnalysisInput, ArrayValues, ReportArray};
+use svbrdf_evaluate::report::{AnalysisInput, ReportArray};
 
 use crate::arrays;
 use crate::asked::{Asked, options};
@@ -52,7 +52,7 @@ fn report<'py, T: Precise>(
     let is_own = |name: &String| analysis.options.iter().any(|option| option.name == name);
     let (own, scenes) = asked.question()?.into_iter().partition(|(name, _)| is_own(name));
     let (own, scenes) = (Value::Object(own), options(scenes)?);
-    analysis.check(&own, &scenes).map_err(exception)?;
+    analysis.check(&own).map_err(exception)?;
     let input = AnalysisInput {
         ground_truth: &materials[0],
         predictions: materials[1..].iter().collect(),
@@ -68,9 +68,8 @@ fn report<'py, T: Precise>(
         let views = if analysis.pictures { Views::without_rows(&*report) } else { Views::new(&*report) };
         Ok::<_, EvaluateError>((views, report.into_arrays()))
     })?;
-    let array = |ReportArray { size, channels, values }: ReportArray| match values {
-        ArrayValues::F32(values) => arrays::array(py, values.into_iter(), size, channels),
-        ArrayValues::F64(values) => arrays::array(py, values.into_iter(), size, channels),
+    let array = |ReportArray { size, channels, values }: ReportArray| {
+        arrays::array(py, values.into_iter(), size, channels)
     };
     let named = |(name, all): (&'static str, Vec<ReportArray>)| {
         Ok((name, all.into_iter().map(array).collect::<PyResult<_>>()?))

@@ -1,6 +1,6 @@
 //! The commands of the analyses, made from their declarations.
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser as _, ValueParser};
+use clap::builder::ValueParser;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error as ClapError, FromArgMatches, Subcommand};
 use serde_json::{Map, Value};
 
@@ -10,7 +10,7 @@ use svbrdf_evaluate::report::{AnalysisOption, OptionValue};
 
 use super::args::protocol::PairArgs;
 use super::args::scenes;
-use super::args::values::{count, percent, stops, triple};
+use super::args::values::{count, percent, stops};
 use super::args::{ComparisonArgs, Specified, offered, refuse};
 use super::job::{self, ComparisonJob, Job, NewJob};
 use super::output::{CommandError, ReportFormat, exit, warn_of, watched};
@@ -84,16 +84,6 @@ fn own_option(option: &AnalysisOption) -> Arg {
             let parser = ValueParser::new(|text: &str| stops(text).map(Value::from));
             arg.value_name("EV").default_value(default.to_string()).value_parser(parser)
         }
-        OptionValue::Direction(default) => {
-            let parser = ValueParser::new(|text: &str| triple(text).map(Value::from_iter));
-            let default = default.map(|number| number.to_string()).join(",");
-            arg.value_name("X,Y,Z").default_value(default).value_parser(parser)
-        }
-        OptionValue::Choice(words) => {
-            let named = words.iter().map(|[word, about]| PossibleValue::new(*word).help(*about));
-            let parser = PossibleValuesParser::new(named).map(Value::from);
-            arg.value_name(name.to_uppercase()).default_value(words[0][0]).value_parser(parser)
-        }
         OptionValue::Words(words) => {
             let parser = offered(|text| Ok::<_, String>(Value::from(text)), words());
             let arg = arg.value_name("WORDS,...").value_parser(parser).hide_possible_values(true);
@@ -160,7 +150,7 @@ impl AnalysisArgs {
         }
         let options = Value::from(options);
         comparison.materials.compare(&pair);
-        analysis.check(&options, &scenes)?;
+        analysis.check(&options)?;
         let saved = comparison.session.as_ref().and_then(|session| session.loss.as_ref());
         let question = analysis.question(&scenes, saved)?;
         let output = match output {

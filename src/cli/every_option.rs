@@ -59,8 +59,6 @@ const MODES: &[&str] = &[
     "worst @gt.png @a.png",
     "map @gt.png @a.png -o @x.csv",
     "map @gt.png @a.png -o @x.png",
-    "map @gt.png @a.png -o @x.csv --over lights",
-    "map @gt.png @a.png -o @x.png --over views",
     "metrics @gt.png @a.png",
     "metrics @gt.png @a.png --lights flash-9",
     "conform @answer.npz",

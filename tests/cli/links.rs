@@ -64,7 +64,7 @@ fn nothing_that_was_read_is_replaced() {
         ("render set -o {}", "set/roughness.png", "png"),
         ("strip gt.png a.png -o {}", "a.png", "png"),
         ("strip gt.png a.png --scenes one.json -o {}", "one.json", "png"),
-        ("map gt.png a.png -o {} --over lights --side 4", "a.png", "png"),
+        ("map gt.png a.png -o {}", "a.png", "png"),
         ("map gt.png a.png --scenes one.json -o {}", "one.json", "csv"),
         ("convert gt.png {}", "gt.svbrdf.json", "exr"),
         ("convert m.glb {}", "m.glb", "glb"),
@@ -165,7 +165,7 @@ fn a_command_can_be_repeated() {
         "convert gt.png out.exr",
         "convert gt.png out.glb",
         "render set -o set/preview.png",
-        "map gt.png a.png -o out.csv --over lights --side 4",
+        "map gt.png a.png -o out.csv",
         "report gt.png a.png -o out.html --figure",
     ] {
         for _ in 0..2 {

@@ -6,12 +6,11 @@ use std::path::Path;
 use super::{folder, run_in, text};
 
 /// Commands, and an option of each that changes what it prints or writes.
-const USED: [(&str, &str); 6] = [
+const USED: [(&str, &str); 5] = [
     ("loss gt.png a.png --near 4", "--texels 3"),
     ("blame gt.png a.png --target-error 30%", "--seed 5"),
     ("scenes gt.png a.png", "--sampler random"),
     ("worst gt.png a.png", "--distance-tail 0.001%"),
-    ("map gt.png a.png -o x.csv --over lights --side 8", "--fixed 0.1,0.2,1"),
     ("convert gt.png x.exr", "--depth float"),
 ];
 

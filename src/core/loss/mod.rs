@@ -32,6 +32,6 @@ pub use question::Question;
 pub use request::{Precision, Request, Sampling, Texels};
 pub use run::ALL_SCENES_TARGET;
 pub use settings::{Ask, FileScenes, LossSettings};
-pub use shared_texels::{SceneLoss, SharedTexels};
+pub use shared_texels::SharedTexels;
 pub use statistics::Estimate;
 pub use texels::scene_losses as losses_on_texels;

@@ -1,227 +1,129 @@
-//! The loss over texels, or over directions of the light or the view, as an analysis.
+//! The loss of each texel as an analysis.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 use crate::error::Error;
-use crate::report::{Analysis, AnalysisInput, AnalysisOption, Compared, OptionValue, position};
-use crate::why::{self, Hemisphere};
-use svbrdf_core::error::Error as CoreError;
+use crate::report::{
+    Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Report, ReportArray, Table,
+};
+use crate::why;
 use svbrdf_core::image::{Image, mean_of_channels};
-use svbrdf_core::loss::{Comparison, LossOptions};
-use svbrdf_core::model::scene::Endpoint;
-use svbrdf_core::model::scene::Scene;
+use svbrdf_core::loss::Comparison;
 use svbrdf_core::progress::Progress;
 
-/// The loss over texels, or over the directions of the light or the view.
+/// The loss over texels.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MapReport {
     #[serde(flatten)]
-    pub(super) compared: Compared,
+    compared: Compared,
     /// The meaning of the numbers.
-    pub(super) shows: String,
+    shows: String,
     /// One per prediction.
-    pub(super) results: Vec<MapSummary>,
-    /// The loss of each texel and channel, or of each direction in all channels: one image per prediction.
+    results: Vec<MapSummary>,
+    /// The loss of each texel and channel: one image per prediction.
     #[serde(skip)]
-    pub(super) images: Vec<Image<f32>>,
-    /// The map over directions and what moves; `None` for a map over texels.
-    #[serde(skip)]
-    pub(super) directions: Option<(Endpoint, Hemisphere)>,
+    images: Vec<Image<f32>>,
 }
 
 /// The map of a prediction in a few numbers.
-#[derive(Clone, Debug, Default, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub(super) struct MapSummary {
-    pub prediction: String,
+struct MapSummary {
+    prediction: String,
     /// The loss.
-    pub mean: f64,
-    pub largest: f64,
-    /// Where a map over texels is largest.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub column: Option<usize>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub row: Option<usize>,
-    /// The root mean square of the standard errors of a map over directions.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub standard_error: Option<f64>,
-    /// Where a map over directions is largest.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub direction: Option<[f64; 3]>,
+    mean: f64,
+    largest: f64,
+    /// Where it is largest.
+    column: usize,
+    row: usize,
 }
 
-impl MapReport {
-    /// The mean over `scenes` of the log difference of each texel, or what else the norm takes the mean of.
-    ///
-    /// # Errors
-    /// As [`why::error_maps`].
-    fn over_texels(
-        comparison: &Comparison<'_, f32>,
-        scenes: &[Scene],
-        progress: &Progress,
-    ) -> Result<Self, CoreError> {
-        let images = why::error_maps(comparison, scenes, progress)?;
-        let entry = |(name, image): (String, &Image<f32>)| {
-            let all = image.pixels.iter().map(mean_of_channels).enumerate();
-            let (at, largest) = all.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
-            let (column, row) = (Some(at % image.width), Some(at / image.width));
-            let (mean, largest) = (why::mean(image), f64::from(largest));
-            MapSummary { prediction: name, mean, largest, column, row, ..MapSummary::default() }
-        };
-        Ok(Self {
-            compared: Compared::new(comparison.ground_truth(), comparison.convention()),
-            shows: format!(
-                "mean {} of each texel over {} scenes",
-                comparison.convention().norm().of_term(),
-                scenes.len()
-            ),
-            results: names(comparison).zip(&images).map(entry).collect(),
-            images,
-            directions: None,
-        })
-    }
-
-    /// The loss in distant scenes over the directions of what is `moved`, on a grid of `side` columns; `fixed` is the direction of
-    /// the other.
-    ///
-    /// # Errors
-    /// As [`why::hemisphere`].
-    fn over_directions(
-        comparison: &Comparison<'_, f32>,
-        moved: Endpoint,
-        fixed: [f64; 3],
-        side: usize,
-        progress: &Progress,
-    ) -> Result<Self, CoreError> {
-        let map = why::hemisphere(comparison, moved, fixed, side, progress)?;
-        let entry = |(index, name): (usize, String)| {
-            let (direction, largest) = map.worst(index)?;
-            let (standard_error, direction) = (Some(map.standard_error(index)), Some(direction));
-            let mean = map.mean(index);
-            let found = MapSummary { prediction: name, mean, largest, ..MapSummary::default() };
-            Some(MapSummary { standard_error, direction, ..found })
-        };
-        let image = |losses: &Vec<f64>| Image {
-            width: side,
-            height: side,
-            pixels: losses.iter().map(|&loss| [loss as f32; 3]).collect(),
-        };
-        let [what, other] = roles(moved);
-        Ok(Self {
-            compared: Compared::new(comparison.ground_truth(), comparison.convention()),
-            shows: format!("loss over distant {what} directions, {other} {}", position(fixed)),
-            results: names(comparison).enumerate().filter_map(entry).collect(),
-            images: map.losses.iter().map(image).collect(),
-            directions: Some((moved, map)),
-        })
-    }
-}
-
-fn names(comparison: &Comparison<'_, f32>) -> impl Iterator<Item = String> {
-    comparison.predictions().iter().map(|prediction| prediction.name().to_owned())
-}
-
-/// What moves, and what is fixed.
-pub(super) fn roles(moved: Endpoint) -> [&'static str; 2] {
-    match moved {
-        Endpoint::Light => ["light", "view"],
-        Endpoint::View => ["view", "light"],
-    }
-}
-
-svbrdf_core::choices! {
-    /// What a map is over.
-    #[derive(Default)]
-    Over, "axes of a map":
-    #[default]
-    Texels = "texels",
-    Lights = "lights",
-    Views = "views",
-}
-
-/// The options of a map.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(default)]
-pub struct MapOptions {
-    over: Over,
-    fixed: [f64; 3],
-    side: usize,
-}
-
-impl Default for MapOptions {
-    fn default() -> Self {
-        Self { over: Over::Texels, fixed: [0.0, 0.0, 1.0], side: 64 }
+impl MapSummary {
+    fn of(prediction: String, image: &Image<f32>) -> Self {
+        let all = image.pixels.iter().map(mean_of_channels).enumerate();
+        let (at, largest) = all.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+        let (column, row) = (at % image.width, at / image.width);
+        Self { prediction, mean: why::mean(image), largest: largest.into(), column, row }
     }
 }
 
 impl Analysis for MapReport {
     const NAME: &'static str = "map";
-    const ANSWERS: &'static str = "where on the material, or from where, the loss comes";
-    const EXAMPLES: &'static [&'static str] =
-        &["gt.png a.png -o error.png", "gt.png a.png --over lights -o lights.png"];
-    const ABOUT: &'static str = "Writes the loss over texels, light directions or view directions to a file";
-    const DETAILS: &'static str = "Over texels: the mean log difference of each texel over all scenes, whose mean is the loss. Over lights or \
-        views: the loss in distant scenes over the directions that Algorithm 2 samples, seen from above (x to the right, y up), with a \
-        standard error. Predictions stand side by side.";
+    const ANSWERS: &'static str = "where on the material the loss comes";
+    const EXAMPLES: &'static [&'static str] = &["gt.png a.png -o error.png"];
+    const ABOUT: &'static str = "Writes the loss over texels to a file";
+    const DETAILS: &'static str = "The mean log difference of each texel over all scenes, whose mean is the loss. Predictions stand side by side.";
     const EXAMPLE: &'static str = "\
         >>> import svbrdf
         >>> ground_truth, blurred, _ = svbrdf.built_in()
         >>> svbrdf.map(ground_truth, blurred, near=4, distant=2).maps[0].shape
-        (256, 256, 3)
-        >>> svbrdf.map(ground_truth, blurred, over=\"lights\", side=16).maps[0].shape
-        (16, 16)";
+        (256, 256, 3)";
     const DOING: &'static str = "rendering";
     const SCENES: &'static [&'static str] = &["near", "distant", "sampler", "seed", "scenes"];
     const PICTURES: bool = true;
-    type Options = MapOptions;
-    const OPTIONS: &'static [AnalysisOption] = &[
-        AnalysisOption {
-            name: "over",
-            about: "What the map is over",
-            value: OptionValue::Choice(&[
-                ["texels", "The texels of the material"],
-                ["lights", "The directions of the light, with a fixed view"],
-                ["views", "The directions of the view, with a fixed light"],
-            ]),
-        },
-        AnalysisOption {
-            name: "fixed",
-            about: "Direction of the view of a map over lights, or of the light of a map over views",
-            value: OptionValue::Direction([0.0, 0.0, 1.0]),
-        },
-        AnalysisOption {
-            name: "side",
-            about: "Columns and rows of a map over lights or views",
-            value: OptionValue::Count(64, [1, 1024]),
-        },
-    ];
+    type Options = NoOptions;
 
-    fn check(options: &MapOptions, scenes: &LossOptions) -> Result<(), Error> {
-        let usual = MapOptions::default();
-        let reason = match options.over {
-            Over::Texels => "a map over texels has no fixed direction and the size of its material",
-            Over::Lights | Over::Views => "a map over directions samples no scenes",
-        };
-        let unused = match options.over {
-            Over::Texels if options.fixed != usual.fixed => Some("fixed"),
-            Over::Texels => (options.side != usual.side).then_some("side"),
-            Over::Lights | Over::Views => scenes.specified().next(),
-        };
-        unused.map_or(Ok(()), |option| Err(CoreError::UnusedOption { option, reason }.into()))
-    }
-
-    fn run(input: &AnalysisInput<'_>, options: &MapOptions, progress: &Progress) -> Result<Self, Error> {
+    fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
         let AnalysisInput { ground_truth, predictions, convention, question, .. } = input;
         let comparison = Comparison::new(*ground_truth, predictions, *convention)?.without_pilot();
-        let over = |moved| Self::over_directions(&comparison, moved, options.fixed, options.side, progress);
-        Ok(match options.over {
-            Over::Texels => {
-                let scenes = question.request.scenes(convention)?.unwrap_or_default();
-                Self::over_texels(&comparison, &scenes, progress)
-            }
-            Over::Lights => over(Endpoint::Light),
-            Over::Views => over(Endpoint::View),
-        }?)
+        let scenes = question.request.scenes(convention)?.unwrap_or_default();
+        let images = why::error_maps(&comparison, &scenes, progress)?;
+        let names = predictions.iter().map(|prediction| prediction.name().to_owned());
+        Ok(Self {
+            compared: Compared::new(ground_truth, convention),
+            shows: format!("mean {} of each texel over {} scenes", convention.norm().of_term(), scenes.len()),
+            results: names.zip(&images).map(|(name, image)| MapSummary::of(name, image)).collect(),
+            images,
+        })
+    }
+}
+
+/// A prediction, the column and row of a texel, and its loss in each channel.
+type TexelRow<'a> = (&'a str, [usize; 2], [f32; 3]);
+
+impl Report for MapReport {
+    fn heading(&self) -> String {
+        self.compared.heading(&self.shows)
+    }
+
+    fn pictures(&self) -> Option<(&[Image<f32>], &str)> {
+        Some((&self.images, &self.shows))
+    }
+
+    fn into_arrays(self: Box<Self>) -> Vec<(&'static str, Vec<ReportArray>)> {
+        let of_image = |Image { width, height, pixels }: Image<f32>| ReportArray {
+            size: [width, height],
+            channels: 3,
+            values: pixels.into_flattened(),
+        };
+        vec![("maps", self.images.into_iter().map(of_image).collect())]
+    }
+
+    /// For programs a row for each texel of each prediction; for people a summary of each prediction.
+    fn table(&self, reader: Reader) -> Table {
+        if reader == Reader::Person {
+            let fields: [Field<MapSummary>; 5] = [
+                ("", "prediction", |summary| summary.prediction.as_str().into()),
+                ("", "mean", |summary| summary.mean.into()),
+                ("", "largest", |summary| summary.largest.into()),
+                ("", "column", |summary| summary.column.into()),
+                ("", "row", |summary| summary.row.into()),
+            ];
+            return Table::fields(&fields, &self.results, reader);
+        }
+        let fields: [Field<TexelRow<'_>>; 6] = [
+            ("prediction", "", |(prediction, ..)| (*prediction).into()),
+            ("column", "", |(_, [column, _], _)| (*column).into()),
+            ("row", "", |(_, [_, row], _)| (*row).into()),
+            ("red", "", |(.., [red, _, _])| Cell::Single(*red)),
+            ("green", "", |(.., [_, green, _])| Cell::Single(*green)),
+            ("blue", "", |(.., [_, _, blue])| Cell::Single(*blue)),
+        ];
+        let rows = self.results.iter().zip(&self.images).flat_map(|(summary, image)| {
+            let all = image.pixels.iter().enumerate();
+            all.map(|(at, pixel)| (summary.prediction.as_str(), [at % image.width, at / image.width], *pixel))
+        });
+        Table::fields(&fields, rows, reader)
     }
 }

@@ -5,7 +5,6 @@ mod diagnose;
 mod loss;
 mod loss_table;
 mod map;
-mod map_table;
 mod metrics;
 mod rank;
 mod scenes;
@@ -73,7 +72,6 @@ pub struct AnyAnalysis {
     pub schema: fn() -> schemars::Schema,
     run_single: RunAnalysis<f32>,
     run_double: RunAnalysis<f64>,
-    check: fn(Value, &LossOptions) -> Result<(), Error>,
 }
 
 /// A precision that analyses are run in.
@@ -120,7 +118,6 @@ impl AnyAnalysis {
             run_double: |input, options, progress| {
                 Ok(Box::new(A::run_double(input, &options_of(options)?, progress)?))
             },
-            check: |options, scenes| A::check(&options_of(options)?, scenes),
         }
     }
 
@@ -156,11 +153,11 @@ impl AnyAnalysis {
         }
     }
 
-    /// Checks its own `options`, a JSON object, and those of its scenes, before anything is computed.
+    /// Checks its own `options`, a JSON object, before anything is computed.
     ///
     /// # Errors
-    /// As [`Analysis::check`] and [`options_of`]; [`Error::BadOption`].
-    pub fn check(&self, options: &Value, scenes: &LossOptions) -> Result<(), Error> {
+    /// [`Error::BadOption`].
+    pub fn check(&self, options: &Value) -> Result<(), Error> {
         for AnalysisOption { name, value, .. } in self.options {
             if let OptionValue::Count(_, [least, most]) = value
                 && let Some(found) = options[name].as_u64().filter(|found| !(least..=most).contains(&found))
@@ -169,7 +166,7 @@ impl AnyAnalysis {
                 return Err(Error::BadOption { name: (*name).to_owned(), problem });
             }
         }
-        (self.check)(options.clone(), scenes)
+        Ok(())
     }
 
     /// The answer, with `options` as a JSON object; those that it lacks have their defaults.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
-use svbrdf_core::loss::{LossOptions, Question};
+use svbrdf_core::loss::Question;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
@@ -73,7 +73,7 @@ pub trait Analysis: Report + Schematic + Sized + 'static {
     const EXAMPLE: &'static str = "";
     /// What it does while it runs.
     const DOING: &'static str;
-    /// The fields of [`LossOptions`] that are its options, and `precision` where it has
+    /// The fields of [`LossOptions`](svbrdf_core::loss::LossOptions) that are its options, and `precision` where it has
     /// [`Analysis::run_double`]. `scenes` are those of a list.
     const SCENES: &'static [&'static str];
     /// What the command line says of some of them in place of what it says everywhere.
@@ -86,14 +86,6 @@ pub trait Analysis: Report + Schematic + Sized + 'static {
     type Options: Default + DeserializeOwned;
     /// The same, declared.
     const OPTIONS: &'static [AnalysisOption] = &[];
-
-    /// Checks its options and those of its scenes before anything is computed.
-    ///
-    /// # Errors
-    /// [`UnusedOption`](svbrdf_core::error::Error::UnusedOption).
-    fn check(_: &Self::Options, _: &LossOptions) -> Result<(), Error> {
-        Ok(())
-    }
 
     /// The answer.
     ///
@@ -131,9 +123,6 @@ pub enum OptionValue {
     /// On the command line in percent.
     Share(f64),
     Stops(f32),
-    Direction([f64; 3]),
-    /// One of these words, each with what it means; the first by default.
-    Choice(&'static [[&'static str; 2]]),
     /// Words, of which these are offered; none by default.
     Words(fn() -> Vec<&'static str>),
 }

@@ -71,14 +71,7 @@ pub struct ReportArray {
     /// Width and height.
     pub size: [usize; 2],
     pub channels: usize,
-    pub values: ArrayValues,
-}
-
-/// The numbers of an array.
-#[derive(Clone, Debug)]
-pub enum ArrayValues {
-    F32(Vec<f32>),
-    F64(Vec<f64>),
+    pub values: Vec<f32>,
 }
 
 /// A result with the settings that it depends on; its serialization is its JSON.

@@ -1,4 +1,4 @@
-//! Origins of a loss: maps, scenes, directions and texels.
+//! Origins of a loss: maps, scenes and texels.
 //!
 //! ```
 //! use svbrdf_core::loss::Request;
@@ -22,12 +22,10 @@
 mod attribution;
 mod cloud;
 mod error_map;
-mod hemisphere;
 mod scene_losses;
 mod worst;
 
 pub use attribution::{Attribution, MOST_SCENES, MapShare, attribute};
 pub use error_map::{error_maps, mean};
-pub use hemisphere::{Hemisphere, hemisphere};
 pub use scene_losses::{Distribution, RankedScene, worst_first, worst_on_all_texels};
 pub use worst::{TAIL, Worst, worst};

@@ -43,10 +43,10 @@ const APART: f64 = 0.08;
 const DISTANCES: [f64; 3] = [0.0, 0.5, 1.0];
 /// Distances are within the central 99% of their distributions, which have no end, unless another share is requested.
 pub const TAIL: f64 = 0.005;
-/// Subsets of texels, and the texels of each: while sampling and refining.
-const FEW: [usize; 2] = [1, 1024];
+/// Texels while sampling and refining.
+const FEW: usize = 1024;
 /// Texels in the last rounds, up to which all are compared.
-const LAST: [usize; 2] = [1, 1 << 16];
+const LAST: usize = 1 << 16;
 /// Scenes between two steps of progress.
 const AT_A_TIME: usize = 512;
 
@@ -120,7 +120,7 @@ struct Search<'a, T> {
 
 impl<T: Compute> Search<'_, T> {
     fn worst(&self) -> Result<(Scene, f64), Error> {
-        let [few, last] = [FEW, LAST].map(|subsets| SharedTexels::new(&self.comparison, subsets, 0));
+        let [few, last] = [FEW, LAST].map(|count| SharedTexels::new(&self.comparison, count));
         let sampled = self.candidates(&few, self.sampled(), COMPARED[0], CANDIDATES[0])?;
         let grazing = self.candidates(&few, grazing(), COMPARED[1], CANDIDATES[1])?;
         let mut refined = self.refined(&few, sampled, ROUNDS, REACH[0])?;
@@ -222,7 +222,7 @@ impl<T: Compute> Search<'_, T> {
             losses.extend(texels.losses(&self.comparison, some, &self.progress.part())?.remove(0));
             self.progress.advance(some.len() as u64)?;
         }
-        Ok(losses.into_iter().map(|scene| scene.loss).collect())
+        Ok(losses)
     }
 
     /// Point `index` of the `turn`-th scrambling of the Sobol sequence.
