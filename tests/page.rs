@@ -74,7 +74,7 @@ fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report
         },
         findings: None,
         readings: Vec::new(),
-        repetition: None,
+        command: None,
         max_bytes: 10_000_000,
     }
 }

@@ -9,7 +9,7 @@ use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::session::window::SessionDisplay;
-use svbrdf_page::{Findings, MOST_BYTES, Repetition, Report, View, check_destination, exposure};
+use svbrdf_page::{Findings, MOST_BYTES, Report, View, check_destination, exposure};
 
 use super::args::scenes::{Accuracy, RenderingArgs, SceneArgs};
 use super::args::{ComparisonArgs, Specified};
@@ -105,7 +105,7 @@ impl Job for ReportJob {
             view: View { scene, exposure_ev, display },
             findings,
             readings: if is_figure { Vec::new() } else { opened.readings.clone() },
-            repetition: (!is_figure).then(|| Repetition { command: command_line(), session: None }),
+            command: (!is_figure).then(command_line),
             max_bytes: MOST_BYTES,
         };
         let page = watched("writing", |progress| report.page(progress))?;

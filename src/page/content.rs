@@ -56,14 +56,6 @@ impl Findings {
     }
 }
 
-/// How a report is made again.
-#[derive(Clone, Debug)]
-pub struct Repetition {
-    pub command: String,
-    /// The name and the text of the session file that the command reads; `None`: it names the materials.
-    pub session: Option<[String; 2]>,
-}
-
 /// The content of a report.
 #[derive(Clone, Debug)]
 pub struct Report<'a> {
@@ -75,8 +67,8 @@ pub struct Report<'a> {
     pub findings: Option<Findings>,
     /// For each material the assumptions and notes of reading it; empty: not written.
     pub readings: Vec<Vec<String>>,
-    /// `None`: not written.
-    pub repetition: Option<Repetition>,
+    /// The command that makes it again; `None`: not written.
+    pub command: Option<String>,
     /// Most bytes of the file: maps are halved until it fits.
     pub max_bytes: usize,
 }

@@ -7,7 +7,7 @@ use svbrdf_core::model::scene::Kind;
 use svbrdf_evaluate::report::{Reader, Report as EvaluateReport};
 use svbrdf_files::disk::atomic::SOFTWARE;
 
-use super::content::{Findings, Repetition, Report};
+use super::content::{Findings, Report};
 use super::data::LinkedScene;
 use super::markup::{MOST_NAMES, escaped, number, place, section, table};
 use super::pictures::exposure;
@@ -119,19 +119,10 @@ fn readings(report: &Report<'_>) -> String {
 }
 
 fn repetition(report: &Report<'_>) -> String {
-    let Some(Repetition { command, session }) = &report.repetition else { return String::new() };
-    let session = session.as_ref().map_or(String::new(), |[name, text]| {
-        let (name, text) = (escaped(name), escaped(text));
-        format!("<details><summary>{name}</summary><pre><code>{text}</code></pre></details>")
-    });
-    let how = if session.is_empty() {
-        "This makes this file:"
-    } else {
-        "With the session below saved beside it, this makes this file:"
-    };
+    let Some(command) = &report.command else { return String::new() };
     let command = escaped(command);
     section(
         "Repeating the numbers",
-        &format!("<p>{SOFTWARE}. {how}</p><pre><code>{command}</code></pre>{session}"),
+        &format!("<p>{SOFTWARE}. This makes this file:</p><pre><code>{command}</code></pre>"),
     )
 }

@@ -21,7 +21,7 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
-pub use content::{Findings, Repetition, Report, View};
+pub use content::{Findings, Report, View};
 use encode::EncodedMaterial;
 pub use findings::report_html;
 use markup::{Document, MOST_NAMES, escaped, filled};
@@ -158,7 +158,7 @@ impl Report<'_> {
                 r#"<p class="note">The maps of the figure are reduced to {width} &times; {height} texels, so that the file is small. All losses are of the full maps.</p>"#
             )
         });
-        if self.findings.is_none() && self.repetition.is_none() {
+        if self.findings.is_none() && self.command.is_none() {
             return note;
         }
         let summary = self.summary().map_or(String::new(), |text| format!("<p>{text}</p>"));

@@ -184,7 +184,7 @@ fn write_figure(
         view: View { scene: SCENE, exposure_ev, display: SessionDisplay::default() },
         findings: None,
         readings: Vec::new(),
-        repetition: None,
+        command: None,
         max_bytes: FIGURE,
     };
     let page = report.page(&progress.part())?;

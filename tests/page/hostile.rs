@@ -7,7 +7,7 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
 use svbrdf_needs::needs;
-use svbrdf_page::{Findings, Repetition, Report};
+use svbrdf_page::{Findings, Report};
 
 use super::browser::Page;
 use super::noise;
@@ -27,7 +27,7 @@ pub fn report_of(names: [&str; 2]) -> String {
     let report = Report {
         findings: Some(findings),
         readings: names.map(|name| vec![name.to_owned()]).to_vec(),
-        repetition: Some(Repetition { command: names.concat(), session: Some(names.map(str::to_owned)) }),
+        command: Some(names.concat()),
         ..super::report(&materials, PRINTED)
     };
     report.page(&progress).unwrap().html

@@ -43,11 +43,6 @@ fn fields<'a>() -> [Field<Part<'a>>; 11] {
     ]
 }
 
-/// What each of the `maps` adds to the loss of a prediction, for people.
-pub fn parts(maps: &[MapShare], loss: &Estimate) -> Table {
-    Table::fields(&fields(), maps.iter().map(|share| part(share, loss)), Reader::Person)
-}
-
 fn part(share: &MapShare, loss: &Estimate) -> Part<'static> {
     let only = Some([share.only_wrong.mean, share.only_right.mean]);
     let (map, shapley, loss) = (share.map.name(), share.shapley, loss.mean);

@@ -10,7 +10,7 @@ mod rank;
 mod scenes;
 mod worst;
 
-pub use blame::{BlameReport, parts};
+pub use blame::BlameReport;
 pub use diagnose::DiagnoseReport;
 pub use loss::{LossReport, SampledScenes};
 pub use map::MapReport;
