@@ -22,6 +22,7 @@ fn write_the_pictures_of_pages() {
     run(folder.path(), program, "report -o report.html");
     let mut page = Page::open(&html("report.html"), [1366, 1180]);
     page.save_jpeg(&root.join("assets/pictures/report.jpg"));
+    drop(page);
     run(folder.path(), "python3", root.join("python/examples/make_materials.py").to_str().unwrap());
     let rank =
         "rank --dataset gt soft plain sharp --read sharp:roughness=alpha --figures all -o ranking.html";
