@@ -6,7 +6,7 @@ use super::*;
 
 /// The kinds of the save dialog, as steps back from the path field.
 const SESSION: usize = 2;
-const RENDERINGS: usize = 5;
+const RENDERINGS: usize = 4;
 
 /// Saves with the proposed name, by the keyboard.
 fn save(desktop: &Desktop, kind: usize, name: &str) {
