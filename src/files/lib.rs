@@ -4,7 +4,7 @@
 //! use std::path::Path;
 //!
 //! use svbrdf_files::read::{self, Read, ReadOptions};
-//! use svbrdf_files::write::{self, FileKind, WriteOptions};
+//! use svbrdf_files::write::{self, FileKind};
 //! use svbrdf_core::progress::Progress;
 //!
 //! let read: Read<f32> = read::read(Path::new("brick.png"), &ReadOptions::AUTO, &Progress::default())?;
@@ -12,8 +12,7 @@
 //!     println!("{assumption}");
 //! }
 //! let output = Path::new("brick.exr");
-//! let options = WriteOptions::default();
-//! write::write(&read.material, output, FileKind::new(output, &options)?)?;
+//! write::write(&read.material, output, FileKind::new(output, None)?)?;
 //! # Ok::<(), svbrdf_files::Error>(())
 //! ```
 
