@@ -63,8 +63,6 @@ REFUSED: list[tuple[Any, dict[str, Any], type[Exception], str]] = [
     (svbrdf.loss, {"time_budget": 0}, svbrdf.Error, "time_budget: expected seconds above 0"),
     (svbrdf.loss, {"nera": 6}, TypeError, "unexpected keyword argument 'nera'"),
     (svbrdf.scenes, {"top": -1}, svbrdf.Error, "top: found integer `-1`"),
-    (svbrdf.map, {"over": "lights", "seed": 1}, svbrdf.Error, "seed is not used: a map over directions samples no"),
-    (svbrdf.map, {"over": "views", "side": 0}, svbrdf.Error, "side: expected 1 to 1024, found 0"),
     (svbrdf.metrics, {"exposure": float("nan")}, ValueError, "not JSON compliant"),
     (svbrdf.blame, {"seed": -1}, svbrdf.Error, "seed: found integer `-1`"),
     *(
