@@ -5,6 +5,33 @@ use std::fs;
 use super::*;
 
 #[test]
+fn metrics_of_renderings_have_intervals_and_an_exposure() {
+    let folder = folder();
+    let args = "metrics gt.png a.png b.png --near 8 --distant 4";
+    let found = json_of(folder.path(), &format!("{args} --exposure 1"));
+    assert_eq!(found["exposure_ev"], 1.0);
+    let entry = &found["results"][1];
+    let flip = entry["metrics"]["flip_rendering_clipped"].as_f64().unwrap();
+    let ends = entry["intervals95"]["flip_rendering_clipped"].as_array().unwrap();
+    let [low, high] = [0, 1].map(|end| ends[end].as_f64().unwrap());
+    assert!(0.0 <= low && low < flip && flip < high, "{low}, {flip}, {high}");
+    assert!(entry["intervals95"].get("rmse_roughness").is_none());
+    let text = succeed(folder.path(), &format!("{args} --exposure 1"));
+    assert!(text.contains("renderings at 1 EV, clipped to [0, 1]\n"), "{text}");
+    let line = text.lines().find(|line| line.starts_with("flip_rendering_clipped")).unwrap();
+    assert_has(line, &[&format!("{flip:.6}"), &format!("{low:.6} to {high:.6}")]);
+    let rows = rows_of(folder.path(), &format!("{args} --exposure 1"));
+    let row = rows.iter().find(|row| row["metric"] == "flip_rendering_clipped").unwrap();
+    assert_eq!(
+        ["b", "b interval95_low", "b interval95_high"].map(|t| row[t].parse()),
+        [flip, low, high].map(Ok)
+    );
+    let dark = json_of(folder.path(), args);
+    assert_eq!(dark["results"][1]["metrics"]["rmse_roughness"], entry["metrics"]["rmse_roughness"]);
+    assert_ne!(dark["results"][1]["metrics"]["flip_rendering_clipped"].as_f64().unwrap(), flip);
+}
+
+#[test]
 fn a_ranking_of_a_data_set_has_metrics_of_the_maps() {
     let folder = data_set(&[("ours", 8), ("theirs", 40)], 6);
     fs::write(folder.path().join("theirs/m5.png"), "not an image").unwrap();

@@ -189,3 +189,21 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_named_by_what_differs() 
     assert_eq!(titles[0], "GROUND TRUTH  gt");
     assert!((1..15).all(|i| titles[i] == format!("{i}  \u{2026}{:03}", i - 1)), "so do titles: {titles:?}");
 }
+
+#[needs(adapter)]
+fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
+    let mut window = by_scenes();
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    window.get_by_label("Copy losses").click();
+    let copied = commands(&mut window).into_iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text),
+        _ => None,
+    });
+    let copied = copied.expect("a text is copied");
+    let output = crate::surroundings::command(program())
+        .args(["loss", "--near", "6", "--distant", "3"])
+        .output()
+        .unwrap();
+    assert_eq!(copied, String::from_utf8(output.stdout).unwrap());
+    assert!(copied.contains("wrong roughness - blurred normals"), "{copied}");
+}
