@@ -70,33 +70,37 @@ fn relative_error(got: f64, expected: f64) -> f64 {
 fn worst<T: Compute>(rung: &dyn Backend<T>) -> (f64, usize) {
     let (mut worst, mut texels) = (0.0_f64, 0);
     let mut compare = |got: f64, want: f64| worst = worst.max(relative_error(got, want));
-    for (case, convention) in cases().iter().flat_map(|case| ALL.map(|convention| (case, convention))) {
-        let (materials, scenes, expected) =
-            (materials::<T>(case), scenes(case), &case["expected"][convention.name]);
-        let loss = &losses(rung, &materials[0], &[&materials[1]], &scenes, &convention).unwrap()[0];
-        compare(loss.estimate.mean, expected["loss"].as_f64().unwrap());
-        let per_scene = numbers(&expected["per_scene"]);
-        assert!(!scenes.is_empty() && per_scene.len() == scenes.len());
-        loss.per_scene.iter().zip(per_scene).for_each(|(got, want)| compare(*got, want));
-        let image = |material, scene| render(material, scene, &convention, &Progress::default()).unwrap();
-        for (material, key) in
-            materials.iter().zip(["mean_rendering_ground_truth", "mean_rendering_prediction"])
-        {
-            for (scene, want) in scenes.iter().zip(numbers(&expected[key])) {
-                let values = image(material, scene).pixels.into_iter().flatten().map(Real::f64);
-                let values: Vec<f64> = values.collect();
-                compare(values.iter().sum::<f64>() / values.len() as f64, want);
+    for case in cases() {
+        let (materials, scenes) = (materials::<T>(&case), scenes(&case));
+        for convention in ALL {
+            let expected = &case["expected"][convention.name];
+            let loss = &losses(rung, &materials[0], &[&materials[1]], &scenes, &convention).unwrap()[0];
+            compare(loss.estimate.mean, expected["loss"].as_f64().unwrap());
+            let per_scene = numbers(&expected["per_scene"]);
+            assert!(!scenes.is_empty() && per_scene.len() == scenes.len());
+            loss.per_scene.iter().zip(per_scene).for_each(|(got, want)| compare(*got, want));
+            let images = materials.each_ref().map(|material| {
+                let image = |scene| render(material, scene, &convention, &Progress::default()).unwrap();
+                scenes.iter().map(image).collect::<Vec<_>>()
+            });
+            for (images, key) in
+                images.iter().zip(["mean_rendering_ground_truth", "mean_rendering_prediction"])
+            {
+                for (image, want) in images.iter().zip(numbers(&expected[key])) {
+                    let values: Vec<f64> = image.pixels.iter().flatten().map(|value| value.f64()).collect();
+                    compare(values.iter().sum::<f64>() / values.len() as f64, want);
+                }
             }
-        }
-        for probe in case["probes"].as_array().unwrap() {
-            let material = &materials[usize::from(probe["material"] == "prediction")];
-            let image = image(material, &scenes[probe["scene"].as_u64().unwrap() as usize]);
-            for pixel in probe["pixels"].as_array().unwrap() {
-                let Some(expected) = pixel.get(convention.name) else { continue };
-                texels += 1;
-                let [row, column] = ["row", "col"].map(|key| pixel[key].as_u64().unwrap() as usize);
-                let got = image.pixels[row * image.width + column];
-                got.into_iter().zip(numbers(expected)).for_each(|(got, want)| compare(got.f64(), want));
+            for probe in case["probes"].as_array().unwrap() {
+                let images = &images[usize::from(probe["material"] == "prediction")];
+                let image = &images[probe["scene"].as_u64().unwrap() as usize];
+                for pixel in probe["pixels"].as_array().unwrap() {
+                    let Some(expected) = pixel.get(convention.name) else { continue };
+                    texels += 1;
+                    let [row, column] = ["row", "col"].map(|key| pixel[key].as_u64().unwrap() as usize);
+                    let got = image.pixels[row * image.width + column];
+                    got.into_iter().zip(numbers(expected)).for_each(|(got, want)| compare(got.f64(), want));
+                }
             }
         }
     }
