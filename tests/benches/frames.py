@@ -198,7 +198,8 @@ def main():
                 stdout=subprocess.DEVNULL,
             )
             print(f"load {os.getloadavg()[0]:.1f} before the measurement")
-            pane, key = (260, 240), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
+            # Within the picture of the ground truth.
+            pane, key = (170, 400), lambda k: subprocess.run(["xdotool", "key", k], env=environment, check=True)
             latency(screen, environment, "motions of the light", pane, 90)
             if only_latency:
                 return
