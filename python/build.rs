@@ -179,7 +179,7 @@ fn kind(name: &str, schema: &Value, parts: &Parts) -> String {
 fn arguments(analysis: &AnyAnalysis) -> Vec<[String; 3]> {
     let own = analysis.options.iter().map(|option| {
         let kind = match option.value {
-            OptionValue::Count(default, _) => format!("int = {default}"),
+            OptionValue::Count(default) => format!("int = {default}"),
             OptionValue::Share(default) => format!("float = {default:?}"),
             OptionValue::Stops(default) => format!("float = {default:?}"),
             OptionValue::Words(_) => "Sequence[str] = ()".to_owned(),

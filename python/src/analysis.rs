@@ -1,15 +1,15 @@
 //! The analyses that the crate declares.
 
-use std::collections::HashMap;
 use std::str::FromStr as _;
 
 use pyo3::prelude::*;
 use serde_json::Value;
+use svbrdf_core::image::Image;
 use svbrdf_core::loss::Precision;
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analyses::{AnyAnalysis, Precise};
-use svbrdf_evaluate::report::{AnalysisInput, ReportArray};
+use svbrdf_evaluate::report::AnalysisInput;
 
 use crate::arrays;
 use crate::asked::{Asked, options};
@@ -22,8 +22,8 @@ use crate::work;
 #[derive(Debug, IntoPyObject)]
 pub struct AnalysisItems<'py> {
     views: Views,
-    /// Its pictures by name.
-    arrays: HashMap<&'static str, Vec<Bound<'py, PyAny>>>,
+    /// Its pictures, where it has any.
+    maps: Option<Vec<Bound<'py, PyAny>>>,
 }
 
 /// The report of the analysis of this name.
@@ -52,7 +52,6 @@ fn report<'py, T: Precise>(
     let is_own = |name: &String| analysis.options.iter().any(|option| option.name == name);
     let (own, scenes) = asked.question()?.into_iter().partition(|(name, _)| is_own(name));
     let (own, scenes) = (Value::Object(own), options(scenes)?);
-    analysis.check(&own).map_err(exception)?;
     let input = AnalysisInput {
         ground_truth: &materials[0],
         predictions: materials[1..].iter().collect(),
@@ -63,16 +62,14 @@ fn report<'py, T: Precise>(
         mask: None,
     };
     // A report is no value of several threads.
-    let (views, arrays) = work::run(py, progress, |progress| {
+    let (views, images) = work::run(py, progress, |progress| {
         let report = analysis.run(&input, own, progress)?;
         let views = if analysis.pictures { Views::without_rows(&*report) } else { Views::new(&*report) };
-        Ok::<_, EvaluateError>((views, report.into_arrays()))
+        Ok::<_, EvaluateError>((views, report.pictures().map(|(images, _)| images.to_vec())))
     })?;
-    let array = |ReportArray { size, channels, values }: ReportArray| {
-        arrays::array(py, values.into_iter(), size, channels)
+    let map = |Image { width, height, pixels }: Image<f32>| {
+        arrays::array(py, pixels.into_flattened().into_iter(), [width, height], 3)
     };
-    let named = |(name, all): (&'static str, Vec<ReportArray>)| {
-        Ok((name, all.into_iter().map(array).collect::<PyResult<_>>()?))
-    };
-    Ok(AnalysisItems { views: views?, arrays: arrays.into_iter().map(named).collect::<PyResult<_>>()? })
+    let maps = images.map(|images| images.into_iter().map(map).collect::<PyResult<_>>()).transpose()?;
+    Ok(AnalysisItems { views: views?, maps })
 }

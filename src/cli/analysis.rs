@@ -10,7 +10,7 @@ use svbrdf_evaluate::report::{AnalysisOption, OptionValue};
 
 use super::args::protocol::PairArgs;
 use super::args::scenes;
-use super::args::values::{count, percent, stops};
+use super::args::values::{percent, stops, whole};
 use super::args::{ComparisonArgs, Specified, offered, refuse};
 use super::job::{self, ComparisonJob, Job, NewJob};
 use super::output::{CommandError, ReportFormat, exit, warn_of, watched};
@@ -72,8 +72,8 @@ fn own_option(option: &AnalysisOption) -> Arg {
     let AnalysisOption { name, about, value } = *option;
     let arg = Arg::new(name).long(name.replace('_', "-")).help(about).allow_hyphen_values(true);
     match value {
-        OptionValue::Count(default, [least, most]) => {
-            let parser = ValueParser::new(move |text: &str| count(text, least, most).map(Value::from));
+        OptionValue::Count(default) => {
+            let parser = ValueParser::new(|text: &str| whole::<u64>(text).map(Value::from));
             arg.value_name("N").default_value(default.to_string()).value_parser(parser)
         }
         OptionValue::Share(default) => {
@@ -150,7 +150,6 @@ impl AnalysisArgs {
         }
         let options = Value::from(options);
         comparison.materials.compare(&pair);
-        analysis.check(&options)?;
         let saved = comparison.session.as_ref().and_then(|session| session.loss.as_ref());
         let question = analysis.question(&scenes, saved)?;
         let output = match output {

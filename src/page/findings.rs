@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use svbrdf_core::loss::{Loss, Outcome};
 use svbrdf_core::model::scene::Kind;
-use svbrdf_evaluate::report::{Reader, Report as EvaluateReport};
+use svbrdf_evaluate::report::{Reader, Report as EvaluateReport, Table};
 use svbrdf_files::disk::atomic::SOFTWARE;
 
 use super::content::{Findings, Report};
@@ -28,7 +28,11 @@ pub(super) fn sections(report: &Report<'_>) -> (String, Vec<LinkedScene>) {
 
 /// A report as HTML: its settings, its table, and what its text has below that. A report of several tables is its text.
 pub fn report_html(report: &(impl EvaluateReport + ?Sized)) -> String {
-    let (text, rows) = (report.text(), report.table(Reader::Person));
+    text_html(&report.text(), &report.table(Reader::Person))
+}
+
+/// The text of a report as HTML, in which these are the `rows` of its table.
+pub(super) fn text_html(text: &str, rows: &Table) -> String {
     let Some((above, below)) = text.split_once(&rows.text()) else {
         return format!("<pre>{}</pre>", escaped(text.trim_end()));
     };

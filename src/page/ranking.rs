@@ -1,8 +1,9 @@
 //! The ranking of a data set as one HTML file: its verdict, its report, and a sheet of materials with links to figures.
 
-use super::findings::report_html;
+use super::findings::{report_html, text_html};
 use super::markup::{Document, escaped, number, section, table};
 use svbrdf_evaluate::dataset::{DatasetReport, FEWEST, MaterialResult, MethodSummary, counted_loss};
+use svbrdf_evaluate::report::{Reader, Report as _};
 use svbrdf_evaluate::robust::RobustReport;
 
 /// What a ranking shows of a material beside its losses.
@@ -22,10 +23,12 @@ pub fn ranking(report: &DatasetReport, views: &[MaterialView], robust: Option<&R
     let verdict = overall(report);
     let survives =
         robust.map_or(String::new(), |robust| section("Does the order survive?", &report_html(robust)));
+    // The heading has the command.
+    let text = report.text().replace(&format!("\n{}\n", report.repetition), "");
     let body = format!(
         r#"<header><h1>{title}</h1><p class="verdict">{verdict}</p><p class="weak">{}</p></header><main>{}{survives}{}</main>"#,
         repetition(report, robust.is_some()),
-        section("Methods", &report_html(report)),
+        section("Methods", &text_html(&text, &report.table(Reader::Person))),
         section("Materials", &materials(report, views)),
     );
     let (title, description, style) = (title.as_str(), verdict.as_str(), include_str!("page.css"));

@@ -107,6 +107,7 @@ fn the_page_tells_whether_the_order_survives() {
 #[test]
 fn names_add_no_elements_to_a_ranking() {
     let html = page();
+    assert_eq!(html.matches("svbrdf rank --dataset").count(), 1, "the command stands once: {html}");
     let count = |text: &str| html.matches(text).count();
     assert_eq!([count("<script"), count("</script"), count("<img"), count("<tbody")], [0, 0, 0, 3]);
     assert!(count("&lt;/td&gt;&lt;/script&gt;") >= 5, "{html}");

@@ -61,7 +61,7 @@ class Asked:
         """The report of an analysis; called by a function of the package."""
         with reported(doing, progress) as report:
             found = _core.analysis(self.core, analysis, report)
-        arrays = {name: tuple(all) for name, all in found["arrays"].items()}
+        arrays = {} if found["maps"] is None else {"maps": tuple(found["maps"])}
         return report_of(kind, found["views"], stacklevel=4, **arrays)
 
 

@@ -37,15 +37,6 @@ pub fn whole<T: FromStr>(text: &str) -> Result<T, &'static str> {
     text.parse().map_err(|_| "expected a whole number, 0 or more and below 2^64")
 }
 
-/// A number of things from `least` to `most`.
-pub fn count(text: &str, least: u64, most: u64) -> Result<u64, String> {
-    if most == u64::MAX {
-        return Ok(whole(text)?);
-    }
-    let count = text.parse().ok().filter(|count| (least..=most).contains(count));
-    count.ok_or_else(|| format!("expected a whole number of {least} to {most}"))
-}
-
 /// A loss that others are compared with. None is above NaN or infinity.
 pub fn loss(text: &str) -> Result<f64, &'static str> {
     let loss = text.parse().ok().filter(|loss: &f64| loss.is_finite() && *loss >= 0.0);

@@ -3,9 +3,7 @@
 use serde::Serialize;
 
 use crate::error::Error;
-use crate::report::{
-    Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Report, ReportArray, Table,
-};
+use crate::report::{Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Report, Table};
 use crate::why;
 use svbrdf_core::image::{Image, mean_of_channels};
 use svbrdf_core::loss::Comparison;
@@ -89,15 +87,6 @@ impl Report for MapReport {
 
     fn pictures(&self) -> Option<(&[Image<f32>], &str)> {
         Some((&self.images, &self.shows))
-    }
-
-    fn into_arrays(self: Box<Self>) -> Vec<(&'static str, Vec<ReportArray>)> {
-        let of_image = |Image { width, height, pixels }: Image<f32>| ReportArray {
-            size: [width, height],
-            channels: 3,
-            values: pixels.into_flattened(),
-        };
-        vec![("maps", self.images.into_iter().map(of_image).collect())]
     }
 
     /// For programs a row for each texel of each prediction; for people a summary of each prediction.

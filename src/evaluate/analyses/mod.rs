@@ -28,7 +28,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::text::of_json;
 
 use crate::error::Error;
-use crate::report::{Analysis, AnalysisInput, AnalysisOption, OptionValue, Report};
+use crate::report::{Analysis, AnalysisInput, AnalysisOption, Report};
 
 /// All of them, in the order of the commands.
 pub const ANALYSES: &[AnyAnalysis] = &[
@@ -151,22 +151,6 @@ impl AnyAnalysis {
             None if self.lists_scenes() => options.listed().map(Question::from),
             None => options.question(),
         }
-    }
-
-    /// Checks its own `options`, a JSON object, before anything is computed.
-    ///
-    /// # Errors
-    /// [`Error::BadOption`].
-    pub fn check(&self, options: &Value) -> Result<(), Error> {
-        for AnalysisOption { name, value, .. } in self.options {
-            if let OptionValue::Count(_, [least, most]) = value
-                && let Some(found) = options[name].as_u64().filter(|found| !(least..=most).contains(&found))
-            {
-                let problem = format!("expected {least} to {most}, found {found}");
-                return Err(Error::BadOption { name: (*name).to_owned(), problem });
-            }
-        }
-        Ok(())
     }
 
     /// The answer, with `options` as a JSON object; those that it lacks have their defaults.

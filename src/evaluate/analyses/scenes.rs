@@ -131,7 +131,7 @@ impl Analysis for ScenesReport {
     const OPTIONS: &'static [AnalysisOption] = &[AnalysisOption {
         name: "top",
         about: "Number of scenes that are listed",
-        value: OptionValue::Count(10, [0, u64::MAX]),
+        value: OptionValue::Count(10),
     }];
 
     fn run(input: &AnalysisInput<'_>, options: &ScenesOptions, progress: &Progress) -> Result<Self, Error> {

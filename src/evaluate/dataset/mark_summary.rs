@@ -46,7 +46,7 @@ pub(super) fn summarize_marks(
 }
 
 /// Numbers of materials, a column for each method; `None` without diagnoses.
-pub fn marks_table(report: &DatasetReport) -> Option<Table> {
+pub(super) fn marks_table(report: &DatasetReport) -> Option<Table> {
     let marks = || report.methods.iter().map(|summary| summary.marks.as_ref());
     let names: BTreeSet<&String> = marks().flatten().flat_map(|marks| marks.by.keys()).collect();
     let row = |name: &str, number: &dyn Fn(&MarkSummary) -> Option<usize>| {

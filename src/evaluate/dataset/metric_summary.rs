@@ -138,7 +138,7 @@ impl MetricRow {
 }
 
 /// The rows of the tables: those of the protocol, or the metrics that are asked for.
-pub fn rows(report: &DatasetReport) -> Vec<MetricRow> {
+fn rows(report: &DatasetReport) -> Vec<MetricRow> {
     if let Some(protocol) = &report.settings.protocol {
         let of = |row: &Row| MetricRow {
             metric: row.summary(),
@@ -155,7 +155,7 @@ pub fn rows(report: &DatasetReport) -> Vec<MetricRow> {
 }
 
 /// Whether larger values of a metric are better ones: similarities and signal-to-noise ratios.
-pub fn is_better_larger(metric: &str) -> bool {
+pub(super) fn is_better_larger(metric: &str) -> bool {
     !matches!(Scale::of(metric), Scale::Error | Scale::PooledRoot)
 }
 

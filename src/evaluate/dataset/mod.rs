@@ -33,8 +33,7 @@ pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{DatasetResults, Evaluation, run};
 pub use files::digests;
 pub use list::{Shard, cases_of_folders, cases_of_table};
-pub use mark_summary::marks_table;
-pub use metric_summary::{MetricRow, best_by_metric, is_better_larger};
+pub use metric_summary::{MetricRow, best_by_metric};
 pub use pick::{Pick, counted_loss, counted_sample};
 pub use reading::DatasetReading;
 pub use record::{

@@ -78,7 +78,7 @@ pub trait Analysis: Report + Schematic + Sized + 'static {
     const SCENES: &'static [&'static str];
     /// What the command line says of some of them in place of what it says everywhere.
     const SCENES_HELP: &'static [(&'static str, &'static str)] = &[];
-    /// Whether its results are pictures: [`Report::pictures`] and [`Report::into_arrays`].
+    /// Whether its results are pictures: [`Report::pictures`].
     const PICTURES: bool = false;
     /// Whether it follows a protocol, and compares predictions of another size and the texels of a mask.
     const PAIRED: bool = false;
@@ -118,8 +118,8 @@ pub struct AnalysisOption {
 /// The type of an option, with its default.
 #[derive(Clone, Copy, Debug)]
 pub enum OptionValue {
-    /// A whole number from the second to the third.
-    Count(u64, [u64; 2]),
+    /// A whole number, 0 or more.
+    Count(u64),
     /// On the command line in percent.
     Share(f64),
     Stops(f32),

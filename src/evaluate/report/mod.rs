@@ -65,15 +65,6 @@ impl<T: Serialize> Json for T {
     }
 }
 
-/// Numbers of a report, height x width x channels.
-#[derive(Clone, Debug)]
-pub struct ReportArray {
-    /// Width and height.
-    pub size: [usize; 2],
-    pub channels: usize,
-    pub values: Vec<f32>,
-}
-
 /// A result with the settings that it depends on; its serialization is its JSON.
 pub trait Report: Json {
     /// The settings: lines above the table, each with its line break.
@@ -90,11 +81,6 @@ pub trait Report: Json {
     /// Its pictures, linear RGB, and what they show.
     fn pictures(&self) -> Option<(&[Image<f32>], &str)> {
         None
-    }
-
-    /// Its pictures as arrays by name.
-    fn into_arrays(self: Box<Self>) -> Vec<(&'static str, Vec<ReportArray>)> {
-        Vec::new()
     }
 
     /// An [`Error::Inaccurate`] for each result that is known less well than requested.
