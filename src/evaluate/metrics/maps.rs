@@ -12,102 +12,81 @@ use svbrdf_core::statistics::quantile;
 /// Values of the ground truth and of the prediction, all of one channel before the next.
 type Pairs = Vec<[f64; 2]>;
 
-/// Metrics of such pairs of values, by name.
-type Measures = &'static [(&'static str, fn(&[[f64; 2]]) -> f64)];
-/// Metrics of such pairs on a grid of (width, height) texels, by name.
-type Similarities = &'static [(&'static str, fn(&[[f64; 2]], [usize; 2]) -> Option<f64>)];
+/// What metrics of maps are of, in the order of the pairs that are compared.
+#[derive(Clone, Copy)]
+enum Of {
+    NormalUnit,
+    NormalStored,
+    Diffuse,
+    DiffuseSrgb,
+    Specular,
+    SpecularSrgb,
+    Roughness,
+    Alpha,
+    Base,
+    BaseScaled,
+    BaseSrgb,
+    Metallic,
+    Packed,
+    All,
+}
 
-const NORMAL_UNIT: Measures = &[("rmse_normal_unit", rmse)];
-const NORMAL_STORED: Measures =
-    &[("rmse_normal_stored", rmse), ("l1_normal_stored", l1), ("psnr_normal_stored", peak_ratio)];
-const DIFFUSE_LINEAR: Measures = &[
-    ("rmse_diffuse_linear", rmse),
-    ("l1_diffuse_linear", l1),
-    ("psnr_diffuse_linear", peak_ratio),
-    ("rmse_diffuse_linear_scaled", rmse_scaled),
-    ("rmse_diffuse_linear_minus1_to_1", rmse_stretched),
-];
-const DIFFUSE_SRGB: Measures = &[
-    ("rmse_diffuse_srgb", rmse),
-    ("l1_diffuse_srgb", l1),
-    ("psnr_diffuse_srgb", peak_ratio),
-    ("rmse_diffuse_srgb_minus1_to_1", rmse_stretched),
-];
-const SPECULAR_LINEAR: Measures = &[
-    ("rmse_specular_linear", rmse),
-    ("l1_specular_linear", l1),
-    ("psnr_specular_linear", peak_ratio),
-    ("rmse_specular_linear_scaled", rmse_scaled),
-    ("rmse_specular_linear_minus1_to_1", rmse_stretched),
-];
-const SPECULAR_SRGB: Measures = &[
-    ("rmse_specular_srgb", rmse),
-    ("l1_specular_srgb", l1),
-    ("psnr_specular_srgb", peak_ratio),
-    ("rmse_specular_srgb_minus1_to_1", rmse_stretched),
-];
-const ROUGHNESS: Measures = &[
-    ("rmse_roughness", rmse),
-    ("l1_roughness", l1),
-    ("psnr_roughness", peak_ratio),
-    ("rmse_roughness_minus1_to_1", rmse_stretched),
-];
-const ROUGHNESS_ALPHA: Measures = &[("rmse_roughness_alpha", rmse)];
-const BASE_LINEAR: Measures = &[("rmse_base_colour_linear", rmse)];
-const BASE_SCALED: Measures = &[("psnr_base_colour_linear_scaled_channels", peak_ratio)];
-const BASE_SRGB: Measures =
-    &[("rmse_base_colour_srgb", rmse), ("l1_base_colour_srgb", l1), ("psnr_base_colour_srgb", peak_ratio)];
-const METALLIC: Measures = &[("rmse_metallic", rmse), ("l1_metallic", l1), ("psnr_metallic", peak_ratio)];
-const PACKED: Measures = &[("psnr_roughness_metallic_0_srgb", peak_ratio)];
-const ALL_MAPS: Measures = &[("l1_maps_minus1_to_1", l1_stretched)];
+/// The rows of metrics.
+macro_rules! rows {
+    ($($of:ident $($begin:literal $measure:ident),+ => $end:literal;)+) => {
+        &[$($((Of::$of, concat!($begin, $end), $measure)),+),+]
+    };
+}
 
-const NORMAL_SIMILARITY: Similarities =
-    &[("ssim11_gaussian_normal_stored", ssim11), ("ssim7_uniform_normal_stored", ssim7)];
-const DIFFUSE_SIMILARITY: Similarities =
-    &[("ssim11_gaussian_diffuse_srgb", ssim11), ("ssim7_uniform_diffuse_srgb", ssim7)];
-const SPECULAR_SIMILARITY: Similarities =
-    &[("ssim11_gaussian_specular_srgb", ssim11), ("ssim7_uniform_specular_srgb", ssim7)];
-const ROUGHNESS_SIMILARITY: Similarities =
-    &[("ssim11_gaussian_roughness", ssim11), ("ssim7_uniform_roughness", ssim7)];
-const BASE_SIMILARITY: Similarities =
-    &[("ssim11_gaussian_base_colour_srgb", ssim11), ("ssim7_uniform_base_colour_srgb", ssim7)];
-const SCALED_SIMILARITY: Similarities = &[("ssim11_gaussian_base_colour_linear_scaled_channels", ssim11)];
-const METALLIC_SIMILARITY: Similarities =
-    &[("ssim11_gaussian_metallic", ssim11), ("ssim7_uniform_metallic", ssim7)];
-const PACKED_SIMILARITY: Similarities = &[("ssim11_gaussian_roughness_metallic_0_srgb", ssim11)];
+/// What a metric is of, its name, and how it is computed.
+type Row<F> = (Of, &'static str, F);
+type Measure = fn(&[[f64; 2]]) -> f64;
+type Similarity = fn(&[[f64; 2]], [usize; 2]) -> Option<f64>;
+
+/// Metrics of pairs of values.
+#[rustfmt::skip]
+const MEASURES: &[Row<Measure>] = rows! {
+    NormalUnit "rmse" rmse => "_normal_unit";
+    NormalStored "rmse" rmse, "l1" l1, "psnr" peak_ratio => "_normal_stored";
+    Diffuse "rmse" rmse, "l1" l1, "psnr" peak_ratio => "_diffuse_linear";
+    Diffuse "rmse" rmse_scaled => "_diffuse_linear_scaled";
+    Diffuse "rmse" rmse_stretched => "_diffuse_linear_minus1_to_1";
+    DiffuseSrgb "rmse" rmse, "l1" l1, "psnr" peak_ratio => "_diffuse_srgb";
+    DiffuseSrgb "rmse" rmse_stretched => "_diffuse_srgb_minus1_to_1";
+    Specular "rmse" rmse, "l1" l1, "psnr" peak_ratio => "_specular_linear";
+    Specular "rmse" rmse_scaled => "_specular_linear_scaled";
+    Specular "rmse" rmse_stretched => "_specular_linear_minus1_to_1";
+    SpecularSrgb "rmse" rmse, "l1" l1, "psnr" peak_ratio => "_specular_srgb";
+    SpecularSrgb "rmse" rmse_stretched => "_specular_srgb_minus1_to_1";
+    Roughness "rmse" rmse, "l1" l1, "psnr" peak_ratio => "_roughness";
+    Roughness "rmse" rmse_stretched => "_roughness_minus1_to_1";
+    Alpha "rmse" rmse => "_roughness_alpha";
+    Base "rmse" rmse => "_base_colour_linear";
+    BaseScaled "psnr" peak_ratio => "_base_colour_linear_scaled_channels";
+    BaseSrgb "rmse" rmse, "l1" l1, "psnr" peak_ratio => "_base_colour_srgb";
+    Metallic "rmse" rmse, "l1" l1, "psnr" peak_ratio => "_metallic";
+    Packed "psnr" peak_ratio => "_roughness_metallic_0_srgb";
+    All "l1" l1_stretched => "_maps_minus1_to_1";
+};
+
+/// Metrics of pairs of values on a grid of (width, height) texels.
+#[rustfmt::skip]
+const SIMILARITIES: &[Row<Similarity>] = rows! {
+    NormalStored "ssim11_gaussian" ssim11, "ssim7_uniform" ssim7 => "_normal_stored";
+    DiffuseSrgb "ssim11_gaussian" ssim11, "ssim7_uniform" ssim7 => "_diffuse_srgb";
+    SpecularSrgb "ssim11_gaussian" ssim11, "ssim7_uniform" ssim7 => "_specular_srgb";
+    Roughness "ssim11_gaussian" ssim11, "ssim7_uniform" ssim7 => "_roughness";
+    BaseSrgb "ssim11_gaussian" ssim11, "ssim7_uniform" ssim7 => "_base_colour_srgb";
+    BaseScaled "ssim11_gaussian" ssim11 => "_base_colour_linear_scaled_channels";
+    Metallic "ssim11_gaussian" ssim11, "ssim7_uniform" ssim7 => "_metallic";
+    Packed "ssim11_gaussian" ssim11 => "_roughness_metallic_0_srgb";
+};
 
 /// The names of all metrics of maps.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    const ANGLES: [&str; 3] =
-        ["angle_normal_mean_degrees", "angle_normal_median_degrees", "angle_normal_p95_degrees"];
-    let measures = [
-        NORMAL_UNIT,
-        NORMAL_STORED,
-        DIFFUSE_LINEAR,
-        DIFFUSE_SRGB,
-        SPECULAR_LINEAR,
-        SPECULAR_SRGB,
-        ROUGHNESS,
-        ROUGHNESS_ALPHA,
-        BASE_LINEAR,
-        BASE_SCALED,
-        BASE_SRGB,
-        METALLIC,
-        PACKED,
-        ALL_MAPS,
-    ];
-    let similarities = [
-        NORMAL_SIMILARITY,
-        DIFFUSE_SIMILARITY,
-        SPECULAR_SIMILARITY,
-        ROUGHNESS_SIMILARITY,
-        BASE_SIMILARITY,
-        SCALED_SIMILARITY,
-        METALLIC_SIMILARITY,
-        PACKED_SIMILARITY,
-    ];
-    let measures = measures.into_iter().flatten().map(|(name, _)| *name);
-    ANGLES.into_iter().chain(measures).chain(similarities.into_iter().flatten().map(|(name, _)| *name))
+    let angles = ["angle_normal_mean_degrees", "angle_normal_median_degrees", "angle_normal_p95_degrees"];
+    let measures = MEASURES.iter().map(|(_, name, _)| *name);
+    angles.into_iter().chain(measures).chain(SIMILARITIES.iter().map(|(_, name, _)| *name))
 }
 
 /// The metrics of the maps of `prediction` against `ground_truth`, computed in f64; SSIM where a window lies inside.
@@ -158,43 +137,35 @@ pub fn of_masked_maps<T: Real>(
     let zeros = vec![[0.0; 2]; metallic.len()];
     let packed = mapped(&[roughness.as_slice(), &metallic, &zeros].concat(), srgb::encode);
     let all = [normal_stored.as_slice(), &diffuse, &roughness, &specular].concat();
-    let measured = [
-        (NORMAL_UNIT, &normal),
-        (NORMAL_STORED, &normal_stored),
-        (DIFFUSE_LINEAR, &diffuse),
-        (DIFFUSE_SRGB, &diffuse_srgb),
-        (SPECULAR_LINEAR, &specular),
-        (SPECULAR_SRGB, &specular_srgb),
-        (ROUGHNESS, &roughness),
-        (ROUGHNESS_ALPHA, &alpha),
-        (BASE_LINEAR, &base),
-        (BASE_SCALED, &base_scaled),
-        (BASE_SRGB, &base_srgb),
-        (METALLIC, &metallic),
-        (PACKED, &packed),
-        (ALL_MAPS, &all),
+    // In the order of `Of`.
+    let all = [
+        normal,
+        normal_stored,
+        diffuse,
+        diffuse_srgb,
+        specular,
+        specular_srgb,
+        roughness,
+        alpha,
+        base,
+        base_scaled,
+        base_srgb,
+        metallic,
+        packed,
+        all,
     ];
-    let similar = [
-        (NORMAL_SIMILARITY, &normal_stored),
-        (DIFFUSE_SIMILARITY, &diffuse_srgb),
-        (SPECULAR_SIMILARITY, &specular_srgb),
-        (ROUGHNESS_SIMILARITY, &roughness),
-        (BASE_SIMILARITY, &base_srgb),
-        (SCALED_SIMILARITY, &base_scaled),
-        (METALLIC_SIMILARITY, &metallic),
-        (PACKED_SIMILARITY, &packed),
-    ];
-    let mut metrics = of_angles(angles(ground_truth, prediction, kept));
-    let left_out = mask.filter(|mask| !mask.count_all).map(|mask| mask.texels);
-    metrics.extend(measured.into_iter().flat_map(|(measures, pairs)| {
-        let pairs = left_out.map_or_else(|| pairs.clone(), |kept| counted(pairs, kept));
-        measures.iter().map(move |(name, measure)| Metric::exact(name, measure(&pairs)))
-    }));
     let size = ground_truth.size();
-    metrics.extend(similar.into_iter().flat_map(|(measures, pairs)| {
-        measures.iter().filter_map(move |(name, measure)| Some(Metric::exact(name, measure(pairs, size)?)))
-    }));
-    Ok(metrics)
+    let similar = SIMILARITIES
+        .iter()
+        .filter_map(|(of, name, measure)| Some(Metric::exact(name, measure(&all[*of as usize], size)?)));
+    let similar: Vec<Metric> = similar.collect();
+    let all = match mask.filter(|mask| !mask.count_all) {
+        Some(mask) => all.map(|pairs| counted(&pairs, mask.texels)),
+        None => all,
+    };
+    let measured =
+        MEASURES.iter().map(|(of, name, measure)| Metric::exact(name, measure(&all[*of as usize])));
+    Ok(of_angles(angles(ground_truth, prediction, kept)).into_iter().chain(measured).chain(similar).collect())
 }
 
 /// The pairs with black in both where texels are not kept.
