@@ -10,7 +10,7 @@ use svbrdf_files::Error;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::source::MaterialSource;
 
-use super::reading::{PairReadingArgs, Side, StatementArgs};
+use super::reading::{PairReadingArgs, StatementArgs, Whose};
 use super::{NamedPath, Specified, offered, refuse, wildcards};
 use crate::cli::output::CommandError;
 
@@ -114,7 +114,7 @@ impl MaterialArgs {
     /// The ground truth, then the predictions, each with the options that it is read with.
     pub fn sources(&self) -> Result<Vec<MaterialSource>, CommandError> {
         let reading = self.reading.reading()?;
-        let sides = std::iter::once(Side::GroundTruth).chain(std::iter::repeat(Side::Prediction));
+        let sides = std::iter::once(Whose::GroundTruth).chain(std::iter::repeat(Whose::Predictions));
         let given: Vec<_> =
             self.ground_truth.iter().chain(&self.predictions).map(NamedPath::source).collect();
         let names = reading.names_of(&given);

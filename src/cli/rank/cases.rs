@@ -6,7 +6,7 @@ use svbrdf_evaluate::dataset::{DatasetReading, Source};
 use svbrdf_evaluate::registration::Registration;
 
 use crate::cli::args::MaterialArgs;
-use crate::cli::args::reading::{PairReadingArgs, Side};
+use crate::cli::args::reading::{PairReadingArgs, Whose};
 use crate::cli::output::CommandError;
 
 /// How the ground truths and the predictions of `methods` are read.
@@ -17,10 +17,10 @@ pub fn reading(
 ) -> Result<DatasetReading, CommandError> {
     let reading = given.reading()?;
     reading.check(None, methods)?;
-    let predictions = reading.options_for(Side::Prediction, "");
-    let of_method = |name: &String| (name.clone(), reading.options_for(Side::Prediction, name));
+    let predictions = reading.options_for(Whose::Predictions, "");
+    let of_method = |name: &String| (name.clone(), reading.options_for(Whose::Predictions, name));
     let of_methods = methods.iter().map(of_method).filter(|(_, options)| *options != predictions).collect();
-    let ground_truths = reading.options_for(Side::GroundTruth, "");
+    let ground_truths = reading.options_for(Whose::GroundTruth, "");
     let mut registrations = BTreeMap::new();
     for (whose, way) in register {
         let is_of = |method: &&String| whose.as_ref().is_none_or(|whose| whose == *method);

@@ -8,47 +8,29 @@ use svbrdf_files::source::MaterialSource;
 use super::statement::{Statement, Whose};
 use crate::cli::output::CommandError;
 
-/// How the materials of a command are read, by their sides and names.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct StatedReading {
-    both: ReadOptions,
-    ground_truth: ReadOptions,
-    predictions: ReadOptions,
-    named: Vec<(String, ReadOptions)>,
-}
-
-/// The side of a comparison that a material is on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    GroundTruth,
-    Prediction,
-}
+/// How the materials of a command are read: what is specified for all, for a side or for a name, once each.
+#[derive(Clone, Debug, Default)]
+pub struct StatedReading(Vec<Statement>);
 
 impl StatedReading {
     /// What the `statements` specify together.
     pub fn new<'a>(statements: impl IntoIterator<Item = &'a Statement>) -> Result<Self, Error> {
-        let mut reading = Self::default();
-        for Statement { whose, options } in statements {
-            let specified = match whose {
-                Whose::All => &mut reading.both,
-                Whose::GroundTruth => &mut reading.ground_truth,
-                Whose::Predictions => &mut reading.predictions,
-                Whose::Named(name) => reading.of_name(name),
-            };
-            *specified = specified.and(*options)?;
+        let mut all: Vec<Statement> = Vec::new();
+        for one in statements {
+            match all.iter_mut().find(|known| known.whose == one.whose) {
+                Some(known) => known.options = known.options.and(one.options)?,
+                None => all.push(one.clone()),
+            }
         }
-        Ok(reading)
+        Ok(Self(all))
     }
 
     /// How the material or method `name` on this side is read: what is specified for its name, then for its side, then for all.
-    pub fn options_for(&self, side: Side, name: &str) -> ReadOptions {
-        let named = self.named.iter().find(|(of, _)| of == name);
-        let of_name = named.map_or(ReadOptions::AUTO, |(_, options)| *options);
-        let of_side = match side {
-            Side::GroundTruth => self.ground_truth,
-            Side::Prediction => self.predictions,
+    pub fn options_for(&self, side: Whose, name: &str) -> ReadOptions {
+        let of = |whose: Whose| {
+            self.0.iter().find(|one| one.whose == whose).map_or(ReadOptions::AUTO, |one| one.options)
         };
-        of_name.over(of_side).over(self.both)
+        of(Whose::Named(name.to_owned())).over(of(side)).over(of(Whose::All))
     }
 
     /// The names of materials, as reports print them. Of the names that a material may have once it is read: one for which something is
@@ -66,7 +48,8 @@ impl StatedReading {
         };
         let all: Vec<Vec<String>> = (0..choices).map(of_choice).collect();
         let chosen = |index: usize| {
-            let specified = all.iter().find(|names| self.named.iter().any(|(name, _)| *name == names[index]));
+            let specified =
+                all.iter().find(|names| self.0.iter().any(|one| one.whose.is_named(&names[index])));
             specified.or(all.first()).map_or_else(String::new, |names| names[index].clone())
         };
         (0..sources.len()).map(chosen).collect()
@@ -75,26 +58,14 @@ impl StatedReading {
     /// Files are looked at only where something is specified for some of the materials.
     fn possible_names(&self, source: &MaterialSource) -> Vec<String> {
         match &source.name {
-            None if *self != Self { both: self.both, ..Self::default() } => source.possible_names(),
+            None if self.0.iter().any(|one| one.whose != Whose::All) => source.possible_names(),
             name => vec![name.clone().unwrap_or_default()],
         }
     }
 
     /// Whether something is specified for a material by its name.
     pub fn has_names(&self) -> bool {
-        !self.named.is_empty()
-    }
-
-    /// The statements that specify this, one for the same materials.
-    pub fn statements(&self) -> Vec<Statement> {
-        let of_sides = [
-            (Whose::All, self.both),
-            (Whose::GroundTruth, self.ground_truth),
-            (Whose::Predictions, self.predictions),
-        ];
-        let named = self.named.iter().map(|(name, options)| (Whose::Named(name.clone()), *options));
-        let all = of_sides.into_iter().chain(named).map(|(whose, options)| Statement { whose, options });
-        all.filter(|statement| statement.options != ReadOptions::AUTO).collect()
+        self.0.iter().any(|one| matches!(one.whose, Whose::Named(_)))
     }
 
     /// Refuses what is specified for materials that do not exist: those on a side without any, and names that no material has. The
@@ -102,19 +73,8 @@ impl StatedReading {
     pub fn check(&self, ground_truth: Option<&str>, predictions: &[String]) -> Result<(), CommandError> {
         let names: Vec<&str> =
             ground_truth.into_iter().chain(predictions.iter().map(String::as_str)).collect();
-        self.statements()
-            .iter()
-            .find_map(|one| problem(one, &names, predictions))
-            .map_or(Ok(()), |problem| Err(CommandError::Usage(problem)))
-    }
-
-    fn of_name(&mut self, name: &str) -> &mut ReadOptions {
-        let known = self.named.iter().position(|(of, _)| of == name);
-        let index = known.unwrap_or_else(|| {
-            self.named.push((name.to_owned(), ReadOptions::AUTO));
-            self.named.len() - 1
-        });
-        &mut self.named[index].1
+        let problem = self.0.iter().find_map(|one| problem(one, &names, predictions));
+        problem.map_or(Ok(()), |problem| Err(CommandError::Usage(problem)))
     }
 }
 
@@ -165,10 +125,10 @@ mod tests {
         ])
         .unwrap();
         let words = |side, name| reading.options_for(side, name).words();
-        assert_eq!(words(Side::GroundTruth, "gt"), "albedo=srgb,roughness=r");
-        assert_eq!(words(Side::Prediction, "other"), "albedo=linear,energy=scaled,roughness=r");
-        assert_eq!(words(Side::Prediction, "a:b=c"), "albedo=log0.01,energy=scaled,roughness=r");
-        let typed: Vec<_> = reading.statements().iter().map(ToString::to_string).collect();
+        assert_eq!(words(Whose::GroundTruth, "gt"), "albedo=srgb,roughness=r");
+        assert_eq!(words(Whose::Predictions, "other"), "albedo=linear,energy=scaled,roughness=r");
+        assert_eq!(words(Whose::Predictions, "a:b=c"), "albedo=log0.01,energy=scaled,roughness=r");
+        let typed: Vec<_> = reading.0.iter().map(ToString::to_string).collect();
         let expected = [
             "--read albedo=srgb,roughness=r",
             "--read pred:albedo=linear,energy=scaled",

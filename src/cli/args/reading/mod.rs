@@ -11,8 +11,9 @@ use svbrdf_files::source::MaterialSource;
 
 use crate::cli::args::offered;
 use crate::cli::output::CommandError;
-pub use decision::{Side, StatedReading};
+pub use decision::StatedReading;
 use statement::Statement;
+pub use statement::Whose;
 
 /// The heading of the options of reading.
 pub const READING: &str = "Reading materials";
@@ -73,7 +74,7 @@ impl ReadingArgs {
         let name = names.iter().find(|name| reading.check(Some(name), &[]).is_ok()).or(names.first());
         let name = name.map_or("", String::as_str);
         reading.check(Some(name), &[])?;
-        Ok(reading.options_for(Side::GroundTruth, name))
+        Ok(reading.options_for(Whose::GroundTruth, name))
     }
 }
 

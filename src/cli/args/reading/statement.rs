@@ -33,6 +33,11 @@ impl Statement {
 }
 
 impl Whose {
+    /// Whether this is the material or method of this name.
+    pub fn is_named(&self, name: &str) -> bool {
+        matches!(self, Self::Named(own) if own == name)
+    }
+
     /// The materials that `text` is for, and the rest of it. Options contain no colon, and names may.
     fn before(text: &str) -> (Self, &str) {
         match text.rsplit_once(':') {
