@@ -4,6 +4,7 @@ use std::fs;
 
 use tempfile::TempDir;
 
+use svbrdf_core::loss::LossOptions;
 use svbrdf_evaluate::protocols::Protocol;
 
 #[test]
@@ -14,7 +15,7 @@ fn built_in_protocols_say_where_they_are_from_and_are_in_the_docs() {
         assert_eq!(protocol.name, name);
         let source = &protocol.source;
         assert!([&source.paper, &source.code, &source.follows].iter().all(|said| !said.is_empty()), "{name}");
-        assert!(protocol.options().unwrap().question().is_ok(), "{name}");
+        assert!(protocol.options(&LossOptions::default()).unwrap().request().is_ok(), "{name}");
         assert!(docs.contains(&format!("| `{name}` |")), "{name}");
     }
 }

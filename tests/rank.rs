@@ -20,6 +20,8 @@ use svbrdf_evaluate::rank;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::samples;
 
+const REQUEST: Request = Request::Accuracy { target: 0.01, seed: 0 };
+
 fn of_row<'a>(rows: &'a [(MetricRow, Vec<bool>)], metric: &str) -> &'a [bool] {
     &rows.iter().find(|(row, _)| row.metric == metric).unwrap().1
 }
@@ -180,7 +182,7 @@ fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
 fn ranked(methods: &[&str], results: &[MaterialResult], pick: Pick) -> DatasetReport {
     let methods = methods.iter().map(|method| (*method).to_owned()).collect();
     let settings =
-        DatasetSettings::new(Source::Table("pairs.csv".into()), ChosenConvention::default(), 0.01, 0, &[]);
+        DatasetSettings::new(Source::Table("pairs.csv".into()), ChosenConvention::default(), REQUEST, &[]);
     let metrics = Some(MetricSelection::default());
     let settings = DatasetSettings { methods, metrics, ..settings };
     DatasetReport::new(settings, DatasetReading::default(), results.to_vec(), pick)

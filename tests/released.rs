@@ -6,6 +6,7 @@ use std::path::Path;
 use image::{Rgb, RgbImage, Rgba, RgbaImage};
 use tempfile::TempDir;
 
+use svbrdf_core::loss::Request;
 use svbrdf_core::math::srgb;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::dataset::{
@@ -22,6 +23,7 @@ type Texel = [[u8; 3]; 4];
 /// Where diffuse and specular are stored.
 type Curve = fn(f64) -> f64;
 
+const REQUEST: Request = Request::Accuracy { target: 0.05, seed: 0 };
 const MATERIALS: usize = 6;
 const SIDE: u32 = 40;
 const SRGB: Curve = |value| f64::from(srgb::encode(value as f32));
@@ -67,13 +69,13 @@ fn losses(folder: &Path, truths: &str, reading: DatasetReading) -> Vec<Result<f6
 fn report(folder: &Path, truths: &str, reading: DatasetReading, protocol: Option<Protocol>) -> DatasetReport {
     let source = Source::folders(folder.join(truths), vec![(None, folder.join("ours"))]);
     let cases = source.cases().unwrap();
-    let settings = DatasetSettings::new(source, ChosenConvention::default(), 0.05, 0, &cases);
+    let settings = DatasetSettings::new(source, ChosenConvention::default(), REQUEST, &cases);
     let metrics = protocol.as_ref().map(Protocol::selection);
     let reading = protocol.iter().fold(reading, DatasetReading::over);
     let settings = DatasetSettings { metrics, protocol, ..settings };
     let reading = decided(&cases, reading, &Progress::default()).unwrap();
     let found = run(&cases, &settings, &reading, None, &Progress::default()).unwrap();
-    DatasetReport::new(settings, reading, found.results, Pick::Fixed)
+    DatasetReport::new(settings, reading, found.answer, Pick::Fixed)
 }
 
 fn stated(truths: Albedo, ours: Albedo) -> DatasetReading {
@@ -242,12 +244,12 @@ fn a_batch_of_arrays_is_as_many_materials() {
         let [truths, ours] = [truths, ours].map(|path| folder.path().join(path));
         let source = Source::folders(truths, vec![(None, ours)]);
         let cases = source.cases().unwrap();
-        let settings = DatasetSettings::new(source, ChosenConvention::default(), 0.05, 0, &cases);
+        let settings = DatasetSettings::new(source, ChosenConvention::default(), REQUEST, &cases);
         let found = run(&cases, &settings, &DatasetReading::default(), None, &Progress::default()).unwrap();
         let one = |result: &svbrdf_evaluate::dataset::MaterialResult| {
             (result.material.clone(), result.predictions[0].known.map(|known| known.loss))
         };
-        (settings.methods, found.results.iter().map(one).collect::<Vec<_>>())
+        (settings.methods, found.answer.iter().map(one).collect::<Vec<_>>())
     };
     let expected = of("single/gt", "single/ours");
     assert!(expected.1.iter().all(|(_, loss)| loss.is_some()), "{expected:?}");

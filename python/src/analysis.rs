@@ -58,7 +58,8 @@ fn report<'py, T: Precise>(
         storages: asked.materials.iter().map(|material| &material.get().storage).collect(),
         paths: asked.paths.clone(),
         convention: asked.convention()?,
-        question: analysis.question(&scenes, None).map_err(exception)?,
+        request: analysis.request(&scenes, None).map_err(exception)?,
+        few_scenes: scenes.is_open(),
         mask: None,
     };
     // A report is no value of several threads.

@@ -1,5 +1,7 @@
 //! The arguments that the comparisons have in common.
 
+use std::path::Path;
+
 use pyo3::prelude::*;
 use serde_json::{Map, Value};
 use svbrdf_core::loss::LossOptions;
@@ -8,7 +10,7 @@ use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::text::of_json;
 use svbrdf_evaluate::analyses::options_of;
-use svbrdf_files::convention;
+use svbrdf_files::{convention, scene_file};
 
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
@@ -21,12 +23,16 @@ pub fn question(text: &str) -> PyResult<Map<String, Value>> {
     serde_json::from_str(text).map_err(|problem| Error::new_err(of_json(&problem)))
 }
 
-/// The options of the scenes of a question.
+/// The options of the scenes of a question, whose `scenes` are the path of a file.
 ///
 /// # Errors
-/// By its name, where one is unknown, or has a wrong type or makes no sense.
-pub fn options(given: Map<String, Value>) -> PyResult<LossOptions> {
-    options_of(given.into()).map_err(exception)
+/// By its name, where one is unknown, or has a wrong type or makes no sense; of the file.
+pub fn options(mut given: Map<String, Value>) -> PyResult<LossOptions> {
+    let path = given.remove("scenes");
+    let options: LossOptions = options_of(given.into()).map_err(exception)?;
+    let Some(path) = path.as_ref().and_then(Value::as_str) else { return Ok(options) };
+    let file = Some(scene_file::read_named(Path::new(path)).map_err(exception)?);
+    Ok(LossOptions { file, ..options })
 }
 
 /// Materials, names, convention and question.

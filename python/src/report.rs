@@ -34,7 +34,7 @@ impl Views {
     /// As [`Report::json`].
     pub fn without_rows(report: &(impl Report + ?Sized)) -> PyResult<Self> {
         let (text, html) = (report.text(), format!("<div>{}</div>", report_html(report)));
-        let warnings = report.missed().iter().map(ToString::to_string).collect();
+        let warnings = report.missed();
         Ok(Self { json: report.json().map_err(exception)?, csv: String::new(), html, text, warnings })
     }
 }

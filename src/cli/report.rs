@@ -74,9 +74,9 @@ impl ReportArgs {
             given.refuse::<SceneArgs<Accuracy>>("there is no prediction, and no loss")?;
         }
         let options = accuracy.options()?;
-        let question = || SessionSettings::question(session, &options);
-        let request = (!is_alone && !is_figure).then(question).transpose()?.map(|question| question.request);
-        let display = session.map(|session| session.display().clone()).unwrap_or_default();
+        let request = || SessionSettings::request(session, &options);
+        let request = (!is_alone && !is_figure).then(request).transpose()?;
+        let display = session.map(|session| session.display.clone()).unwrap_or_default();
         let scene = rendering.scene.scene(session.map(|session| session.scene))?;
         let exposure_ev = rendering.exposure.or(session.map(|session| session.exposure_ev));
         Ok(Box::new(ReportJob { comparison, output, scene, exposure_ev, display, is_figure, request }))

@@ -179,8 +179,8 @@ impl ViewArgs {
 fn dataset_of(args: &ViewArgs) -> Result<svbrdf::OpenDataset, CommandError> {
     let DatasetArgs { pairs, results, diagnose, accuracy, .. } = &args.dataset;
     let source = cases::source(&args.materials, *pairs)?;
-    let accuracy = accuracy.options()?.accuracy();
-    let mut dataset = svbrdf::OpenDataset::new(source, DatasetReading::default(), accuracy, results.clone())?;
+    let request = accuracy.options()?.request()?;
+    let mut dataset = svbrdf::OpenDataset::new(source, DatasetReading::default(), request, results.clone())?;
     dataset.settings.diagnose = *diagnose;
     let reading = cases::reading(&args.materials.reading, dataset.methods(), &[])?;
     dataset.reading = decided(&dataset.cases, reading, &svbrdf_core::progress::Progress::default())?;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use svbrdf_core::loss::{Comparison, Outcome, Request, Sampling, Texels};
+use svbrdf_core::loss::{Comparison, Request, Sampling, Texels};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_core::model::named_scenes::NamedScenes;
@@ -22,11 +22,11 @@ const MOST: usize = 24_576;
 /// The scores of predictions under a question: how far each is from the ground truth.
 #[derive(Clone, Debug)]
 pub struct Scores {
-    pub question: String,
+    pub(crate) question: String,
     /// Smaller is better.
-    pub scores: Vec<f64>,
+    pub(crate) scores: Vec<f64>,
     /// For each pair of predictions, the 95% interval of the score of the first - that of the second; `None` where it is unknown.
-    pub differences: Vec<Vec<Option<[f64; 2]>>>,
+    differences: Vec<Vec<Option<[f64; 2]>>>,
 }
 
 impl Scores {
@@ -42,7 +42,7 @@ impl Scores {
     }
 
     /// 1 where `a` is significantly farther from the ground truth than `b`, -1 where it is closer, 0 where that is not known.
-    pub fn sign(&self, a: usize, b: usize) -> i8 {
+    fn sign(&self, a: usize, b: usize) -> i8 {
         match self.differences[a][b] {
             Some([low, _]) if low > 0.0 => 1,
             Some([_, high]) if high < 0.0 => -1,
@@ -50,64 +50,60 @@ impl Scores {
         }
     }
 
-    /// Kendall's tau to another order, where differences that are not significant in both are no changes.
-    pub fn tau(&self, other: &Self) -> f64 {
-        let pairs = (1..self.scores.len()).sum::<usize>().max(1) as f64;
-        1.0 - 2.0 * self.changes(other).count() as f64 / pairs
+    /// The predictions that change sides in another order, where both differences are significant, with these.
+    fn changes(&self, other: &Self, names: &[String]) -> Vec<Change> {
+        let pairs = (0..names.len()).flat_map(|a| (a + 1..names.len()).map(move |b| (a, b)));
+        let change = |(a, b): (usize, usize)| {
+            (self.sign(a, b) * other.sign(a, b) < 0).then_some(Change {
+                question: other.question.clone(),
+                first: names[a].clone(),
+                second: names[b].clone(),
+                default_interval95: self.differences[a][b]?,
+                interval95: other.differences[a][b]?,
+            })
+        };
+        pairs.filter_map(change).collect()
     }
+}
 
-    /// The pairs of predictions that change sides in another order, where both differences are significant.
-    pub fn changes(&self, other: &Self) -> impl Iterator<Item = (usize, usize)> {
-        let count = self.scores.len();
-        let pairs = (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)));
-        pairs.filter(|&(a, b)| self.sign(a, b) * other.sign(a, b) < 0)
-    }
-
-    fn of_outcome(question: String, outcome: &Outcome) -> Self {
+/// The answers to all questions, the default one, which is the `usual` request, first. A question is one step of `progress`.
+///
+/// # Errors
+/// As [`Comparison::new`]; [`Cancelled`](Error::is_cancelled).
+pub(crate) fn answers(
+    comparison: &Comparison<'_, f32>,
+    usual: &Request,
+    progress: &Progress,
+) -> Result<Vec<Scores>, Error> {
+    let questions = questions(*comparison.convention(), usual)?;
+    progress.begin(questions.len() as u64);
+    let answer = |(name, convention, request)| {
+        let comparison = Comparison::new(comparison.ground_truth(), comparison.predictions(), convention)?;
+        let outcome = comparison.at_most(MOST).run(&request, &progress.part())?;
+        progress.step()?;
         // Listed scenes are the question itself, and no sample.
         let interval = |a, b| {
             let difference = outcome.difference(a, b);
             if outcome.sampling.is_some() { difference.interval95 } else { Some([difference.mean; 2]) }
         };
         let scores = outcome.losses.iter().map(|loss| loss.estimate.mean).collect();
-        Self::new(question, scores, interval)
-    }
-}
-
-/// The answers to all questions, the default one, to an accuracy in the scenes of a seed, first. A question is one step of `progress`.
-///
-/// # Errors
-/// As [`Comparison::new`]; [`Cancelled`](Error::is_cancelled).
-pub fn answers(
-    comparison: &Comparison<'_, f32>,
-    accuracy: (f64, u64),
-    progress: &Progress,
-) -> Result<Vec<Scores>, Error> {
-    let questions = questions(*comparison.convention(), accuracy)?;
-    progress.begin(questions.len() as u64);
-    let answer = |(name, convention, request): Question| {
-        let comparison = Comparison::new(comparison.ground_truth(), comparison.predictions(), convention)?;
-        let outcome = comparison.at_most(MOST).run(&request, &progress.part())?;
-        progress.step()?;
-        Ok(Scores::of_outcome(name, &outcome))
+        Ok(Scores::new(name, scores, interval))
     };
     questions.into_iter().map(answer).collect()
 }
 
-/// A name, a convention and scenes.
-type Question = (String, Convention, Request);
-
-fn questions(own: Convention, (target, seed): (f64, u64)) -> Result<Vec<Question>, Error> {
-    let usual = Request::Accuracy { target, seed };
-    let mut all = vec![(own.name.to_owned(), own, usual.clone())];
+/// Names, conventions and scenes.
+fn questions(own: Convention, usual: &Request) -> Result<Vec<(String, Convention, Request)>, Error> {
+    let under = |name: &str, convention| (name.to_owned(), convention, usual.clone());
+    let mut all = vec![under(own.name, own)];
     for described in named::all().iter().filter(|described| described.name != own.name) {
-        all.push((described.name.clone(), Convention::try_from(described)?, usual.clone()));
+        all.push(under(&described.name, Convention::try_from(described)?));
     }
     for epsilon in [0.01, 0.1].into_iter().filter(|epsilon| *epsilon != own.epsilon) {
-        all.push((format!("epsilon {epsilon}"), Convention { epsilon, ..own }, usual.clone()));
+        all.push(under(&format!("epsilon {epsilon}"), Convention { epsilon, ..own }));
     }
+    let (seed, texels) = (usual.seed().unwrap_or(0), Texels::Sampled(TEXELS));
     for (name, near, distant) in [("near-field scenes", SCENES, 0), ("distant scenes", 0, SCENES)] {
-        let texels = Texels::Sampled(TEXELS);
         let sampling = Sampling { near, distant, seed, sampler: Sampler::Sobol, texels };
         all.push((name.to_owned(), own, Request::Scenes(sampling)));
     }
@@ -160,16 +156,16 @@ struct Change {
 }
 
 impl RobustReport {
-    /// Asks all questions.
+    /// Asks all questions, the default one by the `usual` request.
     ///
     /// # Errors
-    /// As [`answers`].
+    /// As [`Comparison::new`]; [`Cancelled`](Error::is_cancelled).
     pub fn new(
         comparison: &Comparison<'_, f32>,
-        accuracy: (f64, u64),
+        usual: &Request,
         progress: &Progress,
     ) -> Result<Self, Error> {
-        let answers = answers(comparison, accuracy, progress)?;
+        let answers = answers(comparison, usual, progress)?;
         let names: Vec<_> = comparison.predictions().iter().map(|one| one.name().to_owned()).collect();
         let compared = Compared::new(comparison.ground_truth(), comparison.convention());
         Ok(Self::of_answers(compared, Vec::new(), &names, &answers))
@@ -182,25 +178,20 @@ impl RobustReport {
         names: &[String],
         answers: &[Scores],
     ) -> Self {
-        let (default, name) = (&answers[0], |index: usize| names[index].clone());
-        let change = |answer: &Scores, (a, b): (usize, usize)| {
-            Some(Change {
+        let pairs = (1..names.len()).sum::<usize>().max(1) as f64;
+        let mut changes = Vec::new();
+        let asked = |answer: &Scores| {
+            let (changed, order) = (answers[0].changes(answer, names), order(&answer.scores));
+            let tau = 1.0 - 2.0 * changed.len() as f64 / pairs;
+            changes.extend(changed);
+            AskedQuestion {
                 question: answer.question.clone(),
-                first: name(a),
-                second: name(b),
-                default_interval95: default.differences[a][b]?,
-                interval95: answer.differences[a][b]?,
-            })
+                tau,
+                order: order.iter().map(|index| names[*index].clone()).collect(),
+                scores: order.iter().map(|index| answer.scores[*index]).collect(),
+            }
         };
-        let of_answer = |answer| default.changes(answer).filter_map(move |pair| change(answer, pair));
-        let changes: Vec<Change> = answers[1..].iter().flat_map(of_answer).collect();
-        let question = |answer: &Scores| AskedQuestion {
-            question: answer.question.clone(),
-            tau: default.tau(answer),
-            order: order(&answer.scores).into_iter().map(name).collect(),
-            scores: order(&answer.scores).into_iter().map(|index| answer.scores[index]).collect(),
-        };
-        let questions = answers.iter().map(question).collect();
+        let questions = answers.iter().map(asked).collect();
         Self { compared, materials, sentence: sentence(names, answers, &changes), questions, changes }
     }
 

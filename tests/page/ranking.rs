@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::json;
 
+use svbrdf_core::loss::Request;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_evaluate::dataset::{
     DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, Pick,
@@ -63,8 +64,7 @@ pub fn page() -> String {
             methods: vec![method("ours"), method(HOSTILE)],
         },
         convention: ChosenConvention::default(),
-        target_error: Some(0.01),
-        scenes: None,
+        scenes: Request::Accuracy { target: 0.01, seed: 0 }.into(),
         seed: 0,
         materials: names.map(str::to_owned).to_vec(),
         methods: vec!["ours".to_owned(), HOSTILE.to_owned()],

@@ -44,7 +44,8 @@ fn folders(folder: &Path) -> [PathBuf; 3] {
 
 fn dataset([gt, ours, theirs]: [PathBuf; 3], results: Option<PathBuf>) -> OpenDataset {
     let source = Source::folders(gt, vec![(None, ours), (None, theirs)]);
-    OpenDataset::new(source, DatasetReading::default(), (0.02, 0), results).unwrap()
+    OpenDataset::new(source, DatasetReading::default(), Request::Accuracy { target: 0.02, seed: 0 }, results)
+        .unwrap()
 }
 
 /// The window on a data set, once its losses are there.
@@ -147,7 +148,13 @@ fn a_method_has_one_number_and_place_and_a_pair_one_loss() {
     let [gt, ours, theirs] = folders(folder.path());
     // In the order theirs, ours: the first one fails.
     let source = Source::folders(gt, vec![(None, theirs), (None, ours)]);
-    let open = OpenDataset::new(source, DatasetReading::default(), (0.02, 7), None).unwrap();
+    let open = OpenDataset::new(
+        source,
+        DatasetReading::default(),
+        Request::Accuracy { target: 0.02, seed: 7 },
+        None,
+    )
+    .unwrap();
     let mut window = on_dataset(&open);
     window.run_steps(4);
     let place = pane(&window, "2  ours");

@@ -43,7 +43,9 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
             all.map(|one| one.read.material().clone().renamed(one.name().to_owned())).collect();
         let predictions: Vec<_> = materials[1..].iter().collect();
         let of = Comparison::new(&materials[0], &predictions, convention.parse().unwrap()).unwrap();
-        let expected = RobustReport::new(&of, (0.1, 0), &Progress::default()).unwrap();
+        let expected =
+            RobustReport::new(&of, &Request::Accuracy { target: 0.1, seed: 0 }, &Progress::default())
+                .unwrap();
         assert_eq!(found.text(), expected.text());
         see(&mut window, &found.sentence);
         assert!(found.text().contains(&format!("convention {convention}")), "{}", found.text());

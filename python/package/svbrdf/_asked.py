@@ -12,7 +12,7 @@ from ._material import Material, Source, opened
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import Report, report_of
-from ._scenes import Scene, read_scenes
+from ._scenes import Scene
 
 Scenes = Sequence[Scene] | Source
 Predictions = Material | Source | Sequence[Material | Source]
@@ -70,9 +70,10 @@ def question_json(scenes: Scenes | None = None, **options: Any) -> str:
     given: dict[str, Any] = {name: value for name, value in options.items() if value is not None}
     if "texels" in given:
         given["texels"] = str(given["texels"])
-    if scenes is not None:
-        listed = read_scenes(scenes) if isinstance(scenes, str | os.PathLike) else scenes
-        given["file"] = {"scenes": [Scene(*scene)._asdict() for scene in listed]}
+    if isinstance(scenes, str | os.PathLike):
+        given["scenes"] = os.fspath(scenes)
+    elif scenes is not None:
+        given["file"] = {"scenes": [Scene(*scene)._asdict() for scene in scenes]}
     return json.dumps(given, allow_nan=False, default=_plain)
 
 

@@ -6,13 +6,12 @@ from pathlib import Path
 from typing import Literal, Unpack
 
 from . import _core
-from ._asked import Accuracy, Scenes, question_json
+from ._asked import Accuracy, question_json
 from ._material import ReadOptions, Source, options_json
 from ._progress import Report as Progress
 from ._progress import reported
 from ._report import report_of
 from ._reports import DatasetReport
-from ._scenes import SETS, named_scenes
 
 
 def rank_dataset(
@@ -62,7 +61,7 @@ def rank_dataset(
         progress: True for a bar of tqdm, or a function of (materials done, materials in all).
         **question: The scenes of each material, as in `svbrdf.rank`; the seed names them together with the name of the
             material. For a list of scenes the command that repeats the ranking says `--scenes SCENES.json`, unless
-            `svbrdf.named_scenes` makes it without a `fov`.
+            `svbrdf.named_scenes` makes it.
 
     Warns:
         UserWarning: Files were read on an assumption that is in doubt: one warning for each method, and one for the
@@ -73,15 +72,10 @@ def rank_dataset(
         svbrdf.Error: A folder has no materials, or an option has no such value or is not used.
         TypeError, ValueError: An argument has a wrong type or makes no sense.
     """
-    sampled = [(f"--{name}", question.get(name)) for name in ("near", "distant", "sampler")]
     asked = {
         "ground_truths": ground_truths,
         "methods": _named(methods),
         "question": question_json(**question),
-        "scenes": [
-            *(str(word) for option in sampled if option[1] is not None for word in option),
-            *_source(question.get("scenes")),
-        ],
         "convention": convention,
         "pick": pick,
         "strict": strict,
@@ -109,13 +103,3 @@ def _named(methods: Source | Sequence[Source] | Mapping[str, Source]) -> list[tu
     if not named:
         raise ValueError("methods: expected at least one folder, found none")
     return named
-
-
-def _source(scenes: Scenes | None) -> list[str]:
-    """The options of the command line for scenes."""
-    if scenes is None:
-        return []
-    if isinstance(scenes, str | os.PathLike):
-        return ["--scenes", os.fspath(scenes)]
-    named = (name for name in SETS if named_scenes(name) == list(scenes))
-    return next((["--lights", name] for name in named), ["--scenes", "SCENES.json"])

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple
 
 from numpy.typing import NDArray
 
@@ -11,7 +11,6 @@ from . import _core
 from ._material import Material, Source, opened
 
 SetName = Literal["flash", "flash-9", "hemisphere"]
-SETS: tuple[SetName, ...] = get_args(SetName)
 
 
 class Scene(NamedTuple):

@@ -62,6 +62,6 @@ impl ProtocolArgs {
         given.refuse::<SceneArgs<FixedNumber>>(&reason("the scenes"))?;
         refuse(typed.target_error.is_some(), "target-error", &reason("the scenes"))?;
         refuse(typed.time_budget.is_some(), "time-budget", &reason("the scenes"))?;
-        Ok((convention, LossOptions { seed: typed.seed, texels: typed.texels, ..protocol.options()? }))
+        Ok((convention, protocol.options(&typed)?))
     }
 }

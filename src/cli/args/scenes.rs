@@ -153,19 +153,6 @@ impl<K> SceneArgs<K> {
     pub fn options(&self) -> Result<LossOptions, CommandError> {
         options(&self.0)
     }
-
-    /// The numbers or the list of scenes as they are typed.
-    pub fn words(&self) -> Vec<String> {
-        let typed = |id: &str| {
-            let value = self.0.try_get_raw(id).ok()??.next()?;
-            Some([format!("--{id}"), value.to_string_lossy().into_owned()])
-        };
-        ["near", "distant", "sampler", "scenes", "lights", "fov"]
-            .into_iter()
-            .filter_map(typed)
-            .flatten()
-            .collect()
-    }
 }
 
 /// The scenes of a file, or those of a publication.

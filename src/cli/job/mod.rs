@@ -6,7 +6,7 @@ pub mod session;
 use std::fmt;
 use std::path::PathBuf;
 
-use svbrdf_core::loss::Question;
+use svbrdf_core::loss::Request;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::report::AnalysisInput;
@@ -66,7 +66,7 @@ pub fn input<'a, T: Real>(
     opened: &'a OpenedMaterials<T>,
     materials: &MaterialJob,
     convention: Convention,
-    question: Question,
+    request: Request,
 ) -> AnalysisInput<'a, T> {
     AnalysisInput {
         ground_truth: &opened.ground_truth,
@@ -74,7 +74,8 @@ pub fn input<'a, T: Real>(
         storages: opened.storages.iter().collect(),
         paths: materials.paths.iter().map(|path| Some(path.display().to_string())).collect(),
         convention,
-        question,
+        request,
+        few_scenes: false,
         mask: opened.mask.clone(),
     }
 }

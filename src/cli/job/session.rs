@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::{LossOptions, LossSettings, Question, Request};
+use svbrdf_core::loss::{LossOptions, LossSettings, Request};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
@@ -21,7 +21,8 @@ pub struct SessionSettings {
     pub scene: Scene,
     pub convention: Convention,
     pub exposure_ev: f32,
-    display: SessionDisplay,
+    /// What the window displays, and how.
+    pub display: SessionDisplay,
     pub loss: Option<LossSettings>,
 }
 
@@ -72,20 +73,15 @@ impl SessionSettings {
         PictureContent { quantity, difference: self.display.difference.then(|| self.difference(quantity)) }
     }
 
-    /// What the window displays, and how.
-    pub fn display(&self) -> &SessionDisplay {
-        &self.display
-    }
-
     /// The chosen difference of a quantity, and its range.
     pub fn difference(&self, quantity: Quantity) -> ColouredDifference {
         let differences = &self.display.differences;
         ColouredDifference { kind: differences.kind(quantity), range: differences.range(quantity) }
     }
 
-    /// The question of `options`: over that of the session, where it has one.
-    pub fn question(session: Option<&Self>, options: &LossOptions) -> Result<Question, CoreError> {
+    /// What `options` ask for: over what the session does, where it has settings.
+    pub fn request(session: Option<&Self>, options: &LossOptions) -> Result<Request, CoreError> {
         let saved = session.and_then(|session| session.loss.as_ref());
-        saved.map_or_else(|| options.question(), |saved| options.over(saved))
+        saved.map_or_else(|| options.request(), |saved| options.over(saved))
     }
 }

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::KeptAnswer;
 use svbrdf_evaluate::dataset::{
-    self, Case, DatasetReading, DatasetReport, DatasetResults, DatasetSettings, FixedScenes, MaterialResult,
-    Pick, Shard,
+    self, Case, DatasetReading, DatasetReport, DatasetSettings, MaterialResult, Pick, Shard,
 };
 use svbrdf_evaluate::metrics::MetricSelection;
-use svbrdf_evaluate::protocols::{Mask, Protocol};
+use svbrdf_evaluate::protocols::Mask;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_evaluate::robust::RobustReport;
 use svbrdf_files::disk::atomic::write_text;
@@ -77,14 +77,14 @@ fn new(args: RankArgs, given: &Specified) -> Result<ManyJob, CommandError> {
         args.of_data_set;
     let typed = args.scenes.options()?;
     let (convention, options) = protocol.decided(args.comparison.convention.as_ref(), typed, given)?;
-    let (convention, protocol) = (convention.unwrap_or_default(), protocol.protocol.map(|one| *one));
-    let (target_error, seed) = options.accuracy();
-    let scenes = FixedScenes::new(options.question()?.request, args.scenes.words())?;
+    let protocol = protocol.protocol.map(|one| *one);
     let words = |words: Vec<String>| words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>();
     let metrics = metrics.map(|given| MetricSelection::try_from(words(given))).transpose()?;
-    let metrics =
-        metrics.or(protocol.as_ref().filter(|one| !one.metrics.is_empty()).map(Protocol::selection));
-    if scenes.is_none() && metrics.as_ref().is_some_and(MetricSelection::needs_scenes) {
+    let request = options.request()?;
+    let settings = DatasetSettings::new(source, convention.unwrap_or_default(), request, &cases);
+    let settings = settings.following(&options, metrics, protocol.clone())?;
+    let DatasetSettings { scenes, metrics, .. } = &settings;
+    if scenes.target().is_some() && metrics.as_ref().is_some_and(MetricSelection::needs_scenes) {
         let problem = "metrics of renderings need scenes; give --near and --distant, --lights or --scenes";
         return Err(CommandError::usage(problem));
     }
@@ -94,13 +94,7 @@ fn new(args: RankArgs, given: &Specified) -> Result<ManyJob, CommandError> {
         "a diagnosis is of all texels, and not of those of a mask",
     )?;
     refuse(mask.is_some() && args.robust, "robust", "the order under other questions is over all texels")?;
-    let settings = DatasetSettings {
-        metrics,
-        diagnose,
-        common,
-        protocol: protocol.clone(),
-        ..DatasetSettings::new(source, convention, target_error, seed, &cases).in_scenes(scenes)
-    };
+    let settings = DatasetSettings { diagnose, common, ..settings };
     let given = &args.comparison.materials.reading;
     let mask = mask.map(|_| Mask::Alpha);
     let reading = DatasetReading { mask, ..reading(given, &settings.methods, &register)? };
@@ -163,7 +157,7 @@ impl ManyJob {
             check_any(&report)?;
         }
         warn_of(report.missed(), strict)?;
-        unkept.map_or(Ok(()), |problem| Err(CommandError::NotKept(problem)))?;
+        unkept.map_or(Ok(()), |problem| Err(CommandError::Failed(problem)))?;
         let means = report.methods.into_iter().filter(|summary| summary.materials > 0);
         check_limit(self.fail_above, means.map(|summary| (summary.method, summary.mean)))
     }
@@ -177,7 +171,7 @@ impl ManyJob {
     ) -> Result<(DatasetReport, Option<String>), CommandError> {
         let Self { settings, reading, results, pick, .. } = self;
         let reading = dataset::decided(cases, reading.clone(), progress)?;
-        let DatasetResults { results, notes, unkept } =
+        let KeptAnswer { answer: results, notes, unkept } =
             watched_on(progress, "comparing materials", |progress| {
                 dataset::run(cases, settings, &reading, results.as_deref(), progress)
             })?;
@@ -247,11 +241,10 @@ fn check_any(report: &DatasetReport) -> Result<(), CommandError> {
     }
     let failed = failures(&report.results).count();
     match failures(&report.results).next() {
-        Some((material, method, problem)) => Err(CommandError::NothingRanked {
-            failed,
-            name: format!("{material}, {method}"),
-            problem: problem.to_owned(),
-        }),
+        Some((material, method, problem)) => Err(CommandError::Failed(format!(
+            "no prediction has a loss: {failed} of {failed} failed, the first of them, {material}, {method}: {problem}; \
+             correct the predictions"
+        ))),
         None => Ok(()),
     }
 }

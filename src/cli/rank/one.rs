@@ -1,7 +1,8 @@
 //! Many predictions of one ground truth.
 
-use svbrdf_core::loss::{Comparison, Question};
+use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::material::Material;
+use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::analyses::{MaterialReading, RankReport};
 use svbrdf_evaluate::report::{Analysis as _, NoOptions, Repetition, Report as _};
 use svbrdf_evaluate::robust::RobustReport;
@@ -15,9 +16,9 @@ use crate::cli::output::{CommandError, command_line, warn_of, watched};
 #[derive(Debug)]
 struct OneJob {
     comparison: ComparisonJob,
-    question: Question,
-    /// The error of the losses and the seed of the questions about the order, where they are asked instead.
-    robust: Option<(f64, u64)>,
+    request: Request,
+    /// Whether the order under other questions is asked for instead.
+    robust: bool,
     fail_above: Option<f64>,
     output: OutputArgs,
 }
@@ -38,22 +39,23 @@ pub fn job(args: RankArgs, given: &Specified) -> NewJob {
         refuse(fail_above.is_some(), "fail-above", "the order under other questions has no limit")?;
         refuse_scenes(given)?;
     }
-    let options = scenes.options()?;
-    let robust = robust.then(|| options.accuracy());
-    let question = SessionSettings::question(comparison.session.as_ref(), &options)?;
-    Ok(Box::new(OneJob { comparison, question, robust, fail_above, output }))
+    // The order under other questions is asked about materials alone.
+    let session = comparison.session.as_ref().filter(|_| !robust);
+    let request = SessionSettings::request(session, &scenes.options()?)?;
+    Ok(Box::new(OneJob { comparison, request, robust, fail_above, output }))
 }
 
 /// Prints the ranking; fails where a loss is above a limit, after all are printed.
 impl Job for OneJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
-        let Self { comparison, question, robust, fail_above, output } = *self;
+        let Self { comparison, request, robust, fail_above, output } = *self;
         let ComparisonJob { convention, materials, .. } = comparison;
         let opened = materials.open::<f32>()?;
-        let input = job::input(&opened, &materials, convention, question);
-        if let Some(accuracy) = robust {
+        let input = job::input(&opened, &materials, convention, request);
+        if robust {
             let comparison = Comparison::new(input.ground_truth, &input.predictions, convention)?;
-            let report = watched("rendering", |progress| RobustReport::new(&comparison, accuracy, progress))?;
+            let ask = |progress: &Progress| RobustReport::new(&comparison, &input.request, progress);
+            let report = watched("rendering", ask)?;
             return Ok(output.put(&report, RobustReport::latex)?);
         }
         let mut report =

@@ -1,4 +1,4 @@
-//! Options of a loss: what the command line, Python and sessions specify of its question.
+//! Options of a loss: what the command line, Python and sessions specify of it.
 
 use std::str::FromStr;
 use std::time::Duration;
@@ -6,18 +6,18 @@ use std::time::Duration;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
-use super::adaptive::TEXELS;
-use super::question::{Question, counts};
+use super::adaptive::{NEAR_PER_DISTANT, TEXELS};
 use super::request::{Request, Sampling, Texels};
 use super::settings::{FileScenes, LossSettings};
 use crate::error::Error;
+use crate::model::named_scenes::NamedScenes;
 use crate::model::sampler::Sampler;
 
 /// The options of sampled scenes.
 const SAMPLED: [&str; 4] = ["near", "distant", "sampler", "texels"];
 
-/// What is specified of a question; `None` is left open. The command line parses into it, Python passes it as JSON, and it is laid over
-/// the settings of a session.
+/// What is specified of a loss; `None` is left open. The command line parses into it, Python passes it as JSON, and it is laid over the
+/// settings of a session.
 ///
 /// The number of scenes follows from `near` and `distant`, `target_error`, `time_budget` or `file`. These exclude each other, and
 /// options that the one does not use are refused.
@@ -75,29 +75,36 @@ fn among<'de, D: Deserializer<'de>>(
 }
 
 impl LossOptions {
-    /// The question that is asked with these. Where nothing decides the number of scenes it is [`Question::of_seed`], whose scenes are
-    /// Sobol with random texels; with a number of them, the rest is random and all texels.
+    /// What is asked for with these. Where nothing decides the number of scenes it is the loss over all scenes to +-1% at 95%
+    /// confidence, whose scenes are Sobol with random texels; with a number of them, the rest is random and all texels.
     ///
     /// # Errors
     /// [`Error::SceneCount`]; [`Error::UnusedOption`]; [`Error::NoSceneCount`] where a sampler or texels are specified that an accuracy
     /// does not have.
-    pub fn question(&self) -> Result<Question, Error> {
+    pub fn request(&self) -> Result<Request, Error> {
         self.check()?;
         let seed = self.seed.unwrap_or(0);
-        let request = match (&self.file, self.target_error, self.time_budget) {
-            (Some(file), ..) => Request::Listed(file.scenes.clone()),
-            (_, Some(target), _) => Request::Accuracy { target, seed },
-            (.., Some(budget)) => Request::Time { budget, seed },
-            _ if self.near.or(self.distant).is_some() => self.sampled(Sampling::default())?,
-            _ => return self.check_open().map(|()| Question::of_seed(seed)),
-        };
-        Ok(request.into())
+        match (&self.file, self.target_error, self.time_budget) {
+            (Some(file), ..) => Ok(Request::Listed(file.scenes.clone())),
+            (_, Some(target), _) => Ok(Request::Accuracy { target, seed }),
+            (.., Some(budget)) => Ok(Request::Time { budget, seed }),
+            _ if self.is_open() => {
+                self.check_open().map(|()| Request::Accuracy { target: super::ALL_SCENES_TARGET, seed })
+            }
+            _ => self.sampled(Sampling::default()),
+        }
+    }
+
+    /// Whether nothing decides the number of scenes.
+    pub fn is_open(&self) -> bool {
+        let Self { near, distant, target_error, time_budget, file, .. } = self;
+        near.or(*distant).is_none() && target_error.is_none() && time_budget.is_none() && file.is_none()
     }
 
     /// The request for scenes that are listed one by one, on all texels: [`Sampling::LISTED`] where nothing else is specified.
     ///
     /// # Errors
-    /// As [`LossOptions::question`].
+    /// As [`LossOptions::request`].
     pub fn listed(&self) -> Result<Request, Error> {
         self.check()?;
         match &self.file {
@@ -106,35 +113,45 @@ impl LossOptions {
         }
     }
 
-    /// The question that is asked with these in place of `saved` settings, which count where the number of scenes is left open.
+    /// What is asked for with these in place of `saved` settings, which count where the number of scenes is left open.
     ///
     /// # Errors
-    /// As [`LossOptions::question`].
-    pub fn over(&self, saved: &LossSettings) -> Result<Question, Error> {
+    /// As [`LossOptions::request`].
+    pub fn over(&self, saved: &LossSettings) -> Result<Request, Error> {
         let seed = self.seed.unwrap_or(saved.seed);
-        if self.file.is_some() {
-            return self.question();
+        if !self.is_open() {
+            return Ok(self.request()?.of_seed(seed));
         }
-        if self.near.or(self.distant).is_some() || self.target_error.is_some() || self.time_budget.is_some() {
-            return Self { seed: Some(seed), ..self.clone() }.question();
-        }
-        let request = LossSettings { seed, ..saved.clone() }.request();
-        Ok(match request {
-            Request::Listed(_) => {
-                self.refuse(&["seed", "sampler", "texels"], "the session lists its scenes")?;
-                request
+        match saved.request().of_seed(seed) {
+            listed @ Request::Listed(_) => {
+                self.refuse(&["seed", "sampler", "texels"], "the session lists its scenes").map(|()| listed)
             }
-            Request::Scenes(Sampling { near, distant, sampler, texels, .. }) => {
-                self.sampled(Sampling { near, distant, seed, sampler, texels })?
-            }
-            Request::Accuracy { .. } | Request::Time { .. } => self.check_open().map(|()| request)?,
+            Request::Scenes(sampling) => self.sampled(sampling),
+            request => self.check_open().map(|()| request),
         }
-        .into())
     }
 
-    /// The target error, 1% where it is left open, and the seed.
-    pub fn accuracy(&self) -> (f64, u64) {
-        (self.target_error.unwrap_or(super::ALL_SCENES_TARGET), self.seed.unwrap_or(0))
+    /// The numbers or the list of scenes as the command line has them. A list without a file or a name is called SCENES.json.
+    pub fn words(&self) -> Vec<String> {
+        let Self { near, distant, sampler, file, .. } = self;
+        let list = file.iter().flat_map(|FileScenes { path, scenes, .. }| {
+            let path = Some(path.display().to_string()).filter(|path| !path.is_empty());
+            let Some(named) = NamedScenes::of(scenes).filter(|_| path.is_none()) else {
+                return vec![("scenes", path.unwrap_or_else(|| "SCENES.json".to_owned()))];
+            };
+            let mut words = vec![("lights", named.name().to_owned())];
+            if let NamedScenes::Flash { fov_degrees } = named {
+                // It follows from the place of the light, which is rounded.
+                let fov = (fov_degrees * 1e9).round() / 1e9;
+                words.extend((fov != NamedScenes::FOV_DEGREES).then(|| ("fov", fov.to_string())));
+            }
+            words
+        });
+        let numbers = [("near", near), ("distant", distant)];
+        let numbers = numbers.into_iter().filter_map(|(name, number)| Some((name, (*number)?.to_string())));
+        let sampler = sampler.map(|sampler| ("sampler", sampler.to_string()));
+        let all = numbers.chain(sampler).chain(list);
+        all.flat_map(|(name, value)| [format!("--{name}"), value]).collect()
     }
 
     /// Sampled scenes, where left open as of `usual`.
@@ -202,6 +219,17 @@ impl LossOptions {
     }
 }
 
+/// The numbers of near-field and distant scenes. Where one is left open, there are two near-field scenes for each distant one, as in
+/// Algorithm 1; `usual` where both are.
+fn counts(specified: [Option<usize>; 2], usual: [usize; 2]) -> [usize; 2] {
+    match specified {
+        [None, None] => usual,
+        [Some(near), None] => [near, near.div_ceil(NEAR_PER_DISTANT)],
+        [None, Some(distant)] => [distant.saturating_mul(NEAR_PER_DISTANT), distant],
+        [Some(near), Some(distant)] => [near, distant],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -216,14 +244,14 @@ mod tests {
             (Some(Sampler::Sobol), Some(Texels::Sampled(TEXELS))),
         ] {
             let choice = LossOptions { sampler, texels, seed: Some(7), ..LossOptions::default() };
-            assert_eq!(choice.question().unwrap(), Question::of_seed(7));
+            assert_eq!(choice.request().unwrap(), Request::Accuracy { target: 0.01, seed: 7 });
         }
         for (sampler, texels, found) in [
             (Some(Sampler::Random), None, "sampler random"),
             (None, Some(Texels::Sampled(64)), "texels 64"),
             (Some(Sampler::Sobol), Some(Texels::All), "texels all"),
         ] {
-            let error = LossOptions { sampler, texels, ..LossOptions::default() }.question().unwrap_err();
+            let error = LossOptions { sampler, texels, ..LossOptions::default() }.request().unwrap_err();
             assert!(error.to_string().contains(found), "{error}");
         }
     }
@@ -232,21 +260,39 @@ mod tests {
     fn what_is_saved_counts_where_a_number_of_scenes_is_left_open() {
         let accuracy = LossSettings { target_percent: 0.3, seed: 5, ..LossSettings::default() };
         let sobol = LossOptions { sampler: Some(Sampler::Sobol), ..LossOptions::default() };
-        assert_eq!(sobol.over(&accuracy).unwrap().request, accuracy.request());
+        assert_eq!(sobol.over(&accuracy).unwrap(), accuracy.request());
         let saved = LossSettings { ask: Ask::Scenes, near: 40, distant: 9, ..accuracy.clone() };
         let expected = LossSettings { sampler: Sampler::Sobol, ..saved.clone() };
-        assert_eq!(sobol.over(&saved).unwrap().request, expected.request());
+        assert_eq!(sobol.over(&saved).unwrap(), expected.request());
         let near = LossOptions { near: Some(8), ..sobol.clone() };
         let seeded = LossOptions { seed: Some(5), ..near.clone() };
-        assert_eq!(near.over(&accuracy).unwrap(), seeded.question().unwrap());
+        assert_eq!(near.over(&accuracy).unwrap(), seeded.request().unwrap());
         let seed = LossOptions { seed: Some(7), ..LossOptions::default() };
-        assert_eq!(seed.over(&saved).unwrap().request.seed(), Some(7));
+        assert_eq!(seed.over(&saved).unwrap().seed(), Some(7));
         let scenes = Sampler::Random.scenes(1, 2, 1, &crate::model::convention::PRINTED);
         let listed = saved.with_file(Some(FileScenes { name: String::new(), path: "".into(), scenes }));
-        assert_eq!(LossOptions::default().over(&listed).unwrap().request, listed.request());
+        assert_eq!(LossOptions::default().over(&listed).unwrap(), listed.request());
         for options in [seed, sobol] {
             let refused = options.over(&listed).unwrap_err().to_string();
             assert!(refused.contains("the session lists its scenes"), "{refused}");
+        }
+    }
+
+    #[test]
+    fn scenes_have_the_words_of_the_command_line() {
+        let list = |path: &str, scenes| Some(FileScenes { name: String::new(), path: path.into(), scenes });
+        let flash = |fov_degrees| NamedScenes::Flash { fov_degrees }.scenes().unwrap();
+        let other = Sampler::Random.scenes(1, 2, 1, &crate::model::convention::PRINTED);
+        for (near, sampler, file, expected) in [
+            (Some(8), Some(Sampler::Sobol), None, "--near 8 --sampler sobol"),
+            (None, None, list("a/b.json", flash(45.0)), "--scenes a/b.json"),
+            (None, None, list("", flash(45.0)), "--lights flash"),
+            (None, None, list("", flash(30.1)), "--lights flash --fov 30.1"),
+            (None, None, list("", NamedScenes::Flash9.scenes().unwrap()), "--lights flash-9"),
+            (None, None, list("", other), "--scenes SCENES.json"),
+        ] {
+            let options = LossOptions { near, sampler, file, ..LossOptions::default() };
+            assert_eq!(options.words().join(" "), expected);
         }
     }
 
@@ -257,7 +303,7 @@ mod tests {
         let [seed, target, time] = [r#""seed": 3"#, r#""target_error": 0.1"#, r#""time_budget": 0.5"#];
         let question = |fields: &[&str]| {
             let text = format!("{{{}}}", fields.join(", "));
-            serde_json::from_str::<LossOptions>(&text).unwrap().question()
+            serde_json::from_str::<LossOptions>(&text).unwrap().request()
         };
         for (deciding, unused) in [
             (scenes, [&sampled[..], &[seed, target, time]].concat()),
@@ -272,7 +318,7 @@ mod tests {
             }
         }
         assert_eq!(
-            question(&[time, seed]).unwrap().request,
+            question(&[time, seed]).unwrap(),
             Request::Time { budget: Duration::from_millis(500), seed: 3 }
         );
         for wrong in [
@@ -293,7 +339,7 @@ mod tests {
     fn one_number_of_scenes_keeps_the_proportion_of_two_to_one() {
         let counts = |near, distant| {
             let choice = LossOptions { near, distant, seed: Some(3), ..LossOptions::default() };
-            match choice.question().unwrap().request {
+            match choice.request().unwrap() {
                 Request::Scenes(Sampling {
                     near,
                     distant,
@@ -310,7 +356,7 @@ mod tests {
             assert_eq!(counts(None, Some(n)), [2 * n, n]);
             assert_eq!(counts(Some(n), Some(0)), [n, 0]);
         }
-        assert!(LossOptions { near: Some(0), ..LossOptions::default() }.question().is_err());
-        assert!(LossOptions { distant: Some(usize::MAX), ..LossOptions::default() }.question().is_err());
+        assert!(LossOptions { near: Some(0), ..LossOptions::default() }.request().is_err());
+        assert!(LossOptions { distant: Some(usize::MAX), ..LossOptions::default() }.request().is_err());
     }
 }

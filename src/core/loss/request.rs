@@ -12,7 +12,8 @@ use crate::model::sampler::Sampler;
 use crate::model::scene::Scene;
 
 /// What decides the scenes of a loss.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Request {
     /// Numbers of sampled scenes. The default: 6 near-field and 3 distant random ones, on all texels.
     Scenes(Sampling),
@@ -63,6 +64,25 @@ impl Request {
         }
     }
 
+    /// The accuracy: half of the 95% interval, as a share of the loss; `None` where scenes or a time are asked for.
+    pub fn target(&self) -> Option<f64> {
+        match *self {
+            Self::Accuracy { target, .. } => Some(target),
+            _ => None,
+        }
+    }
+
+    /// The same of the scenes of another seed.
+    #[must_use]
+    pub fn of_seed(self, seed: u64) -> Self {
+        match self {
+            Self::Scenes(sampling) => Self::Scenes(Sampling { seed, ..sampling }),
+            Self::Accuracy { target, .. } => Self::Accuracy { target, seed },
+            Self::Time { budget, .. } => Self::Time { budget, seed },
+            listed => listed,
+        }
+    }
+
     /// What names the scenes; `None` where they are listed.
     pub fn seed(&self) -> Option<u64> {
         match self {
@@ -81,7 +101,7 @@ impl Default for Request {
 }
 
 /// Sampled scenes, and the texels that each is compared on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Sampling {
     /// N_S, the number of near-field scenes.
     pub near: usize,

@@ -5,7 +5,6 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use super::question::Question;
 use super::request::{Request, Sampling, Texels};
 use crate::model::sampler::Sampler;
 use crate::model::scene::Scene;
@@ -150,11 +149,6 @@ impl LossSettings {
         let few = self.sampling().filter(|sampling| (1..=MOST).contains(&(sampling.near + sampling.distant)));
         let default = Sampling { seed: self.seed, ..Sampling::LISTED };
         Request::Scenes(Sampling { texels: Texels::All, ..few.unwrap_or(default) })
-    }
-
-    /// The request with the 6 + 3 scenes of the papers beside it, unless it asks for just these.
-    pub fn question(&self) -> Question {
-        Question::from(self.request()).beside_few_scenes(self.seed)
     }
 }
 

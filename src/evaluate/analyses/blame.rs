@@ -7,7 +7,7 @@ use crate::report::{
     Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Report, Table, missed, scenes_line,
 };
 use crate::why::{self, MapShare};
-use svbrdf_core::loss::{Estimate, Question, Request};
+use svbrdf_core::loss::{Estimate, Request};
 use svbrdf_core::progress::Progress;
 
 /// What a map adds to the loss of a prediction, or all maps do.
@@ -83,10 +83,7 @@ struct Attribution {
 impl BlameReport {
     /// The report of the `attributions` that `request` gives.
     pub fn new(compared: Compared, request: &Request, attributions: Vec<why::Attribution>) -> Self {
-        let target_error = match *request {
-            Request::Accuracy { target, .. } => Some(target),
-            _ => None,
-        };
+        let target_error = request.target();
         let attribution = |found: why::Attribution| Attribution {
             scenes: found.scenes.len(),
             seed: found.sampling.map(|sampling| sampling.seed),
@@ -136,7 +133,7 @@ impl Report for BlameReport {
         Table::fields(&fields(), rows, reader)
     }
 
-    fn missed(&self) -> Vec<Error> {
+    fn missed(&self) -> Vec<String> {
         let Some(target) = self.target_error else { return Vec::new() };
         let of = |a: &Attribution| missed(target, &a.prediction, &a.loss, a.scenes);
         self.attributions.iter().filter_map(of).collect()
@@ -160,7 +157,7 @@ impl Analysis for BlameReport {
     type Options = NoOptions;
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, convention, question: Question { request, .. }, .. } = input;
+        let AnalysisInput { ground_truth, convention, request, .. } = input;
         let attributions = input.each(|prediction| {
             Ok(why::attribute(ground_truth, prediction, convention, request, progress)?)
         })?;

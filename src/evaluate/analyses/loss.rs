@@ -1,12 +1,9 @@
 //! Losses with the settings that they depend on: the JSON.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use crate::report::Cell;
 use svbrdf_core::error::Error;
-use svbrdf_core::loss::{
-    Comparison, Compute, Estimate, IntervalSource, Loss, Outcome, Question, Request, Texels,
-};
+use svbrdf_core::loss::{Comparison, Compute, Estimate, IntervalSource, Loss, Outcome, Request};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::progress::Progress;
@@ -64,24 +61,21 @@ pub struct SampledScenes {
     /// `None` where the scenes were listed.
     pub sampler: Option<Sampler>,
     /// The number of random texels in each scene, or "all".
-    pub(super) texels: TexelCount,
+    #[serde(serialize_with = "count_or_all")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "number_or_all"))]
+    pub(super) texels: Option<usize>,
 }
 
-/// The texels in each scene: their number, or "all".
-#[derive(Clone, Copy, Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(untagged)]
-pub enum TexelCount {
-    Number(usize),
-    Word(AllTexels),
+fn count_or_all<S: Serializer>(texels: &Option<usize>, serializer: S) -> Result<S::Ok, S::Error> {
+    match texels {
+        Some(count) => count.serialize(serializer),
+        None => "all".serialize(serializer),
+    }
 }
 
-/// The word for all texels.
-#[derive(Clone, Copy, Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "lowercase")]
-pub enum AllTexels {
-    All,
+#[cfg(feature = "schema")]
+fn number_or_all(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    schemars::json_schema!({"anyOf": [{"type": "integer"}, {"const": "all"}]})
 }
 
 /// The scenes of the losses over few scenes: another estimate of the loss, which depends on the seed.
@@ -142,10 +136,7 @@ pub(super) struct FewScenesLoss {
 impl LossReport {
     /// The report of the `outcome` of `request` to `comparison`.
     pub fn new<T: Compute>(comparison: &Comparison<'_, T>, request: &Request, outcome: Outcome) -> Self {
-        let target_error = match *request {
-            Request::Accuracy { target, .. } => Some(target),
-            _ => None,
-        };
+        let target_error = request.target();
         // Their number was requested, so that a list of them has a readable length.
         let lists_scenes = matches!(request, Request::Scenes(_) | Request::Listed(_));
         let (convention, size) = (comparison.convention(), comparison.ground_truth().size());
@@ -169,24 +160,26 @@ impl LossReport {
         }
     }
 
-    /// The answer of `comparison` to `question`.
+    /// The answer of `comparison` to `request`; `with_few_scenes` has the losses over the few scenes of the papers beside it.
     ///
     /// # Errors
     /// As [`Comparison::run`].
     pub fn answer<T: Compute>(
         comparison: &Comparison<'_, T>,
-        question: &Question,
+        request: &Request,
+        with_few_scenes: bool,
         progress: &Progress,
     ) -> Result<Self, Error> {
-        let report = Self::new(comparison, &question.request, comparison.run(&question.request, progress)?);
-        let Some(few) = question.few_scenes else { return Ok(report) };
-        let few = Request::Scenes(few);
+        let report = Self::new(comparison, request, comparison.run(request, progress)?);
+        if !with_few_scenes {
+            return Ok(report);
+        }
+        let few = Request::default().of_seed(request.seed().unwrap_or(0));
         Ok(report.beside(Self::new(comparison, &few, comparison.run(&few, progress)?)))
     }
 
-    /// The same report with the losses over the few scenes of the papers beside it.
-    #[must_use]
-    pub fn beside(mut self, few: Self) -> Self {
+    /// The same report with the losses over few scenes beside it.
+    fn beside(mut self, few: Self) -> Self {
         for (result, few) in self.results.iter_mut().zip(few.results) {
             result.few_scenes = Some(FewScenesLoss {
                 few_scenes_loss: few.loss,
@@ -215,13 +208,12 @@ impl LossReport {
 impl SampledScenes {
     fn of(outcome: &Outcome, size: [usize; 2]) -> Self {
         let count = |kind| outcome.scenes.iter().filter(|scene| scene.kind == kind).count();
-        let texels = outcome.sampling.and_then(|sampling| sampling.texels.sampled(size));
         Self {
             near: count(Kind::Near),
             distant: count(Kind::Distant),
             seed: outcome.sampling.map(|sampling| sampling.seed),
             sampler: outcome.sampling.map(|sampling| sampling.sampler),
-            texels: texels.map_or(TexelCount::Word(AllTexels::All), TexelCount::Number),
+            texels: outcome.sampling.and_then(|sampling| sampling.texels.sampled(size)),
         }
     }
 }
@@ -255,14 +247,5 @@ impl LossDifference {
 
     pub fn estimate(&self) -> Estimate {
         Estimate { mean: self.difference, standard_error: self.standard_error, interval95: self.interval95 }
-    }
-}
-
-impl From<TexelCount> for Cell {
-    fn from(texels: TexelCount) -> Self {
-        match texels {
-            TexelCount::Number(count) => count.into(),
-            TexelCount::Word(AllTexels::All) => Texels::All.to_string().into(),
-        }
     }
 }

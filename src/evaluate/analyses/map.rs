@@ -63,9 +63,9 @@ impl Analysis for MapReport {
     type Options = NoOptions;
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, predictions, convention, question, .. } = input;
+        let AnalysisInput { ground_truth, predictions, convention, request, .. } = input;
         let comparison = Comparison::new(*ground_truth, predictions, *convention)?.without_pilot();
-        let scenes = question.request.scenes(convention)?.unwrap_or_default();
+        let scenes = request.scenes(convention)?.unwrap_or_default();
         let images = why::error_maps(&comparison, &scenes, progress)?;
         let names = predictions.iter().map(|prediction| prediction.name().to_owned());
         Ok(Self {

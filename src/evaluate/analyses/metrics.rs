@@ -9,7 +9,7 @@ use crate::metrics::{Kept, Metric, MetricSelection, RenderedScenes, of_masked_ma
 use crate::report::{
     Analysis, AnalysisInput, AnalysisOption, Cell, Compared, OptionValue, Reader, Report, Table, scenes_line,
 };
-use svbrdf_core::loss::{Question, Sampling};
+use svbrdf_core::loss::Sampling;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
 
@@ -144,7 +144,7 @@ impl Analysis for MetricsReport {
     ];
 
     fn run(input: &AnalysisInput<'_>, options: &MetricsOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, convention, question: Question { request, .. }, .. } = input;
+        let AnalysisInput { ground_truth, convention, request, .. } = input;
         let (scenes, sampling) = (request.scenes(convention)?.unwrap_or_default(), request.sampling());
         let rendered = RenderedScenes {
             scenes: &scenes,

@@ -2,6 +2,7 @@
 
 mod blame;
 mod diagnose;
+mod kept;
 mod loss;
 mod loss_table;
 mod map;
@@ -23,7 +24,7 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
 use svbrdf_core::error::Error as CoreError;
-use svbrdf_core::loss::{Compute, LossOptions, LossSettings, Question};
+use svbrdf_core::loss::{Compute, LossOptions, LossSettings, Request};
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::of_json;
 
@@ -137,19 +138,15 @@ impl AnyAnalysis {
         ["near", "target_error"].iter().all(|option| self.scenes.contains(option))
     }
 
-    /// The question that `options` ask, where a session has `saved` settings over these.
+    /// What `options` ask for, where a session has `saved` settings over these.
     ///
     /// # Errors
-    /// As [`LossOptions::question`].
-    pub fn question(
-        &self,
-        options: &LossOptions,
-        saved: Option<&LossSettings>,
-    ) -> Result<Question, CoreError> {
+    /// As [`LossOptions::request`].
+    pub fn request(&self, options: &LossOptions, saved: Option<&LossSettings>) -> Result<Request, CoreError> {
         match saved.filter(|_| self.takes_settings()) {
             Some(saved) => options.over(saved),
-            None if self.lists_scenes() => options.listed().map(Question::from),
-            None => options.question(),
+            None if self.lists_scenes() => options.listed(),
+            None => options.request(),
         }
     }
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::diagnose::floor;
 use crate::error::Error;
-use crate::rank::{self, Ranked, places};
+use crate::rank::{self, RankedPrediction, places};
 use crate::report::{
     Analysis, AnalysisInput, Cell, Compared, Field, NoOptions, Reader, Repetition, Report, Table, bold,
     escaped, floor_line, latex, missed_by_any, scenes_line,
@@ -34,7 +34,7 @@ fn fields<'a>() -> [Field<Row<'a>>; 12] {
         }),
         ("resolvable", "", |(_, place, _)| place.resolvable.into()),
         ("to_best_resolvable", "", |(_, place, _)| place.to_best_resolvable.into()),
-        ("", "not resolvable", |(_, place, _)| place.unresolvable().into()),
+        ("", "not resolvable", |(_, place, _)| unresolvable(place).into()),
     ]
 }
 
@@ -66,24 +66,6 @@ pub struct RankReport {
     heading: String,
 }
 
-/// A prediction in a ranking.
-#[derive(Clone, Debug, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct RankedPrediction {
-    /// The index of the prediction in the order of the question.
-    pub index: usize,
-    pub prediction: String,
-    pub loss: Estimate,
-    /// The loss - the loss of the best prediction, over the same scenes; `None` for the best.
-    to_best: Option<Estimate>,
-    /// From 1. Predictions of one group are not separated from its first at 95% confidence.
-    group: usize,
-    /// Whether the loss is above the floor; `None` without a floor.
-    resolvable: Option<bool>,
-    /// Whether the difference to the best is above the floor.
-    to_best_resolvable: Option<bool>,
-}
-
 /// How a material was read.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -95,23 +77,7 @@ pub struct MaterialReading {
 impl RankReport {
     /// The ranking of the predictions of the `outcome` of `request`.
     fn new(compared: Compared, request: &Request, outcome: &Outcome) -> Self {
-        let target_error = match *request {
-            Request::Accuracy { target, .. } => Some(target),
-            _ => None,
-        };
-        let place = |Ranked { index, to_best, group }: Ranked| {
-            let loss = &outcome.losses[index];
-            let (prediction, loss) = (loss.prediction.clone(), loss.estimate);
-            RankedPrediction {
-                index,
-                prediction,
-                loss,
-                to_best,
-                group,
-                resolvable: None,
-                to_best_resolvable: None,
-            }
-        };
+        let target_error = request.target();
         let heading = compared.heading("rendering loss")
             + &scenes_line(outcome.sampling.as_ref(), &outcome.scenes, compared.size)
             + &target_error.map_or_else(String::new, |_| most_scenes(outcome));
@@ -124,7 +90,7 @@ impl RankReport {
             floor: None,
             repetition: None,
             readings: Vec::new(),
-            ranking: places(outcome).into_iter().map(place).collect(),
+            ranking: places(outcome),
             heading,
         }
     }
@@ -166,13 +132,11 @@ fn most_scenes(outcome: &Outcome) -> String {
     }
 }
 
-impl RankedPrediction {
-    /// What is not resolvable: "loss", "difference" or both; empty where both are.
-    fn unresolvable(&self) -> String {
-        let parts = [(self.resolvable, "loss"), (self.to_best_resolvable, "difference")];
-        let not = parts.into_iter().filter(|(is, _)| *is == Some(false));
-        not.map(|(_, name)| name).collect::<Vec<_>>().join(", ")
-    }
+/// What is not resolvable: "loss", "difference" or both; empty where both are.
+fn unresolvable(place: &RankedPrediction) -> String {
+    let parts = [(place.resolvable, "loss"), (place.to_best_resolvable, "difference")];
+    let not = parts.into_iter().filter(|(is, _)| *is == Some(false));
+    not.map(|(_, name)| name).collect::<Vec<_>>().join(", ")
 }
 
 impl Report for RankReport {
@@ -188,13 +152,13 @@ impl Report for RankReport {
     }
 
     fn table(&self, reader: Reader) -> Table {
-        let all_resolvable = self.ranking.iter().all(|place| place.unresolvable().is_empty());
+        let all_resolvable = self.ranking.iter().all(|place| unresolvable(place).is_empty());
         let fields = fields();
         let fields = &fields[..fields.len() - usize::from(all_resolvable)];
         Table::fields(fields, self.rows(), reader)
     }
 
-    fn missed(&self) -> Vec<Error> {
+    fn missed(&self) -> Vec<String> {
         let losses = self.ranking.iter().map(|place| (place.prediction.as_str(), place.loss));
         self.target_error.and_then(|target| missed_by_any(target, losses, self.scenes)).into_iter().collect()
     }
@@ -222,11 +186,11 @@ impl Analysis for RankReport {
     type Options = NoOptions;
 
     fn run(input: &AnalysisInput<'_>, _: &NoOptions, progress: &Progress) -> Result<Self, Error> {
-        let AnalysisInput { ground_truth, predictions, storages, convention, question, .. } = input;
+        let AnalysisInput { ground_truth, predictions, storages, convention, request, .. } = input;
         let comparison = Comparison::new(*ground_truth, predictions, *convention)?;
         let comparison = comparison.at_most(rank::most_scenes(predictions.len()));
-        let outcome = comparison.run(&question.request, progress)?;
-        let report = Self::new(input.compared(), &question.request, &outcome);
+        let outcome = comparison.run(request, progress)?;
+        let report = Self::new(input.compared(), request, &outcome);
         match storages.first().filter(|storage| storage.has_steps()) {
             Some(storage) => {
                 Ok(report.with_floor(&floor(ground_truth, storage, convention, input.seed(), progress)?))

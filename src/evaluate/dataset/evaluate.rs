@@ -11,6 +11,7 @@ use crate::error::Error;
 use crate::metrics::{Kept, RenderedScenes, of_masked_maps, of_renderings};
 use crate::protocols::Mask;
 use crate::rank::most_scenes;
+use crate::results::{KeptAnswer, Key, ResultsFolder};
 use svbrdf_core::loss::Comparison;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
@@ -21,22 +22,10 @@ use svbrdf_files::Error as FilesError;
 use super::opened::{Opened, OpenedMaterial, OpenedPair};
 use super::reading::DatasetReading;
 use super::record::{
-    CandidateFile, Case, DatasetSettings, KnownLoss, Mark, MaterialResult, PredictionResult,
+    CandidateFile, Case, DatasetSettings, KnownLoss, Mark, MaterialResult, PairResult, PredictionResult,
 };
 use super::remark::MASK;
-use super::results::{Key, PairResult, ResultsFolder};
 use svbrdf_files::read::{Dependencies, MaterialPath, ReadOptions};
-
-/// The results of a run over a data set.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DatasetResults {
-    /// Of every case, in order.
-    pub results: Vec<MaterialResult>,
-    /// The files of the results folder that cannot be used: lines.
-    pub notes: Vec<String>,
-    /// How many results could not be added to the folder, and why.
-    pub unkept: Option<String>,
-}
 
 /// The results of `cases` in order, computed in parallel.
 ///
@@ -57,7 +46,7 @@ pub fn run(
     reading: &DatasetReading,
     results: Option<&Path>,
     progress: &Progress,
-) -> Result<DatasetResults, Error> {
+) -> Result<KeptAnswer<Vec<MaterialResult>>, Error> {
     let evaluation = Evaluation::new(settings, reading, results, progress)?;
     progress.begin(cases.len() as u64);
     let of_case = |index: usize| {
@@ -65,9 +54,9 @@ pub fn run(
         progress.step()?;
         Ok::<_, Error>(result)
     };
-    let found = parallel::try_map(cases.len(), of_case)?;
+    let answer = parallel::try_map(cases.len(), of_case)?;
     let (notes, unkept) = evaluation.end()?;
-    Ok(DatasetResults { results: found, notes, unkept })
+    Ok(KeptAnswer { answer, notes, unkept })
 }
 
 /// The evaluation of a data set, material by material: what all results depend on.
@@ -187,7 +176,7 @@ impl<'a> Evaluation<'a> {
         // How it is read is a part of the digest.
         let material =
             |path: &Path, sha256: &str| json!({"path": path.display().to_string(), "sha256": sha256});
-        let DatasetSettings { target_error, scenes, diagnose, .. } = self.settings;
+        let DatasetSettings { scenes, diagnose, .. } = self.settings;
         let Convention { name, .. } = self.convention;
         // That of a file by its content.
         let is_named = name.parse().is_ok_and(|named: Convention| named == self.convention);
@@ -195,7 +184,7 @@ impl<'a> Evaluation<'a> {
         let mut of = json!({
             "format": 3,
             "convention": convention,
-            "target_error": target_error,
+            "target_error": scenes.target(),
             "seed": seed,
             "metrics": self.settings.computes()[0],
             "diagnose": diagnose,
@@ -217,8 +206,8 @@ impl<'a> Evaluation<'a> {
         if let Some(registration) = self.reading.registrations.get(method) {
             of["registration"] = json!(registration);
         }
-        if let Some(scenes) = scenes {
-            of["scenes"] = scenes.key();
+        if let Some(scenes) = scenes.key() {
+            of["scenes"] = scenes;
         }
         Some(Key::new(of))
     }
@@ -297,7 +286,7 @@ impl<'a> Evaluation<'a> {
         if let Some(texels) = &texels {
             comparison = comparison.at(truth.material.grid(), texels);
         }
-        let request = self.settings.request(seed);
+        let request = self.settings.scenes.of_seed(seed);
         let outcome = comparison.at_most(most_scenes(1)).run(&request, &self.progress.part())?;
         let estimate = outcome.losses.first().map(|loss| loss.estimate);
         let estimate =
@@ -327,7 +316,7 @@ impl<'a> Evaluation<'a> {
             let mask = kept.map(|texels| Kept { texels, count_all });
             metrics = of_masked_maps(truth, prediction, mask)?;
         }
-        let scenes = self.settings.request(seed).scenes(&self.convention)?;
+        let scenes = self.settings.scenes.of_seed(seed).scenes(&self.convention)?;
         if let Some(scenes) = scenes.filter(|_| renderings && kept.is_none()) {
             let convention = &self.convention;
             let (sampler, exposure_ev) = (Sampler::Random, 0.0);

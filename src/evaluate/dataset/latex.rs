@@ -55,7 +55,7 @@ impl DatasetReport {
              Intervals over materials, 95%; bold: the best and what cannot be told from it.",
             self.compared_materials.len(),
             convention.convention.epsilon,
-            self.settings.accuracy(),
+            self.settings.scenes.description(self.settings.seed),
         )
     }
 }

@@ -21,7 +21,6 @@ mod record;
 mod remark;
 mod repetition;
 mod report;
-mod results;
 mod robust;
 mod scenes;
 mod summary;
@@ -30,7 +29,7 @@ mod witness;
 
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_mean_within, interval_of_median};
 pub use doubts::{DoubtCount, ReadingSummary};
-pub use evaluate::{DatasetResults, Evaluation, run};
+pub use evaluate::{Evaluation, run};
 pub use files::digests;
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use metric_summary::{MetricRow, best_by_metric};
@@ -41,7 +40,7 @@ pub use record::{
 };
 pub use remark::Remark;
 pub use robust::robust;
-pub use scenes::FixedScenes;
+pub use scenes::DatasetScenes;
 pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};
 pub use verify::{Difference, command, differences, shell_words};
 pub use witness::decided;

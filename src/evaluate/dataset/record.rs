@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use crate::diagnose::Finding;
-use svbrdf_core::loss::{ALL_SCENES_TARGET, Estimate, Request};
+use svbrdf_core::loss::{Estimate, LossOptions, Request};
 
 use super::remark::Remark;
-use super::scenes::FixedScenes;
+use super::scenes::DatasetScenes;
+use crate::error::Error;
 use crate::metrics::MetricSelection;
 use crate::protocols::{self, Protocol};
 use svbrdf_files::convention::ChosenConvention;
@@ -96,11 +97,8 @@ pub struct DatasetSettings {
     /// Where the materials are.
     pub source: Source,
     pub convention: ChosenConvention,
-    /// Half of the 95% interval of each loss over scenes, as a share of the loss; `None` for fixed scenes.
-    pub target_error: Option<f64>,
-    /// The scenes of every material; `None`: as many as the target error needs.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub scenes: Option<FixedScenes>,
+    #[serde(flatten)]
+    pub scenes: DatasetScenes,
     /// Names the scenes, together with the name of the material.
     pub seed: u64,
     /// The materials of the whole data set, in order.
@@ -123,13 +121,7 @@ pub struct DatasetSettings {
 
 impl DatasetSettings {
     /// The settings for `cases`, which are those of the whole data set.
-    pub fn new(
-        source: Source,
-        convention: ChosenConvention,
-        target_error: f64,
-        seed: u64,
-        cases: &[Case],
-    ) -> Self {
+    pub fn new(source: Source, convention: ChosenConvention, request: Request, cases: &[Case]) -> Self {
         let mut methods: Vec<String> = Vec::new();
         for candidate in cases.iter().flat_map(|case| &case.candidates) {
             if !methods.contains(&candidate.method) {
@@ -140,9 +132,8 @@ impl DatasetSettings {
         Self {
             source,
             convention,
-            target_error: Some(target_error),
-            scenes: None,
-            seed,
+            seed: request.seed().unwrap_or(0),
+            scenes: request.into(),
             materials,
             methods,
             common: false,
@@ -152,30 +143,36 @@ impl DatasetSettings {
         }
     }
 
+    /// The same settings, with what these `options` ask for, or what the `protocol` states in their place.
+    ///
+    /// # Errors
+    /// As [`LossOptions::request`] and [`Protocol::options`]; [`Error::OneScene`].
+    pub fn following(
+        mut self,
+        options: &LossOptions,
+        metrics: Option<MetricSelection>,
+        protocol: Option<Protocol>,
+    ) -> Result<Self, Error> {
+        let options = protocol.as_ref().map_or(Ok(options.clone()), |protocol| protocol.options(options))?;
+        (self.seed, self.metrics) = (options.seed.unwrap_or(0), metrics);
+        self.scenes = DatasetScenes::new(&options)?;
+        if let Some(protocol) = &protocol {
+            if protocol.scenes.is_some() {
+                self.scenes.options.clear();
+            }
+            if protocol.convention.is_some() {
+                self.convention = protocol.chosen_convention()?;
+            }
+            let stated = Some(protocol.selection()).filter(|_| !protocol.metrics.is_empty());
+            self.metrics = self.metrics.or(stated);
+        }
+        Ok(Self { protocol, ..self })
+    }
+
     /// Whether metrics of maps and of renderings are computed. Those of renderings only where they are named.
     pub(super) fn computes(&self) -> [bool; 2] {
         let Some(metrics) = &self.metrics else { return [false; 2] };
         [metrics.has_maps(), !metrics.is_all() && metrics.has_renderings()]
-    }
-
-    /// The same settings with these scenes for every material; `None`: as many as the target error needs.
-    #[must_use]
-    pub fn in_scenes(self, scenes: Option<FixedScenes>) -> Self {
-        let target_error = self.target_error.filter(|_| scenes.is_none());
-        Self { target_error, scenes, ..self }
-    }
-
-    /// What is asked about a material whose scenes are named by `seed`.
-    pub(super) fn request(&self, seed: u64) -> Request {
-        let target = self.target_error.unwrap_or(ALL_SCENES_TARGET);
-        self.scenes.as_ref().map_or(Request::Accuracy { target, seed }, |scenes| scenes.request(seed))
-    }
-
-    /// The accuracy or the scenes of each loss, for people.
-    pub fn accuracy(&self) -> String {
-        let percent = 100.0 * self.target_error.unwrap_or(ALL_SCENES_TARGET);
-        let of_target = || format!("+-{percent}% per loss, seed {}", self.seed);
-        self.scenes.as_ref().map_or_else(of_target, |scenes| scenes.description(self.seed))
     }
 
     /// The seed of the scenes of each material, in order: by its name, and for materials of one name by their order, so that it does
@@ -256,6 +253,17 @@ impl PredictionResult {
         let names = self.marks.as_ref()?.iter().map(|mark| mark.hypothesis.as_str());
         Some(names.collect::<Vec<_>>().join(" "))
     }
+}
+
+/// The result of a pair of a ground truth and a prediction: what a results folder has of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct PairResult {
+    /// What was noticed and assumed in reading the ground truth.
+    pub(super) reading: Vec<Remark>,
+    /// The loss that the ground truth cannot resolve, where diagnoses were asked for.
+    pub(super) floor: Option<f64>,
+    /// One with a loss: what fails is tried again.
+    pub(super) prediction: PredictionResult,
 }
 
 /// A marked finding of a diagnosis.

@@ -13,7 +13,7 @@ use crate::protocols::Protocol;
 
 /// The command line that makes the same results, quoted for a shell. Options that have their defaults are left out.
 pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick: Pick) -> String {
-    let DatasetSettings { source, convention, target_error, scenes, seed, protocol, diagnose, .. } = settings;
+    let DatasetSettings { source, convention, scenes, seed, protocol, diagnose, .. } = settings;
     let metrics = settings.metrics.as_ref().filter(|_| protocol.is_none());
     let mut words: Vec<OsString> = vec!["svbrdf".into(), "rank".into()];
     match source {
@@ -29,7 +29,11 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
     }
     let options = [
         ("--convention", convention.argument(), "printed"),
-        ("--target-error", target_error.map_or("1%".into(), |target| format!("{}%", 100.0 * target)), "1%"),
+        (
+            "--target-error",
+            scenes.target().map_or("1%".into(), |target| format!("{}%", 100.0 * target)),
+            "1%",
+        ),
         ("--seed", seed.to_string(), "0"),
         ("--pick", pick.to_string(), "fixed"),
     ];
@@ -37,7 +41,7 @@ pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick
     let specified =
         options.into_iter().filter(|(name, value, default)| value != default && !is_of_protocol(name));
     words.extend(specified.flat_map(|(name, value, _)| [OsString::from(name), value.into()]));
-    words.extend(scenes.iter().flat_map(|scenes| scenes.options.iter().map(OsString::from)));
+    words.extend(scenes.options.iter().filter(|_| scenes.target().is_none()).map(OsString::from));
     words.extend(protocol.iter().flat_map(|one| [OsString::from("--protocol"), one.argument().into()]));
     words.extend(metrics.map(|metrics| match Vec::from(metrics.clone()) {
         words if words.is_empty() => "--metrics".into(),

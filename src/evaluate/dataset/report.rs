@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::error::Error;
 use crate::report::{Cell, Field, Reader, Repetition, Report, Table, missed};
 
 use super::bootstrap::FEWEST;
@@ -227,7 +226,7 @@ impl Report for DatasetReport {
             "rendering loss over {} of {} materials\n{protocol}convention {convention}, {}, pick {}\n",
             over,
             materials.len(),
-            self.settings.accuracy(),
+            self.settings.scenes.description(self.settings.seed),
             self.pick,
         )
     }
@@ -276,11 +275,11 @@ impl Report for DatasetReport {
         table
     }
 
-    fn missed(&self) -> Vec<Error> {
+    fn missed(&self) -> Vec<String> {
         let of = |(result, prediction): (&MaterialResult, &PredictionResult)| {
             let known = prediction.known?;
             let name = format!("{}, {}", result.material, prediction.method);
-            missed(self.settings.target_error?, &name, &known.estimate(), known.scenes)
+            missed(self.settings.scenes.target()?, &name, &known.estimate(), known.scenes)
         };
         self.predictions().filter_map(of).collect()
     }

@@ -1,6 +1,6 @@
 //! Robustness of the order of methods over a data set.
 
-use svbrdf_core::loss::{ALL_SCENES_TARGET, Comparison};
+use svbrdf_core::loss::{ALL_SCENES_TARGET, Comparison, Request};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
@@ -8,18 +8,18 @@ use svbrdf_files::Error as FilesError;
 
 use super::bootstrap::interval_of_median;
 use super::evaluate::Evaluation;
-use super::opened::Opened;
+use super::opened::{Opened, OpenedMaterial};
 use super::reading::DatasetReading;
 use super::record::{Case, DatasetSettings};
 use crate::error::Error;
 use crate::report::Compared;
 use crate::robust::{RobustReport, Scores, answers};
 
-/// Asks the questions of [`answers`] about the first prediction of every method for each of `cases`, in parallel, and reports the
+/// Asks the questions of [`RobustReport::new`] about the first prediction of every method for each of `cases`, in parallel, and reports the
 /// means over the materials that all methods have. `tell` has a line for each other material. A material is one step of `progress`.
 ///
 /// # Errors
-/// [`FilesError::NotADataSet`] for fewer than 6 materials; as [`answers`].
+/// [`FilesError::NotADataSet`] for fewer than 6 materials; as [`RobustReport::new`].
 pub fn robust(
     cases: &[Case],
     settings: &DatasetSettings,
@@ -55,9 +55,6 @@ pub fn robust(
     Ok(RobustReport::of_answers(compared, materials, &settings.methods, &over_materials(&all)))
 }
 
-/// Questions are asked about all methods in the same scenes and texels.
-const OTHER_SIZE: &str = "its predictions have another size than their ground truths";
-
 /// The fewest materials whose signs can be significant.
 const FEWEST: usize = 6;
 
@@ -88,32 +85,31 @@ fn over_materials(all: &[Vec<Scores>]) -> Vec<Scores> {
 
 /// The answers about a material, or why it cannot be asked about.
 fn of_material(case: &Case, evaluation: &Evaluation<'_>) -> Result<Result<Vec<Scores>, String>, Error> {
-    let Evaluation { settings, reading, progress, .. } = evaluation;
-    let truth = Opened::ground_truth(&case.ground_truth, reading);
-    let of_method = |method: &String| {
-        let candidate = case.candidates.iter().find(|candidate| candidate.method == *method);
-        let found = candidate.map_or_else(
-            || Err("no prediction".to_owned()),
-            |candidate| {
-                let opened = evaluation.open(candidate, &truth);
-                match opened.truth {
-                    Some(_) => Err(OTHER_SIZE.to_owned()),
-                    None => opened.found,
-                }
-            },
-        );
-        found.map_err(|problem| format!("{method}: {problem}"))
-    };
-    let opened = || -> Result<_, String> {
-        let truth = truth.found.as_ref().map_err(|problem| format!("ground truth: {problem}"))?;
-        Ok((truth, settings.methods.iter().map(of_method).collect::<Result<Vec<_>, _>>()?))
-    };
-    let (truth, predictions) = match opened() {
+    let Evaluation { settings, progress, .. } = evaluation;
+    let (truth, predictions) = match opened(case, evaluation) {
         Ok(opened) => opened,
         Err(problem) => return Ok(Err(problem)),
     };
     let predictions: Vec<_> = predictions.iter().map(|one| &one.material).collect();
     let comparison = Comparison::new(&truth.material, &predictions, settings.convention.convention)?;
-    let target = settings.target_error.unwrap_or(ALL_SCENES_TARGET);
-    Ok(Ok(answers(&comparison, (target, evaluation.seed(case)), &progress.part())?))
+    let target = settings.scenes.target().unwrap_or(ALL_SCENES_TARGET);
+    let usual = Request::Accuracy { target, seed: evaluation.seed(case) };
+    Ok(Ok(answers(&comparison, &usual, &progress.part())?))
+}
+
+/// The ground truth, and the first prediction of every method.
+fn opened(case: &Case, evaluation: &Evaluation<'_>) -> Result<(OpenedMaterial, Vec<OpenedMaterial>), String> {
+    let truth = Opened::ground_truth(&case.ground_truth, evaluation.reading);
+    let of_method = |method: &String| {
+        let candidate = case.candidates.iter().find(|candidate| candidate.method == *method);
+        let opened = evaluation.open(candidate.ok_or("no prediction")?, &truth);
+        match opened.truth {
+            // Questions are asked about all methods in the same scenes and texels.
+            Some(_) => Err("its predictions have another size than their ground truths".to_owned()),
+            None => opened.found,
+        }
+    };
+    let named = |method| of_method(method).map_err(|problem| format!("{method}: {problem}"));
+    let predictions = evaluation.settings.methods.iter().map(named).collect::<Result<_, _>>();
+    Ok((truth.found.map_err(|problem| format!("ground truth: {problem}"))?, predictions?))
 }

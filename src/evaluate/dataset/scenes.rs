@@ -1,63 +1,83 @@
-//! The scenes of every material of a data set, where a number or a list of them is asked for.
+//! The accuracy or the scenes of the losses of a data set.
 
-use serde::Serialize;
+use serde::ser::SerializeMap as _;
+use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
-use svbrdf_core::loss::{Request, Sampling};
+use svbrdf_core::loss::{LossOptions, Request, Sampling};
 use svbrdf_core::model::sampler::Sampler;
 
 use crate::error::Error;
 use crate::report::scenes_line;
 
-/// Scenes that every material is compared in, in place of as many as an accuracy needs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FixedScenes {
-    /// The options of the command line that ask for them.
-    pub options: Vec<String>,
-    #[serde(skip)]
+/// What is asked of the loss of every material, but for the seed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DatasetScenes {
     request: Request,
+    /// The options of the command line that ask for scenes.
+    pub(super) options: Vec<String>,
 }
 
-impl FixedScenes {
-    /// Those of `request`, which `options` of the command line ask for; `None` where an accuracy or a time decides them.
+impl From<Request> for DatasetScenes {
+    fn from(request: Request) -> Self {
+        Self { request, options: Vec::new() }
+    }
+}
+
+/// The accuracy as `target_error`, and `scenes` where there is none.
+impl Serialize for DatasetScenes {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        map.serialize_entry("target_error", &self.target())?;
+        if self.target().is_none() {
+            map.serialize_entry("scenes", &json!({ "options": self.options }))?;
+        }
+        map.end()
+    }
+}
+
+impl DatasetScenes {
+    /// Those that `options` ask for.
     ///
     /// # Errors
-    /// [`Error::OneScene`].
-    pub fn new(request: Request, options: Vec<String>) -> Result<Option<Self>, Error> {
-        match &request {
+    /// As [`LossOptions::request`]; [`Error::OneScene`].
+    pub(super) fn new(options: &LossOptions) -> Result<Self, Error> {
+        match options.request()? {
             Request::Scenes(Sampling { near: 1, .. }) => Err(Error::OneScene { option: "near" }),
             Request::Scenes(Sampling { distant: 1, .. }) => Err(Error::OneScene { option: "distant" }),
-            Request::Scenes(_) | Request::Listed(_) => Ok(Some(Self { options, request })),
-            Request::Accuracy { .. } | Request::Time { .. } => Ok(None),
+            request => Ok(Self { request, options: options.words() }),
         }
+    }
+
+    /// Half of the 95% interval of each loss over scenes, as a share of the loss; `None` for fixed scenes.
+    pub fn target(&self) -> Option<f64> {
+        self.request.target()
     }
 
     /// The request of a material whose scenes are named by `seed`.
-    pub(super) fn request(&self, seed: u64) -> Request {
+    pub(super) fn of_seed(&self, seed: u64) -> Request {
+        self.request.clone().of_seed(seed)
+    }
+
+    /// The fixed scenes that a loss depends on, but for the seed.
+    pub(super) fn key(&self) -> Option<Value> {
         match &self.request {
-            Request::Scenes(sampling) => Request::Scenes(Sampling { seed, ..*sampling }),
-            listed => listed.clone(),
+            Request::Scenes(Sampling { near, distant, sampler, .. }) => Some(json!([near, distant, sampler])),
+            Request::Listed(scenes) => Some(json!(scenes)),
+            Request::Accuracy { .. } | Request::Time { .. } => None,
         }
     }
 
-    /// What a loss depends on, but for the seed.
-    pub(super) fn key(&self) -> Value {
-        match &self.request {
-            Request::Scenes(Sampling { near, distant, sampler, .. }) => json!([near, distant, sampler]),
-            Request::Listed(scenes) => json!(scenes),
-            Request::Accuracy { .. } | Request::Time { .. } => Value::Null,
-        }
-    }
-
-    /// Their numbers, and the name of a set; the `seed` of those that are sampled.
-    pub(super) fn description(&self, seed: u64) -> String {
+    /// The accuracy, or the numbers of scenes and the name of a set, for people; the `seed` of those that are sampled.
+    pub fn description(&self, seed: u64) -> String {
         match &self.request {
             Request::Scenes(Sampling { near, distant, sampler, .. }) => {
                 let sobol = if *sampler == Sampler::Sobol { ", scrambled Sobol" } else { "" };
                 format!("{near} near-field and {distant} distant scenes each{sobol}, seed {seed}")
             }
             Request::Listed(scenes) => scenes_line(None, scenes, [0; 2]).trim_end().to_owned(),
-            Request::Accuracy { .. } | Request::Time { .. } => String::new(),
+            Request::Accuracy { target, .. } => format!("+-{}% per loss, seed {seed}", 100.0 * target),
+            Request::Time { budget, .. } => format!("{} s per loss, seed {seed}", budget.as_secs_f64()),
         }
     }
 }

@@ -8,6 +8,7 @@ mod record;
 use std::path::Path;
 
 use svbrdf_core::error::Error as CoreError;
+use svbrdf_core::loss::LossOptions;
 use svbrdf_files::disk::inputs;
 use svbrdf_files::disk::open::NamedFile;
 
@@ -90,6 +91,10 @@ fn check(protocol: &Protocol) -> Result<(), String> {
         Some(_) => return Err("[scenes] has near and distant, or lights".to_owned()),
     }
     let problem = |problem: Error| problem.to_string();
-    protocol.options().map_err(problem)?.question().map_err(|problem| problem.to_string())?;
+    protocol
+        .options(&LossOptions::default())
+        .map_err(problem)?
+        .request()
+        .map_err(|problem| problem.to_string())?;
     protocol.chosen_convention().map_err(problem).map(drop)
 }

@@ -128,18 +128,19 @@ impl Protocol {
         self.file.as_ref().map_or_else(|| self.name.clone(), |file| file.display().to_string())
     }
 
-    /// Its scenes, laid over none.
+    /// Its scenes, where it has some, in place of those of `typed` options, of the same seed and texels.
     ///
     /// # Errors
     /// [`CoreError::UnknownName`] for lights that have no name.
-    pub fn options(&self) -> Result<LossOptions, Error> {
-        let Some(Scenes { near, distant, lights }) = &self.scenes else { return Ok(LossOptions::default()) };
+    pub fn options(&self, typed: &LossOptions) -> Result<LossOptions, Error> {
+        let Some(Scenes { near, distant, lights }) = &self.scenes else { return Ok(typed.clone()) };
         let named = |name: &String| {
             let scenes = NamedScenes::named(name, NamedScenes::FOV_DEGREES)?.scenes()?;
             Ok::<_, CoreError>(FileScenes { name: name.clone(), path: PathBuf::new(), scenes })
         };
         let file = lights.as_ref().map(named).transpose()?;
-        Ok(LossOptions { near: *near, distant: *distant, file, ..LossOptions::default() })
+        let LossOptions { seed, texels, .. } = *typed;
+        Ok(LossOptions { near: *near, distant: *distant, file, seed, texels, ..LossOptions::default() })
     }
 
     /// Its convention, or the default.

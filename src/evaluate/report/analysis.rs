@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::de::DeserializeOwned;
 
-use svbrdf_core::loss::Question;
+use svbrdf_core::loss::Request;
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
@@ -28,7 +28,9 @@ pub struct AnalysisInput<'a, T: Real = f32> {
     pub paths: Vec<Option<String>>,
     pub convention: Convention,
     /// Its scenes.
-    pub question: Question,
+    pub request: Request,
+    /// Whether nothing else was asked for: the loss over the few scenes of the papers stands beside the answer.
+    pub few_scenes: bool,
     /// Which texels a mask keeps, where there is one: for losses and metrics.
     pub mask: Option<Arc<[bool]>>,
 }
@@ -49,7 +51,7 @@ impl<T: Real> AnalysisInput<'_, T> {
 
     /// Names the sampled scenes; 0 for listed ones.
     pub fn seed(&self) -> u64 {
-        self.question.request.seed().unwrap_or(0)
+        self.request.seed().unwrap_or(0)
     }
 }
 

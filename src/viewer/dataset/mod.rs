@@ -136,7 +136,8 @@ pub fn summary(ui: &mut egui::Ui, displayed: Displayed<'_>, next: &mut Model) {
             let loss = loss.map_or_else(|| "...".to_owned(), |loss| significant(&loss).join("  "));
             ui.label(format!("{}  {}  {loss}", one.slot, one.name()));
         }
-        ui.label(RichText::new(losses.settings(open).accuracy()).small().weak());
+        let accuracy = open.settings.scenes.description(open.settings.seed);
+        ui.label(RichText::new(accuracy).small().weak());
         return;
     }
     let Some(report) = Summarize::drawn(open, losses, answers) else {

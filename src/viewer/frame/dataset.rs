@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use svbrdf_core::loss::Request;
 use svbrdf_evaluate::dataset::{DatasetReading, Method, Source, decided};
 use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 
@@ -12,7 +13,7 @@ use crate::jobs::answers::Answered;
 use crate::jobs::dataset::cases::ReadCase;
 use crate::jobs::work::job::Job;
 use crate::model::case;
-use crate::model::dataset::{DatasetState, OpenDataset, TARGET_ERROR};
+use crate::model::dataset::{DatasetState, OpenDataset, REQUEST};
 
 /// Matches the materials of these folders, or of one table.
 pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
@@ -21,7 +22,7 @@ pub(super) fn open(parts: &mut Parts, paths: Vec<PathBuf>) {
         let first = paths.next().unwrap_or_default();
         let methods: Vec<_> = paths.map(|path| (None, path)).collect();
         let source = if methods.is_empty() { Source::Table(first) } else { Source::folders(first, methods) };
-        let mut open = OpenDataset::new(source, DatasetReading::default(), (TARGET_ERROR, 0), None)?;
+        let mut open = OpenDataset::new(source, DatasetReading::default(), REQUEST, None)?;
         open.reading = decided(&open.cases, open.reading, progress)?;
         Ok(opened(DatasetState::of(Arc::new(open), 0, Default::default())))
     });
@@ -52,7 +53,8 @@ pub(super) fn restore(parts: &mut Parts, session: SessionDataset, results: Optio
             strict,
             ..DatasetReading::default()
         };
-        let mut open = OpenDataset::new(source, reading, (session.target_error, session.seed), results)?;
+        let request = Request::Accuracy { target: session.target_error, seed: session.seed };
+        let mut open = OpenDataset::new(source, reading, request, results)?;
         open.settings.diagnose = session.diagnose;
         let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
         Ok(opened(DatasetState { list, ..DatasetState::of(Arc::new(open), wanted, marks) }))

@@ -2,11 +2,10 @@
 
 use std::sync::Arc;
 
-use svbrdf_core::loss::{Comparison, LossSettings};
+use svbrdf_core::loss::{Comparison, LossSettings, Request};
 use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::dataset::{self, DatasetSettings};
-use svbrdf_evaluate::report::Compared;
-use svbrdf_evaluate::robust::{RobustReport, answers};
+use svbrdf_evaluate::robust::RobustReport;
 
 use super::answers::content::Content;
 use super::answers::{Question, Work};
@@ -21,17 +20,16 @@ use crate::model::view::ViewState;
 pub struct PredictionOrder {
     pub materials: Vec<(Content, String)>,
     pub convention: Convention,
-    /// Error of the losses, in percent, and seed of their scenes.
-    pub target_percent: f64,
-    pub seed: u64,
+    /// The losses.
+    pub request: Request,
 }
 
 impl PredictionOrder {
     /// Of the materials in the window, the ground truth first.
     pub fn of(materials: &[LoadedMaterial], view: &ViewState, loss: &LossSettings) -> Self {
         let named = |one: &LoadedMaterial| (Content::of(one), one.name().to_owned());
-        let (convention, target_percent) = (view.convention(), loss.target_percent);
-        Self { materials: materials.iter().map(named).collect(), convention, target_percent, seed: loss.seed }
+        let request = Request::Accuracy { target: loss.target_percent / 100.0, seed: loss.seed };
+        Self { materials: materials.iter().map(named).collect(), convention: view.convention(), request }
     }
 }
 
@@ -40,18 +38,15 @@ impl Question for PredictionOrder {
     const HAS_MESSAGE: bool = false;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<RobustReport, Error> {
-        let read: Vec<_> = self.materials.iter().map(|(one, _)| one.read()).collect::<Result<_, _>>()?;
-        let names: Vec<String> = self.materials.iter().map(|(_, name)| name.clone()).collect();
-        let [ground_truth, predictions @ ..] = read.as_slice() else {
+        let named =
+            |(one, name): &(Content, String)| Ok(one.read()?.material().clone().renamed(name.clone()));
+        let materials = self.materials.iter().map(named).collect::<Result<Vec<_>, Error>>()?;
+        let [ground_truth, predictions @ ..] = materials.as_slice() else {
             return Err(Error::internal("there is no ground truth"));
         };
-        let predictions: Vec<_> = predictions.iter().map(|one| one.material()).collect();
-        let found = Comparison::new(ground_truth.material(), &predictions, self.convention)
-            .map_err(svbrdf_evaluate::Error::from)
-            .and_then(|one| answers(&one, (self.target_percent / 100.0, self.seed), work.progress()));
-        let compared = Compared::new(ground_truth.material(), &self.convention);
-        let compared = Compared { ground_truth: names[0].clone(), ..compared };
-        Ok(RobustReport::of_answers(compared, Vec::new(), &names[1..], &found?))
+        let predictions: Vec<_> = predictions.iter().collect();
+        let comparison = Comparison::new(ground_truth, &predictions, self.convention)?;
+        Ok(RobustReport::new(&comparison, &self.request, work.progress())?)
     }
 }
 

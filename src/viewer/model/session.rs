@@ -148,7 +148,7 @@ impl Model {
             ground_truths: std::path::absolute(source.path()).unwrap_or_else(|_| source.path().to_owned()),
             methods,
             predictions,
-            target_error: open.settings.target_error.unwrap_or(ALL_SCENES_TARGET),
+            target_error: open.settings.scenes.target().unwrap_or(ALL_SCENES_TARGET),
             seed: open.settings.seed,
             diagnose: open.settings.diagnose,
             read: open.reading.ground_truths,

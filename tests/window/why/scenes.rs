@@ -152,14 +152,15 @@ fn the_other_metrics_are_those_of_the_core_of_the_chosen_prediction() {
     let rows = |prediction: usize| -> Vec<[String; 2]> {
         let metrics = AnyAnalysis::named("metrics").unwrap();
         let (ground_truth, predictions) = (&materials[0], vec![&materials[prediction]]);
-        let (paths, convention, question) = (Vec::new(), PRINTED, request.clone().into());
+        let (paths, convention, request) = (Vec::new(), PRINTED, request.clone());
         let input = AnalysisInput {
             ground_truth,
             predictions,
             storages: Vec::new(),
             paths,
             convention,
-            question,
+            request,
+            few_scenes: false,
             mask: None,
         };
         let table = metrics.run(&input, json!({}), &Progress::default()).unwrap().table(Reader::Person);

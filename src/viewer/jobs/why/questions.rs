@@ -214,9 +214,9 @@ impl Question for Analyse {
             .ok_or_else(|| Error::internal(format!("there is no analysis {}", self.analysis)))?;
         let [truth, prediction] = self.pair.read()?;
         let seed = LossOptions { seed: self.scenes.seed(), ..LossOptions::default() };
-        let question = match analysis.lists_scenes() {
-            true => self.scenes.clone().into(),
-            false => analysis.question(&seed, None)?,
+        let request = match analysis.lists_scenes() {
+            true => self.scenes.clone(),
+            false => analysis.request(&seed, None)?,
         };
         let input = AnalysisInput {
             ground_truth: truth.material(),
@@ -224,7 +224,8 @@ impl Question for Analyse {
             storages: vec![&truth.storage, &prediction.storage],
             paths: Vec::new(),
             convention: self.pair.convention,
-            question,
+            request,
+            few_scenes: false,
             mask: None,
         };
         let report = analysis.run(&input, json!({}), work.progress())?;

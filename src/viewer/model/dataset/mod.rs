@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use svbrdf_core::loss::{ALL_SCENES_TARGET, Request};
 use svbrdf_evaluate::dataset::{CandidateFile, Case, DatasetReading, DatasetSettings, Source};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::dataset::SessionMark;
@@ -19,8 +20,8 @@ use crate::model::material::read::Rules;
 pub const MOST_PANES: usize = 24;
 /// The most predictions of the list that are pinned beside the chosen one.
 const MOST_PINNED: usize = 8;
-/// Half of the 95% interval of each loss, as a share of it, where nothing else is asked for: that of `svbrdf rank`.
-pub const TARGET_ERROR: f64 = 0.01;
+/// What is asked of each loss, where nothing else is: as `svbrdf rank` does.
+pub const REQUEST: Request = Request::Accuracy { target: ALL_SCENES_TARGET, seed: 0 };
 
 /// A data set as it was opened: names are matched, pixels are read when they are needed.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,18 +35,18 @@ pub struct OpenDataset {
 }
 
 impl OpenDataset {
-    /// Matches the materials of `source`; the losses have this error as a share, and this seed.
+    /// Matches the materials of `source`, whose losses are those of the `request`.
     ///
     /// # Errors
     /// Those of [`Source::cases`].
     pub fn new(
         source: Source,
         reading: DatasetReading,
-        (target_error, seed): (f64, u64),
+        request: Request,
         results: Option<PathBuf>,
     ) -> Result<Self, Error> {
         let cases = source.cases()?;
-        let settings = DatasetSettings::new(source, ChosenConvention::default(), target_error, seed, &cases);
+        let settings = DatasetSettings::new(source, ChosenConvention::default(), request, &cases);
         Ok(Self { settings, reading, cases, results })
     }
 
@@ -67,7 +68,7 @@ impl OpenDataset {
             strict: rules.strict,
             ..DatasetReading::default()
         };
-        Self::new(source, reading, (TARGET_ERROR, 0), None).ok()
+        Self::new(source, reading, REQUEST, None).ok()
     }
 
     /// Whether its materials are predictions of one ground truth.
