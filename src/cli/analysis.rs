@@ -1,19 +1,23 @@
 //! The commands of the analyses, made from their declarations.
 
+use std::path::PathBuf;
+
 use clap::builder::ValueParser;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error as ClapError, FromArgMatches, Subcommand};
 use serde_json::{Map, Value};
 
-use svbrdf_core::loss::{Precision, Question};
+use svbrdf_core::loss::{Precision, Request};
+use svbrdf_core::progress::Progress;
+use svbrdf_evaluate::KeptAnswer;
 use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis, Precise};
-use svbrdf_evaluate::report::{AnalysisOption, OptionValue};
+use svbrdf_evaluate::report::{AnalysisInput, AnalysisOption, OptionValue};
 
 use super::args::protocol::PairArgs;
 use super::args::scenes;
 use super::args::values::{percent, stops, whole};
 use super::args::{ComparisonArgs, Specified, offered, refuse};
 use super::job::{self, ComparisonJob, Job, NewJob};
-use super::output::{CommandError, ReportFormat, exit, warn_of, watched};
+use super::output::{CommandError, ReportFormat, exit, stoppable, warn_of, watched, watched_on};
 use super::picture_file::{PictureArgs, PictureFile};
 
 /// The analyses that have a command with further arguments.
@@ -34,12 +38,16 @@ struct FormatArgs {
     /// Output format
     #[arg(long, value_enum, default_value_t)]
     format: ReportFormat,
+
+    /// Folder of known answers, to which this one is added
+    #[arg(long, value_name = "DIR", hide_short_help = true)]
+    results: Option<PathBuf>,
 }
 
 /// Where a report goes.
 #[derive(Debug)]
 enum Output<P> {
-    Printed(ReportFormat),
+    Printed(FormatArgs),
     Pictures(P),
 }
 
@@ -113,7 +121,7 @@ impl FromArgMatches for AnalysisArgs {
         let analysis = AnyAnalysis::named(name).ok_or_else(unknown)?;
         let output = match analysis.pictures {
             true => Output::Pictures(PictureArgs::from_arg_matches(matches)?),
-            false => Output::Printed(FormatArgs::from_arg_matches(matches)?.format),
+            false => Output::Printed(FormatArgs::from_arg_matches(matches)?),
         };
         let comparison = ComparisonArgs::from_arg_matches(matches)?;
         let pair = if analysis.paired { PairArgs::from_arg_matches(matches)? } else { PairArgs::default() };
@@ -151,12 +159,17 @@ impl AnalysisArgs {
         let options = Value::from(options);
         comparison.materials.compare(&pair);
         let saved = comparison.session.as_ref().and_then(|session| session.loss.as_ref());
-        let question = analysis.question(&scenes, saved)?;
+        let request = analysis.request(&scenes, saved)?;
+        let few_scenes = saved.is_none() && scenes.is_open();
         let output = match output {
-            Output::Printed(format) => Output::Printed(format),
+            Output::Printed(args) => {
+                let is_timed = args.results.is_some() && scenes.time_budget.is_some();
+                refuse(is_timed, "results", "a loss in a time is another one each time")?;
+                Output::Printed(args)
+            }
             Output::Pictures(args) => Output::Pictures(PictureFile::new(args)?),
         };
-        Ok(Box::new(AnalysisJob { analysis, comparison, question, precision, options, output }))
+        Ok(Box::new(AnalysisJob { analysis, comparison, request, few_scenes, precision, options, output }))
     }
 }
 
@@ -165,7 +178,8 @@ impl AnalysisArgs {
 struct AnalysisJob {
     analysis: &'static AnyAnalysis,
     comparison: ComparisonJob,
-    question: Question,
+    request: Request,
+    few_scenes: bool,
     precision: Precision,
     /// Its own options: a JSON object.
     options: Value,
@@ -182,18 +196,30 @@ impl Job for AnalysisJob {
 }
 
 impl AnalysisJob {
-    /// Prints the report to stdout, and writes its pictures; with `--strict` fails where a target error is not reached, after that.
+    /// Prints the report to stdout, and writes its pictures; fails where it could not be kept, and with `--strict` where a target error is
+    /// not reached, after that.
     fn answer<T: Precise>(self) -> Result<(), CommandError> {
-        let Self { analysis, comparison, question, options, output, .. } = self;
+        let Self { analysis, comparison, request, few_scenes, options, output, .. } = self;
         let ComparisonJob { convention, materials, .. } = comparison;
         let opened = materials.open::<T>()?;
         if let Output::Pictures(file) = &output {
             file.check()?;
         }
-        let input = job::input(&opened, &materials, convention, question);
+        let input = job::input(&opened, &materials, convention, request);
+        let input = AnalysisInput { few_scenes, ..input };
+        if let Output::Printed(FormatArgs { format, results: Some(folder) }) = &output {
+            let ask = |progress: &Progress| analysis.kept(&input, options, folder, progress);
+            let KeptAnswer { answer: mut views, notes, unkept } =
+                stoppable(|progress| watched_on(progress, analysis.doing, ask))?;
+            notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
+            let missed = std::mem::take(&mut views.missed);
+            exit::put(&format.of(views))?;
+            warn_of(missed, materials.strict)?;
+            return unkept.map_or(Ok(()), |problem| Err(CommandError::Failed(problem)));
+        }
         let report = watched(analysis.doing, |progress| analysis.run(&input, options, progress))?;
         match output {
-            Output::Printed(format) => exit::put(&format.write(&*report)?)?,
+            Output::Printed(args) => exit::put(&args.format.write(&*report)?)?,
             Output::Pictures(file) => {
                 let predictions = input.predictions.iter().copied();
                 let materials: Vec<_> = std::iter::once(input.ground_truth).chain(predictions).collect();

@@ -123,7 +123,10 @@ impl Job for ConformJob {
         }
         match report.conforms() {
             true => Ok(()),
-            false => Err(CommandError::DoesNotConform { convention: convention.name }),
+            false => Err(CommandError::Failed(format!(
+                "the renderer does not conform to {}; the report tells in what",
+                convention.name
+            ))),
         }
     }
 }

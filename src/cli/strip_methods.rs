@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::loss::check_same_size;
+use svbrdf_core::loss::{ALL_SCENES_TARGET, Request, check_same_size};
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
+use svbrdf_evaluate::KeptAnswer;
 use svbrdf_evaluate::dataset::{
-    self, Case, DatasetReading, DatasetResults, DatasetSettings, MaterialResult, Pick, counted_loss,
+    self, Case, DatasetReading, DatasetSettings, MaterialResult, Pick, counted_loss,
 };
 use svbrdf_files::disk::inputs::check_output_of;
 use svbrdf_files::export::figure::FigureDestination;
@@ -21,8 +22,8 @@ use crate::cli::rank::cases;
 
 /// Pixels of an inch in a cell: as printed.
 const DPI: f64 = 300.0;
-/// Half of the 95% interval of each loss below a cell, as a share of it: that of `svbrdf rank`.
-const TARGET_ERROR: f64 = 0.01;
+/// What is asked of each loss below a cell: as `svbrdf rank` does.
+const REQUEST: Request = Request::Accuracy { target: ALL_SCENES_TARGET, seed: 0 };
 
 #[derive(Debug)]
 pub struct MethodsJob {
@@ -69,7 +70,7 @@ pub fn job(
     let cases = source.cases()?;
     let chosen_convention = comparison.convention.clone().unwrap_or_default();
     let convention = chosen_convention.convention;
-    let settings = DatasetSettings::new(source, chosen_convention, TARGET_ERROR, 0, &cases);
+    let settings = DatasetSettings::new(source, chosen_convention, REQUEST, &cases);
     let reading = cases::reading(given, &settings.methods, &[])?;
     let reading = dataset::decided(&cases, reading, &Progress::default())?;
     let cases = if chosen.is_empty() { cases } else { of_names(cases, chosen)? };
@@ -115,12 +116,12 @@ impl MethodsJob {
         let (losses, unkept) = match results {
             None => (Vec::new(), None),
             Some(folder) => {
-                let DatasetResults { results, notes, unkept } =
+                let KeptAnswer { answer, notes, unkept } =
                     watched_on(progress, "comparing materials", |progress| {
                         dataset::run(cases, settings, reading, Some(folder), progress)
                     })?;
                 notes.iter().for_each(|note| exit::tell(&format!("note: {note}")));
-                (results, unkept)
+                (answer, unkept)
             }
         };
         let methods = &settings.methods;
@@ -137,7 +138,7 @@ impl MethodsJob {
             ));
         }
         destination.write(&figure, &strip.entries(methods, materials), progress)?;
-        unkept.map_or(Ok(()), |problem| Err(CommandError::NotKept(problem)))
+        unkept.map_or(Ok(()), |problem| Err(CommandError::Failed(problem)))
     }
 
     /// A row; what cannot be read is told, and missing in the figure.

@@ -55,7 +55,10 @@ pub fn run(args: &VerifyArgs, parse: impl FnOnce(Vec<String>) -> Parsed) -> Resu
     }
     let lines: String = found.iter().take(MOST).map(|one: &Difference| format!("{one}\n")).collect();
     put_text(&lines)?;
-    Err(CommandError::Differs { table: path.to_string(), places: found.len() })
+    let places = found.len();
+    Err(CommandError::Failed(format!(
+        "{path} differs in {places} places from what is computed; correct it, or find the files that it is of"
+    )))
 }
 
 /// The format of a table, by its first character.

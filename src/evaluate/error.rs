@@ -30,11 +30,6 @@ pub enum Error {
     #[error("there is no prediction to compare; open one")]
     NoPrediction,
 
-    /// An accuracy that was asked for needs more scenes than are drawn.
-    #[error("{prediction} is known to +-{}, not to the target of +-{}: {scenes} scenes, the limit, are not enough; \
-        go by the interval, or set a larger target", percent(*reached), percent(*target))]
-    Inaccurate { prediction: String, reached: f64, target: f64, scenes: usize },
-
     /// A ranking in one scene of a kind.
     #[error("{option}: one scene of a kind has no error; give 0, or 2 or more")]
     OneScene {

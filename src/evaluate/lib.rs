@@ -29,6 +29,7 @@ pub mod protocols;
 pub mod rank;
 pub mod registration;
 pub mod report;
+mod results;
 pub mod robust;
 #[cfg(feature = "schema")]
 pub mod schema;
@@ -36,3 +37,4 @@ pub mod study;
 pub mod why;
 
 pub use error::Error;
+pub use results::KeptAnswer;

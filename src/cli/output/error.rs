@@ -11,29 +11,9 @@ pub enum CommandError {
     #[error("{0}")]
     Usage(String),
 
-    /// A loss is above the limit that was given for it.
-    #[error("{name} has a loss of {loss:.6}, above the limit of {limit}")]
-    AboveLimit { name: String, loss: f64, limit: f64 },
-
-    /// A renderer is not that of a convention.
-    #[error("the renderer does not conform to {convention}; the report tells in what")]
-    DoesNotConform { convention: String },
-
-    /// No prediction of a data set has a loss.
-    #[error(
-        "no prediction has a loss: {failed} of {failed} failed, the first of them, {name}: {problem}; correct the predictions"
-    )]
-    NothingRanked { failed: usize, name: String, problem: String },
-
-    /// A table is not what its files give.
-    #[error(
-        "{table} differs in {places} places from what is computed; correct it, or find the files that it is of"
-    )]
-    Differs { table: String, places: usize },
-
-    /// Losses were computed, and printed, but could not be added to the results folder.
+    /// What was asked for is not so, which is told after what was computed is printed.
     #[error("{0}")]
-    NotKept(String),
+    Failed(String),
 
     /// A material would be resized to more than fits.
     #[error("the materials cannot be resized to {width} x {height} texels: expected at most {max_side} x {max_side} \

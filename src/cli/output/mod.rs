@@ -13,8 +13,7 @@ use std::process;
 
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::{printable, quoted};
-use svbrdf_evaluate::Error;
-use svbrdf_evaluate::report::Report;
+use svbrdf_evaluate::report::{Report, Views};
 use svbrdf_files::disk::signals;
 
 /// The command line of this process, quoted for a shell.
@@ -41,16 +40,25 @@ impl ReportFormat {
             Self::Csv => report.csv(),
         }
     }
+
+    /// The views of a report in this format.
+    pub fn of(self, views: Views) -> String {
+        match self {
+            Self::Text => printable(&views.text),
+            Self::Json => views.json,
+            Self::Csv => views.csv,
+        }
+    }
 }
 
 /// Prints a warning for each target error that is missed, once the results are printed; with `strict` the first is an error.
-pub fn warn_of(missed: impl IntoIterator<Item = Error>, strict: bool) -> Result<(), CommandError> {
+pub fn warn_of(missed: Vec<String>, strict: bool) -> Result<(), CommandError> {
     let mut missed = missed.into_iter();
     let failure = if strict { missed.next() } else { None };
     for warning in missed {
         exit::tell(&format!("warning: {warning}"));
     }
-    failure.map_or(Ok(()), |failure| Err(failure.into()))
+    failure.map_or(Ok(()), |failure| Err(CommandError::Failed(failure)))
 }
 
 /// Runs work that leaves temporary files when killed. Ctrl+C and the other signals that end a program cancel it, so that it

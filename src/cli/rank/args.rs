@@ -216,7 +216,8 @@ pub fn check_limit(
 ) -> Result<(), CommandError> {
     let Some(limit) = limit else { return Ok(()) };
     let above = losses.into_iter().find(|(_, loss)| loss.is_nan() || *loss > limit);
-    above.map_or(Ok(()), |(name, loss)| Err(CommandError::AboveLimit { name, loss, limit }))
+    let problem = |(name, loss)| format!("{name} has a loss of {loss:.6}, above the limit of {limit}");
+    above.map(problem).map_or(Ok(()), |problem| Err(CommandError::Failed(problem)))
 }
 
 /// Refuses scenes beside `--robust`.

@@ -25,7 +25,7 @@ fn fields<'a>() -> [Field<(&'a LossReport, &'a PredictionLoss)>; 22] {
         ("distant", "", |(report, _)| report.sampled.distant.into()),
         ("seed", "", |(report, _)| report.sampled.seed.into()),
         ("sampler", "", |(report, _)| report.sampled.sampler.map(|sampler| sampler.to_string()).into()),
-        ("texels", "", |(report, _)| report.sampled.texels.into()),
+        ("texels", "", |(report, _)| report.sampled.texels.map_or("all".into(), Cell::from)),
         ("precision", "", |(report, _)| report.precision.into()),
         ("target_error", "", |(report, _)| report.target_error.into()),
         ("target_reached", "", |(report, _)| report.target_reached.into()),
@@ -98,7 +98,7 @@ impl Report for LossReport {
         Table::fields(&fields(), self.results.iter().map(|result| (self, result)), reader)
     }
 
-    fn missed(&self) -> Vec<Error> {
+    fn missed(&self) -> Vec<String> {
         let losses = self.results.iter().map(|result| (result.prediction.as_str(), result.estimate()));
         let missed = |target| missed_by_any(target, losses, self.outcome.scenes.len());
         self.target_error.and_then(missed).into_iter().collect()
@@ -170,10 +170,18 @@ impl Analysis for LossReport {
 }
 
 impl LossReport {
+    fn asked<T: Compute>(
+        comparison: &Comparison<'_, T>,
+        AnalysisInput { request, few_scenes, paths, .. }: &AnalysisInput<'_, T>,
+        progress: &Progress,
+    ) -> Result<Self, Error> {
+        Ok(Self::answer(comparison, request, *few_scenes, progress)?.read_from(paths))
+    }
+
     fn of<T: Compute>(input: &AnalysisInput<'_, T>, progress: &Progress) -> Result<Self, Error> {
         let Some(mask) = &input.mask else {
             let comparison = Comparison::new(input.ground_truth, &input.predictions, input.convention)?;
-            return Ok(Self::answer(&comparison, &input.question, progress)?.read_from(&input.paths));
+            return Self::asked(&comparison, input, progress);
         };
         input.each(|prediction| Ok(check_same_size(input.ground_truth, prediction)?))?;
         let texels: Vec<usize> = (0..mask.len()).filter(|texel| mask[*texel]).collect();
@@ -182,7 +190,7 @@ impl LossReport {
         let predictions: Vec<_> = predictions.iter().collect();
         let comparison = Comparison::new(&truth, &predictions, input.convention)?;
         let comparison = comparison.at(input.ground_truth.grid(), &texels);
-        let mut report = Self::answer(&comparison, &input.question, progress)?.read_from(&input.paths);
+        let mut report = Self::asked(&comparison, input, progress)?;
         report.size = input.ground_truth.size();
         report.masked = Some(texels.len());
         Ok(report)

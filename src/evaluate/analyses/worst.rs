@@ -98,7 +98,7 @@ impl Report for WorstReport {
         losses.beside(Table::fields(&SCENE, &self.scenes, reader)).beside(search)
     }
 
-    fn missed(&self) -> Vec<Error> {
+    fn missed(&self) -> Vec<String> {
         let of = |worst: &Worst| {
             let mean = Estimate { mean: worst.mean, standard_error: None, interval95: worst.interval95 };
             missed(worst.target_error, &format!("the mean of {}", worst.prediction), &mean, worst.mean_scenes)

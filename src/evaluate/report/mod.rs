@@ -3,7 +3,7 @@
 //! The command line prints them, the window copies their text, and Python has the same keys and values.
 //!
 //! ```
-//! use svbrdf_core::loss::{Comparison, Question};
+//! use svbrdf_core::loss::{Comparison, Request};
 //! use svbrdf_core::material::Material;
 //! use svbrdf_core::model::brdf::Texel;
 //! use svbrdf_core::model::convention::Convention;
@@ -15,7 +15,7 @@
 //! let truth = Material::uniform("truth", 64, 64, &texel(0.6))?;
 //! let prediction = Material::uniform("too rough", 64, 64, &texel(0.7))?;
 //! let comparison = Comparison::new(&truth, &[&prediction], Convention::default())?;
-//! let report = LossReport::answer(&comparison, &Question::default(), &Progress::default())?;
+//! let report = LossReport::answer(&comparison, &Request::default(), false, &Progress::default())?;
 //! assert!(report.text().starts_with("rendering loss against truth, 64 x 64 texels, f32"));
 //! assert!(report.csv()?.starts_with("prediction,loss,standard_error,"));
 //! # Ok::<(), svbrdf_evaluate::Error>(())
@@ -41,12 +41,10 @@ pub use names::distinct_names;
 pub use repetition::Repetition;
 pub use table::{Cell, Field, Reader, Table};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use svbrdf_core::image::Image;
 use svbrdf_files::Error as FilesError;
-
-use crate::error::Error;
 
 /// A value that can be written as JSON.
 pub trait Json {
@@ -62,6 +60,27 @@ impl<T: Serialize> Json for T {
         let text =
             serde_json::to_string_pretty(self).map_err(|problem| FilesError::Internal(problem.to_string()));
         Ok(text? + "\n")
+    }
+}
+
+/// A report as it is printed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Views {
+    pub text: String,
+    pub json: String,
+    pub csv: String,
+    /// What is known less well than requested.
+    pub missed: Vec<String>,
+}
+
+impl Views {
+    /// The views of a report.
+    ///
+    /// # Errors
+    /// As [`Json::json`] and [`Report::csv`].
+    pub fn of(report: &dyn Report) -> Result<Self, FilesError> {
+        let (text, missed) = (report.text(), report.missed());
+        Ok(Self { text, json: report.json()?, csv: report.csv()?, missed })
     }
 }
 
@@ -83,8 +102,8 @@ pub trait Report: Json {
         None
     }
 
-    /// An [`Error::Inaccurate`] for each result that is known less well than requested.
-    fn missed(&self) -> Vec<Error> {
+    /// A sentence for each result that is known less well than requested.
+    fn missed(&self) -> Vec<String> {
         Vec::new()
     }
 

@@ -1,5 +1,5 @@
-//! A results folder: a small file for the result of each pair of a ground truth and a prediction, named by the hash of everything that
-//! the result depends on.
+//! A results folder: a small file for each answer, or for the result of each pair of a data set, named by the hash of everything that it
+//! depends on.
 //!
 //! A result that is there is used, and one that is not is computed and added. Files appear whole, by a rename, and two processes that
 //! compute one result write the same bytes. So runs may be interrupted, repeated and distributed, and need not know of each other.
@@ -9,6 +9,7 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest as _, Sha256};
@@ -17,33 +18,30 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::render::simd::Level;
 use svbrdf_files::Error;
 
-use super::record::PredictionResult;
-use super::remark::Remark;
 use svbrdf_files::disk::atomic::{SOFTWARE, update};
 use svbrdf_files::disk::open::{NamedFile, hexadecimal};
 use svbrdf_files::disk::paths::plain;
 use svbrdf_files::disk::{inputs, own};
 
-/// The result of a pair of a ground truth and a prediction.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(super) struct PairResult {
-    /// What was noticed and assumed in reading the ground truth.
-    pub(super) reading: Vec<Remark>,
-    /// The loss that the ground truth cannot resolve, where diagnoses were asked for.
-    pub(super) floor: Option<f64>,
-    /// One with a loss: what fails is tried again.
-    pub(super) prediction: PredictionResult,
+/// An answer, and what a user should know about its results folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptAnswer<R> {
+    pub answer: R,
+    /// The files that cannot be used: lines.
+    pub notes: Vec<String>,
+    /// How many results could not be added, and why.
+    pub unkept: Option<String>,
 }
 
-/// What the result of a pair depends on.
+/// What a result depends on.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Key {
-    pub(super) of: Value,
+pub(crate) struct Key {
+    of: Value,
 }
 
 impl Key {
-    /// That of a result of this program on this machine.
-    pub(super) fn new(of: Value) -> Self {
+    /// That of a result of this program on this machine. It has a `method`, or an `analysis`.
+    pub(crate) fn new(of: Value) -> Self {
         Self::at(Level::best(), of)
     }
 
@@ -57,8 +55,8 @@ impl Key {
 
     /// `m0_ours_0123456789abcdef.json`.
     fn name(&self, material: &str) -> String {
-        let method = self.of["method"].as_str().unwrap_or_default();
-        format!("{}_{}_{:.16}.json", plain(material), plain(method), sha256(&self.of.to_string()))
+        let of = self.of["method"].as_str().or(self.of["analysis"].as_str()).unwrap_or_default();
+        format!("{}_{}_{:.16}.json", plain(material), plain(of), sha256(&self.of.to_string()))
     }
 
     /// Whether a file may be called so.
@@ -71,24 +69,24 @@ impl Key {
 
 /// The content of a file.
 #[derive(Serialize, Deserialize)]
-struct ResultFile {
+struct ResultFile<R> {
     /// What the result depends on: its hash is a part of the name.
     of: Value,
-    result: PairResult,
+    result: R,
     /// Of both: a file that was changed or damaged has another.
     sha256: String,
 }
 
-impl ResultFile {
-    fn new(Key { of, .. }: &Key, result: &PairResult) -> Result<Self, serde_json::Error> {
-        let sha256 = sha256(&format!("{of}{}", serde_json::to_string(result)?));
-        Ok(Self { of: of.clone(), result: result.clone(), sha256 })
+impl<R: Serialize> ResultFile<R> {
+    fn new(Key { of }: &Key, result: R) -> Result<Self, serde_json::Error> {
+        let sha256 = sha256(&format!("{of}{}", serde_json::to_string(&result)?));
+        Ok(Self { of: of.clone(), result, sha256 })
     }
 }
 
 /// A results folder.
 #[derive(Debug)]
-pub(super) struct ResultsFolder {
+pub(crate) struct ResultsFolder {
     path: PathBuf,
     notes: Mutex<Vec<String>>,
     unkept: Mutex<Unkept>,
@@ -107,7 +105,7 @@ impl ResultsFolder {
     ///
     /// # Errors
     /// [`Error::Unwritable`] where there is no folder and none can be made, or one with other files; [`Error::Unreadable`].
-    pub(super) fn open(path: &Path) -> Result<Self, Error> {
+    pub(crate) fn open(path: &Path) -> Result<Self, Error> {
         if let Err(source) = fs::create_dir(path)
             && !path.is_dir()
         {
@@ -125,8 +123,8 @@ impl ResultsFolder {
         Ok(Self { path: path.to_owned(), notes: Mutex::default(), unkept: Mutex::default() })
     }
 
-    /// The result of a pair of this material, if it is there. A file that cannot be used is noted.
-    pub(super) fn load(&self, material: &str, key: &Key) -> Option<PairResult> {
+    /// The result of this material, if it is there. A file that cannot be used is noted.
+    pub(crate) fn load<R: Serialize + DeserializeOwned>(&self, material: &str, key: &Key) -> Option<R> {
         let path = self.path.join(key.name(material));
         fs::symlink_metadata(&path).ok()?;
         let found = self.read(&path, key).map(Some);
@@ -138,29 +136,29 @@ impl ResultsFolder {
     }
 
     /// The result in the file `path`.
-    fn read(&self, path: &Path, key: &Key) -> Result<PairResult, String> {
+    fn read<R: Serialize + DeserializeOwned>(&self, path: &Path, key: &Key) -> Result<R, String> {
         let text = NamedFile::by_file(path, &self.path).text().map_err(|problem| problem.to_string())?;
         inputs::protect(path);
         let read = || -> Result<_, serde_json::Error> {
-            let found: ResultFile = serde_json::from_str(&text)?;
-            let expected = ResultFile::new(key, &found.result)?;
-            Ok((found.of == expected.of && found.sha256 == expected.sha256).then_some(found.result))
+            let ResultFile { of, result, sha256 } = serde_json::from_str(&text)?;
+            let expected = ResultFile::<R>::new(key, result)?;
+            Ok((of == expected.of && sha256 == expected.sha256).then_some(expected.result))
         };
         let result = read().map_err(|problem| problem.to_string())?;
-        let other = "its SHA-256 is another: it was changed, or is the result of another pair";
+        let other = "its SHA-256 is another: it was changed, or is another result";
         result.ok_or_else(|| other.to_owned())
     }
 
-    /// Adds the result of a pair of this material. Where it cannot be written, that is tried again after the next one that can, and at
+    /// Adds the result of this material. Where it cannot be written, that is tried again after the next one that can, and at
     /// the end.
     ///
     /// # Errors
     /// [`Cancelled`](Error::is_cancelled); [`Error::Internal`].
-    pub(super) fn add(
+    pub(crate) fn add(
         &self,
         material: &str,
         key: &Key,
-        result: &PairResult,
+        result: &impl Serialize,
         progress: &Progress,
     ) -> Result<(), Error> {
         let text = ResultFile::new(key, result).and_then(|content| serde_json::to_string(&content));
@@ -203,7 +201,7 @@ impl ResultsFolder {
     ///
     /// # Errors
     /// [`Cancelled`](Error::is_cancelled).
-    pub(super) fn end(self, progress: &Progress) -> Result<(Vec<String>, Option<String>), Error> {
+    pub(crate) fn end(self, progress: &Progress) -> Result<(Vec<String>, Option<String>), Error> {
         self.write(true, progress)?;
         let unkept = self.unkept();
         let are = if unkept.files.len() == 1 { "result is" } else { "results are" };
@@ -239,12 +237,10 @@ mod tests {
         let above = tempfile::tempdir().unwrap();
         let path = above.path().join("kept");
         let progress = Progress::default();
-        let prediction = PredictionResult::default();
-        let result = PairResult { reading: Vec::new(), floor: None, prediction };
         let key = |number: u32| Key::new(serde_json::json!({ "method": "m", "n": number }));
         let count = || fs::read_dir(&path).map_or(0, |entries| entries.count());
         let folder = ResultsFolder::open(&path).unwrap();
-        let add = |number| folder.add("a", &key(number), &result, &progress).unwrap();
+        let add = |number| folder.add("a", &key(number), &number, &progress).unwrap();
         fs::remove_dir(&path).unwrap();
         (0..3).for_each(add);
         assert_eq!((count(), folder.unkept().files.len()), (0, 3));
@@ -253,7 +249,7 @@ mod tests {
         fs::create_dir(path.join(key(1).name("a"))).unwrap();
         add(3);
         assert_eq!(count(), 4);
-        assert!((0..4).all(|number| (folder.load("a", &key(number)).is_some()) == (number != 1)));
+        assert!((0..4).all(|number| folder.load("a", &key(number)) == (number != 1).then_some(number)));
         let (_, unkept) = folder.end(&progress).unwrap();
         let unkept = unkept.unwrap();
         assert!(
