@@ -31,7 +31,7 @@ pub(crate) fn set_labels(names: &[String]) -> Vec<Option<Label>> {
 
 /// The sets among the files `names` of a folder, by the name of each: at least two files for different maps, the names of which have that
 /// beginning in common. A file without a map does not have it, unless its other words stand beside most sets, as those of the inputs of a
-/// network do: then it is listed with the set.
+/// network do: then it is listed with the set. A number alone, as that of another material, needs three.
 pub fn sets(names: &[String]) -> BTreeMap<String, Vec<String>> {
     let mut by_stem: BTreeMap<Vec<String>, Vec<(&String, Role)>> = BTreeMap::new();
     for (name, label) in names.iter().zip(set_labels(names)) {
@@ -57,7 +57,10 @@ pub fn sets(names: &[String]) -> BTreeMap<String, Vec<String>> {
     let mut beside: BTreeMap<String, usize> = BTreeMap::new();
     let others: Vec<&String> = names.iter().filter(|name| !of_maps.contains(name)).collect();
     others.iter().flat_map(|name| rest(name)).for_each(|rest| *beside.entry(rest).or_default() += 1);
-    let is_of_most = |rest: &String| beside[rest] > 2 && 2 * beside[rest] > named.len();
+    let is_of_most = |rest: &String| {
+        let least = if rest.bytes().all(|byte| byte.is_ascii_digit()) { 3 } else { 2 };
+        beside[rest] >= least && 2 * beside[rest] > named.len()
+    };
     let is_alone =
         |set: &String| others.iter().filter_map(|name| rest_of(name, set)).all(|rest| is_of_most(&rest));
     let whole = |(set, files): (&String, &Vec<String>)| {
@@ -69,7 +72,8 @@ pub fn sets(names: &[String]) -> BTreeMap<String, Vec<String>> {
 
 /// What a name that begins with the words of a set has after them.
 fn rest_of(name: &str, set: &str) -> Option<String> {
-    words(name).strip_prefix(words(set).as_slice()).map(|rest| rest.join("_"))
+    let stem = Path::new(name).file_stem().unwrap_or_default().to_string_lossy();
+    words(&stem).strip_prefix(words(set).as_slice()).map(|rest| rest.join("_"))
 }
 
 /// Words for normals, the colour, roughness and metallic that go together, as their files have them.
@@ -152,6 +156,8 @@ mod tests {
             ["a", "b", "c"].map(|name| ["Nout", "Dout", "input"].map(|map| format!("{name}_{map}")));
         let with_input: Vec<&str> = with_input.iter().flatten().map(String::as_str).collect();
         assert_eq!(sets(&with_input), [of("a", 3), of("b", 3), of("c", 3)]);
+        assert_eq!(sets(&with_input[..6]), [of("a", 3), of("b", 3)]);
+        assert_eq!(sets(&["a_Nout", "a_Dout", "a_2", "b_Nout", "b_Dout", "b_2"]), [], "whose are the others?");
     }
 
     #[test]
