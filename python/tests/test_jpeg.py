@@ -20,18 +20,14 @@ SPACES: dict[str, tuple[bytes, int | None]] = {
     "YCbCr": (b"\1\2\3", None),
     "YCbCr of Adobe": (b"\1\2\3", 1),
     "RGB": (b"RGB", 0),
-    "CMYK": (b"\1\2\3\4", 0),
-    "YCCK": (b"\1\2\3\4", 2),
 }
 
 
 def samplings(count: int) -> list[list[tuple[int, int]]]:
     if count == 1:
         return [[luma] for luma in LUMA]
-    if count == 3:
-        mixed = [[(2, 2), (1, 2), (1, 2)], [(2, 2), (2, 1), ONE], [ONE, (2, 1), ONE], [ONE, (2, 2), (2, 2)]]
-        return [[luma, ONE, ONE] for luma in LUMA] + [[(2, 1)] * 3, [(1, 2)] * 3, *mixed]
-    return [[luma, ONE, ONE, luma] for luma in LUMA[:6]] + [[(2, 1)] * 4, [(2, 2), ONE, ONE, ONE]]
+    mixed = [[(2, 2), (1, 2), (1, 2)], [(2, 2), (2, 1), ONE], [ONE, (2, 1), ONE], [ONE, (2, 2), (2, 2)]]
+    return [[luma, ONE, ONE] for luma in LUMA] + [[(2, 1)] * 3, [(1, 2)] * 3, *mixed]
 
 
 def is_same(space: str, sampling: list[tuple[int, int]]) -> bool:

@@ -55,7 +55,7 @@ fn whole_files() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     entries.iter().for_each(|at| bomb[at + 24..at + 28].copy_from_slice(b"\0\0\0\x80"));
     vec![
         ("exr", STANDARD.decode(DEEP).unwrap(), "expected flat samples, found a deep EXR; flatten it"),
-        ("jpg", TWO.to_vec(), "expected gray, RGB or CMYK, found 2 components; convert it to RGB"),
+        ("jpg", TWO.to_vec(), "expected gray or RGB, found 2 components; convert it to RGB"),
         ("webp", LOSSY.to_vec(), SHORT),
         ("npz", bomb, "expected at most 4 GiB in the npz, found 8 GiB"),
         ("npz", archive(65), "expected at most 64 arrays in the npz, found 65"),

@@ -57,14 +57,13 @@ pub(super) fn pixels(bytes: &[u8], most: [usize; 2], place: DecodedFile<'_>) -> 
     let format = match count {
         1 => PixelFormat::Grayscale,
         3 => PixelFormat::Rgb,
-        4 => PixelFormat::Cmyk,
         _ => {
-            let problem = format!("expected gray, RGB or CMYK, found {count} components");
+            let problem = format!("expected gray or RGB, found {count} components");
             return Err(place.bad(problem, "convert it to RGB"));
         }
     };
     if let Some(found) = differing(&decoder) {
-        let expected = "expected gray, YCbCr, or RGB or CMYK with every component at full size";
+        let expected = "expected gray, YCbCr, or RGB with every component at full size";
         return Err(place.bad(format!("{expected}, found {found}"), "convert it to PNG in RGB"));
     }
     let size = u64::from(width) * u64::from(height);
@@ -78,9 +77,13 @@ pub(super) fn pixels(bytes: &[u8], most: [usize; 2], place: DecodedFile<'_>) -> 
     decoder.set_output_format(format);
     let image = caught(|| decoder.decode_image()).map_err(contradiction)?.map_err(broken)?;
     let profile = image.icc_profile().map(<[u8]>::to_vec);
-    let values = image.into_vec();
-    let values = if count == 4 { rgb_of(&values) } else { values };
-    Ok(Pixels { size: [width.into(), height.into()], count: count.min(3), values, orientation, profile })
+    Ok(Pixels {
+        size: [width.into(), height.into()],
+        count,
+        values: image.into_vec(),
+        orientation,
+        profile,
+    })
 }
 
 /// What libjpeg-turbo-rs 0.8.0 does not decode to the values of libjpeg-turbo.
@@ -99,21 +102,8 @@ fn differing(decoder: &Decoder<'_>) -> Option<&'static str> {
         3 if is_named_rgb && !is_rgb => Some("RGB without the marker of Adobe"),
         3 if is_rgb && !are_all_full => Some("RGB with subsampled components"),
         3 if !are_reduced => Some("YCbCr with chroma that is larger than luma"),
-        4 if !are_all_full => Some("CMYK with subsampled components"),
         _ => None,
     }
-}
-
-/// Cyan, magenta, yellow and black, stored inverted as Adobe does, as red, green and blue: in the integers of Pillow.
-fn rgb_of(stored: &[u8]) -> Vec<u8> {
-    let texels = stored.as_chunks::<4>().0;
-    let rgb = |[cyan, magenta, yellow, black]: &[u8; 4]| {
-        [cyan, magenta, yellow].map(|ink| {
-            let product = u32::from(255 - ink) * u32::from(*black) + 128;
-            black.saturating_sub((((product >> 8) + product) >> 8) as u8)
-        })
-    };
-    texels.iter().flat_map(rgb).collect()
 }
 
 /// Whether the end of the image is there: libjpeg-turbo-rs 0.8.0 fills what is missing of a single scan with gray, without a word.
@@ -150,18 +140,10 @@ mod tests {
     use super::*;
     use crate::read::record::Subject;
 
-    /// Pictures of 10 x 7 pixels that Pillow 13.0 has written and read with libjpeg-turbo 3.2: the file, and its values.
-    const OF_PILLOW: [(&str, &str, &str); 2] = [
-        (
-            "4:2:0",
-            "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYnKSopGR8tMC0oMCUoKSj/2wBDAQcHBwoIChMKChMoGhYaKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCj/wAARCAAHAAoDASIAAhEBAxEB/8QAFgABAQEAAAAAAAAAAAAAAAAAAAMF/8QAIhAAAQMDBAMBAAAAAAAAAAAAAQIDBQAGEgQRIWETMTJS/8QAFQEBAQAAAAAAAAAAAAAAAAAABQb/xAAiEQABAgMJAAAAAAAAAAAAAAABAgMABRESEyIxQVFxgcH/2gAMAwEAAhEDEQA/ANCBgJbQ29q3zFwah48NsFj6IT++6iqyrqeUXUSTLKVnINNstYoB5xG4J2Hrkk90pR775YduWwAmleySPInVzBaS2LKTgGYrqd+I/9k=",
-            "BFMAI1wATlsAdWkXhm00jYhqe6SmI250MJCEN6GKMYY1Tos7eIk5oJNPspdqvLGdpsfOWJahYq2mVKeVTq1za7J6mK97xbeQ3byr8djb1uP0nb7RqM7REzo1AEEgA0YnMkQsXkxAe1JYj29+X2h3NVJaJUA7LEY7FV5XMGJfX2NmhGh2nmyHp4abWGtpN2RQUn9gY5FsP42NW5KVipair5ywyaK/zLzHY5BvTJpeT5xYgs+HUrutbcC4ncfGw83W3tXm4vToaMByXNhobul3j/+W",
-        ),
-        (
-            "CMYK",
-            "/9j/7gAOQWRvYmUAZAAAAAAA/9sAQwAGBAUGBQQGBgUGBwcGCAoQCgoJCQoUDg8MEBcUGBgXFBYWGh0lHxobIxwWFiAsICMmJykqKRkfLTAtKDAlKCko/8AAFAgABwAKBEMRAE0RAFkRAEsRAP/EAB8AAAEFAQEBAQEBAAAAAAAAAAABAgMEBQYHCAkKC//EALUQAAIBAwMCBAMFBQQEAAABfQECAwAEEQUSITFBBhNRYQcicRQygZGhCCNCscEVUtHwJDNicoIJChYXGBkaJSYnKCkqNDU2Nzg5OkNERUZHSElKU1RVVldYWVpjZGVmZ2hpanN0dXZ3eHl6g4SFhoeIiYqSk5SVlpeYmZqio6Slpqeoqaqys7S1tre4ubrCw8TFxsfIycrS09TV1tfY2drh4uPk5ebn6Onq8fLz9PX29/j5+v/aAA4EQwBNAFkASwAAPwDtfjl/y8fjU/8Awvm4/wCekv5Gu78b+KH/AHnLVU8Xfx18l3P/AB8S/wC+f50f8L5uP+ekv5GvKZPFD+Y3LdTXnD/fb61//9k=",
-            "mpmZhJGMbYZ6WHxqRXNdNmlQJl1CG1U5EEouCEMnmoSThH2FbXRzWGpkRWNYNlpLJlA+G0k1EEAqCDojmm+LhGl9bWFtWFleRVNTNkxGJkM5Gz0xEDUnCDAgmliEhFN4bU1nWEdZRUFONjxCJjU1GzAtECokCCYdmkN8hEBwbTtgWDZTRTJINi49JigxGyUpECAgCB0ami10hCpobSdZWCRMRSFBNh43JhsrGxkkEBUcCBMWmhhvhBZkbRVVWBNIRRI+NhAzJg4oGw0iEAsaCAoU",
-        ),
+    /// A picture of 10 x 7 pixels, 4:2:0, that Pillow 13.0 has written and read with libjpeg-turbo 3.2: the file, and its values.
+    const OF_PILLOW: [&str; 2] = [
+        "/9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAYEBQYFBAYGBQYHBwYIChAKCgkJChQODwwQFxQYGBcUFhYaHSUfGhsjHBYWICwgIyYnKSopGR8tMC0oMCUoKSj/2wBDAQcHBwoIChMKChMoGhYaKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCgoKCj/wAARCAAHAAoDASIAAhEBAxEB/8QAFgABAQEAAAAAAAAAAAAAAAAAAAMF/8QAIhAAAQMDBAMBAAAAAAAAAAAAAQIDBQAGEgQRIWETMTJS/8QAFQEBAQAAAAAAAAAAAAAAAAAABQb/xAAiEQABAgMJAAAAAAAAAAAAAAABAgMABRESEyIxQVFxgcH/2gAMAwEAAhEDEQA/ANCBgJbQ29q3zFwah48NsFj6IT++6iqyrqeUXUSTLKVnINNstYoB5xG4J2Hrkk90pR775YduWwAmleySPInVzBaS2LKTgGYrqd+I/9k=",
+        "BFMAI1wATlsAdWkXhm00jYhqe6SmI250MJCEN6GKMYY1Tos7eIk5oJNPspdqvLGdpsfOWJahYq2mVKeVTq1za7J6mK97xbeQ3byr8djb1uP0nb7RqM7REzo1AEEgA0YnMkQsXkxAe1JYj29+X2h3NVJaJUA7LEY7FV5XMGJfX2NmhGh2nmyHp4abWGtpN2RQUn9gY5FsP42NW5KVipair5ywyaK/zLzHY5BvTJpeT5xYgs+HUrutbcC4ncfGw83W3tXm4vToaMByXNhobul3j/+W",
     ];
 
     fn decoded(bytes: &[u8]) -> Result<Decoded, Error> {
@@ -171,29 +153,23 @@ mod tests {
 
     #[test]
     fn values_are_those_of_libjpeg_turbo() {
-        for (name, file, values) in OF_PILLOW {
-            let [file, values] = [file, values].map(|text| STANDARD.decode(text).unwrap());
-            let raster = decoded(&file).unwrap().layers.remove(0).raster;
-            let channels = values.len() / 70;
-            let expected = Samples::interleaved(values, channels);
-            assert_eq!(raster, Raster::with_alpha(10, 7, "8-bit", expected), "{name}");
-            for cut in [1, 2, 20, file.len() / 3] {
-                let refused = decoded(&file[..file.len() - cut]).unwrap_err().to_string();
-                assert!(refused.contains("m.jpg"), "{name} without its last {cut} bytes: {refused}");
-            }
-            assert!(decoded(&[file, b"and more".to_vec()].concat()).is_ok(), "{name} with more behind it");
+        let [file, values] = OF_PILLOW.map(|text| STANDARD.decode(text).unwrap());
+        let raster = decoded(&file).unwrap().layers.remove(0).raster;
+        assert_eq!(raster, Raster::with_alpha(10, 7, "8-bit", Samples::interleaved(values, 3)));
+        for cut in [1, 2, 20, file.len() / 3] {
+            let refused = decoded(&file[..file.len() - cut]).unwrap_err().to_string();
+            assert!(refused.contains("m.jpg"), "without its last {cut} bytes: {refused}");
         }
+        assert!(decoded(&[file, b"and more".to_vec()].concat()).is_ok(), "with more behind it");
     }
 
-    /// The marker of Adobe, as `tiff_jpeg` writes it, which says RGB or CMYK.
+    /// The marker of Adobe, as `tiff_jpeg` writes it, which says RGB.
     const ADOBE: &[u8] = b"\xff\xee\0\x0eAdobe\0\x64\0\0\0\0\0";
     const YCBCR: &[u8] = b"\x01\x22\0\x02\x11\x01\x03\x11\x01";
-    const CMYK: &[u8] = b"C\x11\0M\x11\0Y\x11\0K\x11\0";
 
     #[test]
     fn what_has_other_values_in_libjpeg_turbo_is_refused() {
-        let jfif = STANDARD.decode(OF_PILLOW[0].1).unwrap();
-        let cmyk = STANDARD.decode(OF_PILLOW[1].1).unwrap();
+        let jfif = STANDARD.decode(OF_PILLOW[0]).unwrap();
         let after = |header: &[u8], rest: &[u8]| [&jfif[..2], header, rest].concat();
         let with = |file: &[u8], changes: &[(&[u8], &[u8])]| {
             changes.iter().fold(file.to_vec(), |mut file, (from, to)| {
@@ -205,13 +181,11 @@ mod tests {
         let rgb = (YCBCR, b"R\x22\0G\x11\x01B\x11\x01".as_slice());
         let scan = (b"\x03\x01\0\x02\x11\x03\x11".as_slice(), b"\x03R\0G\x11B\x11".as_slice());
         let large = (YCBCR, b"\x01\x11\0\x02\x22\x01\x03\x22\x01".as_slice());
-        let tall = (CMYK, b"C\x12\0M\x11\0Y\x11\0K\x12\0".as_slice());
         for (file, found) in [
             (after(ADOBE, &jfif[20..]), "RGB with subsampled components"),
             (after(ADOBE, &jfif[2..]), "JFIF whose marker of Adobe says RGB"),
             (with(&after(&[], &jfif[20..]), &[rgb, scan]), "RGB without the marker of Adobe"),
             (with(&jfif, &[large]), "YCbCr with chroma that is larger than luma"),
-            (with(&cmyk, &[tall]), "CMYK with subsampled components"),
         ] {
             let refused = decoded(&file).unwrap_err().to_string();
             assert!(refused.contains(found) && refused.contains("convert it to PNG in RGB"), "{refused}");
