@@ -288,7 +288,7 @@ impl From<&Finding> for Mark {
             // Numbers and names have a value.
             value: serde_json::to_value(&finding.value).unwrap_or_default(),
             share: finding.share,
-            remedy: finding.remedy.map(|remedy| remedy.to_string()),
+            remedy: finding.remedy.map(|remedy| remedy.words()),
         }
     }
 }

@@ -5,7 +5,7 @@ use rand::{RngExt as _, SeedableRng as _};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Map, Material, Planes};
-use svbrdf_files::changes::{Storage, StoredEncoding};
+use svbrdf_files::read::{Albedo, Roughness, Storage};
 
 /// The material with every stored value moved by up to half a step of its map, uniformly; normals are normalized again. A map without
 /// steps stays as it is, to the bit.
@@ -20,7 +20,7 @@ pub fn dithered(material: &Material<f32>, storage: &Storage, seed: u64) -> Resul
     let Planes { normal, diffuse, specular, roughness } = material.planes();
     let [of_normal, of_diffuse, of_specular, of_roughness] = storage.steps;
     let transfer =
-        |transfer: StoredEncoding| (move |x: f32| transfer.encode(x), move |x: f32| transfer.decode(x));
+        |of: Option<Albedo>| (move |x: f32| Storage::encode(of, x), move |x: f32| Storage::decode(of, x));
     let mut moved = |plane: &[f32], step: f64, (encode, decode): Code<'_>| -> Vec<f32> {
         let step = step as f32;
         let one = |x: &f32| decode((encode(*x) + step * (generator.random::<f32>() - 0.5)).clamp(0.0, 1.0));
@@ -34,13 +34,13 @@ pub fn dithered(material: &Material<f32>, storage: &Storage, seed: u64) -> Resul
     let (encode, decode) = transfer(storage.specular);
     let specular = specular.each_ref().map(|plane| moved(plane, of_specular, (&encode, &decode)));
     let mut roughness_as = |code: Code<'_>| moved(roughness, of_roughness, code);
-    let roughness = match storage.roughness.as_deref() {
-        Some("alpha") => roughness_as((&|r| r * r, &f32::sqrt)),
-        Some("axay") => {
+    let roughness = match storage.roughness {
+        Roughness::Alpha => roughness_as((&|r| r * r, &f32::sqrt)),
+        Roughness::Anisotropic => {
             let widths = [(); 2].map(|()| roughness_as((&|r| r * r, &|c| c)));
             widths[0].iter().zip(&widths[1]).map(|(x, y)| (x * y).sqrt().sqrt()).collect()
         }
-        Some("gamma2.2") => roughness_as((&|r| r.powf(1.0 / 2.2), &|c| c.powf(2.2))),
+        Roughness::Gamma22 => roughness_as((&|r| r.powf(1.0 / 2.2), &|c| c.powf(2.2))),
         // 1 - r has the same steps as r.
         _ => roughness_as((&|r| r, &|c| c)),
     };
@@ -58,10 +58,10 @@ mod tests {
     use super::super::tests::materials::{generated, with};
     use super::*;
 
-    /// The largest change of roughness by the storage of this name.
-    fn largest(name: Option<&str>, roughness: f32) -> f32 {
+    /// The largest change of a roughness that is stored so.
+    fn largest(stored: Roughness, roughness: f32) -> f32 {
         let material = with(&generated(0, 32), |planes| planes.roughness.fill(roughness));
-        let storage = Storage { roughness: name.map(str::to_owned), ..Storage::default() };
+        let storage = Storage { roughness: stored, ..Storage::default() };
         let moved = dithered(&material, &storage, 1).unwrap();
         moved.planes().roughness.iter().map(|r| (r - roughness).abs()).fold(0.0, f32::max)
     }
@@ -69,12 +69,8 @@ mod tests {
     #[test]
     fn maps_without_steps_do_not_move() {
         let material = generated(1, 32);
-        for roughness in [None, Some("alpha"), Some("axay"), Some("gamma2.2")] {
-            let storage = Storage {
-                colours: StoredEncoding::Srgb,
-                roughness: roughness.map(str::to_owned),
-                ..Storage::exact()
-            };
+        for roughness in [Roughness::R, Roughness::Alpha, Roughness::Anisotropic, Roughness::Gamma22] {
+            let storage = Storage { colours: Some(Albedo::Srgb), roughness, ..Storage::exact() };
             assert_eq!(dithered(&material, &storage, 1).unwrap(), material, "{roughness:?}");
             let storage = Storage { steps: [0.0, 1.0 / 255.0, 0.0, 0.0], ..storage };
             let moved = dithered(&material, &storage, 1).unwrap();
@@ -89,17 +85,17 @@ mod tests {
         // Half a step in c, divided by the slope dc / dr.
         let half = 0.5 / 255.0;
         for (name, roughness, expected) in [
-            (None, 0.2, half),
-            (Some("gloss"), 0.2, half),
-            (Some("alpha"), 0.2, half / 0.4),
-            (Some("alpha"), 0.8, half / 1.6),
-            (Some("gamma2.2"), 0.2, half * 2.2 * 0.2_f32.powf(1.2 / 2.2)),
+            (Roughness::R, 0.2, half),
+            (Roughness::Gloss, 0.2, half),
+            (Roughness::Alpha, 0.2, half / 0.4),
+            (Roughness::Alpha, 0.8, half / 1.6),
+            (Roughness::Gamma22, 0.2, half * 2.2 * 0.2_f32.powf(1.2 / 2.2)),
         ] {
             let found = largest(name, roughness);
             assert!((0.97..1.03).contains(&(found / expected)), "{name:?} {roughness}: {found} {expected}");
         }
         // The mean of two uniform numbers is seldom as large as either.
-        let both = largest(Some("axay"), 0.2) / (half / 0.4);
+        let both = largest(Roughness::Anisotropic, 0.2) / (half / 0.4);
         assert!((0.8..1.0).contains(&both), "{both}");
     }
 }

@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::statistics::sort_by_number;
+use svbrdf_core::text::quoted;
 use svbrdf_files::changes::Change;
-use svbrdf_files::changes::Remedy;
-use svbrdf_files::changes::Storage;
+use svbrdf_files::read::{ReadOptions, Storage};
 
 svbrdf_core::choices! {
     /// An explanation of a loss that is tried, in the order of the lines.
@@ -135,9 +135,9 @@ pub struct Finding {
     /// Another change in place of this one that explains as much, or more.
     #[serde(skip)]
     pub alternative: Option<Alternative>,
-    /// The option of reading that corrects it; a report writes it as an option of the command line.
+    /// The options of reading that correct it; a report writes them as an option of the command line.
     #[serde(skip)]
-    pub remedy: Option<Remedy>,
+    pub remedy: Option<ReadOptions>,
     /// What is changed with the value; `None` where it changes nothing.
     #[serde(skip)]
     pub change: Option<Change>,
@@ -157,19 +157,19 @@ pub struct Diagnosis {
 }
 
 impl Finding {
-    /// The option that corrects the reading of the prediction.
-    pub fn remedy_of_prediction(&self) -> Option<Remedy> {
+    /// The options that correct the reading of the prediction.
+    pub fn remedy_of_prediction(&self) -> Option<ReadOptions> {
         self.remedy.filter(|_| self.hypothesis != Hypothesis::GroundTruth)
     }
 
-    /// What `--read` takes to correct the reading of the ground truth or of the prediction with these names.
+    /// What `--read` takes to correct the reading of the ground truth or of the prediction with these names: `run 2:normal-y=down`.
     pub fn statement(&self, names: [&str; 2]) -> Option<String> {
-        self.remedy.map(|remedy| remedy.statement(self.corrected(names)))
+        self.remedy.map(|remedy| format!("{}:{}", self.corrected(names), remedy.words()))
     }
 
-    /// The same as an option of the command line.
+    /// The option of the command line, quoted for a shell: `--read 'run 2:normal-y=down'`.
     pub fn command_option(&self, names: [&str; 2]) -> Option<String> {
-        self.remedy.map(|remedy| remedy.command_option(self.corrected(names)))
+        self.statement(names).map(|statement| format!("--read {}", quoted(statement)))
     }
 
     /// Which of the two is read otherwise.

@@ -11,7 +11,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::changes::Storage;
+use svbrdf_files::read::Storage;
 
 /// Dithered copies that are compared with the ground truth.
 const COPIES: usize = 2;

@@ -47,6 +47,5 @@ pub use floor::floor;
 pub use holm::holm;
 pub use search::{SCENES, diagnose};
 pub use sentence::{sentence, sentence_of};
-pub use svbrdf_files::changes::{
-    Change, Placement, Reading, Remedy, Storage, StoredEncoding, Symmetry, shifted,
-};
+pub use svbrdf_files::changes::{Change, Placement, Reading, Symmetry, shifted};
+pub use svbrdf_files::read::Storage;

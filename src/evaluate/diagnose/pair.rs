@@ -2,7 +2,7 @@
 
 use super::samples::Samples;
 use svbrdf_core::material::Material;
-use svbrdf_files::changes::Storage;
+use svbrdf_files::read::Storage;
 
 /// A ground truth and a prediction, and how each is stored.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,8 @@ use super::alignment::Alignments;
 use super::finding::{Hypothesis, Value};
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
-use svbrdf_files::changes::{Change, Placement, Reading, Remedy, Storage, StoredEncoding, Symmetry};
+use svbrdf_files::changes::{Change, Placement, Reading, Symmetry};
+use svbrdf_files::read::{Albedo, ReadOptions, Storage};
 
 /// A hypothesis with the value that was fitted.
 #[derive(Clone, Debug)]
@@ -13,7 +14,7 @@ pub(super) struct Proposal {
     pub(super) value: Value,
     /// `None`: the best value changes nothing.
     pub(super) change: Option<Change>,
-    pub(super) remedy: Option<Remedy>,
+    pub(super) remedy: Option<ReadOptions>,
 }
 
 impl Proposal {
@@ -80,11 +81,11 @@ impl Proposal {
     /// All readings by hypothesis, those of the ground truth last.
     pub(super) fn readings([of_truth, of_prediction]: [&Storage; 2]) -> Vec<Vec<Self>> {
         let one = |hypothesis: Hypothesis, reading: Reading| Self {
-            remedy: Remedy::of(of_prediction, reading),
+            remedy: reading.remedy(of_prediction),
             ..Self::new(hypothesis, Value::Name(reading.name()), Change::Reading(reading))
         };
         let truth = |reading: Reading| Self {
-            remedy: Remedy::of(of_truth, reading),
+            remedy: reading.remedy(of_truth),
             ..Self::new(Hypothesis::GroundTruth, Value::Name(reading.words()), Change::GroundTruth(reading))
         };
         let prediction = readings(of_prediction)
@@ -103,7 +104,7 @@ fn symmetry(pilot: &Trials<'_>) -> Result<Proposal, Error> {
 
 /// The readings that are tried, by hypothesis.
 fn readings(storage: &Storage) -> Vec<(Hypothesis, Vec<Reading>)> {
-    let encodings = |of: StoredEncoding, reading: fn(StoredEncoding) -> Reading| {
+    let encodings = |of: Option<Albedo>, reading: fn(Albedo) -> Reading| {
         Storage::encodings(of).iter().map(|&to| reading(to)).collect::<Vec<_>>()
     };
     let energy = if storage.unscaled { Reading::Scaled } else { Reading::Unscaled };

@@ -14,7 +14,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
-use svbrdf_files::changes::Storage;
+use svbrdf_files::read::Storage;
 
 /// Near-field and distant scenes of what is found.
 pub const SCENES: [usize; 2] = [2048, 1024];

@@ -3,8 +3,8 @@
 use super::finding::{Alternative, Diagnosis, Finding, Hypothesis, Value};
 use svbrdf_core::loss::Estimate;
 use svbrdf_files::changes::Change;
-use svbrdf_files::changes::Remedy;
 use svbrdf_files::changes::displacement;
+use svbrdf_files::read::NormalY;
 
 /// Least share of the loss, in percent, from which a cause is named.
 const LIKELY_CAUSE: f64 = 50.0;
@@ -143,7 +143,7 @@ fn cause(finding: &Finding) -> Option<String> {
 
 /// The direction of Y that a finding suggests.
 fn direction(finding: &Finding) -> &'static str {
-    if finding.remedy == Some(Remedy::NormalY("up")) { "up" } else { "down" }
+    finding.remedy.and_then(|remedy| remedy.normal_y).unwrap_or(NormalY::Down).name()
 }
 
 fn encoding(name: &str) -> &'static str {

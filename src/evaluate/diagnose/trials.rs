@@ -272,7 +272,8 @@ mod tests {
     use super::super::tests::materials::{generated, with};
     use super::*;
     use svbrdf_core::model::convention::PRINTED;
-    use svbrdf_files::changes::{Reading, Storage, StoredEncoding, Symmetry};
+    use svbrdf_files::changes::{Reading, Symmetry};
+    use svbrdf_files::read::{Albedo, Storage};
 
     #[test]
     fn changes_of_the_compared_texels_alone_have_the_losses_of_changed_maps_bit_for_bit() {
@@ -282,7 +283,7 @@ mod tests {
         let without_kernel: Convention = "gltf-viewer".parse().unwrap();
         assert!(without_kernel.member.is_some());
         let pair = Pair { ground_truth: &truth, prediction: &darker, storages: [&storage; 2] };
-        let [gloss, linear] = [Reading::Gloss, Reading::Colours(StoredEncoding::Linear)];
+        let [gloss, linear] = [Reading::Gloss, Reading::Colours(Albedo::Linear)];
         let sets = vec![
             vec![Change::Reading(gloss)],
             vec![

@@ -9,8 +9,8 @@ use svbrdf_core::material::{Material, Planes};
 
 use super::placement::Placement;
 use super::reading::Reading;
-use super::storage::Storage;
 use super::symmetry::Symmetry;
+use crate::read::Storage;
 
 /// A change that is tried on a prediction.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -157,8 +157,8 @@ pub(super) fn before_shift(texel: usize, [right, down]: [i32; 2], [width, height
 
 #[cfg(test)]
 mod tests {
-    use super::super::StoredEncoding;
     use super::*;
+    use crate::read::Albedo;
     use crate::samples;
 
     #[test]
@@ -172,7 +172,7 @@ mod tests {
             Change::SpecularFactor(-1e300),
             Change::DiffuseFactor(1e300),
             Change::Reading(Reading::Gloss),
-            Change::Reading(Reading::Colours(StoredEncoding::Srgb)),
+            Change::Reading(Reading::Colours(Albedo::Srgb)),
         ]);
         for change in changes {
             let text = serde_json::to_string(&change).unwrap();

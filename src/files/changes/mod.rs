@@ -3,11 +3,9 @@
 mod change;
 mod placement;
 mod reading;
-mod storage;
 mod symmetry;
 
 pub use change::{Change, displacement, shifted};
 pub use placement::{Placement, Taps, interpolated};
-pub use reading::{Reading, Remedy};
-pub use storage::{Storage, StoredEncoding};
+pub use reading::Reading;
 pub use symmetry::Symmetry;

@@ -1,15 +1,11 @@
-//! Other readings of the values of a material (sign of normals, encoding of colours, meaning of roughness), and the options that correct
-//! how a material is read.
-
-use std::fmt;
+//! Other readings of the values of a material (sign of normals, encoding of colours, meaning of roughness), and the options that have them.
 
 use serde::{Deserialize, Serialize};
 
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
-use svbrdf_core::text::quoted;
 
-use super::storage::{Storage, StoredEncoding};
+use crate::read::{Albedo, Energy, NormalY, ReadOptions, Roughness, Storage};
 
 /// The reflectance f of dielectrics where no map holds it.
 const DIELECTRIC: f32 = 0.04;
@@ -25,11 +21,11 @@ pub enum Reading {
     /// The x axis of normals in the other direction.
     NormalX,
     /// Diffuse and specular in this encoding instead.
-    Colours(StoredEncoding),
+    Colours(Albedo),
     /// Diffuse alone in this encoding instead.
-    Diffuse(StoredEncoding),
+    Diffuse(Albedo),
     /// Specular alone in this encoding instead.
-    Specular(StoredEncoding),
+    Specular(Albedo),
     /// r = 1 - c.
     Gloss,
     /// r = sqrt(c): the values are alpha.
@@ -64,14 +60,14 @@ impl Reading {
         match self {
             Self::NormalY => "Y of normals flipped",
             Self::NormalX => "X of normals flipped",
-            Self::Colours(StoredEncoding::Linear) => "colours read as linear",
-            Self::Colours(StoredEncoding::Gamma22) => "colours read as gamma 2.2",
+            Self::Colours(Albedo::Linear) => "colours read as linear",
+            Self::Colours(Albedo::Gamma22) => "colours read as gamma 2.2",
             Self::Colours(_) => "colours read as sRGB",
-            Self::Diffuse(StoredEncoding::Linear) => "diffuse read as linear",
-            Self::Diffuse(StoredEncoding::Gamma22) => "diffuse read as gamma 2.2",
+            Self::Diffuse(Albedo::Linear) => "diffuse read as linear",
+            Self::Diffuse(Albedo::Gamma22) => "diffuse read as gamma 2.2",
             Self::Diffuse(_) => "diffuse read as sRGB",
-            Self::Specular(StoredEncoding::Linear) => "specular read as linear",
-            Self::Specular(StoredEncoding::Gamma22) => "specular read as gamma 2.2",
+            Self::Specular(Albedo::Linear) => "specular read as linear",
+            Self::Specular(Albedo::Gamma22) => "specular read as gamma 2.2",
             Self::Specular(_) => "specular read as sRGB",
             Self::Gloss => "1 - roughness",
             Self::RootOfRoughness => "root of roughness",
@@ -119,6 +115,34 @@ impl Reading {
         }
         Material::new(material.name(), material.width(), material.height(), planes)
     }
+
+    /// The options that read a material, which was read from `storage`, in this reading; `None`: there are none.
+    pub fn remedy(self, storage: &Storage) -> Option<ReadOptions> {
+        let auto = ReadOptions::AUTO;
+        let roughness = |to| ReadOptions { roughness: Some(to), ..auto };
+        // `albedo` alone would change specular, too, unless an option specifies `specular-albedo`.
+        let albedo = |to, specular: Albedo| {
+            let specular = (!storage.base_colour).then_some(specular);
+            ReadOptions { albedo: Some(to), specular, ..auto }
+        };
+        Some(match (self, storage.roughness) {
+            (Self::NormalY, _) => {
+                let y = if storage.normal_down { NormalY::Up } else { NormalY::Down };
+                ReadOptions { normal_y: Some(y), ..auto }
+            }
+            (Self::Colours(to), _) => albedo(to, to),
+            (Self::Diffuse(to), _) => albedo(to, storage.specular?),
+            (Self::Specular(to), _) => ReadOptions { specular: Some(to), ..auto },
+            (Self::Gloss, Roughness::Gloss) | (Self::SquaredRoughness, Roughness::Alpha) => {
+                roughness(Roughness::R)
+            }
+            (Self::Gloss, Roughness::R) => roughness(Roughness::Gloss),
+            (Self::RootOfRoughness, Roughness::R) => roughness(Roughness::Alpha),
+            (Self::Unscaled, _) => ReadOptions { energy: Some(Energy::Unscaled), ..auto },
+            (Self::Scaled, _) => ReadOptions { energy: Some(Energy::Scaled), ..auto },
+            _ => return None,
+        })
+    }
 }
 
 fn negate(plane: &mut [f32]) {
@@ -126,17 +150,14 @@ fn negate(plane: &mut [f32]) {
 }
 
 /// Values that were decoded from `from`, decoded from `to` instead. Values of an unknown encoding were decoded from the other one.
-fn reencode(plane: &mut [f32], from: StoredEncoding, to: StoredEncoding) {
-    let from = match (from, to) {
-        (StoredEncoding::Unknown, StoredEncoding::Linear) => StoredEncoding::Srgb,
-        (from, _) => from,
-    };
-    plane.iter_mut().for_each(|x| *x = to.decode(from.encode(*x)).clamp(0.0, 1.0));
+fn reencode(plane: &mut [f32], from: Option<Albedo>, to: Albedo) {
+    let from = from.or((to == Albedo::Linear).then_some(Albedo::Srgb));
+    plane.iter_mut().for_each(|x| *x = Storage::decode(Some(to), Storage::encode(from, *x)).clamp(0.0, 1.0));
 }
 
 /// The same for a base colour b and metallic m, from which d = b (1 - m) and s = f (1 - m) + b m follow. The means of d and s over the
 /// channels give m: f m^2 + (d + s - 2 f) m = s - f.
-fn reencode_base(planes: &mut Planes<f32>, from: StoredEncoding, to: StoredEncoding) {
+fn reencode_base(planes: &mut Planes<f32>, from: Option<Albedo>, to: Albedo) {
     let Planes { diffuse, specular, .. } = planes;
     for index in 0..diffuse[0].len() {
         let mean = |map: &[Vec<f32>; 3]| map.iter().map(|plane| plane[index]).sum::<f32>() / 3.0;
@@ -164,68 +185,6 @@ fn scale(planes: &mut Planes<f32>, scaled: impl Fn(f32, f32) -> f32) {
     }
 }
 
-/// An option of reading with the name of the value that corrects a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Remedy {
-    NormalY(&'static str),
-    /// Of diffuse or base colour, and of specular where it has a map: `albedo` alone would change specular, too, unless an option
-    /// specifies `specular-albedo`.
-    Albedo(&'static str, Option<&'static str>),
-    SpecularAlbedo(&'static str),
-    Roughness(&'static str),
-    Energy(&'static str),
-}
-
-impl Remedy {
-    /// The option that reads a material, which was read from `storage`, in this reading; `None`: there is none.
-    pub fn of(storage: &Storage, reading: Reading) -> Option<Self> {
-        let present = storage.roughness.as_deref().unwrap_or("r");
-        let specular = |to: StoredEncoding| (!storage.base_colour).then_some(to.name());
-        match reading {
-            Reading::NormalY => Some(Self::NormalY(if storage.normal_down { "up" } else { "down" })),
-            Reading::Colours(to) => Some(Self::Albedo(to.name(), specular(to))),
-            Reading::Diffuse(_) if storage.specular == StoredEncoding::Unknown => None,
-            Reading::Diffuse(to) => Some(Self::Albedo(to.name(), specular(storage.specular))),
-            Reading::Specular(to) => Some(Self::SpecularAlbedo(to.name())),
-            Reading::Gloss if present == "gloss" => Some(Self::Roughness("r")),
-            Reading::Gloss if present == "r" => Some(Self::Roughness("gloss")),
-            Reading::RootOfRoughness if present == "r" => Some(Self::Roughness("alpha")),
-            Reading::SquaredRoughness if present == "alpha" => Some(Self::Roughness("r")),
-            Reading::Unscaled => Some(Self::Energy("unscaled")),
-            Reading::Scaled => Some(Self::Energy("scaled")),
-            Reading::NormalX
-            | Reading::RedBlue
-            | Reading::Gloss
-            | Reading::RootOfRoughness
-            | Reading::SquaredRoughness => None,
-        }
-    }
-
-    /// What `--read` takes for the material `name`: `run 2:normal-y=down`.
-    pub fn statement(self, name: &str) -> String {
-        format!("{name}:{self}")
-    }
-
-    /// The option of the command line for the material `name`, quoted for a shell: `--read 'run 2:normal-y=down'`.
-    pub fn command_option(self, name: &str) -> String {
-        format!("--read {}", quoted(self.statement(name)))
-    }
-}
-
-/// The options and their values, as `--read` has them: `normal-y=down`, `albedo=srgb,specular-albedo=linear`.
-impl fmt::Display for Remedy {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NormalY(value) => write!(f, "normal-y={value}"),
-            Self::Albedo(value, None) => write!(f, "albedo={value}"),
-            Self::Albedo(value, Some(specular)) => write!(f, "albedo={value},specular-albedo={specular}"),
-            Self::SpecularAlbedo(value) => write!(f, "specular-albedo={value}"),
-            Self::Roughness(value) => write!(f, "roughness={value}"),
-            Self::Energy(value) => write!(f, "energy={value}"),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -245,8 +204,8 @@ mod tests {
             };
             Material::new("metal", 4, 1, planes).unwrap()
         };
-        let storage = Storage { colours: StoredEncoding::Linear, base_colour: true, ..Storage::default() };
-        let found = Reading::Colours(StoredEncoding::Srgb).applied(&material(&|b| b), &storage).unwrap();
+        let storage = Storage { colours: Some(Albedo::Linear), base_colour: true, ..Storage::default() };
+        let found = Reading::Colours(Albedo::Srgb).applied(&material(&|b| b), &storage).unwrap();
         let expected = material(&svbrdf_core::math::srgb::decode);
         for (found, expected) in [(found.planes(), expected.planes())] {
             let of = |planes: &Planes<f32>| {

@@ -20,6 +20,7 @@ mod photograph;
 mod raster;
 mod record;
 mod result;
+mod storage;
 mod stored;
 
 use std::path::{Path, PathBuf};
@@ -34,6 +35,7 @@ pub use options::{
 pub use photograph::{Photograph, Transfer, read_photograph};
 pub use record::{Assumption, Certainty, Evidence, Note, Reason, StorageConvention, Subject, Unused, What};
 pub use result::{MapContent, Read};
+pub use storage::Storage;
 
 use sha2::{Digest as _, Sha256};
 

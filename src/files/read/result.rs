@@ -8,12 +8,12 @@ use serde::Serialize;
 
 use svbrdf_core::material::Material;
 
-use crate::changes::{Storage, StoredEncoding};
 use crate::disk::memory::Reserved;
 use crate::error::{Error, Guess};
-use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
+use crate::read::options::{NormalY, ReadOptions, Role, Roughness};
 use crate::read::raster::{Raster, Samples, measure};
 use crate::read::record::{Assumption, Certainty, Note, What};
+use crate::read::storage::Storage;
 use crate::read::stored::{StoredMap, StoredMaterial};
 
 /// A material, and how it was read.
@@ -78,19 +78,19 @@ impl<T> Read<T> {
     /// The readings of its values and the steps of its maps. A map that comes from several files has the largest step of these.
     pub fn storage(&self) -> Storage {
         let chosen = |what| self.assumptions.iter().find(|a| a.what == what).map(|a| a.chosen.as_str());
-        let transfer = |what| chosen(what).map_or(StoredEncoding::Unknown, transfer);
+        let encoding = |what| chosen(what).and_then(|name| name.parse().ok());
         let step = |of: &dyn Fn(Role) -> bool| {
             self.maps.iter().filter(|map| of(map.map)).map(|map| step(map.depth)).fold(0.0, f64::max)
         };
-        let colours = transfer(What::Albedo);
+        let colours = encoding(What::Albedo);
         let has_specular = self.maps.iter().any(|map| map.map == Role::Specular);
         let is_colour = |role| matches!(role, Role::Diffuse | Role::Base | Role::Metallic);
         Storage {
             colours,
-            specular: if has_specular { transfer(What::Specular) } else { colours },
+            specular: if has_specular { encoding(What::Specular) } else { colours },
             base_colour: !has_specular,
             normal_down: chosen(What::NormalY) == Some(NormalY::Down.name()),
-            roughness: chosen(What::Roughness).filter(|name| *name != Roughness::R.name()).map(str::to_owned),
+            roughness: chosen(What::Roughness).and_then(|name| name.parse().ok()).unwrap_or(Roughness::R),
             // Assumed only where diffuse is not scaled.
             unscaled: self.assumptions.iter().any(|assumption| assumption.what == What::Energy),
             steps: [
@@ -100,16 +100,6 @@ impl<T> Read<T> {
                 step(&|role| role == Role::Roughness),
             ],
         }
-    }
-}
-
-fn transfer(name: &str) -> StoredEncoding {
-    match name.parse() {
-        Ok(Albedo::Linear) => StoredEncoding::Linear,
-        Ok(Albedo::Srgb) => StoredEncoding::Srgb,
-        Ok(Albedo::Gamma22) => StoredEncoding::Gamma22,
-        Ok(Albedo::Log) => StoredEncoding::Other,
-        Err(_) => StoredEncoding::Unknown,
     }
 }
 

@@ -2,7 +2,6 @@
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_evaluate::diagnose::Remedy;
 use svbrdf_files::read::{
     Albedo, Assumption, Certainty, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions,
     Reflectance, Roughness, TileGrid, What, Workflow,
@@ -123,11 +122,10 @@ fn choice<T: Copy + PartialEq + std::fmt::Display>(
     response.response.on_hover_text(why);
 }
 
-/// Whether a material can be read again with the option: one of a file that does not have it yet.
-pub fn is_offered(material: &LoadedMaterial, remedy: Remedy) -> bool {
+/// Whether a material can be read again with the options: one of a file that does not have them yet.
+pub fn is_offered(material: &LoadedMaterial, remedy: ReadOptions) -> bool {
     let read = &material.read;
-    let with = read.record.options.with_remedy(remedy);
-    matches!(read.source.place, Place::Path(_)) && with.is_ok_and(|with| with != read.record.options)
+    matches!(read.source.place, Place::Path(_)) && remedy.over(read.record.options) != read.record.options
 }
 
 /// The button for the material at `index`; a click reads it again, and shows it as it is read.
@@ -135,20 +133,18 @@ pub fn remedy_button(
     ui: &mut egui::Ui,
     index: usize,
     material: &LoadedMaterial,
-    remedy: Remedy,
+    remedy: ReadOptions,
     next: &mut Model,
 ) {
-    let words = remedy.to_string().replace("specular-albedo", "specular").replace(['-', '='], " ");
+    let words = remedy.words().replace("specular-albedo", "specular").replace(['-', '='], " ");
     let button = ui.small_button(format!("Read with {}", words.replace(',', ", ")));
     let hover = format!(
         "Read {} again with this option, as Change... in Files does; undo (Ctrl+Z) goes back. If the ground truth is the one that is \
          read wrongly, change it instead",
         material.name()
     );
-    if button.on_hover_text(hover).clicked()
-        && let Ok(read) = material.read.record.options.with_remedy(remedy)
-    {
+    if button.on_hover_text(hover).clicked() {
         next.view.correct(None);
-        opening::read_as(next, index, read);
+        opening::read_as(next, index, remedy.over(material.read.record.options));
     }
 }

@@ -7,8 +7,8 @@
 
 use svbrdf_core::material::Material;
 use svbrdf_core::statistics::median;
-use svbrdf_files::changes::{Reading, StoredEncoding};
-use svbrdf_files::read::Albedo;
+use svbrdf_files::changes::Reading;
+use svbrdf_files::read::{Albedo, Storage};
 
 use super::super::reading::DatasetReading;
 use super::group::{Group, Own, Sampled};
@@ -30,13 +30,9 @@ impl Colour {
     }
 }
 
-fn albedo(encoding: StoredEncoding) -> Albedo {
-    if encoding == StoredEncoding::Linear { Albedo::Linear } else { Albedo::Srgb }
-}
-
 pub(super) const ROLES: [Colour; 2] = [Colour::Diffuse, Colour::Specular];
 
-const ENCODINGS: [StoredEncoding; 2] = [StoredEncoding::Linear, StoredEncoding::Srgb];
+const ENCODINGS: [Albedo; 2] = [Albedo::Linear, Albedo::Srgb];
 
 /// Standard deviations of what methods do to the level of a colour and to its contrast, as logarithms.
 const LEVEL: f64 = 0.5;
@@ -53,14 +49,14 @@ const DARK: f64 = 0.004;
 const NO_CONTRAST: f64 = 0.15;
 
 /// The encodings of a ground truth and a prediction.
-type Both = [StoredEncoding; 2];
+type Both = [Albedo; 2];
 
 /// Decides how a colour of the ground truths and of each method is read.
 pub(super) fn decide(decided: &mut DatasetReading, groups: &[Group<'_>], colour: Colour) {
     let of_groups: Vec<(&Group<'_>, Verdict)> =
         groups.iter().filter_map(|group| Some((group, verdict(group, colour)?))).collect();
     // The ground truths are read in one way for all methods: in another one than by themselves only where all agree.
-    let truths: Vec<StoredEncoding> = of_groups.iter().map(|(_, verdict)| verdict.encodings[0]).collect();
+    let truths: Vec<Albedo> = of_groups.iter().map(|(_, verdict)| verdict.encodings[0]).collect();
     let Some(first) = truths.first().copied() else { return };
     let do_agree = truths.iter().all(|truth| *truth == first);
     for (group, verdict) in &of_groups {
@@ -80,9 +76,7 @@ fn doubt(group: &Group<'_>, colour: Colour, default: Both, other: Both) -> Strin
     format!(
         "{}: unsure whether {key} of {whose} is {}: level and contrast suggest it, and single texels do not; look at one, and where it is so \
          type --read {whose}:{key}={}",
-        group.method,
-        albedo(other[place]).name(),
-        albedo(other[place]).name()
+        group.method, other[place], other[place]
     )
 }
 
@@ -98,12 +92,12 @@ fn specify(
     group: &Group<'_>,
     colour: Colour,
     side: Side,
-    encoding: StoredEncoding,
+    encoding: Albedo,
     verdict: &Verdict,
 ) {
     let place = usize::from(side == Side::Method);
     let own = group.pairs.iter().map(|pair| pair[place].own[colour as usize]);
-    let other = own.clone().filter(|own| own.encoding != encoding).count();
+    let other = own.clone().filter(|own| own.encoding != Some(encoding)).count();
     if other == 0 || own.clone().any(|own| own.is_stated) {
         return;
     }
@@ -111,11 +105,11 @@ fn specify(
         Side::GroundTruths => (&mut decided.ground_truths, "ground truths"),
         Side::Method => (decided.options_mut(group.method), group.method),
     };
-    let (key, value) = (colour.key(), albedo(encoding));
+    let key = colour.key();
     match colour {
         // What is said of diffuse alone holds for specular, too, unless that is specified.
-        Colour::Diffuse => options.albedo = Some(value),
-        Colour::Specular => options.specular = Some(value),
+        Colour::Diffuse => options.albedo = Some(encoding),
+        Colour::Specular => options.specular = Some(encoding),
     }
     let why = match verdict.is_witnessed {
         true => format!("ground truths beside {} materials say so", group.pairs.len()),
@@ -123,7 +117,7 @@ fn specify(
     };
     decided.decisions.push(format!(
         "{name}: {key}={} for all: {why}; by themselves {other} of {} are read otherwise",
-        value.name(),
+        encoding,
         group.pairs.len()
     ));
 }
@@ -143,7 +137,7 @@ fn verdict(group: &Group<'_>, colour: Colour) -> Option<Verdict> {
     let sides = [0, 1].map(|side| {
         let own: Vec<[Own; 2]> = group.pairs.iter().map(|pair| pair[side].own).collect();
         let stated = own.iter().map(|own| own[colour as usize]).find(|own| own.is_stated);
-        let stated = stated.map(|own| own.encoding);
+        let stated = stated.and_then(|own| own.encoding);
         let of = |colour: Colour| {
             let custom = own.first().map_or(0.0, |own| own[colour as usize].custom);
             custom + own.iter().map(|own| own[colour as usize].pixels).sum::<f64>()
@@ -151,7 +145,7 @@ fn verdict(group: &Group<'_>, colour: Colour) -> Option<Verdict> {
         // Where diffuse alone leaves it open, it is stored as specular is.
         let is_open = colour == Colour::Diffuse && of(colour).abs() < SURE;
         let log_odds = of(colour) + if is_open { of(Colour::Specular) } else { 0.0 };
-        let most = if log_odds > 0.0 { StoredEncoding::Linear } else { StoredEncoding::Srgb };
+        let most = if log_odds > 0.0 { Albedo::Linear } else { Albedo::Srgb };
         (stated, most)
     });
     let has_base = group.pairs.iter().flatten().any(|one| one.storage.base_colour);
@@ -182,7 +176,7 @@ fn verdict(group: &Group<'_>, colour: Colour) -> Option<Verdict> {
 }
 
 /// The mean over the channels of a colour, read in another encoding.
-fn values(one: &Sampled, encoding: StoredEncoding, colour: Colour) -> Vec<f64> {
+fn values(one: &Sampled, encoding: Albedo, colour: Colour) -> Vec<f64> {
     let reading = match colour {
         Colour::Diffuse if one.storage.base_colour => Reading::Colours(encoding),
         Colour::Diffuse => Reading::Diffuse(encoding),
@@ -244,13 +238,8 @@ fn by_factor(pair: &[Sampled; 2], both: Both, colour: Colour) -> f64 {
     difference(&truth, &prediction, both[1], |t| factor * t)
 }
 
-fn difference(
-    truth: &[f64],
-    prediction: &[f64],
-    encoding: StoredEncoding,
-    explained: impl Fn(f64) -> f64,
-) -> f64 {
-    let stored = |value: f64| f64::from(encoding.encode(value.clamp(0.0, 1.0) as f32));
+fn difference(truth: &[f64], prediction: &[f64], encoding: Albedo, explained: impl Fn(f64) -> f64) -> f64 {
+    let stored = |value: f64| f64::from(Storage::encode(Some(encoding), value.clamp(0.0, 1.0) as f32));
     truth.iter().zip(prediction).map(|(t, p)| (stored(explained(*t)) - stored(*p)).abs()).sum()
 }
 
@@ -270,7 +259,6 @@ mod tests {
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt as _, SeedableRng as _};
     use svbrdf_core::material::Planes;
-    use svbrdf_files::changes::Storage;
 
     /// What a method makes of the colour of a texel, and of the mean of its material.
     type Method = fn(f64, f64) -> f64;
@@ -290,9 +278,11 @@ mod tests {
     ];
 
     /// A colour of 8 bits that is stored so and read by itself in another way.
-    fn sampled(values: &[f64], stored: StoredEncoding, read: StoredEncoding) -> Sampled {
-        let code = |value: &f64| (255.0 * stored.encode(value.clamp(0.0, 1.0) as f32)).round() / 255.0;
-        let plane: Vec<f32> = values.iter().map(|value| read.decode(code(value))).collect();
+    fn sampled(values: &[f64], stored: Albedo, read: Albedo) -> Sampled {
+        let encoded = |value: &f64| Storage::encode(Some(stored), value.clamp(0.0, 1.0) as f32);
+        let code = |value| (255.0 * encoded(value)).round() / 255.0;
+        let read = Some(read);
+        let plane: Vec<f32> = values.iter().map(|value| Storage::decode(read, code(value))).collect();
         let [zeros, ones] = [0.0, 1.0].map(|value| vec![value; plane.len()]);
         let planes = Planes {
             normal: [zeros.clone(), zeros.clone(), ones],
@@ -330,10 +320,7 @@ mod tests {
             let error = |i: usize| (noise * wave(i as f64, errors[0], errors[1])).exp();
             let of = |(i, value): (usize, &f64)| method(*value, mean) * error(i);
             let predicted: Vec<f64> = colours.iter().enumerate().map(of).collect();
-            [
-                sampled(&colours, truth, StoredEncoding::Srgb),
-                sampled(&predicted, stored, StoredEncoding::Srgb),
-            ]
+            [sampled(&colours, truth, Albedo::Srgb), sampled(&predicted, stored, Albedo::Srgb)]
         };
         (0..8).map(material).collect()
     }
@@ -344,7 +331,7 @@ mod tests {
 
     #[test]
     fn ground_truths_tell_how_a_method_is_stored() {
-        use StoredEncoding::{Linear, Srgb};
+        use Albedo::{Linear, Srgb};
         let mut generator = ChaCha8Rng::seed_from_u64(1);
         for noise in [0.0, 0.05, 0.1, 0.2] {
             for stored in [[Srgb, Linear], [Linear, Srgb], [Srgb, Srgb]] {
@@ -366,7 +353,7 @@ mod tests {
         let mut generator = ChaCha8Rng::seed_from_u64(2);
         let wrong = (0..200).filter(|trial: &usize| {
             let noise = [0.02, 0.1, 0.2, 0.3][trial / 10 % 4];
-            let stored = [StoredEncoding::Srgb; 2];
+            let stored = [Albedo::Srgb; 2];
             encodings(&pairs(BAD[trial % 10], stored, noise, &mut generator)) != stored
         });
         assert_eq!(wrong.collect::<Vec<_>>(), [0_usize; 0], "of 200");

@@ -2,8 +2,7 @@
 
 use svbrdf_core::material::Material;
 use svbrdf_core::statistics::median;
-use svbrdf_files::changes::{Storage, StoredEncoding};
-use svbrdf_files::read::{Assumption, Certainty, Read, Reason, StorageConvention, What};
+use svbrdf_files::read::{Albedo, Assumption, Certainty, Read, Reason, Storage, StorageConvention, What};
 
 /// Texels of a material that are looked at.
 const TEXELS: usize = 1024;
@@ -36,7 +35,8 @@ pub(super) struct Sampled {
 /// What the files of a material say about the encoding of a colour.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Own {
-    pub(super) encoding: StoredEncoding,
+    /// `None` where it is not known.
+    pub(super) encoding: Option<Albedo>,
     /// The log odds of linear by the kind of the files, which is the same for all of a method.
     pub(super) custom: f64,
     /// Those by the pixels.
@@ -67,7 +67,7 @@ impl Sampled {
 }
 
 impl Own {
-    fn of(assumption: Option<&Assumption>, encoding: StoredEncoding) -> Self {
+    fn of(assumption: Option<&Assumption>, encoding: Option<Albedo>) -> Self {
         use StorageConvention as Custom;
         let custom = assumption.and_then(|assumption| match &assumption.why {
             _ if assumption.certainty >= Certainty::Sure && !is_order(&assumption.why) => None,
@@ -77,7 +77,7 @@ impl Own {
             | Reason::DiffuseAlone => Some(ENCODED),
             _ => None,
         });
-        let is_known = matches!(encoding, StoredEncoding::Linear | StoredEncoding::Srgb);
+        let is_known = matches!(encoding, Some(Albedo::Linear | Albedo::Srgb));
         let is_stated = custom.is_none() || !is_known;
         Self { encoding, custom: custom.unwrap_or(0.0), pixels: 0.0, is_stated }
     }
@@ -90,8 +90,8 @@ fn is_order(why: &Reason) -> bool {
 }
 
 /// The log odds that a colour is stored linear, by its median where the logarithms of what materials reflect have this mean and deviation.
-fn by_pixels(planes: &[Vec<f32>; 3], encoding: StoredEncoding, [mean, deviation]: [f64; 2]) -> f64 {
-    let stored = |value: &f32| f64::from(encoding.encode(*value));
+fn by_pixels(planes: &[Vec<f32>; 3], encoding: Option<Albedo>, [mean, deviation]: [f64; 2]) -> f64 {
+    let stored = |value: &f32| f64::from(Storage::encode(encoding, *value));
     let mut values: Vec<f64> = planes.iter().flatten().map(stored).filter(|stored| *stored > BLACK).collect();
     let Some(median) = median(&mut values) else { return 0.0 };
     let density = |log: f64| -0.5 * ((log - mean) / deviation).powi(2);

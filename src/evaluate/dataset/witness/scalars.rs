@@ -40,7 +40,7 @@ pub(super) fn normal_y(decided: &mut DatasetReading, group: &Group<'_>) {
 
 /// Decides whether the roughness of a method is glossiness, where it is read as roughness.
 pub(super) fn roughness(decided: &mut DatasetReading, group: &Group<'_>) {
-    let is_plain = |one: &Sampled| one.storage.roughness.is_none();
+    let is_plain = |one: &Sampled| one.storage.roughness == Roughness::R;
     if decided.of_method(group.method).roughness.is_some() || !group.pairs.iter().flatten().all(is_plain) {
         return;
     }

@@ -1,12 +1,11 @@
 //! Causes that users meet: what is said of each is the whole of it.
 
-use super::super::{
-    Diagnosis, Hypothesis, Placement, Reading, Storage, StoredEncoding, diagnose, sentence, shifted,
-};
+use super::super::{Diagnosis, Hypothesis, Placement, Reading, Storage, diagnose, sentence, shifted};
 use super::materials::{generated, with};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::read::Albedo;
 
 fn found(truth: &Material<f32>, prediction: &Material<f32>, storages: [&Storage; 2]) -> Diagnosis {
     diagnose([truth, prediction], storages, &PRINTED, 0.0, 1, &Progress::default()).unwrap()
@@ -19,11 +18,11 @@ fn marked(found: &Diagnosis) -> Vec<(Hypothesis, f64)> {
 /// A ground truth that is stored in sRGB and read as linear, against what is right: no exposure stands for the whole cause.
 #[test]
 fn the_cause_that_explains_most_is_the_first_or_is_said_to_explain_more() {
-    let of = |encoding| Storage { colours: encoding, specular: encoding, ..Storage::default() };
-    let [linear, encoded] = [StoredEncoding::Linear, StoredEncoding::Srgb].map(of);
+    let of = |encoding| Storage { colours: Some(encoding), specular: Some(encoding), ..Storage::default() };
+    let [linear, encoded] = [Albedo::Linear, Albedo::Srgb].map(of);
     for seed in 0..6 {
         let right = generated(seed, 48);
-        let wrong = Reading::Colours(StoredEncoding::Linear).applied(&right, &encoded).unwrap();
+        let wrong = Reading::Colours(Albedo::Linear).applied(&right, &encoded).unwrap();
         for storage in [&linear, &encoded] {
             let found = found(&wrong, &right, [&linear, storage]);
             let text = sentence(&found, None);
@@ -44,11 +43,8 @@ fn a_factor_on_a_map_is_no_reading() {
                 let map = if specular { &mut planes.specular } else { &mut planes.diffuse };
                 map.iter_mut().flatten().for_each(|value| *value = (*value * factor).min(1.0));
             });
-            let encoded = Storage {
-                colours: StoredEncoding::Srgb,
-                specular: StoredEncoding::Linear,
-                ..Storage::default()
-            };
+            let encoded =
+                Storage { colours: Some(Albedo::Srgb), specular: Some(Albedo::Linear), ..Storage::default() };
             for storage in [&Storage::default(), &encoded] {
                 let found = found(&truth, &other, [storage; 2]);
                 let hypothesis =

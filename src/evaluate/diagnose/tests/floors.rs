@@ -1,18 +1,19 @@
 //! The floor.
 
-use super::super::{Storage, StoredEncoding, floor};
+use super::super::{Storage, floor};
 use super::materials::{generated, with};
 use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::read::Albedo;
 
 #[test]
 fn the_floor_is_the_loss_of_brute_force_dithering() {
     let truth = generated(0, 32);
     let storage =
-        Storage { colours: StoredEncoding::Srgb, specular: StoredEncoding::Linear, ..Storage::default() };
+        Storage { colours: Some(Albedo::Srgb), specular: Some(Albedo::Linear), ..Storage::default() };
     let floor = floor(&truth, &storage, &PRINTED, 3, &Progress::default()).unwrap();
     // Written down once more, with a plain generator and 16 other copies.
     let mut state = 1_u64;

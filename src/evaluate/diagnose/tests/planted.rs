@@ -2,8 +2,7 @@
 
 use super::super::alignment::{Alignments, Interior};
 use super::super::{
-    Diagnosis, Hypothesis, Placement, Reading, Storage, StoredEncoding, Symmetry, Value, diagnose, sentence,
-    shifted,
+    Diagnosis, Hypothesis, Placement, Reading, Storage, Symmetry, Value, diagnose, sentence, shifted,
 };
 use super::materials::{generated, unexplained, with};
 use svbrdf_core::loss::{Comparison, Compute as _};
@@ -12,12 +11,13 @@ use svbrdf_core::model::brdf::Texel;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::progress::Progress;
+use svbrdf_files::read::Albedo;
 
 const SIDE: usize = 48;
 
 /// Colours that are stored in an encoding.
-fn stored(encoding: StoredEncoding) -> Storage {
-    Storage { colours: encoding, specular: encoding, ..Storage::default() }
+fn stored(encoding: Albedo) -> Storage {
+    Storage { colours: Some(encoding), specular: Some(encoding), ..Storage::default() }
 }
 
 fn found(truth: &Material<f32>, prediction: &Material<f32>, storage: &Storage) -> Diagnosis {
@@ -98,7 +98,7 @@ fn symmetries() {
 
 #[test]
 fn readings() {
-    let linear = stored(StoredEncoding::Linear);
+    let linear = stored(Albedo::Linear);
     let planted = [
         (Reading::NormalY, Reading::NormalY, Hypothesis::NormalY, Some("normal-y=down")),
         (Reading::NormalX, Reading::NormalX, Hypothesis::NormalX, None),
@@ -117,7 +117,7 @@ fn readings() {
             }
             let found = found(&truth, &error.applied(&truth, &linear).unwrap(), &linear);
             assert_eq!(only(&found), (hypothesis, Value::Name(correction.name())), "material {seed}");
-            let found = found.marked().next().unwrap().remedy.map(|remedy| remedy.to_string());
+            let found = found.marked().next().unwrap().remedy.map(|remedy| remedy.words());
             assert_eq!(found.as_deref(), remedy);
         }
     }
@@ -125,18 +125,17 @@ fn readings() {
 
 #[test]
 fn encodings_of_colours() {
-    let [linear, encoded] = [StoredEncoding::Linear, StoredEncoding::Srgb].map(stored);
+    let [linear, encoded] = [Albedo::Linear, Albedo::Srgb].map(stored);
     for seed in 0..3 {
         let truth = generated(seed, SIDE);
-        for (read_as, error, name) in
-            [(&linear, StoredEncoding::Linear, "srgb"), (&encoded, StoredEncoding::Srgb, "linear")]
+        for (read_as, error, name) in [(&linear, Albedo::Linear, "srgb"), (&encoded, Albedo::Srgb, "linear")]
         {
             // What was stored in the other encoding and read as this one.
-            let other = if error == StoredEncoding::Linear { &encoded } else { &linear };
+            let other = if error == Albedo::Linear { &encoded } else { &linear };
             let wrong = Reading::Colours(error).applied(&truth, other).unwrap();
             let found = found(&truth, &wrong, read_as);
             assert_eq!(only(&found), (Hypothesis::AlbedoEncoding, Value::Name(name)), "material {seed}");
-            let remedy = found.marked().next().unwrap().remedy.map(|remedy| remedy.to_string());
+            let remedy = found.marked().next().unwrap().remedy.map(|remedy| remedy.words());
             assert_eq!(remedy, Some(format!("albedo={name},specular-albedo={name}")));
         }
     }
@@ -186,10 +185,10 @@ fn nothing_is_marked_without_an_error_or_with_others() {
 #[test]
 fn two_errors_are_found_at_once() {
     let truth = generated(0, SIDE);
-    let encoded = stored(StoredEncoding::Srgb);
-    let read_as_linear = stored(StoredEncoding::Linear);
+    let encoded = stored(Albedo::Srgb);
+    let read_as_linear = stored(Albedo::Linear);
     let flipped = Reading::NormalY.applied(&truth, &encoded).unwrap();
-    let both = Reading::Colours(StoredEncoding::Linear).applied(&flipped, &encoded).unwrap();
+    let both = Reading::Colours(Albedo::Linear).applied(&flipped, &encoded).unwrap();
     let found = found(&truth, &both, &read_as_linear);
     let marked: Vec<_> = found.marked().map(|finding| finding.hypothesis).collect();
     assert_eq!(marked, [Hypothesis::AlbedoEncoding, Hypothesis::NormalY]);
@@ -219,11 +218,10 @@ fn a_shift_is_that_of_most_rows() {
 /// Diffuse and specular are stored in sRGB; one of them, or one of those of the ground truth, is read as linear.
 #[test]
 fn a_map_in_another_encoding_is_found_alone_and_on_either_side() {
-    let encoded = stored(StoredEncoding::Srgb);
-    let [diffuse, specular] =
-        [Reading::Diffuse(StoredEncoding::Linear), Reading::Specular(StoredEncoding::Linear)];
-    let wrong_diffuse = Storage { colours: StoredEncoding::Linear, ..encoded.clone() };
-    let wrong_specular = Storage { specular: StoredEncoding::Linear, ..encoded.clone() };
+    let encoded = stored(Albedo::Srgb);
+    let [diffuse, specular] = [Reading::Diffuse(Albedo::Linear), Reading::Specular(Albedo::Linear)];
+    let wrong_diffuse = Storage { colours: Some(Albedo::Linear), ..encoded.clone() };
+    let wrong_specular = Storage { specular: Some(Albedo::Linear), ..encoded.clone() };
     for (seed, error, read_as, hypothesis, remedy) in [
         (0, diffuse, &wrong_diffuse, Hypothesis::DiffuseEncoding, "albedo=srgb,specular-albedo=srgb"),
         (2, diffuse, &wrong_diffuse, Hypothesis::DiffuseEncoding, "albedo=srgb,specular-albedo=srgb"),
@@ -267,7 +265,7 @@ fn nothing_is_marked_below_the_floor() {
 #[test]
 fn a_cause_is_certain_only_where_nothing_else_explains_as_much() {
     let truth = generated(0, SIDE);
-    let linear = stored(StoredEncoding::Linear);
+    let linear = stored(Albedo::Linear);
     let text =
         |error: Reading| sentence(&found(&truth, &error.applied(&truth, &linear).unwrap(), &linear), None);
     let gloss = text(Reading::Gloss);
@@ -284,7 +282,7 @@ fn a_cause_is_certain_only_where_nothing_else_explains_as_much() {
 /// Factors on three channels imitate swapped channels and an exposure: both are found.
 #[test]
 fn swapped_and_darker_channels_are_no_white_balance() {
-    let (truth, encoded) = (generated(2, 64), stored(StoredEncoding::Srgb));
+    let (truth, encoded) = (generated(2, 64), stored(Albedo::Srgb));
     let darker = with(&Reading::RedBlue.applied(&truth, &encoded).unwrap(), |planes| {
         let colours = planes.diffuse.iter_mut().chain(&mut planes.specular).flatten();
         colours.for_each(|value| *value = (*value * (-0.5_f32).exp2()).min(1.0));

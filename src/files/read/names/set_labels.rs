@@ -157,7 +157,11 @@ mod tests {
         let with_input: Vec<&str> = with_input.iter().flatten().map(String::as_str).collect();
         assert_eq!(sets(&with_input), [of("a", 3), of("b", 3), of("c", 3)]);
         assert_eq!(sets(&with_input[..6]), [of("a", 3), of("b", 3)]);
-        assert_eq!(sets(&["a_Nout", "a_Dout", "a_2", "b_Nout", "b_Dout", "b_2"]), [], "whose are the others?");
+        assert_eq!(
+            sets(&["a_Nout", "a_Dout", "a_2", "b_Nout", "b_Dout", "b_2"]),
+            [],
+            "whose are the others?"
+        );
     }
 
     #[test]

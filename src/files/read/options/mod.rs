@@ -10,7 +10,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::changes::Remedy;
+use svbrdf_core::error::Error as CoreError;
+
 use crate::error::Error;
 
 pub use choices::{
@@ -20,15 +21,16 @@ pub use role::Role;
 pub use tiles::Order;
 pub use tiles::TileGrid;
 
-/// The options with what is the same of each.
+/// The options with what is the same of each: a field, its key in files and on the command line, and the values of a key that stand
+/// for no choice.
 macro_rules! options {
-    ($($(#[$about:meta])* $field:ident: $kind:ty,)+) => {
+    ($($(#[$about:meta])* $field:ident = $key:literal $(of $known:literal)?: $kind:ty,)+) => {
         /// How the files of a material are to be read. `None`: inferred from the files and reported; where the files do not
         /// tell, the default.
         #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-        #[serde(default, rename_all = "kebab-case")]
+        #[serde(default)]
         pub struct ReadOptions {
-            $($(#[$about])* pub $field: Option<$kind>,)+
+            $($(#[$about])* #[serde(rename = $key)] pub $field: Option<$kind>,)+
         }
 
         impl ReadOptions {
@@ -41,35 +43,56 @@ macro_rules! options {
                 let preset = self.preset.map(Preset::options).unwrap_or_default();
                 Self { $($field: self.$field.or(if preset.$field.is_some() { None } else { saved.$field }),)+ }
             }
+
+            /// These options, and those of their preset where they specify nothing; except y of normals, which names tell better.
+            pub(crate) fn with_preset(self) -> Self {
+                let Some(usual) = self.preset.map(Preset::options) else { return self };
+                let usual = Self { specular: self.albedo.or(usual.specular), normal_y: None, ..usual };
+                Self { $($field: self.$field.or(usual.$field),)+ }
+            }
+
+            /// The one option `key` with the value of this name.
+            fn of_word(key: &str, value: &str) -> Result<Self, Error> {
+                let auto = Self::AUTO;
+                match key {
+                    $($key => Ok(Self { $field: Some(options!(@value $key, value $(, $known)?)), ..auto }),)+
+                    _ => {
+                        let (found, known) = (key.to_owned(), Self::keys().join(", "));
+                        Err(CoreError::unknown_name("option of reading", found, known).into())
+                    }
+                }
+            }
         }
+    };
+    (@value $key:literal, $value:ident) => { $value.parse()? };
+    (@value $key:literal, $value:ident, $known:literal) => {
+        $value.parse().map_err(|_| CoreError::unknown_name($key, $value, $known))?
     };
 }
 
 options! {
     /// The conventions of a source of materials, for every option that is not specified.
-    preset: Preset,
+    preset = "preset": Preset,
     /// Colour space of diffuse, base colour and, unless `specular` is specified, specular.
-    albedo: Albedo,
+    albedo = "albedo": Albedo,
     /// Colour space of specular where it is another one.
-    #[serde(rename = "specular-albedo")]
-    specular: Albedo,
-    normal_y: NormalY,
-    normal_encoding: NormalEncoding,
-    roughness: Roughness,
-    workflow: Workflow,
+    specular = "specular-albedo": Albedo,
+    normal_y = "normal-y": NormalY,
+    normal_encoding = "normal-encoding": NormalEncoding,
+    roughness = "roughness": Roughness,
+    workflow = "workflow": Workflow,
     /// Reflectance of dielectrics at normal incidence, where no map holds it.
-    #[serde(rename = "dielectric-f0")]
-    dielectric: Reflectance,
-    energy: Energy,
+    dielectric = "dielectric-f0": Reflectance,
+    energy = "energy": Energy,
     /// Order of the tiles of a packed image.
-    order: Order,
+    order = "order": Order,
     /// How a packed image is divided; needed where its tiles are not square.
-    grid: TileGrid,
+    grid = "grid": TileGrid,
     /// Which of several materials, or rows of a packed image, from 0.
-    exemplar: usize,
+    exemplar = "exemplar" of "a whole number from 0": usize,
     /// Whether row 0 is the lowest: then the material is mirrored, normals with it.
-    flip_v: bool,
-    non_finite: NonFinite,
+    flip_v = "flip-v" of "true, false": bool,
+    non_finite = "non-finite": NonFinite,
 }
 
 impl ReadOptions {
@@ -123,52 +146,5 @@ impl Preset {
             energy,
             ..ReadOptions::AUTO
         }
-    }
-}
-
-impl ReadOptions {
-    /// These options, and those of their preset where they specify nothing; except y of normals, which names tell better.
-    pub(crate) fn with_preset(self) -> Self {
-        let Some(preset) = self.preset else { return self };
-        let usual = preset.options();
-        Self {
-            albedo: self.albedo.or(usual.albedo),
-            specular: self.specular.or(self.albedo).or(usual.specular),
-            normal_encoding: self.normal_encoding.or(usual.normal_encoding),
-            roughness: self.roughness.or(usual.roughness),
-            workflow: self.workflow.or(usual.workflow),
-            energy: self.energy.or(usual.energy),
-            ..self
-        }
-    }
-
-    /// These options with the one that corrects the reading.
-    ///
-    /// # Errors
-    /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for a value that the option does not have.
-    pub fn with_remedy(self, remedy: Remedy) -> Result<Self, Error> {
-        Ok(remedy.to_string().parse::<Self>()?.over(self))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_values_of_remedies_are_those_of_the_options() {
-        let both = ReadOptions {
-            albedo: Some(Albedo::Linear),
-            specular: Some(Albedo::Gamma22),
-            ..ReadOptions::AUTO
-        };
-        assert_eq!(ReadOptions::AUTO.with_remedy(Remedy::Albedo("linear", Some("gamma2.2"))).unwrap(), both);
-        let energies = ["scaled", "unscaled"].map(Remedy::Energy);
-        let roughness = ["alpha", "gloss", "r"].map(Remedy::Roughness);
-        let others = [Remedy::NormalY("up"), Remedy::NormalY("down"), Remedy::SpecularAlbedo("srgb")];
-        for remedy in energies.into_iter().chain(roughness).chain(others) {
-            ReadOptions::AUTO.with_remedy(remedy).unwrap();
-        }
-        assert!(ReadOptions::AUTO.with_remedy(Remedy::Energy("none")).is_err());
     }
 }

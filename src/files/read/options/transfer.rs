@@ -3,6 +3,7 @@
 
 use glam::{DMat3, DVec3};
 
+use svbrdf_core::math::real::Real;
 use svbrdf_core::math::srgb;
 
 use crate::read::options::{Albedo, Roughness};
@@ -11,22 +12,22 @@ use crate::read::options::{Albedo, Roughness};
 const DARK: f64 = 0.01;
 
 /// The reflectance, in [0, 1], that a stored `value` of [0, 1] stands for.
-pub(crate) fn linear(value: f64, albedo: Albedo) -> f64 {
+pub(crate) fn linear<T: Real>(value: T, albedo: Albedo) -> T {
     match albedo {
         Albedo::Linear => value,
         Albedo::Srgb => srgb::decode(value),
-        Albedo::Gamma22 => value.powf(2.2),
-        Albedo::Log => (DARK * ((1.0 + DARK) / DARK).powf(value) - DARK).clamp(0.0, 1.0),
+        Albedo::Gamma22 => value.powf(T::of(2.2)),
+        Albedo::Log => T::of((DARK * ((1.0 + DARK) / DARK).powf(value.f64()) - DARK).clamp(0.0, 1.0)),
     }
 }
 
 /// The stored value of the reflectance `value` of [0, 1]: the inverse of [`linear`].
-pub(crate) fn encoded(value: f64, albedo: Albedo) -> f64 {
+pub(crate) fn encoded<T: Real>(value: T, albedo: Albedo) -> T {
     match albedo {
         Albedo::Linear => value,
         Albedo::Srgb => srgb::encode(value),
-        Albedo::Gamma22 => value.powf(1.0 / 2.2),
-        Albedo::Log => ((value + DARK) / DARK).ln() / ((1.0 + DARK) / DARK).ln(),
+        Albedo::Gamma22 => value.powf(T::one() / T::of(2.2)),
+        Albedo::Log => T::of(((value.f64() + DARK) / DARK).ln() / ((1.0 + DARK) / DARK).ln()),
     }
 }
 

@@ -70,36 +70,6 @@ impl ReadOptions {
             _ => Map::new(),
         }
     }
-
-    /// The one option `key` with the value of this name.
-    fn of_word(key: &str, value: &str) -> Result<Self, Error> {
-        let auto = Self::AUTO;
-        Ok(match key {
-            "preset" => Self { preset: Some(value.parse()?), ..auto },
-            "albedo" => Self { albedo: Some(value.parse()?), ..auto },
-            "specular-albedo" => Self { specular: Some(value.parse()?), ..auto },
-            "normal-y" => Self { normal_y: Some(value.parse()?), ..auto },
-            "normal-encoding" => Self { normal_encoding: Some(value.parse()?), ..auto },
-            "roughness" => Self { roughness: Some(value.parse()?), ..auto },
-            "workflow" => Self { workflow: Some(value.parse()?), ..auto },
-            "dielectric-f0" => Self { dielectric: Some(value.parse()?), ..auto },
-            "energy" => Self { energy: Some(value.parse()?), ..auto },
-            "order" => Self { order: Some(value.parse()?), ..auto },
-            "grid" => Self { grid: Some(value.parse()?), ..auto },
-            "exemplar" => Self { exemplar: Some(known("exemplar", value, "a whole number from 0")?), ..auto },
-            "flip-v" => Self { flip_v: Some(known("flip-v", value, "true, false")?), ..auto },
-            "non-finite" => Self { non_finite: Some(value.parse()?), ..auto },
-            _ => {
-                let (found, known) = (key.to_owned(), Self::keys().join(", "));
-                return Err(CoreError::unknown_name("option of reading", found, known).into());
-            }
-        })
-    }
-}
-
-/// A value, or the error that says which are `known`.
-fn known<T: FromStr>(what: &'static str, value: &str, known: &str) -> Result<T, Error> {
-    value.parse().map_err(|_| CoreError::unknown_name(what, value, known).into())
 }
 
 impl FromStr for ReadOptions {
