@@ -13,9 +13,7 @@ use svbrdf_assets::SAMPLES;
 use svbrdf_core::math::real::Real;
 
 use crate::error::Error;
-use crate::read::{
-    Albedo, Certainty, NormalY, Order, Read, ReadOptions, Roughness, StorageConvention, read_bytes,
-};
+use crate::read::{Albedo, Certainty, NormalY, Order, Read, ReadOptions, Reason, Roughness, read_bytes};
 
 /// How the samples are stored, so that nothing is inferred.
 const STORED: ReadOptions = ReadOptions {
@@ -56,7 +54,8 @@ pub fn load_one<T: Real>(number: usize) -> Result<Read<T>, Error> {
     };
     let mut read = read_bytes(name, bytes, &STORED)?;
     for known in read.assumptions.iter_mut().filter(|a| a.certainty == Certainty::Given) {
-        (known.why, known.certainty) = (StorageConvention::BuiltIn.into(), Certainty::Sure);
+        known.why = Reason::stated("the built-in materials are stored in this way");
+        known.certainty = Certainty::Sure;
     }
     Ok(read)
 }

@@ -38,7 +38,8 @@ fn of_note(note: &Note) -> Option<String> {
 }
 
 fn of_assumption(assumption: &Assumption) -> Option<String> {
-    let map = assumption.map().map_or("a", |map| map.name());
+    // As in "specular 0.04".
+    let map = assumption.chosen.split(' ').next().unwrap_or_default();
     assumption.is_doubtful().then(|| match assumption.what {
         What::Missing => format!("without {map} map"),
         What::Size => "with resized maps".to_owned(),

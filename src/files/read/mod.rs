@@ -33,7 +33,7 @@ pub use options::{
     Roughness, TileGrid, Workflow,
 };
 pub use photograph::{Photograph, Transfer, read_photograph};
-pub use record::{Assumption, Certainty, Evidence, Note, Reason, StorageConvention, Subject, Unused, What};
+pub use record::{Assumption, Certainty, Evidence, Ground, Note, Reason, Subject, Unused, What};
 pub use result::{MapContent, Read};
 pub use storage::Storage;
 

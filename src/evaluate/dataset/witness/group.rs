@@ -2,7 +2,7 @@
 
 use svbrdf_core::material::Material;
 use svbrdf_core::statistics::median;
-use svbrdf_files::read::{Albedo, Assumption, Certainty, Read, Reason, Storage, StorageConvention, What};
+use svbrdf_files::read::{Albedo, Assumption, Certainty, Ground, Read, Storage, What};
 
 /// Texels of a material that are looked at.
 const TEXELS: usize = 1024;
@@ -68,25 +68,17 @@ impl Sampled {
 
 impl Own {
     fn of(assumption: Option<&Assumption>, encoding: Option<Albedo>) -> Self {
-        use StorageConvention as Custom;
-        let custom = assumption.and_then(|assumption| match &assumption.why {
-            _ if assumption.certainty >= Certainty::Sure && !is_order(&assumption.why) => None,
-            why if is_order(why) => Some(ORDER),
-            Reason::Weighed { .. } | Reason::ContradictedBy(..) => Some(RESEARCH),
-            Reason::StorageConvention(Custom::SeparateColours | Custom::MtlColours)
-            | Reason::DiffuseAlone => Some(ENCODED),
+        let custom = assumption.and_then(|assumption| match assumption.why.ground() {
+            Ground::Deschaintre => Some(ORDER),
+            _ if assumption.certainty >= Certainty::Sure => None,
+            Ground::Weighed { .. } => Some(RESEARCH),
+            Ground::Convention => Some(ENCODED),
             _ => None,
         });
         let is_known = matches!(encoding, Some(Albedo::Linear | Albedo::Srgb));
         let is_stated = custom.is_none() || !is_known;
         Self { encoding, custom: custom.unwrap_or(0.0), pixels: 0.0, is_stated }
     }
-}
-
-/// Whether an order of tiles or names of maps that some codes have is all that tells the encoding.
-fn is_order(why: &Reason) -> bool {
-    use StorageConvention as Custom;
-    matches!(why, Reason::StorageConvention(Custom::DeschaintreOrder | Custom::DeschaintreNames))
 }
 
 /// The log odds that a colour is stored linear, by its median where the logarithms of what materials reflect have this mean and deviation.

@@ -77,13 +77,7 @@ pub(super) fn pixels(bytes: &[u8], most: [usize; 2], place: DecodedFile<'_>) -> 
     decoder.set_output_format(format);
     let image = caught(|| decoder.decode_image()).map_err(contradiction)?.map_err(broken)?;
     let profile = image.icc_profile().map(<[u8]>::to_vec);
-    Ok(Pixels {
-        size: [width.into(), height.into()],
-        count,
-        values: image.into_vec(),
-        orientation,
-        profile,
-    })
+    Ok(Pixels { size: [width.into(), height.into()], count, values: image.into_vec(), orientation, profile })
 }
 
 /// What libjpeg-turbo-rs 0.8.0 does not decode to the values of libjpeg-turbo.

@@ -9,11 +9,19 @@ use crate::read::options::transfer::PACKED;
 use crate::read::options::{Albedo, NormalY, Order, Preset, ReadOptions, Role, Roughness, TileGrid};
 use crate::read::raster::Raster;
 use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score, signed_normal_score};
-use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, What};
+use crate::read::record::{Assumption, Certainty, Ground, Note, Reason, What};
 use crate::read::stored::{MapsByRole, StoredMap, StoredMaterial, written_albedo};
 
 /// Of a picture of diffuse alone.
 const ROUGHNESS: f32 = 0.5;
+
+const DESCHAINTRE: Reason =
+    Reason::fixed(Ground::Deschaintre, "Deschaintre et al. store this order in this way");
+const MATERIALGAN: Reason =
+    Reason::fixed(Ground::Code, "MaterialGAN and its successors store this order in this way");
+const MATFUSION: Reason = Reason::fixed(Ground::Code, "MatFusion stores this order in this way");
+const SVBRDF_EVALUATION: Reason =
+    Reason::fixed(Ground::Measurement, "svbrdf-evaluation appears to store this order in this way");
 
 /// Where the tiles of one material are: the order, and the number of the first tile.
 #[derive(Clone, Debug)]
@@ -61,7 +69,8 @@ pub(super) fn material(
     let mut found = maps.material(path, name, "", options)?;
     if order == Order::D {
         let chosen = format!("roughness {ROUGHNESS}");
-        let missing = Assumption::new(What::Missing, chosen, Reason::DiffuseAlone, Certainty::Unsure);
+        let why = Reason::measured("a picture of diffuse alone does not say it");
+        let missing = Assumption::new(What::Missing, chosen, why, Certainty::Unsure);
         found.assumptions.push(missing);
     }
     match own {
@@ -87,28 +96,27 @@ pub(super) fn material(
 
 fn own_tiling() -> Tiling {
     let grid = TileGrid { columns: Order::NDRS.len(), rows: 1 };
-    let why = StorageConvention::NativeText.into();
-    Tiling { grid, order: Order::NDRS, first: 0, why, certainty: Certainty::Sure }
+    Tiling { grid, order: Order::NDRS, first: 0, why: Reason::NATIVE_TEXT, certainty: Certainty::Sure }
 }
 
 /// Adds the encoding that goes with an order in this grid; nothing where none is known: pixels decide then.
 fn add_usual(found: &mut StoredMaterial, order: Order, grid: TileGrid, image: &Raster) {
-    let materialgan = (Albedo::Gamma22, Roughness::Gamma22, StorageConvention::MaterialGanOrder);
+    let materialgan = (Albedo::Gamma22, Roughness::Gamma22, MATERIALGAN);
     let (albedo, roughness, why) = match order {
-        _ if image.is_float() => (Albedo::Linear, Roughness::R, StorageConvention::Floats),
-        Order::NDRS => (Albedo::Linear, Roughness::R, StorageConvention::DeschaintreOrder),
+        _ if image.is_float() => (Albedo::Linear, Roughness::R, Reason::FLOATS),
+        Order::NDRS => (Albedo::Linear, Roughness::R, DESCHAINTRE),
         Order::DNRS | Order::DNR => materialgan,
         Order::NDSR if grid.columns == 2 => materialgan,
-        Order::DSRN => (Albedo::Gamma22, Roughness::R, StorageConvention::MatFusionOrder),
-        Order::IBRM => (Albedo::Srgb, Roughness::R, StorageConvention::SvbrdfEvaluationOrder),
+        Order::DSRN => (Albedo::Gamma22, Roughness::R, MATFUSION),
+        Order::IBRM => (Albedo::Srgb, Roughness::R, SVBRDF_EVALUATION),
         _ => return,
     };
     let certainty = if order == Order::IBRM { Certainty::Unsure } else { Certainty::Likely };
-    found.inferred.albedo = Some((albedo, why.into(), certainty));
+    found.inferred.albedo = Some((albedo, why.clone(), certainty));
     found.inferred.specular = found.inferred.albedo.clone();
-    found.inferred.roughness = Some((roughness, why.into(), Certainty::Likely));
-    let why = StorageConvention::PackedNormals;
-    found.inferred.normal_y = Some((NormalY::Up, why.into(), Certainty::Likely));
+    found.inferred.roughness = Some((roughness, why, Certainty::Likely));
+    let why = Reason::measured("all known sources of packed maps do this");
+    found.inferred.normal_y = Some((NormalY::Up, why, Certainty::Likely));
 }
 
 /// Every way to divide the image into square tiles, in the order in which they are tried; or the one that was specified.
@@ -135,7 +143,7 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Tiling> {
     if let Some(order) = options.order {
         let whole = (order.len() == 1 && options.grid.is_none()).then_some(TileGrid { columns: 1, rows: 1 });
         let grid = whole.or_else(|| grids.iter().copied().find(|grid| grid.count() >= order.len()))?;
-        return Some(placed(grid, order, options, Reason::Specified, Certainty::Given));
+        return Some(placed(grid, order, options, Reason::SPECIFIED, Certainty::Given));
     }
     if let Some(choice) = grids.iter().find_map(|&grid| recognized(image, grid, options)) {
         return Some(choice);
@@ -149,13 +157,13 @@ fn choose(image: &Raster, name: &str, options: &ReadOptions) -> Option<Tiling> {
     }
     let none = scores.iter().all(|&score| score < NORMAL_AT_LEAST);
     let (order, why) = match options.preset.and_then(Preset::order) {
-        Some(order) => (order, Reason::PresetOrder),
+        Some(order) => (order, "no tile tells; it is the order of the preset"),
         None if none && grid.columns == 4 && name.to_lowercase().contains("svbrdf") => {
-            (Order::IBRM, Reason::SvbrdfEvaluationName)
+            (Order::IBRM, "no tile looks like normals, and svbrdf-evaluation uses such names")
         }
-        None => (Order::NDRS, Reason::UsualOrder),
+        None => (Order::NDRS, "no single tile looks like normals; this is the usual order"),
     };
-    Some(placed(grid, order, options, why, Certainty::Unsure))
+    Some(placed(grid, order, options, Reason::measured(why), Certainty::Unsure))
 }
 
 /// Whether every row of `grid` is a material of `count` tiles.
@@ -219,11 +227,16 @@ fn recognized(image: &Raster, grid: TileGrid, options: &ReadOptions) -> Option<T
     if is_stack(grid, 0) && !every_row_has_normals(image, grid, place) {
         return None;
     }
-    let why = Reason::NormalTile { number: place + 1, share: best, next: second };
+    let why = Reason::measured(format!(
+        "tile {} looks like normals ({:.0}% of its pixels), the next best {:.0}%",
+        place + 1,
+        100.0 * best,
+        100.0 * second
+    ));
     let first = |order: Order| start + count - order.len();
     let against = |order: &Order| contradicted(image, grid, first(*order), *order);
     let (why, certainty) = match against(&usual) {
-        Some(tile) => (Reason::ContradictedBy(Box::new(why), Box::new(tile)), Certainty::Unsure),
+        Some(tile) => (why.contradicted(&tile), Certainty::Unsure),
         None => (why, Certainty::Likely),
     };
     let order = known.into_iter().find(|order| against(order).is_none()).unwrap_or(usual);
@@ -236,7 +249,8 @@ fn contradicted(image: &Raster, grid: TileGrid, first: usize, order: Order) -> O
     order.roles().enumerate().find_map(|(place, map)| {
         let number = first + place;
         let found = tile::contradiction(&image.crop(grid.corner(number, size), size), map)?;
-        Some(Reason::TileOf { number: number + 1, map, found })
+        let (tile, map) = (number + 1, map.name());
+        Some(Reason::measured(format!("tile {tile} {found}: it is no {map} map, as in the usual order")))
     })
 }
 

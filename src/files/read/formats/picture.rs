@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::read::decode::{self, Decoded, Layer};
 use crate::read::names::{Label, listing};
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
-use crate::read::record::{Assumption, Certainty, Note, StorageConvention, Subject, Unused, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, Subject, Unused, What};
 use crate::read::stored::{MapsByRole, StoredMap, StoredMaterial};
 
 /// A picture that may hold a whole material.
@@ -132,12 +132,13 @@ fn of_layers(
     }
     let name = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
     let mut found = maps.material(path, name, &listed, options)?;
-    let layout = Assumption::new(What::Layout, "layers", StorageConvention::LayerNames, Certainty::Sure);
+    let why = Reason::stated("the names of the layers name the maps");
+    let layout = Assumption::new(What::Layout, "layers", why, Certainty::Sure);
     found.assumptions.insert(0, layout);
     notes.append(&mut found.notes);
     found.notes = notes;
     if native {
-        let why = || StorageConvention::Native.into();
+        let why = || Reason::stated("svbrdf wrote the file");
         found.inferred.albedo = Some((Albedo::Linear, why(), Certainty::Sure));
         found.inferred.specular = found.inferred.albedo.clone();
         found.inferred.roughness = Some((Roughness::R, why(), Certainty::Sure));

@@ -3,8 +3,15 @@
 use super::evidence::{self, CUSTOM, PRIOR, SURE};
 use crate::read::options::{Albedo, ReadOptions, Roughness};
 use crate::read::raster::measure;
-use crate::read::record::{Assumption, Certainty, Evidence, Note, Reason, StorageConvention, What};
+use crate::read::record::{Assumption, Certainty, Evidence, Ground, Note, Reason, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
+
+const SEPARATE: Reason =
+    Reason::fixed(Ground::Convention, "colours in separate files are sRGB by convention");
+const PRIMARIES: Reason = Reason::fixed(
+    Ground::Measurement,
+    "the file declares primaries that enclose no white, and cannot be converted",
+);
 
 /// An encoding with its reason and certainty.
 type Choice = (Albedo, Reason, Certainty);
@@ -24,14 +31,14 @@ pub(super) fn encodings(found: &mut StoredMaterial, options: &ReadOptions) -> [A
         let (albedo, mut why, mut certainty) = match (given[which], known) {
             (Some(given), _) => {
                 found.notes.extend((which == 1).then(|| contradiction(map, given)).flatten());
-                (given, Reason::Specified, Certainty::Given)
+                (given, Reason::SPECIFIED, Certainty::Given)
             }
             (None, Some(known)) => judged(known, evidence, &mut found.inferred.roughness),
             (None, None) if which == 0 && open != [true; 2] => alone(evidence),
             (None, None) => verdict(evidence),
         };
         if which == 0 && certainty != Certainty::Given && found.notes.contains(&Note::Primaries) {
-            why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::OtherPrimaries));
+            why = why.contradicted(&PRIMARIES);
             certainty = Certainty::Unsure;
         }
         chosen[which] = albedo;
@@ -83,24 +90,23 @@ fn judged(known: Choice, evidence: Vec<Evidence>, roughness: &mut Inferred<Rough
     }
     let other = if albedo == Albedo::Linear { Albedo::Srgb } else { Albedo::Linear };
     let is_outweighed = against > CUSTOM;
-    let own = why.clone();
-    let why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::Weighed { log_odds, evidence }));
+    let contradicted = why.contradicted(&Reason::weighed(log_odds, &evidence));
     if let Some((Roughness::Gamma22, of_roughness, _)) = roughness
         && is_outweighed
-        && *of_roughness == own
+        && *of_roughness == why
     {
-        *roughness = Some((Roughness::R, why.clone(), Certainty::Unsure));
+        *roughness = Some((Roughness::R, contradicted.clone(), Certainty::Unsure));
     }
-    (if is_outweighed { other } else { albedo }, why, Certainty::Unsure)
+    (if is_outweighed { other } else { albedo }, contradicted, Certainty::Unsure)
 }
 
 /// The encoding of a colour without another one to compare it with, by convention.
 fn alone(mut dark: Vec<Evidence>) -> Choice {
     if dark.is_empty() {
-        return (Albedo::Srgb, StorageConvention::SeparateColours.into(), Certainty::Likely);
+        return (Albedo::Srgb, SEPARATE, Certainty::Likely);
     }
     dark.insert(0, Evidence::Prior);
-    (Albedo::Srgb, Reason::Weighed { log_odds: PRIOR, evidence: dark }, Certainty::Unsure)
+    (Albedo::Srgb, Reason::weighed(PRIOR, &dark), Certainty::Unsure)
 }
 
 fn verdict(evidence: Vec<Evidence>) -> Choice {
@@ -112,7 +118,7 @@ fn verdict(evidence: Vec<Evidence>) -> Choice {
     };
     let is_sure = log_odds.abs() >= SURE && !evidence.iter().any(disagrees);
     let certainty = if is_sure { Certainty::Likely } else { Certainty::Unsure };
-    (albedo, Reason::Weighed { log_odds, evidence }, certainty)
+    (albedo, Reason::weighed(log_odds, &evidence), certainty)
 }
 
 /// The note that the median of a specular map suggests another encoding than the one that is specified: 0.04 stored linearly, or encoded.

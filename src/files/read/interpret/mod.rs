@@ -102,7 +102,10 @@ fn note_alpha(found: &mut StoredMaterial) {
         found.notes.push(Note::AlphaIgnored { map });
         // Colours of EXR are multiplied by their alpha.
         if is_float && map.is_colour() {
-            let why = Reason::Premultiplied { map };
+            let why = Reason::measured(format!(
+                "the {} map has an alpha below 1, and EXR multiplies colours by it",
+                map.name()
+            ));
             found.assumptions.push(Assumption::new(What::Values, "as stored", why, Certainty::Unsure));
         }
     }
@@ -124,7 +127,8 @@ fn refuse_two_channels(found: &StoredMaterial) -> Result<(), Error> {
 
 /// The reading of a map of the specular level.
 fn level_assumed(map: &StoredMap) -> Assumption {
-    let why = Reason::SpecularLevel { file: map.file.clone() };
+    let file = map.file.display();
+    let why = Reason::measured(format!("{file} is named so, and the principled model takes 0.04 at 0.5"));
     Assumption::new(What::Specular, "0.08 times the level", why, Certainty::Likely)
 }
 
@@ -176,7 +180,8 @@ fn missing_specular(given: Option<Reflectance>) -> Assumption {
         Some(dielectric) => Assumption::given(What::Missing, format!("specular {dielectric}")),
         None => {
             let chosen = format!("specular {}", Reflectance::DIELECTRIC);
-            Assumption::new(What::Missing, chosen, Reason::NoSpecularMap, Certainty::Likely)
+            let why = Reason::measured("there is no specular map; most dielectrics have it");
+            Assumption::new(What::Missing, chosen, why, Certainty::Likely)
         }
     }
 }
@@ -231,7 +236,9 @@ fn unscale_diffuse<T: Real>(
     let chosen = "diffuse not scaled by (1 - specular): d / (1 - s) is used";
     assumptions.push(Assumption::given(What::Energy, chosen));
     if clamped > 0 {
-        let why = Reason::MoreThanAllLight { count: clamped };
+        let why = Reason::measured(format!(
+            "{clamped} samples of diffuse and specular would reflect more light than arrives"
+        ));
         assumptions.push(Assumption::new(What::Values, "diffuse 1", why, Certainty::Unsure));
     }
 }

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::read::options::{NormalEncoding, NormalY, ReadOptions};
 use crate::read::raster::measure::{self, NORMAL_AT_LEAST};
 use crate::read::raster::{Raster, Samples};
-use crate::read::record::{Assumption, Certainty, Reason, StorageConvention, What};
+use crate::read::record::{Assumption, Certainty, Reason, What};
 use crate::read::stored::{Inferred, StoredMaterial};
 
 /// Shorter vectors have no direction: the gray of 127 or 128 is one of length 0.007.
@@ -52,15 +52,11 @@ pub(super) fn planes<T: Real>(
             remedy: "give a normal map, not a height map".to_owned(),
         });
     }
-    let (encoding, why) = encoding_of(raster);
+    let (encoding, why, share) = encoding_of(raster);
     let is_usual = encoding == NormalEncoding::Unsigned || raster.is_float();
     // Where few texels have unit length, either reading may be wrong.
-    let is_unit = !match why {
-        Reason::UnitLength { share, .. } => {
-            share < NORMAL_AT_LEAST && share < NORMAL_AT_LEAST * (1.0 - share_without_direction(raster))
-        }
-        ref why => matches!(why, Reason::NormalsAsColours { .. }),
-    };
+    let is_unit =
+        share >= NORMAL_AT_LEAST || share >= NORMAL_AT_LEAST * (1.0 - share_without_direction(raster));
     let certainty = if is_usual && is_unit { Certainty::Likely } else { Certainty::Unsure };
     // A format that defines all three components leaves none to be rebuilt.
     let is_rebuilt = matches!(encoding, NormalEncoding::Xy | NormalEncoding::Ag) && raster.channels.len() > 2;
@@ -72,7 +68,9 @@ pub(super) fn planes<T: Real>(
     let y = normal_y(raster, encoding, found, heights, options);
     let (mut planes, missing) = decoded::<T>(raster, encoding, y);
     if missing > 0 {
-        let why = Reason::NoDirection { count: missing };
+        let why = Reason::measured(format!(
+            "{missing} texels have no direction: they are black, gray or not finite"
+        ));
         found.assumptions.push(Assumption::new(What::Values, "normal (0, 0, 1)", why, Certainty::Unsure));
     }
     let from = raster.size();
@@ -85,18 +83,19 @@ pub(super) fn planes<T: Real>(
 
 /// Normals of a material without a normal map.
 fn flat<T: Real>(found: &mut StoredMaterial, size: [usize; 2]) -> [Vec<T>; 3] {
-    let is_listed = |one: &Assumption| one.why == StorageConvention::ListedTextures.into();
     // A file that lists its textures has no other ones.
-    let (why, certainty) = match found.assumptions.iter().any(is_listed) {
-        true => (StorageConvention::NoListedNormals.into(), Certainty::Sure),
-        false => (Reason::NoNormalMap, Certainty::Unsure),
+    let (why, certainty) = match found.assumptions.iter().any(|one| one.why == Reason::LISTED) {
+        true => ("the file lists its textures, and none of normals; the surface is flat", Certainty::Sure),
+        false => ("there is no normal map; the surface is taken as flat", Certainty::Unsure),
     };
-    let missing = Assumption::new(What::Missing, "normal (0, 0, 1)", why, certainty);
+    let missing = Assumption::new(What::Missing, "normal (0, 0, 1)", Reason::measured(why), certainty);
     found.assumptions.push(missing);
     [T::zero(), T::zero(), T::one()].map(|value| vec![value; size[0] * size[1]])
 }
 
-fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
+/// How the components are stored, the reason, and the share of the texels that have unit length so where that is the reason, else 1; 0
+/// of normals that were saved as colours.
+fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason, f64) {
     let range = |plane: &Samples| {
         let values = raster.sampled().map(|i| plane.at(i));
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
@@ -109,20 +108,26 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
         && x.0 > 0.98
         && range(alpha).1 - range(alpha).0 > 0.05
     {
-        return (NormalEncoding::Ag, Reason::RedConstant);
+        return (NormalEncoding::Ag, Reason::measured("red is 1 everywhere, alpha varies"), 1.0);
     }
     let score = measure::normal_score(raster);
     if raster.is_float() {
         // Filters overshoot: lengths tell signed from unsigned, a negative value does not.
         let signed = measure::signed_normal_score(raster);
         if signed > score {
-            return (NormalEncoding::Signed, Reason::UnitLength { signed: true, share: signed });
+            return (NormalEncoding::Signed, unit_length(true, signed), signed);
         }
     }
     if !raster.is_float() && score < NORMAL_AT_LEAST {
         let without = measure::curved_normal_score(raster);
         if without > NORMAL_AT_LEAST {
-            return (NormalEncoding::Unsigned, Reason::NormalsAsColours { share: score, without });
+            let why = Reason::measured(format!(
+                "the map seems to be saved as colours, through the sRGB curve: {:.0}% of the texels have length 1 as they are, \
+                 {:.0}% without the curve; save it again as data",
+                100.0 * score,
+                100.0 * without
+            ));
+            return (NormalEncoding::Unsigned, why, 0.0);
         }
     }
     // Blue 1 everywhere is also what a flat map has: only slopes that it cannot have tell.
@@ -131,9 +136,22 @@ fn encoding_of(raster: &Raster) -> (NormalEncoding, Reason) {
         x * x + y * y > STEEP
     };
     if z.1 < 0.02 || (z.0 > 0.98 && raster.sampled().any(steep)) {
-        return (NormalEncoding::Xy, Reason::BlueConstant(z.0.round()));
+        let why = Reason::measured(format!("blue is {:.0} everywhere", z.0.round()));
+        return (NormalEncoding::Xy, why, 1.0);
     }
-    (NormalEncoding::Unsigned, Reason::UnitLength { signed: false, share: score })
+    (NormalEncoding::Unsigned, unit_length(false, score), score)
+}
+
+/// A picture that is named after normals holds them in the usual way where their lengths confirm it.
+fn unit_length(signed: bool, share: f64) -> Reason {
+    let text = format!(
+        "{:.0}% of the texels have length 1 {}{}{}",
+        100.0 * share,
+        if signed { "as stored" } else { "if read so" },
+        if share < 0.995 { ", the others are normalized" } else { "" },
+        if share < 0.6 { "; blue may hold another map, or they are no normals" } else { "" }
+    );
+    if signed || share > 0.9 { Reason::stated(text) } else { Reason::measured(text) }
 }
 
 /// The share of the texels that are black or gray, as outside of an island of coordinates.
@@ -146,14 +164,15 @@ fn share_without_direction(raster: &Raster) -> f64 {
 }
 
 /// Of x and y alone: signed where a share of the components is negative that overshoot does not explain.
-fn two_channels(raster: &Raster) -> (NormalEncoding, Reason) {
+fn two_channels(raster: &Raster) -> (NormalEncoding, Reason, f64) {
     let is_negative = |i: &usize| raster.channels.iter().any(|channel| channel.at(*i) < -0.01);
     let (count, negative) = (raster.sampled().count(), raster.sampled().filter(is_negative).count());
     if raster.is_float() && negative as f64 > OVERSHOOT * count as f64 {
         let values = raster.sampled().flat_map(|i| raster.channels.iter().map(move |c| c.at(i)));
-        return (NormalEncoding::Signed, Reason::LeastComponent(values.fold(0.0, f64::min)));
+        let why = format!("the least component is {:.2}", values.fold(0.0, f64::min));
+        return (NormalEncoding::Signed, Reason::stated(why), 1.0);
     }
-    (NormalEncoding::Xy, Reason::TwoChannels)
+    (NormalEncoding::Xy, Reason::stated("the map has two channels"), 1.0)
 }
 
 fn vector(raster: &Raster, encoding: NormalEncoding, index: usize) -> [f64; 3] {
@@ -199,20 +218,28 @@ fn normal_y(
         _ => contradicted(hint, curl.filter(|_| given.is_none())),
     };
     decide(&mut found.assumptions, What::NormalY, given, hint, || match curl {
-        Some(c) if c <= DOWN => (NormalY::Down, Reason::CurlDown(c), Certainty::Unsure),
-        Some(c) if c >= UP => (NormalY::Up, Reason::Curl(curl), Certainty::Likely),
-        None => (NormalY::Up, Reason::Curl(None), Certainty::Likely),
-        Some(c) => (NormalY::Up, Reason::MostMapsUp(c), Certainty::Unsure),
+        Some(c) if c <= DOWN => {
+            let why = Reason::measured(format!("{}, as of maps with y down", curled(c)));
+            (NormalY::Down, why, Certainty::Unsure)
+        }
+        Some(c) if c >= UP => (NormalY::Up, curled(c), Certainty::Likely),
+        // A flat map points nowhere.
+        None => (NormalY::Up, Reason::stated("the map has no slopes to tell from"), Certainty::Likely),
+        Some(c) => {
+            let why = Reason::measured(format!("most maps point up; {}", curled(c)));
+            (NormalY::Up, why, Certainty::Unsure)
+        }
     })
+}
+
+fn curled(correlation: f64) -> Reason {
+    Reason::measured(format!("the curl correlation is {correlation:+.2}"))
 }
 
 /// A direction that a name or a specification states, unsure where the curl test contradicts it.
 fn contradicted(hint: Inferred<NormalY>, curl: Option<f64>) -> Inferred<NormalY> {
     hint.map(|(y, why, certainty)| match curl {
-        Some(curl) if is_contradicted(y, curl) => {
-            let why = Reason::ContradictedBy(Box::new(why), Box::new(Reason::Curl(Some(curl))));
-            (y, why, Certainty::Unsure)
-        }
+        Some(curl) if is_contradicted(y, curl) => (y, why.contradicted(&curled(curl)), Certainty::Unsure),
         _ => (y, why, certainty),
     })
 }
@@ -226,16 +253,18 @@ fn by_heights(
 ) -> (NormalY, Reason, Certainty) {
     let (y, weakest) = (heights.y(), heights.correlations.map(f64::abs).into_iter().fold(1.0, f64::min));
     found.use_heights(&heights.file);
-    let why = Reason::Heights { file: heights.file, correlations: heights.correlations };
+    let [x, y_of_normals] = heights.correlations;
+    let why = Reason::measured(format!(
+        "the slopes of {} correlate by {x:+.2} with x of the normals and by {y_of_normals:+.2} with y",
+        heights.file.display()
+    ));
     match hint {
         Some((named, reason, Certainty::Sure)) if named == y => (y, reason, Certainty::Sure),
-        Some((named, reason, Certainty::Sure)) => {
-            (named, Reason::ContradictedBy(Box::new(reason), Box::new(why)), Certainty::Unsure)
-        }
-        _ if weakest < CLEAR && curl.is_some_and(|curl| is_contradicted(y, curl)) => {
-            (y, Reason::ContradictedBy(Box::new(why), Box::new(Reason::Curl(curl))), Certainty::Unsure)
-        }
-        _ => (y, why, Certainty::Likely),
+        Some((named, reason, Certainty::Sure)) => (named, reason.contradicted(&why), Certainty::Unsure),
+        _ => match curl.filter(|curl| weakest < CLEAR && is_contradicted(y, *curl)) {
+            Some(curl) => (y, why.contradicted(&curled(curl)), Certainty::Unsure),
+            None => (y, why, Certainty::Likely),
+        },
     }
 }
 
@@ -320,11 +349,11 @@ mod tests {
             let stored = |of: &dyn Fn(f64) -> u8| -> Vec<[u8; 3]> {
                 (0..64).map(|i| direction(i).map(|c| of(0.5 * c + 0.5))).collect()
             };
-            let (encoding, why) = encoding_of(&map(&stored(&curve)));
-            assert!(matches!(why, Reason::NormalsAsColours { .. }), "{why}");
+            let (encoding, why, share) = encoding_of(&map(&stored(&curve)));
+            assert!(why.to_string().contains("saved as colours") && share == 0.0, "{why}");
             assert_eq!(encoding, NormalEncoding::Unsigned);
-            let (_, why) = encoding_of(&map(&stored(&|value| (255.0 * value).round() as u8)));
-            assert!(matches!(why, Reason::UnitLength { share, .. } if share > 0.99), "{why}");
+            let (_, why, share) = encoding_of(&map(&stored(&|value| (255.0 * value).round() as u8)));
+            assert!(share > 0.99, "{why}");
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::read::options::transfer::linear;
 use crate::read::options::{Albedo, NonFinite, ReadOptions, Role, Roughness, transfer};
 use crate::read::raster::{OutOfRange, Raster, Samples, channel_spread};
-use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Subject, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, Subject, What};
 use crate::read::stored::{Inferred, StoredMap, StoredMaterial};
 
 /// Refuses the first NaN or infinity of any map, or records how many will be replaced, as `options` specify.
@@ -28,7 +28,10 @@ pub(crate) fn check(found: &mut StoredMaterial, options: &ReadOptions) -> Result
             if value.is_nan() { nans += 1 } else { infinities += 1 }
         }
         replaced.extend(few_bits(&source.raster).map(|bits| {
-            let why = Reason::FewBits { map, bits };
+            let why = Reason::measured(format!(
+                "no sample of the {} map takes more than {bits} of its 16 bits, which stand for [0, 1]",
+                map.name()
+            ));
             Assumption::new(What::Values, "as stored", why, Certainty::Unsure)
         }));
         let Some((index, value)) = first else { continue };
@@ -45,7 +48,8 @@ pub(crate) fn check(found: &mut StoredMaterial, options: &ReadOptions) -> Result
                 });
             }
             NonFinite::Replace => {
-                let why = Reason::NotFinite { map, count: nans + infinities };
+                let (count, map) = (nans + infinities, map.name());
+                let why = Reason::measured(format!("{count} samples of the {map} map are NaN or infinite"));
                 replaced.push(Assumption::new(What::Values, NonFinite::Replace, why, Certainty::Given));
             }
         }
@@ -85,7 +89,10 @@ impl Clamped {
 
     pub(crate) fn record(self, assumptions: &mut Vec<Assumption>) {
         for (map, OutOfRange { count, low, high }) in self.maps {
-            let why = Reason::OutsideUnit { map, count, low, high };
+            let why = Reason::measured(format!(
+                "{count} samples of the {} map lie outside, between {low} and {high}",
+                map.name()
+            ));
             let clamped = Assumption::new(What::Values, "clamped to [0, 1]", why, Certainty::Unsure);
             assumptions.push(clamped);
         }
@@ -173,7 +180,7 @@ pub(super) fn gray_plane<T: Real>(
 pub(super) fn roughness_encoding(found: &mut StoredMaterial, options: &ReadOptions) -> Roughness {
     let hint = found.inferred.roughness.take();
     decide(&mut found.assumptions, What::Roughness, options.roughness, hint, || {
-        (Roughness::R, StorageConvention::RoughnessName.into(), Certainty::Likely)
+        (Roughness::R, Reason::stated("the map is named roughness"), Certainty::Likely)
     })
 }
 

@@ -8,11 +8,9 @@ use std::fmt;
 
 use serde::Serialize;
 
-use svbrdf_core::material::Map;
-
-pub use evidence::{Evidence, StorageConvention};
+pub use evidence::Evidence;
 pub use note::{Note, Subject, Unused};
-pub use reason::Reason;
+pub use reason::{Ground, Reason};
 
 /// The subject of an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
@@ -106,8 +104,8 @@ pub struct Assumption {
 }
 
 impl Assumption {
-    pub fn new(what: What, chosen: impl fmt::Display, why: impl Into<Reason>, certainty: Certainty) -> Self {
-        Self { what, chosen: chosen.to_string(), why: why.into(), certainty }
+    pub fn new(what: What, chosen: impl fmt::Display, why: Reason, certainty: Certainty) -> Self {
+        Self { what, chosen: chosen.to_string(), why, certainty }
     }
 
     /// Whether it is unsure, or inferred and stated nowhere.
@@ -127,30 +125,9 @@ impl Assumption {
         }
     }
 
-    /// The map that it is about; `None` for the material as a whole.
-    pub fn map(&self) -> Option<Map> {
-        match (self.what, &self.why) {
-            (What::NormalY | What::NormalEncoding, _) => Some(Map::Normal),
-            (What::Albedo | What::Energy, _) => Some(Map::Diffuse),
-            (What::Specular, _) => Some(Map::Specular),
-            (What::Roughness, _) => Some(Map::Roughness),
-            (What::Missing | What::Values, why) => match why {
-                Reason::NoNormalMap | Reason::NoDirection { .. } => Some(Map::Normal),
-                Reason::StorageConvention(StorageConvention::NoListedNormals) => Some(Map::Normal),
-                // The specified reflectance of dielectrics stands for a specular map.
-                Reason::NoSpecularMap | Reason::Specified => Some(Map::Specular),
-                Reason::DiffuseAlone => Some(Map::Roughness),
-                Reason::MoreThanAllLight { .. } => Some(Map::Diffuse),
-                Reason::NotFinite { map, .. } | Reason::OutsideUnit { map, .. } => map.map(),
-                _ => None,
-            },
-            (What::Layout | What::Workflow | What::Size, _) => None,
-        }
-    }
-
     /// A choice that the caller specified.
     pub fn given(what: What, chosen: impl fmt::Display) -> Self {
-        Self::new(what, chosen, Reason::Specified, Certainty::Given)
+        Self::new(what, chosen, Reason::SPECIFIED, Certainty::Given)
     }
 }
 

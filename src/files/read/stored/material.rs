@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::read::options::transfer::{encoded, linear};
 use crate::read::options::{Albedo, NormalEncoding, NormalY, Role, Roughness, Workflow};
 use crate::read::raster::{Raster, Samples};
-use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, Unused, What};
 
 /// Inferences from the files about stored values. `None` where they tell nothing.
 #[derive(Clone, Debug, Default)]
@@ -153,7 +153,9 @@ impl StoredMaterial {
         }
         if !smaller.is_empty() {
             let chosen = format!("{width} x {height}");
-            let why = Reason::SmallerMaps(smaller);
+            let one = |(map, [w, h]): &(Role, [usize; 2])| format!("{} from {w} x {h}", map.name());
+            let smaller = smaller.iter().map(one).collect::<Vec<_>>().join(", ");
+            let why = Reason::measured(format!("the largest map has it; resampled bilinearly: {smaller}"));
             self.assumptions.push(Assumption::new(What::Size, chosen, why, Certainty::Likely));
         }
         Ok([width, height])
@@ -212,13 +214,9 @@ impl StoredMap {
         if !self.is_of_floats() {
             return known;
         }
-        let floats = Reason::from(StorageConvention::Floats);
         Some(match known {
-            Some((Albedo::Linear, ..)) | None => (Albedo::Linear, floats, Certainty::Likely),
-            Some((_, why, _)) => {
-                let why = Reason::ContradictedBy(Box::new(floats), Box::new(why));
-                (Albedo::Linear, why, Certainty::Unsure)
-            }
+            Some((Albedo::Linear, ..)) | None => (Albedo::Linear, Reason::FLOATS, Certainty::Likely),
+            Some((_, why, _)) => (Albedo::Linear, Reason::FLOATS.contradicted(&why), Certainty::Unsure),
         })
     }
 

@@ -83,14 +83,16 @@ impl MapsByRole {
             } else {
                 "red metallic, green roughness, blue occlusion"
             };
-            let why = Reason::PackingName { file: source.file.clone() };
+            let file = source.file.display();
+            let why = Reason::measured(format!("{file} is named so; packings of this name differ"));
             assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
         }
         if let Some((_, source)) =
             self.all.iter().find(|(r, s)| *r == Role::MetallicSmoothness && s.raster.alpha.is_none())
             && !self.has(Role::Roughness)
         {
-            let why = Reason::OpaqueSmoothness { file: source.file.clone() };
+            let file = source.file.display();
+            let why = Reason::measured(format!("{file} has no alpha, which holds smoothness"));
             assumptions.push(Assumption::new(What::Layout, "smoothness 1", why, Certainty::Unsure));
         }
         assumptions
@@ -181,21 +183,23 @@ fn examples(role: Role, words: &[String]) -> String {
 /// The assumption about the workflow that was `chosen`.
 fn workflow(chosen: Workflow, has_specular: bool, is_ambiguous: bool, options: &ReadOptions) -> Assumption {
     let why = match (chosen, has_specular) {
-        (Workflow::Metallic, _) => {
-            Reason::MetallicMap { matfusion: options.preset == Some(Preset::MatFusion) }
+        (Workflow::Metallic, _) if options.preset == Some(Preset::MatFusion) => {
+            "there is a metallic map: d = b (1 - m), s = f + b m as in MatFusion"
         }
-        (Workflow::Specular, true) => Reason::SpecularMap,
-        (Workflow::Specular, false) => Reason::NeitherMap,
+        (Workflow::Metallic, _) => "there is a metallic map: d = b (1 - m), s = f (1 - m) + b m",
+        (Workflow::Specular, true) => "there is a specular map",
+        (Workflow::Specular, false) => "there is neither a specular nor a metallic map",
     };
-    match options.workflow {
-        Some(given) if given == chosen => Assumption::given(What::Workflow, given),
+    let (why, certainty) = match options.workflow {
+        Some(given) if given == chosen => return Assumption::given(What::Workflow, given),
         Some(given) => {
-            let why = Reason::NoMetallicMap;
-            Assumption::new(What::Workflow, given, why, Certainty::Given)
+            let why = Reason::stated("as specified, but there is no metallic map");
+            return Assumption::new(What::Workflow, given, why, Certainty::Given);
         }
         None if is_ambiguous => {
-            Assumption::new(What::Workflow, chosen, Reason::BothWorkflows, Certainty::Unsure)
+            (Reason::measured("there are both a specular and a metallic map"), Certainty::Unsure)
         }
-        None => Assumption::new(What::Workflow, chosen, why, Certainty::Sure),
-    }
+        None => (Reason::stated(why), Certainty::Sure),
+    };
+    Assumption::new(What::Workflow, chosen, why, certainty)
 }

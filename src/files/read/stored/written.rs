@@ -3,7 +3,7 @@
 use super::material::{Inferred, StoredMaterial};
 use crate::read::options::transfer::written;
 use crate::read::options::{Albedo, NormalY, Role, Roughness};
-use crate::read::record::{Certainty, StorageConvention};
+use crate::read::record::{Certainty, Reason};
 
 /// How colours are stored by the text that this program wrote into a picture.
 pub(crate) fn written_albedo(text: &str) -> Option<Albedo> {
@@ -14,7 +14,7 @@ impl StoredMaterial {
     /// Takes the encoding of these maps, whose colours are stored as `albedo`, from what their files state.
     pub(crate) fn specify(&mut self, albedo: Albedo, roles: &[Role]) {
         fn sure<T>(value: T) -> Inferred<T> {
-            Some((value, StorageConvention::NativeText.into(), Certainty::Sure))
+            Some((value, Reason::NATIVE_TEXT, Certainty::Sure))
         }
         for role in roles {
             match role {

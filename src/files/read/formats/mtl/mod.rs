@@ -13,7 +13,7 @@ use crate::read::names::Label;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role};
 use crate::read::raster::channel_spread;
 use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score};
-use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
+use crate::read::record::{Assumption, Certainty, Ground, Note, Reason, Unused, What};
 use crate::read::stored::{Inferred, MapsByRole, Picture, StoredMap, StoredMaterial, decoded, notice};
 
 use statement::{MtlEntry, bytes_of, entries, file_and_options, named_file, names_picture};
@@ -22,6 +22,8 @@ use statement::{MtlEntry, bytes_of, entries, file_and_options, named_file, names
 const NORMALS: [&str; 4] = ["norm", "map_kn", "map_bump", "bump"];
 /// Channels of a gray picture differ by no more: compression and rounding.
 const GRAY: f64 = 12.0 / 255.0;
+
+const COLOURS: Reason = Reason::fixed(Ground::Convention, "colours of an .mtl are sRGB by convention");
 
 /// A material of an `.mtl`, its pictures located.
 #[derive(Debug)]
@@ -109,8 +111,8 @@ impl Mtl {
             let texture = self.textures.iter().position(|texture| roles.contains(&texture.role));
             let is_float = texture.is_some_and(|place| pictures[place].map.raster.is_float());
             Some(match is_float {
-                true => (Albedo::Linear, StorageConvention::Floats.into(), Certainty::Likely),
-                false => (Albedo::Srgb, StorageConvention::MtlColours.into(), Certainty::Likely),
+                true => (Albedo::Linear, Reason::FLOATS, Certainty::Likely),
+                false => (Albedo::Srgb, COLOURS, Certainty::Likely),
             })
         };
         let (albedo, specular) = (space(&[Role::Diffuse, Role::Base]), space(&[Role::Specular]));
@@ -119,11 +121,11 @@ impl Mtl {
         found.add_file(self.path.clone());
         (found.inferred.albedo, found.inferred.specular) = (albedo, specular);
         found.inferred.normal_y = found.normal.as_ref().and_then(|source| named_y(&source.file));
-        let layout = Assumption::new(What::Layout, "MTL", StorageConvention::ListedTextures, Certainty::Sure);
+        let layout = Assumption::new(What::Layout, "MTL", Reason::LISTED, Certainty::Sure);
         found.assumptions.insert(0, layout);
         if self.entry.is_packed() {
-            let (why, chosen) =
-                (StorageConvention::NvdiffrecPacking, "map_Ks is occlusion | roughness | metallic");
+            let why = Reason::measured("nvdiffrec writes it beside map_Kd");
+            let chosen = "map_Ks is occlusion | roughness | metallic";
             found.assumptions.push(Assumption::new(What::Layout, chosen, why, Certainty::Likely));
         }
         found.notes.splice(0..0, notes);
@@ -249,7 +251,7 @@ impl MtlTexture {
 
 /// The direction of y in the name of a normal map.
 fn named_y(file: &Path) -> Inferred<NormalY> {
-    let name = file.file_name()?.to_string_lossy().into_owned();
+    let why = Reason::stated(format!("{} is named so", file.file_name()?.to_string_lossy()));
     let y = Label::of(&file.file_stem()?.to_string_lossy())?.normal_y?;
-    Some((y, Reason::FileName { file: name }, Certainty::Sure))
+    Some((y, why, Certainty::Sure))
 }

@@ -7,11 +7,14 @@ use crate::error::Error;
 use crate::read::options::transfer::ColourSpace;
 use crate::read::options::{Albedo, Role};
 use crate::read::raster::Raster;
-use crate::read::record::{Certainty, Reason, StorageConvention, Subject};
+use crate::read::record::{Certainty, Reason, Subject};
 use crate::read::stored::{DecodedPicture, Field, Inferred, StoredMap};
 
 /// Stored normals as nodes decode them: 2 n - 1.
 const DECODED_NORMALS: Affine = Affine { scale: [2.0; 3], offset: [-1.0; 3] };
+
+const NO_COLOUR_SPACE: &str =
+    "the file declares no colorspace, and MaterialX converts nothing then; colours of 8 bits are mostly sRGB";
 
 /// A surface and its decoded pictures, while its maps are recognized.
 pub(super) struct MtlxSurface<'a> {
@@ -169,7 +172,7 @@ impl MtlxSurface<'_> {
 fn in_rec709(source: StoredMap, space: Option<&str>) -> LoadedInput {
     let Some(name) = space else {
         let is_undeclared = source.raster.channels.len() > 1 && !source.raster.is_float();
-        let linear = (Albedo::Linear, StorageConvention::NoColourSpace.into(), Certainty::Unsure);
+        let linear = (Albedo::Linear, Reason::measured(NO_COLOUR_SPACE), Certainty::Unsure);
         return LoadedInput::linear(source, is_undeclared.then_some(linear));
     };
     let encoding = encoding(name);
@@ -189,5 +192,9 @@ fn encoding(name: &str) -> Inferred<Albedo> {
     let is_known = space.is_some();
     let certainty = if is_known { Certainty::Sure } else { Certainty::Unsure };
     let albedo = space.and_then(|space| space.albedo()).unwrap_or(Albedo::Linear);
-    Some((albedo, Reason::ColourSpace { space: name.to_owned(), is_known }, certainty))
+    let why = match is_known {
+        true => Reason::stated(format!("the file declares {name}")),
+        false => Reason::measured(format!("the file declares {name}, which is not known here")),
+    };
+    Some((albedo, why, certainty))
 }

@@ -13,7 +13,7 @@ use svbrdf_core::progress::Progress;
 
 use crate::error::Error;
 use crate::read::options::{Albedo, NormalEncoding, NormalY, ReadOptions, Role};
-use crate::read::record::{Assumption, Certainty, Note, StorageConvention, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, What};
 use crate::read::stored::{
     Field, Inferred, MapsByRole, StoredMap, StoredMaterial, decoded, notice, reflectance, separated,
 };
@@ -47,11 +47,11 @@ impl Mtlx {
         found.is_mapped = true;
         found.inferred.specular = albedo.clone();
         found.inferred.albedo = albedo;
-        let why = || StorageConvention::MaterialXNormals.into();
+        let why = || Reason::stated("MaterialX defines normals in this way");
         found.inferred.normal_y = Some((NormalY::Up, why(), Certainty::Likely));
         found.inferred.normal_encoding = Some((NormalEncoding::Unsigned, why(), Certainty::Likely));
-        let listed = StorageConvention::ListedTextures;
-        found.assumptions.insert(0, Assumption::new(What::Layout, "MaterialX", listed, Certainty::Sure));
+        let layout = Assumption::new(What::Layout, "MaterialX", Reason::LISTED, Certainty::Sure);
+        found.assumptions.insert(0, layout);
         found.notes.extend(surface.clipped());
         found.note_document(self.not_modelled.clone(), self.surfaces.clone());
         notice(&mut found, &pictures, |_| true);
@@ -109,7 +109,8 @@ impl MtlxSurface<'_> {
     /// The encoding of colours that are computed; unsure where that of one of them is.
     fn linear(&self) -> Inferred<Albedo> {
         let doubtful = self.colours.iter().find(|colour| colour.is_doubtful());
-        let known = || Some((Albedo::Linear, StorageConvention::MaterialXSurface.into(), Certainty::Sure));
+        let why = || Reason::stated("computed as the specification of the surface defines it");
+        let known = || Some((Albedo::Linear, why(), Certainty::Sure));
         doubtful.and_then(|colour| colour.encoding.clone()).or_else(known)
     }
 

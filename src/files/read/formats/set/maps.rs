@@ -1,5 +1,7 @@
 //! A set of pictures while its maps are recognized, by names and pixels together.
 
+use std::borrow::Cow;
+
 use super::files::{LabelledFile, Set};
 use crate::error::Error;
 use crate::read::decode;
@@ -7,7 +9,7 @@ use crate::read::names::{Label, is_named_as};
 use crate::read::options::{Albedo, Reflectance, Role};
 use crate::read::raster::Raster;
 use crate::read::raster::measure::{Channels, is_flat, normal_score};
-use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Subject, Unused, What};
+use crate::read::record::{Assumption, Certainty, Note, Reason, Subject, Unused, What};
 use crate::read::stored::{CHANNELS, Field, MapsByRole, StoredHeight, StoredMap};
 
 /// An unlabelled picture is the normal map where this share of its pixels looks like normals.
@@ -37,7 +39,8 @@ impl<'a> PartialSet<'a> {
         self.set.files.files.iter().any(|file| is(file.label.role))
     }
 
-    fn doubt(&mut self, chosen: &str, why: Reason) {
+    fn doubt(&mut self, chosen: &str, why: impl Into<Cow<'static, str>>) {
+        let why = Reason::measured(why);
         self.doubts.push(Assumption::new(What::Layout, chosen, why, Certainty::Unsure));
     }
 
@@ -111,7 +114,8 @@ impl<'a> PartialSet<'a> {
         if label.word != "spec" || !(has("diff") && has("rough")) {
             return label.role;
         }
-        self.doubt("specular is its level", StorageConvention::TextureHavenNames.into());
+        let why = "Texture Haven names the level of specular so, beside diff and rough; F0 is named so, too";
+        self.doubt("specular is its level", why);
         Role::SpecularLevel
     }
 
@@ -165,20 +169,23 @@ impl<'a> PartialSet<'a> {
         let roughness = Field::of(&part(3), Albedo::Linear).complement();
         self.maps.add(Role::Roughness, roughness.into_map(&source.file, "1 - alpha"));
         self.maps.add(Role::Metallic, part(0));
-        let why = Reason::SmoothnessInAlpha { file: source.file };
+        let why = format!(
+            "{} has an alpha that varies, as Unity stores smoothness, and no other file is the roughness",
+            source.file.display()
+        );
         self.doubt("metallic in red, roughness in 1 - alpha", why);
     }
 
     /// A picture that is named after a gray map, and may hold others.
     fn add_gray(&mut self, role: Role, source: StoredMap) {
-        let file = source.file.clone();
         let lacks = |other: Role| !self.has_named(|role| role == other || role.packing().is_some());
         if role == Role::Metallic && source.raster.alpha.is_some() && lacks(Role::Roughness) {
             return self.add_smooth(source);
         }
         let channels = Channels::of(&source.raster);
         if channels != Channels::Gray && normal_score(&source.raster) > NORMAL_ALL_OVER {
-            self.doubt(role.name(), Reason::LooksLikeNormals { map: role, file });
+            let (file, map) = (source.file.display(), role.name());
+            self.doubt(map, format!("{file} looks like normals although it is named after the {map} map"));
             return self.maps.add(role, source);
         }
         let part = |channel: usize, part: &str| {
@@ -199,7 +206,11 @@ impl<'a> PartialSet<'a> {
             _ => (None, None),
         };
         let Some(chosen) = chosen else { return self.maps.add(role, source) };
-        let why = Reason::PackedChannels { map: role, file };
+        let why = format!(
+            "the channels of {} differ although it is named after the {} map",
+            chosen.file.display(),
+            role.name()
+        );
         self.doubt(&format!("{} in {}", role.name(), chosen.part), why.clone());
         self.maps.add(role, chosen);
         if let Some((other, source)) = other {
@@ -219,7 +230,8 @@ impl<'a> PartialSet<'a> {
         };
         let map = StoredMap { raster, file: self.set.path_of(file), part: String::new() };
         self.maps.add(Role::Normal, map);
-        self.doubt(&format!("normal is {file}"), Reason::NormalPixels);
+        let why = "nearly all of its pixels look like normals, and no other file is named as the normal map";
+        self.doubt(&format!("normal is {file}"), why);
         true
     }
 
@@ -247,7 +259,7 @@ impl<'a> PartialSet<'a> {
             && let Some(raster) = decoded(self)
         {
             self.maps.add(Role::Base, map(raster));
-            let why = Reason::NameOfSet { file: file.to_owned() };
+            let why = format!("{file} has the name of the set, and no other file is its colour");
             return self.doubt(&format!("base colour is {file}"), why);
         }
         self.notes.push(Note::Unused { what: file.to_owned(), why: unused });

@@ -10,7 +10,7 @@ use svbrdf_core::progress::Progress;
 use crate::error::Error;
 use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness, Workflow};
 use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score};
-use crate::read::record::{Assumption, Certainty, Note, Reason, StorageConvention, Unused, What};
+use crate::read::record::{Assumption, Certainty, Ground, Note, Reason, Unused, What};
 use crate::read::stored::{
     DecodedPicture, Inferences, Inferred, StoredHeight, StoredMap, StoredMaterial, decoded, written_albedo,
 };
@@ -91,6 +91,10 @@ impl Set {
     }
 }
 
+const MATERIALGAN: Reason =
+    Reason::fixed(Ground::Code, "MaterialGAN and its successors use these names and this encoding");
+const FILLED: &str = "metallic is 1 everywhere, and programs also fill an unused channel so: where the surface is no metal, specify metallic=0";
+
 /// Doubts a channel of metallic that is 1 everywhere: programs fill it so where a factor beside the picture tells it.
 fn doubt_filled_metallic(found: &mut StoredMaterial) {
     let is_filled = |metallic: &StoredMap| {
@@ -98,7 +102,7 @@ fn doubt_filled_metallic(found: &mut StoredMaterial) {
         is_packed && metallic.raster.channels[0].is_all(1.0)
     };
     if found.metallic.as_ref().is_some_and(is_filled) {
-        let why = Reason::FilledMetallic;
+        let why = Reason::measured(FILLED);
         found.assumptions.push(Assumption::new(What::Layout, "metallic 1", why, Certainty::Unsure));
     }
 }
@@ -127,12 +131,12 @@ fn add_hints(found: &mut StoredMaterial, set: &Set, is_glossy: bool) {
     found.inferred = inferred(set);
     found.infer_floats();
     if is_diffmat(&set.files.files, found) {
-        let why = || StorageConvention::DiffMatNames.into();
+        let why = || Reason::measured("DiffMat writes these names and depths, with y down by default");
         found.inferred.albedo = Some((Albedo::Gamma22, why(), Certainty::Likely));
         found.inferred.normal_y = Some((NormalY::Down, why(), Certainty::Unsure));
     }
     if is_glossy {
-        let why = || StorageConvention::SpecularGlossiness.into();
+        let why = || Reason::stated("glTF defines it for specular and glossiness");
         found.inferred.albedo = Some((Albedo::Srgb, why(), Certainty::Sure));
         found.inferred.specular = found.inferred.albedo.clone();
         found.inferred.roughness = Some((Roughness::Gloss, why(), Certainty::Sure));
@@ -143,7 +147,7 @@ fn add_hints(found: &mut StoredMaterial, set: &Set, is_glossy: bool) {
 fn listed_y(set: &Set) -> Inferred<NormalY> {
     let normal = set.files.files.iter().find(|file| file.label.role == Role::Normal)?;
     let document = set.documents.iter().find(|one| one.files.contains(&normal.file))?;
-    let why = Reason::ListedNormals { document: document.name.clone() };
+    let why = Reason::measured(format!("{} lists the map, and its format defines it", document.name));
     Some((document.normal_y?, why, Certainty::Likely))
 }
 
@@ -160,16 +164,18 @@ fn is_diffmat(files: &[LabelledFile], found: &StoredMaterial) -> bool {
 fn inferred(set: &Set) -> Inferences {
     let files = &set.files.files;
     let named = |f: &LabelledFile| {
-        f.label.roughness().map(|r| (r, Reason::FileName { file: f.file.clone() }, Certainty::Sure))
+        Some((f.label.roughness()?, Reason::stated(format!("{} is named so", f.file)), Certainty::Sure))
     };
     let roughness = files.iter().find_map(named);
-    let normal_y = files.iter().find_map(|f| f.label.normal_y.map(|y| (f, y)));
-    let normal_y =
-        normal_y.map(|(f, y)| (y, Reason::NormalName { file: f.file.clone(), y }, Certainty::Sure));
-    let normal_y = normal_y.or_else(|| listed_y(set));
+    let named = |f: &LabelledFile| {
+        let y = f.label.normal_y?;
+        let name = if y == NormalY::Up { "OpenGL" } else { "DirectX" };
+        Some((y, Reason::stated(format!("{} is named {name}", f.file)), Certainty::Sure))
+    };
+    let normal_y = files.iter().find_map(named).or_else(|| listed_y(set));
     let mut inferred = Inferences { roughness, normal_y, ..Inferences::default() };
     if set.word(Role::Normal) == Some("nom") && set.word(Role::Roughness) == Some("rgh") {
-        let why = || StorageConvention::MaterialGanNames.into();
+        let why = || MATERIALGAN;
         inferred.roughness = Some((Roughness::Gamma22, why(), Certainty::Likely));
         inferred.albedo = Some((Albedo::Gamma22, why(), Certainty::Likely));
         inferred.specular = inferred.albedo.clone();
@@ -183,16 +189,18 @@ fn inferred(set: &Set) -> Inferences {
 /// The encoding of a colour by the word that names it.
 fn by_word(set: &Set, word: Option<&str>) -> Inferred<Albedo> {
     let word = word?;
-    let (albedo, why, certainty) = if word == NUMBERED {
-        (Albedo::Gamma22, StorageConvention::NumberedResults, Certainty::Unsure)
+    Some(if word == NUMBERED {
+        let why = "the results of Deschaintre et al. 2020 are numbered in this way";
+        (Albedo::Gamma22, Reason::fixed(Ground::Code, why), Certainty::Unsure)
     } else if word.contains("gammad") {
-        (Albedo::Gamma22, StorageConvention::GammadNames, Certainty::Sure)
+        (Albedo::Gamma22, Reason::stated("the names contain gammad"), Certainty::Sure)
     } else if word.starts_with("outputs") || word.starts_with("targets") {
-        (Albedo::Linear, StorageConvention::DeschaintreNames, Certainty::Likely)
+        let why = "the networks of Deschaintre et al. write these names, linear";
+        (Albedo::Linear, Reason::fixed(Ground::Deschaintre, why), Certainty::Likely)
     } else if set.word(Role::Specular) == Some("specular") && set.has_renderings {
-        (Albedo::Linear, StorageConvention::SurfaceNetFolder, Certainty::Likely)
+        let why = "the data sets of SurfaceNet look like this, and are linear";
+        (Albedo::Linear, Reason::fixed(Ground::Code, why), Certainty::Likely)
     } else {
         return None;
-    };
-    Some((albedo, why.into(), certainty))
+    })
 }
