@@ -2,18 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
-use std::io::Write as _;
 use std::path::Path;
 
-use exr::meta::attribute::Chromaticities;
-use exr::prelude::{
-    AnyChannel, AnyChannels, Compression, Encoding, FlatSamples, Image, ImageAttributes, IntegerBounds,
-    Layer, LayerAttributes, Text, Vec2, WritableImage, f16,
-};
+use exr::prelude::f16;
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageFormat};
 use serde::Deserialize;
-use smallvec::SmallVec;
 use tiff::encoder::{TiffEncoder, colortype};
 
 use super::formula::{Place, values};
@@ -21,7 +15,7 @@ use crate::support::png::{self, Png};
 use crate::support::textures::dds;
 
 /// The side of a picture.
-const SIDE: usize = 16;
+pub(super) const SIDE: usize = 16;
 
 /// A file: in a table a text, which is the formula of a picture or the text of a document, or these.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -35,11 +29,11 @@ pub struct Content {
     /// Characters below 256.
     pub bytes: Option<String>,
     /// Of a tile.
-    size: Option<[usize; 2]>,
+    pub(super) size: Option<[usize; 2]>,
     /// Black texels around each tile.
     borders: usize,
     /// Of a sample: 8 by default, 16, `half` or `float`; `u32` and `i16` of a TIFF; 1 to 16 of a PNG of its own.
-    bits: Option<String>,
+    pub(super) bits: Option<String>,
     /// Of a PNG: `gray`, `palette` or `rgb`; of its chunks the name and content in hexadecimal.
     colour: Option<String>,
     interlaced: bool,
@@ -48,11 +42,11 @@ pub struct Content {
     orientation: Option<String>,
     pages: Option<usize>,
     /// Of an EXR: the place of the data in the display window, and the size of that.
-    at: Option<[i32; 2]>,
-    display: Option<[usize; 2]>,
-    chromaticities: Option<[[f32; 2]; 4]>,
-    parts: bool,
-    compression: String,
+    pub(super) at: Option<[i32; 2]>,
+    pub(super) display: Option<[usize; 2]>,
+    pub(super) chromaticities: Option<[[f32; 2]; 4]>,
+    pub(super) parts: bool,
+    pub(super) compression: String,
     /// Of a DDS: its code of four letters, or the number of its DXGI format, or the words of its pixel format; and its blocks in hexadecimal.
     code: Option<String>,
     blocks: String,
@@ -282,156 +276,6 @@ impl Content {
                 dds(width, height, [32, 4, letters, 0, 0, 0, 0, 0], &hex(&self.blocks))
             }
         }
-    }
-
-    fn exr(&self, path: &Path) {
-        let size = self.size.unwrap_or([SIDE; 2]);
-        let flat = |values: Vec<f64>| match self.bits.as_deref() {
-            Some("uint") => {
-                FlatSamples::U32(values.into_iter().map(|v| (65_535.0 * v).round() as u32).collect())
-            }
-            Some("half") => FlatSamples::F16(values.into_iter().map(f16::from_f64).collect()),
-            _ => FlatSamples::F32(values.into_iter().map(|v| v as f32).collect()),
-        };
-        // Parts with their channels.
-        let mut parts: BTreeMap<String, Vec<AnyChannel<FlatSamples>>> = BTreeMap::new();
-        for one in self.is.split(';').map(str::trim).filter(|one| !one.is_empty()) {
-            let (names, formula) = one.split_once('=').unwrap_or(("", one));
-            let (layer, letters) = names.trim().rsplit_once('.').unwrap_or(("", names.trim()));
-            let texels: Vec<_> = (0..size[0] * size[1])
-                .map(|i| values(formula, Place { x: i % size[0], y: i / size[0], size }))
-                .collect();
-            let letters = match (letters, texels[0].len()) {
-                ("", 1) => "Y",
-                ("", _) => "RGB",
-                _ => letters,
-            };
-            for (c, letter) in letters.chars().enumerate() {
-                let name = if layer.is_empty() || self.parts {
-                    letter.to_string()
-                } else if letter == '*' {
-                    layer.to_owned()
-                } else {
-                    format!("{layer}.{letter}")
-                };
-                let plane = texels.iter().map(|texel| texel[c.min(texel.len() - 1)]).collect();
-                let part =
-                    parts.entry(if self.parts { layer.to_owned() } else { String::new() }).or_default();
-                part.push(AnyChannel::new(Text::new_or_none(name).unwrap(), flat(plane)));
-            }
-        }
-        // Without a compression in tiles.
-        let usual =
-            if self.compression.is_empty() { Encoding::FAST_LOSSLESS } else { Encoding::SMALL_LOSSLESS };
-        let encoding = Encoding { compression: self.compression(), ..usual };
-        let [left, top] = self.at.unwrap_or([0; 2]);
-        let layer = |(name, channels): (String, Vec<AnyChannel<FlatSamples>>)| {
-            let attributes = LayerAttributes {
-                layer_name: if name.is_empty() { None } else { Text::new_or_none(name) },
-                layer_position: Vec2(left, top),
-                ..LayerAttributes::default()
-            };
-            Layer::new(
-                (size[0], size[1]),
-                attributes,
-                encoding,
-                AnyChannels::sort(channels.into_iter().collect()),
-            )
-        };
-        let layers: SmallVec<[Layer<AnyChannels<FlatSamples>>; 2]> = parts.into_iter().map(layer).collect();
-        let [width, height] = self.display.unwrap_or(size);
-        let mut attributes = ImageAttributes::new(IntegerBounds::from_dimensions((width, height)));
-        attributes.chromaticities = self.chromaticities.map(|all| {
-            let [red, green, blue, white] = all.map(|[x, y]| Vec2(x, y));
-            Chromaticities { red, green, blue, white }
-        });
-        Image::from_layers(attributes, layers).write().to_file(path).unwrap();
-    }
-
-    fn compression(&self) -> Compression {
-        match self.compression.as_str() {
-            "" | "none" => Compression::Uncompressed,
-            "rle" => Compression::RLE,
-            "zip" => Compression::ZIP16,
-            "zips" => Compression::ZIP1,
-            "piz" => Compression::PIZ,
-            "pxr24" => Compression::PXR24,
-            "b44" => Compression::B44,
-            "b44a" => Compression::B44A,
-            "dwaa" => Compression::DWAA(None),
-            "dwab" => Compression::DWAB(None),
-            other => panic!("no compression {other}"),
-        }
-    }
-
-    fn npz(&self, path: &Path) {
-        let mut zip = zip::ZipWriter::new(File::create(path).unwrap());
-        for one in self.is.split(';').map(str::trim).filter(|one| !one.is_empty()) {
-            let (head, formula) = one.split_once('=').unwrap();
-            let (name, shape) = head.trim().split_once(' ').unwrap_or((head.trim(), ""));
-            let name = if name.contains('.') { name.to_owned() } else { format!("{name}.npy") };
-            zip.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
-            zip.write_all(&self.array(&format!("{shape} = {formula}"))).unwrap();
-        }
-        zip.finish().unwrap();
-    }
-
-    /// An array of NumPy, as in `16x16x3 f4 = N`.
-    fn array(&self, text: &str) -> Vec<u8> {
-        let (head, formula) = text.split_once('=').unwrap_or(("", text));
-        let (mut shape, mut kind, mut is_planar, mut is_fortran) = (Vec::new(), "f4", false, false);
-        for word in head.split_whitespace() {
-            match word {
-                "-" => {}
-                "planes" => is_planar = true,
-                "fortran" => is_fortran = true,
-                word if word.contains('x') || word.parse::<u64>().is_ok() => {
-                    shape = word.split('x').map(|side| side.parse::<usize>().unwrap()).collect();
-                }
-                other => kind = other,
-            }
-        }
-        if shape.is_empty() && !head.contains('-') {
-            shape = vec![SIDE, SIDE, values(formula, Place { x: 0, y: 0, size: [SIDE; 2] }).len()];
-        }
-        let count: usize = shape.iter().product();
-        let (width, channels) =
-            match shape.iter().skip_while(|side| shape.len() == 4 && **side == 1).collect::<Vec<_>>()[..] {
-                [_, w, c] if !is_planar => (*w, *c),
-                [c, _, w] => (*w, *c),
-                [_, w] => (*w, 1),
-                _ => (1, 1),
-            };
-        let texels = count / channels.max(1);
-        let size = [width, texels / width.max(1)];
-        let value = |i: usize| {
-            // The channels are apart where they come first, or last and the first axis is the fastest.
-            let is_apart = is_planar != is_fortran;
-            let (at, channel) =
-                if is_apart { (i % texels, i / texels) } else { (i / channels, i % channels) };
-            let texel = if is_fortran { at % size[1] * width + at / size[1] } else { at };
-            let of = values(formula, Place { x: texel % width, y: texel / width, size });
-            of[channel.min(of.len() - 1)]
-        };
-        let sides: String = shape.iter().map(|side| format!("{side},")).collect();
-        let order = if kind.starts_with('>') { ">" } else { "<" };
-        let kind = kind.trim_start_matches('>');
-        let fortran = if is_fortran { "True" } else { "False" };
-        let header =
-            format!("{{'descr': '{order}{kind}', 'fortran_order': {fortran}, 'shape': ({sides}), }}");
-        let header = format!("{header:117}\n");
-        let mut file = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
-        file.extend(header.into_bytes());
-        for v in (0..count).map(value) {
-            let bytes = match kind {
-                "f2" => f16::from_f64(v).to_le_bytes().to_vec(),
-                "f4" => (v as f32).to_le_bytes().to_vec(),
-                "f8" => v.to_le_bytes().to_vec(),
-                integer => (v as i64).to_le_bytes()[..integer[1..].parse().unwrap()].to_vec(),
-            };
-            file.extend(if order == ">" { bytes.into_iter().rev().collect() } else { bytes });
-        }
-        file
     }
 }
 
