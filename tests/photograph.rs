@@ -271,6 +271,8 @@ fn the_curve_is_that_of_the_option_of_the_file_or_of_the_kind_of_samples() {
     let floats = npy([2, 3, 3], &[0.25; 18]);
     assert_eq!(of("16.png", &plain, None), (Transfer::Srgb, integers, 0));
     assert_eq!(of("g.png", &declared, None), (Transfer::Linear, "declared by its gAMA chunk", 0));
+    let declared_by_cicp = three_by_two(16, &[(*b"cICP", vec![1, 8, 0, 1])]);
+    assert_eq!(of("c.png", &declared_by_cicp, None), (Transfer::Linear, "declared by its cICP chunk", 0));
     // What the option overrides is said.
     assert_eq!(of("g.png", &declared, srgb), (Transfer::Srgb, specified, 1));
     assert_eq!(of("f.npy", &floats, None), (Transfer::Linear, "since it stores floats", 0));

@@ -68,12 +68,13 @@ pub fn read_photograph(file: &NamedFile, transfer: Option<Transfer>) -> Result<P
     inputs::protect(file.path());
     let chunk = |note: &Note| if let Note::LinearChunk(_, chunk) = note { Some(*chunk) } else { None };
     let declared = notes.iter().find_map(chunk);
-    let (transfer, transfer_from) = match transfer {
-        Some(transfer) => (transfer, "as specified"),
-        None if declared == Some("cICP") => (Transfer::Linear, "declared by its cICP chunk"),
-        None if declared.is_some() => (Transfer::Linear, "declared by its gAMA chunk"),
-        None if raster.is_float() => (Transfer::Linear, "since it stores floats"),
-        None => (Transfer::Srgb, "since it stores integers"),
+    let (transfer, transfer_from) = match (transfer, declared) {
+        (Some(transfer), _) => (transfer, "as specified"),
+        (None, Some("cICP chunk")) => (Transfer::Linear, "declared by its cICP chunk"),
+        (None, Some("QOI header")) => (Transfer::Linear, "declared by its header"),
+        (None, Some(_)) => (Transfer::Linear, "declared by its gAMA chunk"),
+        (None, None) if raster.is_float() => (Transfer::Linear, "since it stores floats"),
+        (None, None) => (Transfer::Srgb, "since it stores integers"),
     };
     if transfer == Transfer::Linear {
         notes.retain(|note| chunk(note).is_none());
