@@ -36,27 +36,29 @@ fn the_cause_that_explains_most_is_the_first_or_is_said_to_explain_more() {
 /// All else is equal, so that no file is read wrongly.
 #[test]
 fn a_factor_on_a_map_is_no_reading() {
-    for (seed, factor) in [(0, 0.4), (1, 0.4), (2, 0.4), (4, 0.7)] {
+    let unknown = Storage::default();
+    let encoded =
+        Storage { colours: Some(Albedo::Srgb), specular: Some(Albedo::Linear), ..Storage::default() };
+    for (seed, factor, specular, storage) in [
+        (0, 0.4, true, &encoded),
+        (1, 0.4, true, &unknown),
+        (4, 0.7, true, &encoded),
+        (0, 0.4, false, &unknown),
+        (1, 0.4, false, &encoded),
+    ] {
         let truth = generated(seed, 48);
-        for specular in [true, false] {
-            let other = with(&truth, |planes| {
-                let map = if specular { &mut planes.specular } else { &mut planes.diffuse };
-                map.iter_mut().flatten().for_each(|value| *value = (*value * factor).min(1.0));
-            });
-            let encoded =
-                Storage { colours: Some(Albedo::Srgb), specular: Some(Albedo::Linear), ..Storage::default() };
-            for storage in [&Storage::default(), &encoded] {
-                let found = found(&truth, &other, [storage; 2]);
-                let hypothesis =
-                    if specular { Hypothesis::SpecularFactor } else { Hypothesis::DiffuseFactor };
-                let marked = marked(&found);
-                let is_right = marked.len() == 1 && marked[0].0 == hypothesis && marked[0].1 > 0.95;
-                // A dielectric of little diffuse is darker in any case.
-                let is_exposure = !specular && marked.len() == 1 && marked[0].0 == Hypothesis::Exposure;
-                let text = sentence(&found, None);
-                assert!(is_right || is_exposure, "{seed}: {text} {found:#?}");
-            }
-        }
+        let other = with(&truth, |planes| {
+            let map = if specular { &mut planes.specular } else { &mut planes.diffuse };
+            map.iter_mut().flatten().for_each(|value| *value = (*value * factor).min(1.0));
+        });
+        let found = found(&truth, &other, [storage; 2]);
+        let hypothesis = if specular { Hypothesis::SpecularFactor } else { Hypothesis::DiffuseFactor };
+        let marked = marked(&found);
+        let is_right = marked.len() == 1 && marked[0].0 == hypothesis && marked[0].1 > 0.95;
+        // A dielectric of little diffuse is darker in any case.
+        let is_exposure = !specular && marked.len() == 1 && marked[0].0 == Hypothesis::Exposure;
+        let text = sentence(&found, None);
+        assert!(is_right || is_exposure, "{seed}: {text} {found:#?}");
     }
 }
 
