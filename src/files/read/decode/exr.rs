@@ -86,7 +86,7 @@ fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
         let size = [part.size.0, part.size.1];
         let data = IntegerBounds::new(part.attributes.layer_position, part.size);
         let comments = part.attributes.comments.map(|text| text.to_string()).unwrap_or_default();
-        decoded.native |= comments.starts_with(NATIVE);
+        let meaning = comments.starts_with(NATIVE).then(|| NATIVE.to_owned());
         let own = part.attributes.layer_name.map(|name| name.to_string()).unwrap_or_default();
         let mut named: BTreeMap<String, NamedSamples> = BTreeMap::new();
         let mut depth = "half";
@@ -115,7 +115,7 @@ fn layers(image: FlatImage, place: DecodedFile<'_>) -> Result<Decoded, Error> {
             let stored = raster.clone();
             let raster = windowed(raster, data, display, &name, &mut decoded.notes);
             let uncropped = (raster.size() != stored.size()).then_some(stored);
-            decoded.layers.push(Layer { name, raster, uncropped, meaning: None });
+            decoded.layers.push(Layer { name, raster, uncropped, meaning: meaning.clone() });
         }
     }
     if decoded.layers.is_empty() {

@@ -75,7 +75,7 @@ pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) ->
 /// # Errors
 /// As [`whole`]; [`Error::BadImage`] where several could be meant.
 pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>), Error> {
-    let Decoded { mut layers, mut notes, meaning, .. } = whole(file, what)?;
+    let Decoded { mut layers, mut notes, .. } = whole(file, what)?;
     let is_named = |layer: &Layer| matches!(what, Subject::Map(role) if Label::of(&layer.name).is_some_and(|label| label.role == role));
     let named: Vec<_> = (0..layers.len()).filter(|at| is_named(&layers[*at])).collect();
     let unnamed = layers.iter().position(|layer| layer.name.is_empty());
@@ -93,8 +93,7 @@ pub(super) fn one(file: &NamedFile, what: Subject) -> Result<(Layer, Vec<Note>),
             return Err(DecodedFile::of(file.path(), what).bad(problem, remedy));
         }
     };
-    let mut chosen = layers.swap_remove(chosen);
-    chosen.meaning = meaning;
+    let chosen = layers.swap_remove(chosen);
     let unused = |layer: Layer| Note::Unused { what: format!("Layer {}", layer.name), why: Unused::NotAMap };
     notes.extend(layers.into_iter().map(unused));
     Ok((chosen, notes))

@@ -101,7 +101,8 @@ fn png(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error>
         decoded.notes.extend(linear.map(|chunk| Note::LinearChunk(place.what, chunk)));
         decoded.notes.extend(other_primaries.map(|chunk| Note::PrimariesChunk(place.what, chunk)));
     }
-    Ok(Decoded { meaning, ..decoded })
+    decoded.layers.iter_mut().for_each(|layer| layer.meaning.clone_from(&meaning));
+    Ok(decoded)
 }
 
 fn pnm(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {

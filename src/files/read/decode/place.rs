@@ -61,6 +61,7 @@ pub(crate) struct Layer {
     pub raster: Raster,
     /// All that is stored, where the picture is another part of the plane.
     pub uncropped: Option<Raster>,
+    /// The order and encoding that this program wrote into it.
     pub meaning: Option<String>,
 }
 
@@ -69,10 +70,6 @@ pub(crate) struct Decoded {
     pub layers: Vec<Layer>,
     /// The number of materials that stand below each other in them, where they are a batch.
     pub batch: Option<usize>,
-    /// Whether this program wrote the file, in its own encoding.
-    pub native: bool,
-    /// The order and encoding that this program wrote into a picture.
-    pub meaning: Option<String>,
     pub notes: Vec<Note>,
 }
 

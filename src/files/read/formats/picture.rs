@@ -8,11 +8,12 @@ use svbrdf_core::progress::Progress;
 use super::packed;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
+use crate::read::decode::exr::NATIVE;
 use crate::read::decode::{self, Decoded, Layer};
 use crate::read::names::{Label, listing};
-use crate::read::options::{Albedo, NormalY, ReadOptions, Role, Roughness};
+use crate::read::options::{Albedo, ReadOptions, Role, Roughness};
 use crate::read::record::{Assumption, Certainty, Note, Reason, Subject, Unused, What};
-use crate::read::stored::{MapsByRole, StoredMap, StoredMaterial};
+use crate::read::stored::{Inferences, MapsByRole, StoredMap, StoredMaterial};
 
 /// A picture that may hold a whole material.
 #[derive(Debug)]
@@ -49,7 +50,7 @@ impl WholePicture {
         options: &ReadOptions,
     ) -> Result<StoredMaterial, Error> {
         let Self { file, refusal } = self;
-        let Decoded { mut layers, mut notes, native, meaning, batch } = decoded;
+        let Decoded { mut layers, mut notes, batch } = decoded;
         if let Some(count) = batch {
             let exemplar = options.exemplar_of(count, file.path())?;
             for Layer { raster, .. } in layers.iter_mut().filter(|layer| layer.raster.height % count == 0) {
@@ -59,9 +60,9 @@ impl WholePicture {
         }
         let found = match layers.pop() {
             Some(only) if layers.is_empty() && !is_named(&only) => {
-                packed::material(file.path(), &only.raster, meaning.as_deref(), options)
+                packed::material(file.path(), &only.raster, only.meaning.as_deref(), options)
             }
-            last => of_layers(file.path(), layers.into_iter().chain(last).collect(), native, options),
+            last => of_layers(file.path(), layers.into_iter().chain(last).collect(), options),
         };
         let mut found = found.map_err(|error| match (error, refusal) {
             (
@@ -93,14 +94,10 @@ fn unused(layer: &str) -> Note {
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where maps are missing, or one is there twice.
-fn of_layers(
-    path: &Path,
-    layers: Vec<Layer>,
-    native: bool,
-    options: &ReadOptions,
-) -> Result<StoredMaterial, Error> {
+fn of_layers(path: &Path, layers: Vec<Layer>, options: &ReadOptions) -> Result<StoredMaterial, Error> {
     let names: Vec<String> = layers.iter().map(name).collect();
     let listed = format!("the layers {}", listing(&names));
+    let is_native = layers.iter().any(|layer| layer.meaning.as_deref() == Some(NATIVE));
     let mut maps = MapsByRole::default();
     let mut notes = Vec::new();
     let mut named: Vec<_> = layers.into_iter().map(|layer| (Label::of(&layer.name), layer)).collect();
@@ -137,12 +134,8 @@ fn of_layers(
     found.assumptions.insert(0, layout);
     notes.append(&mut found.notes);
     found.notes = notes;
-    if native {
-        let why = || Reason::stated("svbrdf wrote the file");
-        found.inferred.albedo = Some((Albedo::Linear, why(), Certainty::Sure));
-        found.inferred.specular = found.inferred.albedo.clone();
-        found.inferred.roughness = Some((Roughness::R, why(), Certainty::Sure));
-        found.inferred.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
+    if is_native {
+        found.inferred = Inferences::stated(Albedo::Linear, Roughness::R, "svbrdf wrote the file");
     } else {
         found.infer_floats();
     }

@@ -22,6 +22,21 @@ pub(crate) struct Inferences {
     pub normal_encoding: Inferred<NormalEncoding>,
 }
 
+impl Inferences {
+    /// Of a format that states these, with y of normals up.
+    pub(crate) fn stated(albedo: Albedo, roughness: Roughness, why: &'static str) -> Self {
+        let why = || Reason::stated(why);
+        let albedo = Some((albedo, why(), Certainty::Sure));
+        Self {
+            specular: albedo.clone(),
+            albedo,
+            roughness: Some((roughness, why(), Certainty::Sure)),
+            normal_y: Some((NormalY::Up, why(), Certainty::Sure)),
+            normal_encoding: None,
+        }
+    }
+}
+
 /// A choice with its reason and certainty, if there is any.
 pub(crate) type Inferred<T> = Option<(T, Reason, Certainty)>;
 

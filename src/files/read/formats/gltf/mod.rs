@@ -10,11 +10,12 @@ use svbrdf_core::progress::Progress;
 
 use crate::disk::open::NamedFile;
 use crate::error::Error;
-use crate::read::options::{Albedo, NormalEncoding, NormalY, ReadOptions, Role, Roughness};
+use crate::read::options::{Albedo, NormalEncoding, ReadOptions, Role, Roughness};
 use crate::read::raster::Raster;
 use crate::read::record::{Assumption, Certainty, Note, Reason, Subject, What};
 use crate::read::stored::{
-    Field, MapsByRole, Picture, StoredMap, StoredMaterial, decoded, notice, reflectance, separated,
+    Field, Inferences, MapsByRole, Picture, StoredMap, StoredMaterial, decoded, notice, reflectance,
+    separated,
 };
 
 use document::Document;
@@ -146,13 +147,12 @@ impl Gltf {
 
 /// Records the encodings of the specification.
 fn specify(found: &mut StoredMaterial, roughness: Roughness, is_linear: bool) {
-    let why = || Reason::stated("the specification of glTF 2.0 defines it");
+    let why = "the specification of glTF 2.0 defines it";
     let albedo = if is_linear { Albedo::Linear } else { Albedo::Srgb };
-    found.inferred.albedo = Some((albedo, why(), Certainty::Sure));
-    found.inferred.specular = found.inferred.albedo.clone();
-    found.inferred.roughness = Some((roughness, why(), Certainty::Sure));
-    found.inferred.normal_y = Some((NormalY::Up, why(), Certainty::Sure));
-    found.inferred.normal_encoding = Some((NormalEncoding::Unsigned, why(), Certainty::Sure));
+    found.inferred = Inferences {
+        normal_encoding: Some((NormalEncoding::Unsigned, Reason::stated(why), Certainty::Sure)),
+        ..Inferences::stated(albedo, roughness, why)
+    };
     let layout = Assumption::new(What::Layout, "glTF", Reason::LISTED, Certainty::Sure);
     found.assumptions.insert(0, layout);
 }
