@@ -155,20 +155,14 @@ choices! {
     DiffMat = "diffmat",
     /// OpenSVBRDF: linear, GGX widths ax and ay.
     OpenSvbrdf = "opensvbrdf",
-    /// glTF 2.0: metallic, base colour sRGB, y up.
+    /// glTF 2.0 and networks that write its maps (CHORD, StableMaterials, MatE): metallic, base colour sRGB, y up.
     Gltf = "gltf",
     /// Poly Haven: as glTF.
     PolyHaven = "polyhaven",
     /// ambientCG: as glTF.
     AmbientCg = "ambientcg",
-    /// Ubisoft CHORD: metallic, base colour sRGB, y up.
-    Chord = "chord",
     /// MaterialPalette: diffuse with gamma 2.2, roughness as it is, y up.
     MaterialPalette = "materialpalette",
-    /// StableMaterials: as glTF, with heights.
-    StableMaterials = "stablematerials",
-    /// MatE: as glTF, with heights.
-    MatE = "mate",
     /// Substance, specular and glossiness: colours sRGB.
     SubstanceSg = "substance-sg",
 }

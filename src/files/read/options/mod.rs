@@ -130,9 +130,7 @@ impl Preset {
             Self::MatFusion => (gamma, Roughness::R, up, None, unscaled),
             Self::DiffMat => (gamma, Roughness::R, Some(NormalY::Down), metallic, None),
             Self::OpenSvbrdf => (linear, Roughness::Anisotropic, up, specular, unscaled),
-            Self::Gltf | Self::Chord | Self::StableMaterials | Self::MatE => {
-                (srgb, Roughness::R, up, metallic, None)
-            }
+            Self::Gltf => (srgb, Roughness::R, up, metallic, None),
             Self::MaterialPalette => (gamma, Roughness::R, up, specular, unscaled),
             Self::PolyHaven | Self::AmbientCg => (srgb, Roughness::R, None, metallic, None),
             Self::SubstanceSg => (srgb, Roughness::Gloss, None, specular, None),
