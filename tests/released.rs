@@ -113,6 +113,24 @@ fn a_method_is_read_as_it_is_stored_and_a_dark_one_is_not_flattered() {
 }
 
 #[test]
+fn a_doubt_is_named_by_what_specifies_it() {
+    let folder = TempDir::new().unwrap();
+    for material in 0..MATERIALS {
+        for (of, level) in [("gt", None), ("ours", Some(1.0))] {
+            let path = folder.path().join(of).join(name(material));
+            strip(&path, [0, SIDE], |at| texel(material, at, SRGB, level));
+        }
+    }
+    let doubts = |reading| report(folder.path(), "gt", reading, None).doubts();
+    let both = "6 of 6 with unsure albedo=srgb; 6 of 6 with unsure specular-albedo=srgb";
+    assert_eq!(
+        doubts(DatasetReading::default()),
+        ["ground truths", "ours"].map(|of| format!("{of}: {both}"))
+    );
+    assert_eq!(doubts(stated(Albedo::Srgb, Albedo::Srgb)), [""; 0]);
+}
+
+#[test]
 fn crops_and_names_of_a_method_are_found() {
     let folder = TempDir::new().unwrap();
     let (at, side) = (4, SIDE - 8);

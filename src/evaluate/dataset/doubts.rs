@@ -60,7 +60,7 @@ impl ReadingSummary {
         Self { materials: read, doubts }
     }
 
-    /// `ours: 3 of 3 without normal map; 2 of 3 with unsure specular`, where anything is in doubt.
+    /// `ours: 3 of 3 without normal map; 2 of 3 with unsure albedo=srgb`, where anything is in doubt.
     pub fn line(&self, name: &str) -> Option<String> {
         let part = |DoubtCount { doubt, materials }: &DoubtCount| {
             format!("{materials} of {} {doubt}", self.materials)

@@ -11,7 +11,7 @@ pub(super) const MASK: &str = "with an alpha that looks like a mask (--mask alph
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Remark {
-    /// What the number of materials with remarks like it is of, such as "without normal map" or "unsure specular"; `None` for a remark
+    /// What the number of materials with remarks like it is of, such as "without normal map" or "with unsure albedo=srgb"; `None` for a remark
     /// on nothing that is in doubt.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub doubt: Option<String>,
@@ -44,6 +44,8 @@ fn of_assumption(assumption: &Assumption) -> Option<String> {
         What::Missing => format!("without {map} map"),
         What::Size => "with resized maps".to_owned(),
         What::Values => "with changed values".to_owned(),
-        what => format!("with unsure {}", what.name()),
+        What::Layout => "with unsure layout".to_owned(),
+        // As `--read` takes it.
+        what => format!("with unsure {}={}", what.key().unwrap_or(what.name()), assumption.chosen),
     })
 }
