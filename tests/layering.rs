@@ -29,7 +29,7 @@ const LAYERS: [&[&str]; 22] = [
     &["evaluate"],
     &["page"],
     &["gpu"],
-    &["viewer/error"],
+    &["viewer/error", "viewer/message"],
     &["viewer/model"],
     &["viewer/jobs"],
     &["viewer"],

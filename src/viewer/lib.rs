@@ -9,6 +9,7 @@ pub mod files;
 pub mod frame;
 pub mod jobs;
 pub mod loss;
+pub mod message;
 pub mod model;
 pub mod pane;
 pub mod photograph;

@@ -104,14 +104,9 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
 fn a_pane_in_false_colours_has_a_scale_and_differences_have_that_of_the_legend() {
     let mut window = with_differences();
     let scales = |window: &Window<'_>| {
-        let parts = &window.state().parts;
-        let displayed = svbrdf_viewer::jobs::displayed::Displayed::of(&parts.model, &parts.jobs);
-        let scenery = svbrdf_viewer::pane::scenery::Scenery::new(&window.ctx, displayed);
-        let contents = scenery.contents();
-        contents
-            .into_iter()
-            .map(|one| svbrdf_viewer::pane::scale::has_scale(&scenery, one))
-            .collect::<Vec<_>>()
+        let displayed = window.displayed();
+        let has_scale = |one| svbrdf_viewer::pane::scale::has_scale(&displayed, one);
+        displayed.contents().into_iter().map(has_scale).collect::<Vec<_>>()
     };
     assert_eq!(scales(&window), [false; 3], "the legend has the colours");
     press(&mut window, egui::Key::D);
@@ -137,7 +132,7 @@ fn settle(window: &mut Window<'_>) -> [Vec<f32>; 2] {
     let expected = flips(window);
     let statistics = expected.each_ref().map(|map| Statistics::of(map));
     wait(window, "the FLIP of this scene", |app| {
-        app.difference_statistics().is_some_and(|found| *found == statistics)
+        app.difference_statistics().is_some_and(|found| found == statistics)
     });
     expected
 }

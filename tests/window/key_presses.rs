@@ -64,7 +64,7 @@ fn holding_g_shows_the_ground_truth_everywhere_and_x_swaps_the_sides() {
 #[test]
 fn the_page_of_the_window_lists_every_key() {
     let page = include_str!("../../docs/window.md");
-    let missing: Vec<_> = keys::HELP
+    let missing: Vec<_> = actions::HELP
         .iter()
         .flat_map(|(_, lines)| *lines)
         .filter(|line| !page.contains(&format!("| {} | {} |", line.keys, line.effect)))

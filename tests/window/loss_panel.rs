@@ -2,9 +2,6 @@
 
 use svbrdf_core::loss::{Loss, Sampling};
 
-use svbrdf_viewer::jobs::displayed::Displayed;
-use svbrdf_viewer::pane::scenery::Scenery;
-
 use super::*;
 
 /// What the core gives for the built-in predictions.
@@ -183,9 +180,8 @@ fn of_many_predictions_every_one_is_reached_by_keys_and_named_by_what_differs() 
         assert_eq!(window.view().display.prediction, expected);
     }
     assert!(has(&window, "4  \u{2026}003"), "names end with what differs");
-    let parts = &window.state().parts;
-    let scenery = Scenery::new(&window.ctx, Displayed::of(&parts.model, &parts.jobs));
-    let titles: Vec<_> = scenery.contents().into_iter().map(|one| scenery.name_of(one, 9)).collect();
+    let displayed = window.displayed();
+    let titles: Vec<_> = displayed.contents().into_iter().map(|one| displayed.name_of(one, 9)).collect();
     assert_eq!(titles[0], "GROUND TRUTH  gt");
     assert!((1..15).all(|i| titles[i] == format!("{i}  \u{2026}{:03}", i - 1)), "so do titles: {titles:?}");
 }

@@ -8,15 +8,19 @@ use svbrdf_evaluate::diagnose::Diagnosis;
 use svbrdf_evaluate::photograph::PhotographComparison;
 use svbrdf_evaluate::why::{Attribution, RankedScene, Worst};
 use svbrdf_viewer::frame::App;
-use svbrdf_viewer::jobs::Jobs;
 use svbrdf_viewer::jobs::answers::content::ComparedPair;
-use svbrdf_viewer::jobs::why::MOST_THUMBNAILS;
-use svbrdf_viewer::jobs::why::questions::{
-    Attribute, DrawScenes, FindWorst, RankScenes, SceneLosses, known_diagnosis,
-};
+use svbrdf_viewer::jobs::{Jobs, Shown};
+use svbrdf_viewer::loss::losses::DrawnLosses;
+use svbrdf_viewer::message::Message;
 use svbrdf_viewer::model::Model;
-use svbrdf_viewer::model::message::Message;
+use svbrdf_viewer::model::material::loaded::LoadedMaterial;
 use svbrdf_viewer::model::view::ViewState;
+use svbrdf_viewer::pane::displayed::Displayed;
+use svbrdf_viewer::why::SceneLosses;
+use svbrdf_viewer::why::diagnosis::known_diagnosis;
+use svbrdf_viewer::why::maps::Attribute;
+use svbrdf_viewer::why::scenes::{DrawScenes, FindWorst, RankScenes};
+use svbrdf_viewer::why::thumbnails::MOST;
 
 /// What the tests read of a window.
 pub trait Observed {
@@ -38,48 +42,59 @@ pub trait Observed {
         &self.app().parts.jobs
     }
 
+    /// What a panel draws, and what it asks.
+    fn shown(&self) -> Shown<'_> {
+        Shown { model: self.model(), jobs: self.jobs() }
+    }
+
+    /// What the panes display.
+    fn displayed(&self) -> Displayed<'_> {
+        self.app().parts.displayed()
+    }
+
     /// The ground truth and the chosen prediction.
     fn pair(&self) -> Option<ComparedPair> {
         ComparedPair::of(&self.model().materials.all, self.view())
     }
 
     /// The losses of the predictions, once they are complete for the current materials and settings.
-    fn losses(&self) -> Option<&[Loss]> {
-        self.jobs().loss.complete()
+    fn losses(&self) -> Option<Vec<Loss>> {
+        DrawnLosses::ask(self.shown()).complete().map(<[Loss]>::to_vec)
     }
 
     /// The statistics of each prediction's difference in the panes, once they are up to date.
-    fn difference_statistics(&self) -> Option<&[Option<Statistics>]> {
-        Some(&self.difference_distributions()?.statistics)
+    fn difference_statistics(&self) -> Option<Vec<Option<Statistics>>> {
+        Some(self.difference_distributions()?.statistics)
     }
 
     /// The statistics, histograms and automatic range of the difference in the panes, once they are up to date.
-    fn difference_distributions(&self) -> Option<&Distributions> {
-        let (distributions, current) = self.app().parts.displayed().distributions()?;
-        current.then_some(distributions)
+    fn difference_distributions(&self) -> Option<Distributions> {
+        let displayed = self.displayed();
+        let (distributions, current) = displayed.distributions()?;
+        current.then(|| distributions.clone())
     }
 
     /// The difference that has the last colour.
     fn difference_range(&self) -> f64 {
-        self.app().parts.displayed().range()
+        self.displayed().range()
     }
 
     /// Every material against the photograph, where the panes compare with one and it is there.
-    fn against_photograph(&self) -> Option<&[PhotographComparison]> {
-        self.app().parts.displayed().photographs().map(|all| all.comparisons.as_slice())
+    fn against_photograph(&self) -> Option<Vec<PhotographComparison>> {
+        self.displayed().photographs().map(|all| all.comparisons.clone())
     }
 
     /// What the panes show, the ground truth first: the materials, or a mixture in the place of one.
-    fn displayed_materials(&self) -> Vec<(&str, &Material<f32>)> {
-        self.jobs().panes.displayed.iter().map(|one| (one.name(), one.material())).collect()
+    fn displayed_materials(&self) -> Vec<(String, Material<f32>)> {
+        let named = |one: &LoadedMaterial| (one.name().to_owned(), one.material().clone());
+        self.displayed().materials().iter().map(named).collect()
     }
 
     /// The latest losses of the predictions in one scene, and whether it is the current one.
     fn scene_losses(&self) -> Option<(Vec<f64>, bool)> {
         let (all, answers) = (&self.model().materials.all, &self.jobs().answers);
-        let wanted = SceneLosses::of(all, self.view())?;
-        let (latest, losses) = answers.latest(|one: &SceneLosses| one.materials == wanted.materials)?;
-        Some((losses.to_vec(), latest == wanted))
+        let (losses, is_current) = answers.drawn(&SceneLosses::of(all, self.view())?)?;
+        Some((losses.to_vec(), is_current))
     }
 
     /// The diagnosis of the chosen prediction, after the floor of the ground truth.
@@ -98,7 +113,7 @@ pub trait Observed {
     fn listed_scenes(&self) -> Option<(Vec<RankedScene>, Vec<Vec<f32>>)> {
         let (pair, scenes) = (self.pair()?, self.model().settings.loss.listed_scenes());
         let list = self.jobs().answers.known(&RankScenes { pair: pair.clone(), scenes })?;
-        let scenes = list.iter().take(MOST_THUMBNAILS).map(|ranked| ranked.scene).collect();
+        let scenes = list.iter().take(MOST).map(|ranked| ranked.scene).collect();
         let thumbnails = self.jobs().answers.known(&DrawScenes { pair, scenes })?;
         Some((list.to_vec(), thumbnails.pixels.clone()))
     }

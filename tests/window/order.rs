@@ -3,7 +3,7 @@
 use svbrdf_core::loss::Comparison;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_evaluate::robust::RobustReport;
-use svbrdf_viewer::jobs::order::PredictionOrder;
+use svbrdf_viewer::loss::order::PredictionOrder;
 
 use super::*;
 
@@ -11,9 +11,8 @@ const TITLE: &str = "Does the order survive?";
 
 /// The answer, of the convention of now.
 fn report(app: &App) -> Option<RobustReport> {
-    let convention = app.view().convention();
-    let of_now = |one: &PredictionOrder| one.convention == convention;
-    app.jobs().answers.latest(of_now).map(|(_, report)| report.answer.clone())
+    let known = app.jobs().answers.known(&PredictionOrder::of(app.model()));
+    known.map(|report| report.answer.clone())
 }
 
 #[needs(adapter)]

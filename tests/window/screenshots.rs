@@ -2,7 +2,8 @@
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf_viewer::jobs::dataset::summary::Summarize;
+use svbrdf_viewer::dataset::cells::Cell;
+use svbrdf_viewer::dataset::{losses, pictures, summary};
 
 use super::materials::{SIDE, sample};
 use super::*;
@@ -105,17 +106,16 @@ fn the_picture_of_a_data_set() {
     }
     let mut window = sized();
     drop_files(&mut window, sets.each_ref().map(|(name, _)| folder.path().join(name)));
-    wait(&mut window, "all losses", |app| app.jobs().dataset.losses.count() == 9);
+    wait(&mut window, "all losses", |app| losses::ask(app.shown()).count() == 9);
     tab(&mut window, "Methods");
     click(&mut window, "Light and view");
     window.key_press(egui::Key::S);
     window.run_steps(4);
     edit(&mut window, |model| model.dataset.set_cell(142.0));
-    wait(&mut window, "the summary", |app| app.jobs().answers.latest(|_: &Summarize| true).is_some());
-    let cell = svbrdf_viewer::jobs::dataset::cells::Cell { case: 4, column: 2 };
+    wait(&mut window, "the summary", |app| summary::drawn(app.shown()).is_some());
+    let cell = Cell { case: 4, column: 2 };
     wait(&mut window, "the cells", |app| {
-        svbrdf_viewer::jobs::dataset::sheet::DrawSheet::latest(&app.parts.jobs.answers)
-            .is_some_and(|sheet| sheet.part(cell).is_some())
+        pictures::latest(app.shown()).is_some_and(|sheet| sheet.part(cell).is_some())
     });
     rest(&mut window, 40);
     write(&mut window, "dataset.jpg");

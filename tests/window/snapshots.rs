@@ -118,7 +118,7 @@ fn dialogs_menu_and_small_windows_have_the_words_of_the_snapshots() {
     let mut window = settled(vec2(900.0, 600.0));
     press(&mut window, egui::Key::B);
     window.run_steps(20);
-    for (name, open) in [("open", keys::OPEN), ("save", keys::SAVE)] {
+    for (name, open) in [("open", actions::OPEN), ("save", actions::SAVE)] {
         edit(&mut window, open);
         window.run_steps(8);
         assert_snapshot(&window, name);

@@ -1,7 +1,7 @@
 //! Light and view: what the mouse grabs, what stays in sight, what small windows show.
 
 use super::*;
-use svbrdf_viewer::jobs::reading::upload::Uploaded;
+use svbrdf_viewer::model::material::textures::Uploaded;
 
 #[needs(adapter)]
 fn the_wipe_line_wins_over_the_handle_of_the_view() {
@@ -87,9 +87,10 @@ fn a_material_for_which_there_is_no_room_is_displayed_reduced_with_a_badge_and_i
     assert_eq!(badges(&window), 0);
     let parts = &mut window.state_mut().parts;
     let gpu = &parts.gpu.as_ref().unwrap().gpu;
-    let first = &parts.model.materials.all[0];
-    let uploaded = Uploaded::too_large(gpu, first.material());
-    parts.jobs.uploads.insert(first.id(), Arc::new(uploaded));
+    let first = &mut parts.model.materials.all[0];
+    let mut read = first.read.part(first.material().clone(), None);
+    read.uploaded = Some(Uploaded::too_large(gpu, read.material()));
+    first.read = Arc::new(read);
     window.run_steps(6);
     assert_eq!(badges(&window), 3, "all panes are reduced alike");
     let after = pixels(&mut window, rect);

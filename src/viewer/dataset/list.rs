@@ -1,13 +1,16 @@
 //! List of materials: a row each with name and the losses of the methods.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, WidgetInfo, pos2, vec2};
 
 use egui_material_icons::icons;
 
+use crate::dataset::losses::DatasetLosses;
 use crate::dataset::rows::{Rows, chosen_method, lines, texts};
-use crate::jobs::displayed::Displayed;
+use crate::jobs::Shown;
+use crate::jobs::answers::Answered;
 use crate::model::dataset::list::{CaseLosses, Filter, ListView, Order};
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::material::loaded::drawable;
@@ -27,9 +30,10 @@ const MOST_BARS: usize = 12;
 /// The list at the left of the panes.
 #[derive(Debug)]
 pub struct MaterialsDrawer<'a> {
-    pub displayed: Displayed<'a>,
+    pub shown: Shown<'a>,
     pub open: &'a OpenDataset,
     pub rows: &'a Rows,
+    pub losses: Arc<Answered<DatasetLosses>>,
     /// The rows in sight.
     pub in_sight: &'a mut Range<usize>,
     pub scrolled_to: &'a mut Option<usize>,
@@ -88,11 +92,10 @@ impl MaterialsDrawer<'_> {
     /// How many are listed, and how many losses are there.
     fn counts(&self) -> String {
         let (listed, all) = (self.rows.cases.len(), self.open.cases.len());
-        let losses = &self.displayed.jobs.dataset.losses;
         let noun = self.open.noun();
         let materials =
             if listed == all { format!("{all} {noun}s") } else { format!("{listed} of {all} {noun}s") };
-        match losses.count() {
+        match self.losses.count() {
             known if known < all => format!("{materials}, losses of {known}"),
             _ => materials,
         }
@@ -121,11 +124,11 @@ impl MaterialsDrawer<'_> {
 
     /// What is known of the material in the window that is not in its panes, and what a person has noted.
     fn card(&self, ui: &mut egui::Ui, next: &mut DatasetState) {
-        let dataset = &self.displayed.model.dataset;
+        let dataset = &self.shown.model.dataset;
         let name = self.open.name(dataset.wanted);
         let mark = dataset.mark(name).cloned().unwrap_or_default();
         ui.separator();
-        for note in &self.displayed.jobs.dataset.losses.notes {
+        for note in &self.losses.notes {
             let label = egui::Label::new(RichText::new(note).small().color(ui.visuals().warn_fg_color));
             ui.add(label.truncate()).on_hover_text(note);
         }
@@ -154,7 +157,7 @@ impl MaterialsDrawer<'_> {
 
     fn list(&mut self, ui: &mut egui::Ui, next: &mut DatasetState) {
         let height = self.row_height();
-        let wanted = self.displayed.model.dataset.wanted;
+        let wanted = self.shown.model.dataset.wanted;
         let spacing = ui.spacing().item_spacing.y;
         if self.rows.cases.is_empty() {
             *self.in_sight = 0..0;
@@ -192,7 +195,7 @@ impl MaterialsDrawer<'_> {
 
     fn row(&mut self, ui: &mut egui::Ui, row: usize, next: &mut DatasetState) {
         let Some((case, ahead)) = self.rows.at(row) else { return };
-        let (dataset, jobs) = (&self.displayed.model.dataset, &self.displayed.jobs.dataset);
+        let dataset = &self.shown.model.dataset;
         let name = self.open.name(case);
         let (rect, response) =
             ui.allocate_exact_size(vec2(ui.available_width(), self.row_height()), Sense::click());
@@ -209,7 +212,7 @@ impl MaterialsDrawer<'_> {
         let text = format!("{}{mark}", drawable(name));
         let painter = ui.painter().with_clip_rect(right.intersect(ui.clip_rect()));
         painter.text(right.min, Align2::LEFT_TOP, text, FontId::proportional(13.0), visuals.text_color());
-        let losses = jobs.losses.row(case);
+        let losses = self.losses.row(case);
         let bars = Rect::from_min_max(pos2(right.left(), right.top() + NAME), right.max);
         self.paint_bars(ui, bars, case, losses);
         let response = match losses {
@@ -224,8 +227,8 @@ impl MaterialsDrawer<'_> {
     /// A bar a method in its colour with its loss, from the same zero to the same largest loss in every row.
     fn paint_bars(&self, ui: &egui::Ui, area: Rect, case: usize, losses: Option<&CaseLosses>) {
         let Some(losses) = losses else { return };
-        let largest = self.displayed.jobs.dataset.losses.largest.max(f64::MIN_POSITIVE);
-        let chosen = chosen_method(self.displayed);
+        let largest = self.losses.largest.max(f64::MIN_POSITIVE);
+        let chosen = chosen_method(self.shown);
         let of_predictions = self.open.is_of_predictions();
         let texts = texts(losses);
         let (font, painter) = (FontId::monospace(10.5), ui.painter());

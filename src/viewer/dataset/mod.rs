@@ -1,33 +1,29 @@
 //! Data set: the list of its materials, the contact sheet and the summary of its methods.
 
+pub mod cases;
+pub mod cells;
 pub mod list;
+pub mod losses;
+pub mod opening;
+pub mod pictures;
 pub mod rows;
 pub mod sheet;
+pub mod summary;
 
-use eframe::egui::{self, RichText};
-
-use svbrdf_evaluate::report::{Reader, Report as _};
+use eframe::egui;
 
 use crate::dataset::list::MaterialsDrawer;
 use crate::dataset::rows::Rows;
 use crate::dataset::sheet::ContactSheet;
-use crate::jobs::Jobs;
-use crate::jobs::dataset::summary::Summarize;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::order::MethodOrder;
-use crate::loss::order;
+use crate::jobs::{Jobs, Shown};
 use crate::model::Model;
-use crate::model::material::loaded::drawable;
-use crate::widgets::numbers::significant;
+use crate::widgets::bare;
 use crate::widgets::paint::PanelTextures;
-use crate::widgets::{bare, copy_table, report_table};
 
 /// The list and the sheet between frames.
 #[derive(Debug, Default)]
 pub struct DatasetUi {
     rows: Rows,
-    /// The materials that the last frame had in sight.
-    pub cases_in_sight: Vec<usize>,
     /// The first row of the list in sight, and how many are.
     in_sight: std::ops::Range<usize>,
     /// The material that the list has scrolled to.
@@ -37,7 +33,7 @@ pub struct DatasetUi {
 impl DatasetUi {
     /// Goes to another material of the list, or to another prediction without one, by the keys of pages and arrows.
     pub fn turn_pages(&mut self, ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
-        self.rows.follow(Displayed::of(model, jobs));
+        self.rows.follow(Shown { model, jobs });
         if ctx.text_edit_focused() {
             return;
         }
@@ -65,47 +61,49 @@ impl DatasetUi {
     }
 
     /// The name of the window: which material is shown, and where it is in the list.
-    pub fn title(&self, displayed: Displayed<'_>) -> Option<String> {
-        let dataset = &displayed.model.dataset;
+    pub fn title(&self, model: &Model) -> Option<String> {
+        let dataset = &model.dataset;
         let (open, shown) = (dataset.open.as_ref()?, dataset.shown?);
         let place = self.rows.row(shown).map(|row| format!(" ({} of {})", row + 1, self.rows.cases.len()));
         Some(format!("{}{}", open.name(shown), place.unwrap_or_default()))
     }
 
     /// The list, at the left.
-    pub fn drawer(&mut self, ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+    pub fn drawer(&mut self, ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
         self.rows.follow(shown);
-        self.cases_in_sight.clear();
         let dataset = &shown.model.dataset;
+        dataset.in_sight.set(&[dataset.wanted]);
         let Some(open) = dataset.open.as_deref().filter(|_| dataset.list.is_open) else { return };
         // In a narrow window the panes keep most of the room.
         let width = (0.24 * ui.ctx().content_rect().width()).clamp(160.0, 250.0);
         let panel = bare(egui::Panel::left("materials"), ui).default_size(width).size_range(150.0..=560.0);
         panel.show(ui, |ui| {
             let mut drawer = MaterialsDrawer {
-                displayed: shown,
+                shown,
                 open,
+                losses: losses::ask(shown),
                 rows: &self.rows,
                 in_sight: &mut self.in_sight,
                 scrolled_to: &mut self.scrolled_to,
             };
             drawer.ui(ui, &mut next.dataset);
         });
-        self.cases_in_sight.extend(self.rows.cases.get(self.in_sight.clone()).unwrap_or_default());
+        let in_sight = self.rows.cases.get(self.in_sight.clone()).unwrap_or_default();
+        dataset.in_sight.set(&[&[dataset.wanted], in_sight].concat());
     }
 
     /// The contact sheet, in place of the panes; false where it is closed.
     pub fn sheet(
         &mut self,
         ui: &mut egui::Ui,
-        displayed: Displayed<'_>,
+        shown: Shown<'_>,
         next: &mut Model,
         textures: &mut PanelTextures,
     ) -> bool {
-        let dataset = &displayed.model.dataset;
+        let dataset = &shown.model.dataset;
         let Some(open) = dataset.open.as_ref().filter(|_| dataset.sheet.is_open) else { return false };
-        let in_sight = &mut self.cases_in_sight;
-        ContactSheet { displayed, open, rows: &self.rows, textures, in_sight }.ui(ui, next);
+        let (rows, losses) = (&self.rows, losses::ask(shown));
+        ContactSheet { shown, open, rows, losses, textures }.ui(ui, next);
         true
     }
 }
@@ -125,42 +123,4 @@ fn steps(ctx: &egui::Context) -> isize {
     let most = isize::MAX / 4;
     let ends = pressed(Modifiers::NONE, Key::End) - pressed(Modifiers::NONE, Key::Home);
     pages + tabs + arrows + most * ends
-}
-
-/// The summary of a data set: what `svbrdf rank --dataset` prints.
-pub fn summary(ui: &mut egui::Ui, displayed: Displayed<'_>, next: &mut Model) {
-    let Some(open) = displayed.model.dataset.open.as_ref() else { return };
-    let (answers, losses) = (&displayed.jobs.answers, &displayed.jobs.dataset.losses);
-    if open.is_of_predictions() {
-        for (one, loss) in displayed.model.materials.predictions().iter().zip(displayed.losses()) {
-            let loss = loss.map_or_else(|| "...".to_owned(), |loss| significant(&loss).join("  "));
-            ui.label(format!("{}  {}  {loss}", one.slot, one.name()));
-        }
-        let accuracy = open.settings.scenes.description(open.settings.seed);
-        ui.label(RichText::new(accuracy).small().weak());
-        return;
-    }
-    let Some(report) = Summarize::drawn(open, losses, answers) else {
-        ui.weak("No loss is known yet.");
-        return;
-    };
-    let (known, all) = (losses.count(), open.cases.len());
-    if known < all {
-        let bar = egui::ProgressBar::new(known as f32 / all as f32);
-        ui.add(bar.text(format!("losses of {known} of {all} materials")));
-    }
-    ui.horizontal(|ui| {
-        copy_table(ui, || report.text());
-        if ui.small_button("LaTeX").on_hover_text("Copies the table for a paper").clicked() {
-            ui.copy_text(report.latex());
-        }
-    });
-    report_table(ui, &report.table(Reader::Person));
-    for condition in report.conditions() {
-        ui.label(RichText::new(drawable(&condition)).small().weak());
-    }
-    if open.methods().len() > 1 {
-        let (open, settings, read_again) = (open.clone(), losses.settings(open), losses.read_again);
-        order::fold(ui, &mut next.asks_order, || answers.get(&MethodOrder { open, settings, read_again }));
-    }
 }

@@ -2,7 +2,8 @@
 
 use svbrdf_evaluate::dataset::KnownLoss;
 
-use crate::jobs::displayed::Displayed;
+use crate::dataset::losses;
+use crate::jobs::Shown;
 use crate::model::dataset::list::{CaseLosses, Listed};
 use crate::model::material::loaded::drawable;
 use crate::widgets::numbers::{means, significant};
@@ -16,8 +17,8 @@ pub struct Rows {
 
 impl Rows {
     /// Sorts and filters.
-    pub fn follow(&mut self, displayed: Displayed<'_>) {
-        let (dataset, losses) = (&displayed.model.dataset, &displayed.jobs.dataset.losses);
+    pub fn follow(&mut self, shown: Shown<'_>) {
+        let (dataset, losses) = (&shown.model.dataset, losses::ask(shown));
         let Some(open) = &dataset.open else {
             *self = Self::default();
             return;
@@ -65,8 +66,8 @@ pub fn lines(losses: &CaseLosses, methods: &[String]) -> String {
 }
 
 /// The chosen method: that of the chosen prediction, or the one that was chosen before the material in the window.
-pub fn chosen_method(displayed: Displayed<'_>) -> Option<&str> {
-    let model = displayed.model;
+pub fn chosen_method(shown: Shown<'_>) -> Option<&str> {
+    let model = shown.model;
     let chosen = model.materials.predictions().get(model.view.display.prediction);
     let is_here = model.dataset.shown.is_some();
     chosen.filter(|_| is_here).map(|one| one.material().name()).or(model.dataset.method.as_deref())

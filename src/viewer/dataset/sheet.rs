@@ -12,13 +12,14 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::text::line;
 
+use crate::dataset::cells::{Cell, ReadRow, Reduced};
 use crate::dataset::list::MARK;
+use crate::dataset::losses::DatasetLosses;
+use crate::dataset::pictures::{self, DrawSheet, SheetPicture, SheetRow};
 use crate::dataset::rows::{Rows, chosen_method, texts};
+use crate::dataset::summary;
+use crate::jobs::Shown;
 use crate::jobs::answers::Answered;
-use crate::jobs::dataset::cells::{Cell, ReadRow, Reduced};
-use crate::jobs::dataset::sheet::{DrawSheet, SheetPicture, SheetRow};
-use crate::jobs::dataset::summary::Summarize;
-use crate::jobs::displayed::Displayed;
 use crate::model::dataset::OpenDataset;
 use crate::model::dataset::list::Order;
 use crate::model::material::loaded::drawable;
@@ -54,16 +55,16 @@ impl Drawn {
 /// The sheet in the place of the panes.
 #[derive(Debug)]
 pub struct ContactSheet<'a> {
-    pub displayed: Displayed<'a>,
+    pub shown: Shown<'a>,
     pub open: &'a Arc<OpenDataset>,
     pub rows: &'a Rows,
+    pub losses: Arc<Answered<DatasetLosses>>,
     pub textures: &'a mut PanelTextures,
-    pub in_sight: &'a mut Vec<usize>,
 }
 
 impl ContactSheet<'_> {
     pub fn ui(&mut self, ui: &mut egui::Ui, next: &mut Model) {
-        let cell = self.displayed.model.dataset.sheet.cell;
+        let cell = self.shown.model.dataset.sheet.cell;
         let area = ui.available_rect_before_wrap();
         let over = area.with_min_x(area.left() + NAMES);
         let is_over = ui.input(|i| i.pointer.hover_pos().is_some_and(|at| over.contains(at)));
@@ -92,16 +93,16 @@ impl ContactSheet<'_> {
 
     /// What is drawn of these rows, which are asked for from the first on.
     fn drawn(&mut self, pixels: usize, rows: Range<usize>) -> Drawn {
-        let (jobs, model) = (self.displayed.jobs, self.displayed.model);
+        let Shown { model, jobs } = self.shown;
         let cases = self.rows.cases.get(rows).unwrap_or_default();
-        self.in_sight.extend(cases);
-        let read_again = jobs.dataset.losses.read_again;
+        model.dataset.in_sight.set(&[&[model.dataset.wanted], cases].concat());
         let read = |case: &usize| {
-            let row = ReadRow::of(self.open, *case, pixels, read_again);
+            let row = ReadRow::of(self.open, *case, pixels, model.dataset.version(*case));
             Some((*case, jobs.answers.get(&row).ready()?))
         };
         let rows: Vec<SheetRow> = cases.iter().filter_map(read).collect();
-        let pictures = DrawSheet::of(rows.clone(), &model.view).drawn(&jobs.answers);
+        let pictures = jobs.answers.drawn(&DrawSheet::of(rows.clone(), &model.view));
+        let pictures = pictures.map(|(pictures, _)| pictures);
         Drawn { rows, pictures }
     }
 
@@ -109,12 +110,11 @@ impl ContactSheet<'_> {
     fn head(&self, ui: &mut egui::Ui, cell: f32, next: &mut Model) {
         let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
         self.legend(ui, rect.with_max_x(rect.left() + NAMES).with_max_y(rect.top() + 0.5 * HEAD));
-        let jobs = self.displayed.jobs;
-        let report = Summarize::drawn(self.open, &jobs.dataset.losses, &jobs.answers);
+        let report = summary::drawn(self.shown);
         let methods: Vec<&str> = self.open.methods().iter().map(String::as_str).collect();
         let all = Names::new(&methods);
         let font = FontId::proportional(12.0);
-        let chosen = chosen_method(self.displayed);
+        let chosen = chosen_method(self.shown);
         for column in 0..=methods.len() {
             let left = rect.left() + NAMES + column as f32 * (cell + GAP);
             let text = match column.checked_sub(1) {
@@ -156,14 +156,10 @@ impl ContactSheet<'_> {
         }
     }
 
-    /// The range of the latest pictures.
-    fn latest_range(&self) -> Option<f64> {
-        DrawSheet::latest(&self.displayed.jobs.answers)?.range
-    }
-
     /// The colours of differences, which all cells share, between the numbers of both ends.
     fn legend(&self, ui: &egui::Ui, area: Rect) {
-        let (display, range) = (&self.displayed.model.view.display, self.latest_range());
+        let (display, range) =
+            (&self.shown.model.view.display, pictures::latest(self.shown).and_then(|one| one.range));
         let Some(range) = range.filter(|_| display.difference) else { return };
         let (kind, _) = display.differences.pointwise(display.quantity);
         let least = if kind.is_signed() { -1.0 } else { 0.0 };
@@ -186,13 +182,13 @@ impl ContactSheet<'_> {
             ui.allocate_exact_size(vec2(NAMES + columns as f32 * (cell + GAP), cell), Sense::hover());
         let names = Rect::from_min_size(rect.min + vec2(INDENT, 0.0), vec2(NAMES - INDENT - 6.0, cell));
         let name = drawable(self.open.name(case));
-        let mark = self.displayed.model.dataset.mark(self.open.name(case)).filter(|mark| mark.is_marked);
+        let mark = self.shown.model.dataset.mark(self.open.name(case)).filter(|mark| mark.is_marked);
         let text = format!("{name}{}", mark.map_or("", |_| MARK));
         let colour = ui.visuals().text_color();
         let galley = ui.painter().layout(text, FontId::proportional(12.0), colour, names.width());
         let painter = ui.painter().with_clip_rect(names.intersect(ui.clip_rect()));
         painter.galley(names.min, galley, colour);
-        let texts = self.displayed.jobs.dataset.losses.row(case).map(texts).unwrap_or_default();
+        let texts = self.losses.row(case).map(texts).unwrap_or_default();
         for column in 0..columns {
             let left = rect.left() + NAMES + column as f32 * (cell + GAP);
             let square = Rect::from_min_size(pos2(left, rect.top()), vec2(cell, cell));

@@ -1,5 +1,6 @@
 //! The materials in the window, and the assumptions in reading each.
 
+pub mod browse;
 pub mod open;
 pub mod path_field;
 pub mod read_options;
@@ -12,18 +13,17 @@ use svbrdf_evaluate::diagnose::{Finding, sentence_of};
 use svbrdf_files::read::{Assumption, Certainty, Note, ReadOptions};
 use svbrdf_files::source::Place;
 
-use crate::files::read_options::{is_offered, read_options, remedy_button};
+use crate::files::read_options::read_options;
+use crate::jobs::Shown;
 use crate::jobs::answers::content::ComparedPair;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::why::questions::known_diagnosis;
 use crate::model::dataset::OpenDataset;
-use crate::model::effect::Effect;
 use crate::model::material::loaded::{LoadedMaterial, drawable};
 use crate::model::{Model, opening};
+use crate::why::diagnosis::{is_offered, known_diagnosis, remedy_button};
 use crate::widgets::{named, theme};
 
 /// Draws the section.
-pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
+pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
     let materials = &shown.model.materials.all;
     ui.horizontal_wrapped(|ui| {
         if ui.button("Reload").on_hover_text("Read all files again (Ctrl+R)").clicked() {
@@ -40,7 +40,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
         ui.add(egui::ProgressBar::new(opening.fraction()).text(opening.text()));
         let cancel = ui.small_button("Cancel reading");
         if cancel.on_hover_text("What is in the window stays").clicked() {
-            next.effects.push(Effect::CancelReading(opening.number()));
+            opening.cancel();
         }
     }
     if let Some(open) = &shown.model.dataset.open {

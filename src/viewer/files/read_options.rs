@@ -1,4 +1,4 @@
-//! Choices of how a material is read: a drop-down for each assumption, and the option that a diagnosis suggests.
+//! Choices of how a material is read: a drop-down for each assumption.
 
 use eframe::egui::{self, RichText};
 
@@ -6,10 +6,7 @@ use svbrdf_files::read::{
     Albedo, Assumption, Certainty, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions,
     Reflectance, Roughness, TileGrid, What, Workflow,
 };
-use svbrdf_files::source::Place;
 
-use crate::model::material::loaded::LoadedMaterial;
-use crate::model::{Model, opening};
 use crate::widgets::{named, number};
 
 /// Drop-downs for the assumptions in reading a material; the first choice of each infers it from the files.
@@ -120,31 +117,4 @@ fn choice<T: Copy + PartialEq + std::fmt::Display>(
     named(&response.response, &format!("{what} of {material}"));
     let why = inferred.map_or_else(|| "Nothing was inferred".to_owned(), ToString::to_string);
     response.response.on_hover_text(why);
-}
-
-/// Whether a material can be read again with the options: one of a file that does not have them yet.
-pub fn is_offered(material: &LoadedMaterial, remedy: ReadOptions) -> bool {
-    let read = &material.read;
-    matches!(read.source.place, Place::Path(_)) && remedy.over(read.record.options) != read.record.options
-}
-
-/// The button for the material at `index`; a click reads it again, and shows it as it is read.
-pub fn remedy_button(
-    ui: &mut egui::Ui,
-    index: usize,
-    material: &LoadedMaterial,
-    remedy: ReadOptions,
-    next: &mut Model,
-) {
-    let words = remedy.words().replace("specular-albedo", "specular").replace(['-', '='], " ");
-    let button = ui.small_button(format!("Read with {}", words.replace(',', ", ")));
-    let hover = format!(
-        "Read {} again with this option, as Change... in Files does; undo (Ctrl+Z) goes back. If the ground truth is the one that is \
-         read wrongly, change it instead",
-        material.name()
-    );
-    if button.on_hover_text(hover).clicked() {
-        next.view.correct(None);
-        opening::read_as(next, index, remedy.over(material.read.record.options));
-    }
 }

@@ -1,10 +1,11 @@
 //! Dialog that saves the view, the renderings, a strip, the session or the scenes of the loss.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use eframe::egui::{self, RichText};
 
 use crate::files::path_field::{dialog, path_field, problem};
+use crate::jobs::Edit;
 use crate::jobs::work::job::Job;
 use crate::model::Model;
 use crate::model::dialogs::{PathField, SaveDialog, SaveKind, SaveRequest};
@@ -12,13 +13,13 @@ use crate::model::effect::{BrowseFor, Effect};
 use crate::widgets::{progress, theme};
 
 /// Draws the dialog, where it is open; `saving` is the file that is being written.
-pub fn ui(ctx: &egui::Context, saving: Option<&Job<PathBuf>>, next: &mut Model) {
+pub fn ui(ctx: &egui::Context, saving: Option<&Job<Edit>>, next: &mut Model) {
     let Some(mut state) = next.dialogs.save.take() else { return };
     let open = dialog(ctx, "Save", 420.0, |ui| contents(ui, &mut state, saving, next));
     next.dialogs.save = open.then_some(state);
 }
 
-fn contents(ui: &mut egui::Ui, state: &mut SaveDialog, saving: Option<&Job<PathBuf>>, next: &mut Model) {
+fn contents(ui: &mut egui::Ui, state: &mut SaveDialog, saving: Option<&Job<Edit>>, next: &mut Model) {
     choice(ui, state, next.dataset.open.is_some());
     let field = path_field(ui, &mut state.field, "To file:", egui::TextEdit::singleline(&mut state.path));
     let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
@@ -34,7 +35,7 @@ fn contents(ui: &mut egui::Ui, state: &mut SaveDialog, saving: Option<&Job<PathB
     ui.label(RichText::new(state.what.explanation()).small().weak());
     let replaces = state.replaces.as_deref() == Some(state.path.trim());
     if let Some(job) = saving {
-        written(ui, job, &mut next.effects);
+        written(ui, job);
     } else {
         ui.horizontal(|ui| {
             let button = ui.button(if replaces { "Replace it" } else { "Save file" });
@@ -74,11 +75,11 @@ fn choice(ui: &mut egui::Ui, state: &mut SaveDialog, has_dataset: bool) {
 }
 
 /// The progress of what is being written, in one line, and its end.
-fn written(ui: &mut egui::Ui, job: &Job<PathBuf>, effects: &mut Vec<Effect>) {
+fn written(ui: &mut egui::Ui, job: &Job<Edit>) {
     ui.horizontal(|ui| {
         let cancel = ui.button("Cancel saving").on_hover_text("Stop; no file is written");
         if cancel.clicked() {
-            effects.push(Effect::CancelSaving);
+            job.cancel();
         }
         let text = format!("saving, {} s", job.elapsed().as_secs());
         progress(ui, job.fraction(), text).on_hover_text("It goes on when this dialog is closed");

@@ -4,12 +4,11 @@ use eframe::egui;
 
 use svbrdf_core::model::scene::Kind;
 
-use crate::jobs::displayed::Displayed;
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
+use crate::pane::displayed::Displayed;
 use crate::pane::gpu_view::GpuView;
 use crate::pane::legend::LegendStrip;
-use crate::pane::scenery::Scenery;
 use crate::pane::viewport::{STRIP, Viewport};
 use crate::widgets::bare;
 use crate::widgets::numbers::digits;
@@ -26,7 +25,7 @@ const LOW: f32 = 4.0;
 /// Draws the panes and what is below them.
 pub fn ui(
     ui: &mut egui::Ui,
-    shown: Displayed<'_>,
+    shown: &Displayed<'_>,
     next: &mut Model,
     viewport: &mut Viewport,
     gpu: Option<&mut GpuView>,
@@ -48,8 +47,7 @@ pub fn ui(
         panel.show_separator_line(false).show(ui, |_| ());
     }
     egui::CentralPanel::no_frame().show(ui, |ui| {
-        let scenery = Scenery::new(ui.ctx(), shown);
-        viewport.ui(ui, &scenery, next, gpu, &shown.jobs.uploads);
+        viewport.ui(ui, shown, next, gpu);
     });
 }
 
@@ -76,7 +74,7 @@ fn caption(ui: &mut egui::Ui, model: &Model, magnification: Option<f32>) {
 }
 
 /// The height of the legend, 0 without one. A picture that is saved has every row of the statistics.
-pub fn legend_height(shown: Displayed<'_>) -> f32 {
+pub fn legend_height(shown: &Displayed<'_>) -> f32 {
     match shown.model.view.display.difference && compares(shown) {
         true if shown.is_picture => STRIP + ROW * shown.materials().len().saturating_sub(4) as f32,
         true => STRIP,
@@ -85,13 +83,13 @@ pub fn legend_height(shown: Displayed<'_>) -> f32 {
 }
 
 /// The room that is left free for the legend below the panes of the window; none in a low one, which the panes need.
-pub fn reserve(shown: Displayed<'_>, height: f32) -> f32 {
+pub fn reserve(shown: &Displayed<'_>, height: f32) -> f32 {
     let is_high = height >= LOW * STRIP;
     let is_free = is_high && compares(shown) && !shown.is_picture && legend_height(shown) == 0.0;
     if is_free { STRIP } else { 0.0 }
 }
 
 /// Whether there is something to compare: predictions, or a photograph.
-fn compares(displayed: Displayed<'_>) -> bool {
+fn compares(displayed: &Displayed<'_>) -> bool {
     !displayed.model.materials.predictions().is_empty() || displayed.photograph().is_some()
 }

@@ -2,7 +2,7 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::frame::keys::{HELP, Line};
+use crate::frame::actions::{HELP, Line};
 
 /// Width of the keys and of the list, in points.
 const KEYS: f32 = 190.0;

@@ -1,4 +1,4 @@
-//! Keys: a table of what each does, which is the help that `?` shows, too.
+//! Keys: what is pressed, and the files that are dropped.
 
 use std::path::PathBuf;
 
@@ -6,272 +6,18 @@ use eframe::egui::{self, Key, Modifiers};
 
 use svbrdf_files::read::ReadOptions;
 
-use crate::model::dataset::DatasetState;
-use crate::model::dialogs::{OpenDialog, SaveDialog, SaveKind};
-use crate::model::effect::Effect;
-use crate::model::ranges::UI_SCALE;
-use crate::model::view::AutoExposure;
-use crate::model::{Model, clipboard, display, exposure, opening, undo};
+use crate::frame::actions::{Action, HELP};
+use crate::jobs::answers::Answers;
+use crate::loss::losses::ComputeLosses;
+use crate::model::{Model, clipboard, display, opening};
 use crate::widgets::copy;
-
-/// A key, and what it does.
-pub type Action = (Modifiers, Key, fn(&mut Model));
-
-/// Gestures or keys, as the help names them and what they do.
-#[derive(Clone, Copy, Debug)]
-pub struct Line {
-    pub keys: &'static str,
-    pub effect: &'static str,
-    /// Nothing for gestures.
-    pub actions: &'static [Action],
-}
-
-const NONE: Modifiers = Modifiers::NONE;
-const SHIFT: Modifiers = Modifiers::SHIFT;
-const COMMAND: Modifiers = Modifiers::COMMAND;
-const BOTH: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
-
-const fn line(keys: &'static str, effect: &'static str, actions: &'static [Action]) -> Line {
-    Line { keys, effect, actions }
-}
-
-/// What the bar does, too.
-pub const OPEN: fn(&mut Model) = |model| model.dialogs.open = Some(OpenDialog::default());
-pub const SAVE: fn(&mut Model) = |model| model.dialogs.save = Some(SaveDialog::new(SaveKind::View));
-pub const COPY_PICTURE: fn(&mut Model) = |model| model.effects.push(Effect::CopyPicture);
 
 /// The keys that choose a prediction.
 const DIGITS: [Key; 9] =
     [Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5, Key::Num6, Key::Num7, Key::Num8, Key::Num9];
 
-/// Every gesture and key with its effect, in groups, for the help window and docs/window.md.
-pub const HELP: &[(&str, &[Line])] = &[
-    (
-        "Light",
-        &[
-            line("left-drag", "move the light: its x and y follow the pointer; on maps, pan", &[]),
-            line("Shift + wheel", "height of the light", &[]),
-            line("Ctrl + Shift + left-drag", "orbit the light", &[]),
-            line("Ctrl + Shift + right-drag", "distance of the light", &[]),
-            line(
-                "H",
-                "highlight follows the pointer, on / off",
-                &[(NONE, Key::H, |m| m.settings.highlight_follows ^= true)],
-            ),
-        ],
-    ),
-    (
-        "View",
-        &[
-            line(
-                "right-drag",
-                "move the view; in perspective, turn the material, up to 85 degrees off its normal",
-                &[],
-            ),
-            line("Alt + wheel", "height of the view", &[]),
-            line(
-                "P",
-                "flat / perspective",
-                &[(NONE, Key::P, |m| m.view.display.projection = m.view.display.projection.other())],
-            ),
-        ],
-    ),
-    (
-        "Zoom",
-        &[
-            line("wheel", "zoom at the pointer", &[]),
-            line("middle-drag, Space + left-drag", "pan", &[]),
-            line("F", "fit the material", &[(NONE, Key::F, |m| m.view.fit())]),
-            line(
-                "0, Ctrl + 0",
-                "one texel per pixel",
-                &[
-                    (NONE, Key::Num0, |m| display::magnify(m, 1.0)),
-                    (COMMAND, Key::Num0, |m| display::magnify(m, 1.0)),
-                ],
-            ),
-            line(
-                "R",
-                "reset light, view, zoom, exposure and clipping marks",
-                &[(NONE, Key::R, display::reset)],
-            ),
-        ],
-    ),
-    (
-        "Compare",
-        &[
-            line("1 .. 9", "choose the prediction", &[]),
-            line(
-                "Ctrl + Up / Down",
-                "previous / next prediction",
-                &[
-                    (COMMAND, Key::ArrowUp, |m| display::step_prediction(m, -1)),
-                    (COMMAND, Key::ArrowDown, |m| display::step_prediction(m, 1)),
-                ],
-            ),
-            line("Down / Up, Ctrl + Tab", "next / previous prediction; Home / End: first / last", &[]),
-            line("G or Shift (hold)", "show the ground truth in every pane", &[]),
-            line("X", "swap prediction and ground truth", &[(NONE, Key::X, |m| m.swapped ^= true)]),
-            line("C", "layout: side by side, wipe, single", &[(NONE, Key::C, display::cycle_layout)]),
-            line(
-                "D",
-                "value / difference from the ground truth",
-                &[(NONE, Key::D, |m| m.view.display.difference ^= true)],
-            ),
-        ],
-    ),
-    (
-        "Show",
-        &[
-            line(
-                "M / Shift + M",
-                "next / previous of rendering and maps",
-                &[
-                    (NONE, Key::M, |m| display::cycle_quantity(m, 1)),
-                    (SHIFT, Key::M, |m| display::cycle_quantity(m, -1)),
-                ],
-            ),
-            line(
-                "E / Shift + E",
-                "exposure up / down by 0.5 EV",
-                &[
-                    (NONE, Key::E, |m| display::step_exposure(m, 0.5)),
-                    (SHIFT, Key::E, |m| display::step_exposure(m, -0.5)),
-                ],
-            ),
-            line(
-                "N / Shift + N",
-                "automatic exposure, once / following light and view: the brightest 1% of the ground truth clips",
-                &[
-                    (NONE, Key::N, |m| exposure::choose(m, AutoExposure::Once)),
-                    (SHIFT, Key::N, |m| exposure::choose(m, AutoExposure::Follow)),
-                ],
-            ),
-            line(
-                "V",
-                "false colours for roughness, on / off",
-                &[(NONE, Key::V, |m| m.view.display.false_colour ^= true)],
-            ),
-            line(
-                "L",
-                "mark clipped pixels, on / off",
-                &[(NONE, Key::L, |m| m.view.display.show_clipping ^= true)],
-            ),
-            line(
-                "I, Alt + click",
-                "pin the texel: all its numbers in a table below; again: remove the pin",
-                &[(NONE, Key::I, pin_here)],
-            ),
-            line(
-                "Q, then left-drag; on maps Shift + left-drag",
-                "rectangle that a strip magnifies; Esc removes it",
-                &[(NONE, Key::Q, |m| m.inspection.is_armed = true)],
-            ),
-        ],
-    ),
-    (
-        "Data set",
-        &[
-            line(
-                "Page down / Page up",
-                "next / previous material of the list, as Down and Up; Home / End: first / last",
-                &[],
-            ),
-            line("Ctrl + F", "find a material by its name; Esc shows all", &[(COMMAND, Key::F, find)]),
-            line(
-                "A / S",
-                "list of materials / contact sheet, on / off",
-                &[
-                    (NONE, Key::A, |m| of_dataset(m, |dataset| dataset.list.is_open ^= true)),
-                    (NONE, Key::S, |m| of_dataset(m, |dataset| dataset.show_sheet(!dataset.sheet.is_open))),
-                ],
-            ),
-            line(
-                "K",
-                "mark the material, or remove its mark",
-                &[(NONE, Key::K, |m| of_dataset(m, DatasetState::toggle_mark))],
-            ),
-            line("wheel over the sheet", "size of its cells; over the names it scrolls", &[]),
-        ],
-    ),
-    (
-        "Files",
-        &[
-            line(
-                "Ctrl + O / Ctrl + Shift + O",
-                "open materials or a session / reopen the last materials",
-                &[(COMMAND, Key::O, OPEN), (BOTH, Key::O, |m| opening::reopen(m, 0))],
-            ),
-            line(
-                "Ctrl + S / Ctrl + Shift + C",
-                "save view, renderings, strip or session / copy the view as a picture",
-                &[(COMMAND, Key::S, SAVE), (BOTH, Key::C, COPY_PICTURE)],
-            ),
-            line("Ctrl + R", "read all files again", &[(COMMAND, Key::R, opening::reload)]),
-            line(
-                "Ctrl + W",
-                "close the chosen prediction",
-                &[(COMMAND, Key::W, |m| opening::close(m, m.view.display.prediction + 1))],
-            ),
-            line("Ctrl + C / Ctrl + V", "copy the scene as JSON / paste a scene", &[]),
-        ],
-    ),
-    (
-        "Window",
-        &[
-            line(
-                "Ctrl + Z / Ctrl + Shift + Z",
-                "undo / redo light, view, display, materials and photograph (redo also: Ctrl + Y)",
-                &[(COMMAND, Key::Z, undo::undo), (BOTH, Key::Z, undo::redo), (COMMAND, Key::Y, undo::redo)],
-            ),
-            line(
-                "Esc",
-                "close a dialog, cancel a search or the loss, or show the whole prediction again",
-                &[],
-            ),
-            line("B", "side panel, on / off", &[(NONE, Key::B, Model::toggle_side_panel)]),
-            line(
-                "Ctrl + plus / minus",
-                "size of text and controls",
-                &[
-                    (COMMAND, Key::Plus, |m| scale(m, 1.0)),
-                    (COMMAND, Key::Equals, |m| scale(m, 1.0)),
-                    (COMMAND, Key::Minus, |m| scale(m, -1.0)),
-                ],
-            ),
-            line("double-click a number", "reset it to its default", &[]),
-            line("?, F1", "this help", &[(NONE, Key::F1, |m| m.help = true)]),
-        ],
-    ),
-];
-
-/// Changes the scale of text and controls by this many tenths.
-fn scale(model: &mut Model, steps: f32) {
-    let scale = ((10.0 * model.settings.ui_scale).round() + steps) / 10.0;
-    model.settings.ui_scale = scale.clamp(*UI_SCALE.start(), *UI_SCALE.end());
-}
-
-/// Pins the texel under the pointer, or removes its pin; without one, the texel last under it.
-pub fn pin_here(model: &mut Model) {
-    if let Some(texel) = model.geometry.texel {
-        model.inspection.toggle_pin(texel);
-    }
-}
-
-/// Shows the list of the data set with the focus in its search.
-fn find(model: &mut Model) {
-    of_dataset(model, |dataset| (dataset.list.is_open, dataset.finds) = (true, true));
-}
-
-/// Edits the data set, where there is one and nothing is before it.
-fn of_dataset(model: &mut Model, edit: impl FnOnce(&mut DatasetState)) {
-    if model.dataset.open.is_some() && !model.is_modal() {
-        edit(&mut model.dataset);
-    }
-}
-
 /// Carries out the keys pressed in this frame; none while a text field has the focus.
-fn press(ctx: &egui::Context, model: &mut Model) {
+fn press(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
     if ctx.text_edit_focused() {
         return;
     }
@@ -284,13 +30,15 @@ fn press(ctx: &egui::Context, model: &mut Model) {
         (0..presses).for_each(|_| run(model));
     }
     for (slot, key) in (1..).zip(DIGITS) {
-        if ctx.input_mut(|input| input.consume_key(NONE, key)) {
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
             display::choose_slot(model, slot);
         }
     }
     // An open menu or drop-down takes Esc for itself.
-    if !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(NONE, Key::Escape)) {
-        escape(model);
+    if !egui::Popup::is_any_open(ctx)
+        && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
+    {
+        escape(model, answers);
     }
     // Copy and paste arrive as events, and `?` is on another key of every keyboard.
     for event in ctx.input(|input| input.events.clone()) {
@@ -304,8 +52,8 @@ fn press(ctx: &egui::Context, model: &mut Model) {
 }
 
 /// Carries out keys, and opens files that were dropped on the window: in place of the built-in materials, otherwise as predictions.
-pub fn act(ctx: &egui::Context, model: &mut Model) {
-    press(ctx, model);
+pub fn act(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
+    press(ctx, model, answers);
     let paths: Vec<PathBuf> =
         ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
     if !paths.is_empty() {
@@ -315,8 +63,8 @@ pub fn act(ctx: &egui::Context, model: &mut Model) {
 }
 
 /// Closes or cancels the first of these that is there.
-fn escape(model: &mut Model) {
-    let Model { dialogs, dataset, inspection, view, effects, help, searched, .. } = model;
+fn escape(model: &mut Model, answers: &Answers) {
+    let Model { dialogs, dataset, inspection, view, help, searched, .. } = model;
     match () {
         () if *help => *help = false,
         () if dialogs.open.is_some() => dialogs.open = None,
@@ -328,6 +76,6 @@ fn escape(model: &mut Model) {
         () if searched.is_some() => *searched = None,
         () if view.display.is_replaced() => view.isolate(None),
         () if dataset.sheet.is_behind => dataset.show_sheet(true),
-        () => effects.push(Effect::CancelLoss),
+        () => answers.stop::<ComputeLosses>(),
     }
 }

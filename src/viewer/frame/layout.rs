@@ -10,10 +10,10 @@ use crate::error::Error;
 use crate::files;
 use crate::frame::content::{self, CAPTION};
 use crate::frame::{help, inspection, keys, messages, side, status, top};
-use crate::jobs::Jobs;
-use crate::jobs::displayed::Displayed;
+use crate::jobs::{Jobs, SAVING, Shown};
 use crate::model::Model;
 use crate::model::view::WindowGeometry;
+use crate::pane::displayed::Displayed;
 use crate::pane::gpu_view::GpuView;
 use crate::pane::snapshot::snapshot;
 use crate::pane::viewport::Viewport;
@@ -49,7 +49,7 @@ impl WindowUi {
 
     /// Carries out keys, dropped files and gestures: all that is read before the window is drawn.
     pub fn input(&mut self, ctx: &egui::Context, model: &mut Model, jobs: &Jobs) {
-        keys::act(ctx, model);
+        keys::act(ctx, model, &jobs.answers);
         if model.is_modal() {
             return;
         }
@@ -63,7 +63,7 @@ impl WindowUi {
     pub fn draw(
         &mut self,
         ui: &mut egui::Ui,
-        shown: Displayed<'_>,
+        shown: &Displayed<'_>,
         next: &mut Model,
         gpu: Option<&mut GpuView>,
     ) {
@@ -85,11 +85,11 @@ impl WindowUi {
         if is_open != was_open {
             next.toggle_side_panel();
         }
-        self.dataset.drawer(ui, shown, next);
+        self.dataset.drawer(ui, shown.shown(), next);
         let area = ui.available_rect_before_wrap();
         let height = area.height() - content::reserve(shown, area.height());
         self.picture_size = [area.width(), height].map(|side| (side * ui.pixels_per_point()) as u32);
-        let panes = if self.dataset.sheet(ui, shown, next, &mut self.textures) {
+        let panes = if self.dataset.sheet(ui, shown.shown(), next, &mut self.textures) {
             area
         } else {
             content::ui(ui, shown, next, &mut self.viewport, gpu);
@@ -104,7 +104,7 @@ impl WindowUi {
             help::ui(ui.ctx(), &mut next.help);
         }
         files::open::ui(ui.ctx(), next);
-        files::save::ui(ui.ctx(), shown.jobs.saving.as_ref(), next);
+        files::save::ui(ui.ctx(), shown.jobs.edits.get(SAVING), next);
     }
 }
 
@@ -124,15 +124,14 @@ impl WindowUi {
         };
         let (state, gpu, dark) = (view.state.clone(), view.gpu.clone(), displayed.model.settings.dark);
         // Gestures and controls stay in the window.
-        let displayed = Displayed { is_picture: true, ..displayed };
+        let picture = displayed.picture();
         let mut viewport = self.viewport.exact();
         let scale = ctx.pixels_per_point();
         let [width, height] = self.picture_size;
-        let added = CAPTION + content::legend_height(displayed)
-            - content::legend_height(Displayed { is_picture: false, ..displayed });
+        let added = CAPTION + content::legend_height(&picture) - content::legend_height(&displayed);
         let size = [width, height + (added * scale) as u32];
         Ok(snapshot(&state, &gpu, (size, scale), dark, |ui| {
-            content::ui(ui, displayed, &mut displayed.model.clone(), &mut viewport, Some(view));
+            content::ui(ui, &picture, &mut picture.model.clone(), &mut viewport, Some(view));
         })?)
     }
 }
@@ -150,6 +149,6 @@ pub struct Parts {
 impl Parts {
     /// What the panes display.
     pub fn displayed(&self) -> Displayed<'_> {
-        Displayed::of(&self.model, &self.jobs)
+        Displayed::ask(Shown { model: &self.model, jobs: &self.jobs })
     }
 }

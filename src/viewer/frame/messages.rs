@@ -4,8 +4,8 @@ use eframe::egui::{self, Align2, RichText};
 
 use svbrdf_core::text::line;
 
+use crate::message::{Message, MessageList, Severity};
 use crate::model::material::loaded::drawable;
-use crate::model::message::{Message, MessageList, Severity};
 use crate::model::{Model, opening};
 use crate::widgets::theme;
 

@@ -1,10 +1,9 @@
 //! Application: the frame of the window, which holds the model, the jobs and the user interface together.
 
+pub mod actions;
 pub mod content;
 pub mod crash;
-pub mod dataset;
 pub mod effects;
-pub mod events;
 pub mod help;
 pub mod inspection;
 pub mod keys;
@@ -19,6 +18,7 @@ pub mod side;
 pub mod status;
 pub mod storage;
 pub mod top;
+pub mod written;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -26,6 +26,7 @@ use std::time::Duration;
 
 use eframe::egui;
 
+use crate::dataset::opening;
 use crate::frame::crash::{DeviceLoss, lost, told};
 use crate::frame::layout::Parts;
 use crate::frame::restart::{IDLE, Restarts, watch_for_hardware};
@@ -33,18 +34,19 @@ use crate::frame::storage::{NAME, Storage};
 pub use crash::CrashGuard;
 
 use crate::frame::layout::WindowUi;
-use crate::jobs::Jobs;
 use crate::jobs::answers::Answer;
 use crate::jobs::answers::content::ComparedPair;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::why::questions::FindWorst;
 use crate::jobs::work::waker::Waker;
+use crate::jobs::{Jobs, SAVING, Shown};
+use crate::message::Message;
 use crate::model::Model;
-use crate::model::message::Message;
 use crate::model::session::ViewerOptions;
 use crate::model::view::ViewState;
 use crate::model::{exposure, undo};
+use crate::pane::displayed::Displayed;
 use crate::pane::gpu_view::GpuView;
+use crate::pane::scenery::peeks;
+use crate::why::scenes::FindWorst;
 use crate::widgets::theme;
 
 /// The viewer.
@@ -127,29 +129,35 @@ impl App {
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
         let errors = self.parts.jobs.answers.begin_frame();
         self.parts.model.report(errors.into_iter().map(Message::Failed));
-        events::take_results(&mut self.parts, &ctx);
+        effects::take_results(&mut self.parts, &ctx);
         let before = self.parts.model.view.clone();
         self.parts.ui.input(&ctx, &mut self.parts.model, &self.parts.jobs);
         ctx.set_zoom_factor(self.parts.model.settings.ui_scale);
         self.settle(&ctx, &before);
-        dataset::show(&mut self.parts);
+        opening::show(&mut self.parts.model, &self.parts.jobs);
         exposure::follow(&mut self.parts.model);
-        self.follow();
-        let mut next = self.parts.model.clone();
-        let shown = Displayed::of(&self.parts.model, &self.parts.jobs);
-        self.parts.ui.draw(ui, shown, &mut next, self.parts.gpu.as_mut());
+        self.inspect();
+        let Parts { model, jobs, ui: window, gpu } = &mut self.parts;
+        let mut next = model.clone();
+        let displayed = Displayed::ask(Shown { model, jobs }).peeking(peeks(&ctx));
+        search(&ctx, displayed.shown(), &mut next);
+        window.draw(ui, &displayed, &mut next, gpu.as_mut());
+        let photograph = displayed.open_photograph.as_ref();
+        let is_photograph_settled = photograph.is_none_or(|one| one.photograph.is_some());
+        if photograph.is_some_and(|one| one.has_failed) {
+            next.photograph.set(None);
+            ctx.request_repaint();
+        }
         self.name_window(&ctx);
         let before = std::mem::replace(&mut self.parts.model, next).view;
         self.settle(&ctx, &before);
         self.parts.jobs.answers.end_frame();
-        let is_photograph_settled =
-            self.parts.model.photograph.source().is_none() || self.parts.jobs.panes.photograph.is_some();
         undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
     }
 
     /// Gives the window the name of what is open.
     fn name_window(&mut self, ctx: &egui::Context) {
-        let of_dataset = self.parts.ui.dataset.title(self.parts.displayed());
+        let of_dataset = self.parts.ui.dataset.title(&self.parts.model);
         let open = of_dataset.or_else(|| self.parts.model.materials.title());
         let title = open.map_or_else(|| NAME.to_owned(), |open| format!("{open} - {NAME}"));
         // Assistive software asks the root for the name of the window.
@@ -160,39 +168,16 @@ impl App {
         }
     }
 
-    /// Lets the jobs follow the model, and takes in what they have found.
-    fn follow(&mut self) {
-        if self.parts.jobs.openings.is_empty()
-            && let Some(inspection) = self.parts.model.inspected_later.take()
-        {
-            self.parts.model.inspection = inspection;
-        }
-        if let Some(ground_truth) = self.parts.model.materials.ground_truth() {
-            self.parts.model.inspection.keep_within(ground_truth.material().size());
-        }
-        let error = self.parts.jobs.follow(&self.parts.model, &self.parts.ui.dataset.cases_in_sight);
-        self.parts.model.report(error.map(Message::Failed));
-        if self.parts.jobs.panes.photograph_failed {
-            self.parts.model.photograph.set(None);
-        }
-        self.search();
-    }
-}
-
-impl App {
-    /// Searches for the worst scene, whatever the panels show, and shows it once it is found.
-    fn search(&mut self) {
+    /// Takes over the inspected texels of a session once its materials are there.
+    fn inspect(&mut self) {
         let Parts { model, jobs, .. } = &mut self.parts;
-        let Some(searched) = model.searched else { return };
-        let is_chosen = model.chosen_prediction().is_some_and(|chosen| chosen.id() == searched);
-        let pair = ComparedPair::of(&model.materials.all, &model.view).filter(|_| is_chosen);
-        let found = pair.map(|pair| jobs.answers.get(&FindWorst { pair, seed: model.settings.loss.seed }));
-        if let Some(Answer::Running(..)) = found {
-            return;
+        if jobs.openings.is_empty()
+            && let Some(inspection) = model.inspected_later.take()
+        {
+            model.inspection = inspection;
         }
-        model.searched = None;
-        if let Some(Answer::Ready(worst)) = found {
-            exposure::choose_scene(model, worst.scene);
+        if let Some(ground_truth) = model.materials.ground_truth() {
+            model.inspection.keep_within(ground_truth.material().size());
         }
     }
 
@@ -250,7 +235,7 @@ impl eframe::App for App {
         self.parts.model.settings.window = Some(self.parts.model.geometry.window);
         self.storage.store(&self.parts.model);
         // A file that is being written is completed, unless a signal ends the program.
-        if let Some(saving) = self.parts.jobs.saving.take() {
+        if let Some(saving) = self.parts.jobs.edits.remove(SAVING) {
             if self.crash.is_stopped() {
                 saving.cancel();
             }
@@ -266,6 +251,22 @@ impl Drop for App {
             self.leave(Some(reason));
         }
     }
+}
+
+/// Searches for the worst scene, whatever the panels show, and shows it once it is found.
+fn search(ctx: &egui::Context, Shown { model, jobs }: Shown<'_>, next: &mut Model) {
+    let Some(searched) = model.searched else { return };
+    let is_chosen = model.chosen_prediction().is_some_and(|chosen| chosen.id() == searched);
+    let pair = ComparedPair::of(&model.materials.all, &model.view).filter(|_| is_chosen);
+    let found = pair.map(|pair| jobs.answers.get(&FindWorst { pair, seed: model.settings.loss.seed }));
+    if let Some(Answer::Running(..)) = found {
+        return;
+    }
+    next.searched = None;
+    if let Some(Answer::Ready(worst)) = found {
+        exposure::choose_scene(next, worst.scene);
+    }
+    ctx.request_repaint();
 }
 
 /// The adapter of a window, and its limits for the user interface; a message where its driver fails.

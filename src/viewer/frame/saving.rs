@@ -1,7 +1,5 @@
 //! Saving and copying of the view.
 
-use std::path::PathBuf;
-
 use eframe::egui;
 
 use svbrdf_core::image::Image;
@@ -11,11 +9,14 @@ use svbrdf_files::session::window::Framing;
 
 use crate::error::Error;
 use crate::frame::layout::Parts;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::saving;
+use crate::frame::written::{self, Writing};
 use crate::jobs::work::job::Job;
+use crate::jobs::{Edit, SAVING, Shown};
+use crate::message::Message;
+use crate::model::Model;
 use crate::model::dialogs::{SaveKind, SaveRequest};
-use crate::model::message::Message;
+use crate::model::view::ViewState;
+use crate::pane::displayed::Displayed;
 
 /// Starts to save.
 pub(super) fn save_file(parts: &mut Parts, ctx: &egui::Context, SaveRequest { kind, path }: SaveRequest) {
@@ -23,42 +24,43 @@ pub(super) fn save_file(parts: &mut Parts, ctx: &egui::Context, SaveRequest { ki
         parts.model.report([Message::Failed(error.into())]);
         return;
     }
-    let picture = (kind == SaveKind::View).then(|| picture(parts, ctx));
-    let (displayed, view) = (parts.displayed(), &parts.model.view);
-    let job = match (kind, picture) {
-        (SaveKind::View, Some(Ok(picture))) => save_view(parts, picture, path),
-        (SaveKind::View, picture) => {
-            let missing = || Error::internal("there is no picture of the view");
-            let error = picture.and_then(Result::err).unwrap_or_else(missing);
-            Job::start(&parts.jobs.waker, |_| Err(error))
-        }
-        (SaveKind::Renderings, _) if view.display.difference && view.is_error_map() => {
-            saving::error_maps(displayed, path)
-        }
-        (SaveKind::Renderings, _) if displayed.photograph().is_some() => {
-            saving::against_photograph(displayed, path)
-        }
-        (SaveKind::Renderings, _) => saving::renderings(displayed, path),
-        (SaveKind::Strip, _) => saving::strip(displayed, path),
-        (SaveKind::Session, _) => saving::session(displayed, path),
-        (SaveKind::Scenes, _) => saving::scenes(displayed, path),
-        (SaveKind::Materials, _) => {
-            saving::materials_csv(displayed, parts.ui.dataset.listed().to_vec(), path)
-        }
-    };
-    parts.jobs.saving = Some(job);
+    let picture = (kind == SaveKind::View).then(|| picture(parts, ctx)).transpose();
+    let writing = picture.map(|picture| writing(parts, kind, picture));
+    let job = Job::<Edit>::start(&parts.jobs.waker, move |progress| {
+        let result = writing.and_then(|write| write(&path, progress)).map(|()| path);
+        Ok(Box::new(|model: &mut Model| model.saved(result)))
+    });
+    parts.jobs.edits.insert(SAVING, job);
 }
 
-fn save_view(parts: &Parts, picture: egui::ColorImage, path: PathBuf) -> Job<PathBuf> {
-    let displayed = parts.displayed();
-    let mut entries = saving::provenance(displayed, saving::content(displayed)).entries();
-    entries.extend(view_entries(parts));
-    if let Some(text) = displayed.error_map_text().or_else(|| displayed.photograph_text()) {
+/// What is written; `picture` is of the view.
+fn writing(parts: &Parts, kind: SaveKind, picture: Option<egui::ColorImage>) -> Writing {
+    let (displayed, view) = (&parts.displayed(), &parts.model.view);
+    match (kind, picture) {
+        (_, Some(picture)) => save_view(displayed, picture),
+        (SaveKind::View | SaveKind::Renderings, _) if view.display.difference && view.is_error_map() => {
+            written::error_maps(displayed)
+        }
+        (SaveKind::View | SaveKind::Renderings, _) if displayed.photograph().is_some() => {
+            written::against_photograph(displayed)
+        }
+        (SaveKind::View | SaveKind::Renderings, _) => written::renderings(displayed),
+        (SaveKind::Strip, _) => written::strip(displayed),
+        (SaveKind::Session, _) => written::session(displayed),
+        (SaveKind::Scenes, _) => written::scenes(displayed),
+        (SaveKind::Materials, _) => written::materials_csv(displayed, parts.ui.dataset.listed()),
+    }
+}
+
+fn save_view(displayed: &Displayed<'_>, picture: egui::ColorImage) -> Writing {
+    let mut entries = written::provenance(displayed, written::content(displayed)).entries();
+    entries.extend(view_entries(displayed.view()));
+    if let Some(text) = written::error_map_text(displayed).or_else(|| written::photograph_text(displayed)) {
         Provenance::describe(&mut entries, text);
     }
     let pixels = picture.pixels.iter().map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
     let [width, height] = picture.size;
-    saving::view(&parts.jobs.waker, Image::<u8> { width, height, pixels }, entries, path)
+    written::view(Image::<u8> { width, height, pixels }, entries)
 }
 
 /// Puts the view on the clipboard as a picture.
@@ -73,13 +75,12 @@ pub(super) fn copy_picture(parts: &mut Parts, ctx: &egui::Context) {
 }
 
 fn picture(parts: &mut Parts, ctx: &egui::Context) -> Result<egui::ColorImage, Error> {
-    let displayed = Displayed::of(&parts.model, &parts.jobs);
-    parts.ui.picture(ctx, displayed, parts.gpu.as_mut())
+    let Parts { model, jobs, ui, gpu } = parts;
+    ui.picture(ctx, Displayed::ask(Shown { model, jobs }), gpu.as_mut())
 }
 
 /// How the view is displayed, as (keyword, text).
-fn view_entries(parts: &Parts) -> [(&'static str, String); 3] {
-    let view = &parts.model.view;
+fn view_entries(view: &ViewState) -> [(&'static str, String); 3] {
     let framing = view.display.framing.map_or_else(
         || "fitted".to_owned(),
         |Framing { pixels_per_texel, centre: [x, y] }| {

@@ -5,17 +5,18 @@ use eframe::egui::{self, RichText};
 use svbrdf_files::read::Certainty;
 
 use crate::frame::light_and_view;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::order::PredictionOrder;
+use crate::jobs::Shown;
+use crate::loss::order::PredictionOrder;
 use crate::model::Model;
 use crate::model::settings::Tab;
+use crate::pane::displayed::Displayed;
 use crate::widgets::bare;
 use crate::widgets::paint::PanelTextures;
 use crate::{dataset, files, loss, photograph, why};
 
-pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &mut PanelTextures) {
-    let model = shown.model;
-    tabs(ui, shown, &mut next.settings.tab);
+pub fn ui(ui: &mut egui::Ui, displayed: &Displayed<'_>, next: &mut Model, textures: &mut PanelTextures) {
+    let shown @ Shown { model, jobs } = displayed.shown();
+    tabs(ui, model, &mut next.settings.tab);
     bare(egui::Panel::bottom("scene"), ui).resizable(false).show(ui, |ui| {
         let header = egui::CollapsingHeader::new("Light and view").default_open(true);
         let header = header.show_unindented(ui, |ui| light_and_view::ui(ui, model, next));
@@ -23,31 +24,31 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
             .header_response
             .on_hover_text("The scene of the panes, and the convention of renderings and loss");
     });
-    photograph::ui(ui, shown, next);
+    if let Some(open) = &displayed.open_photograph {
+        photograph::ui(ui, open, displayed.materials(), displayed.photograph().is_some(), next);
+    }
     let tab = model.settings.tab;
     let scroll = egui::ScrollArea::vertical().id_salt(tab as usize);
     scroll.auto_shrink([false, false]).show(ui, |ui| match tab {
         Tab::Loss if model.dataset.open.is_some() => {
-            dataset::summary(ui, shown, next);
-            unsure_reading(ui, shown, &mut next.settings.tab);
+            dataset::summary::ui(ui, shown, next);
+            unsure_reading(ui, model, &mut next.settings.tab);
         }
         Tab::Loss => {
             loss::ui(ui, shown, next);
             if model.materials.predictions().len() > 1 {
-                let question =
-                    || PredictionOrder::of(&model.materials.all, &model.view, &model.settings.loss);
-                loss::order::fold(ui, &mut next.asks_order, || shown.jobs.answers.get(&question()));
+                let ask = || jobs.answers.get(&PredictionOrder::of(model));
+                loss::order::fold(ui, &mut next.asks_order, ask);
             }
-            unsure_reading(ui, shown, &mut next.settings.tab);
+            unsure_reading(ui, model, &mut next.settings.tab);
         }
         Tab::Why => why::ui(ui, shown, next, textures),
         Tab::Files => files::ui(ui, shown, next),
     });
 }
 
-fn tabs(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Tab) {
-    let model = shown.model;
-    let unsure = unsure_guesses(shown);
+fn tabs(ui: &mut egui::Ui, model: &Model, next: &mut Tab) {
+    let unsure = unsure_guesses(model);
     ui.horizontal(|ui| {
         let has_methods = model.has_methods();
         for (tab, name, question) in Tab::ALL {
@@ -76,8 +77,8 @@ fn tabs(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Tab) {
 }
 
 /// Below the losses: that some may be of files that were read wrongly. A click opens *Files*.
-fn unsure_reading(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Tab) {
-    let text = match unsure_guesses(shown) {
+fn unsure_reading(ui: &mut egui::Ui, model: &Model, next: &mut Tab) {
+    let text = match unsure_guesses(model) {
         0 => return,
         1 => "A guess in reading is unsure".to_owned(),
         unsure => format!("{unsure} guesses in reading are unsure"),
@@ -88,7 +89,7 @@ fn unsure_reading(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Tab) {
     }
 }
 
-fn unsure_guesses(shown: Displayed<'_>) -> usize {
-    let all = shown.model.materials.all.iter().flat_map(|one| &one.read.record.assumptions);
+fn unsure_guesses(model: &Model) -> usize {
+    let all = model.materials.all.iter().flat_map(|one| &one.read.record.assumptions);
     all.filter(|assumption| assumption.certainty == Certainty::Unsure).count()
 }

@@ -2,13 +2,14 @@
 
 use eframe::egui::{self, RichText};
 
-use crate::frame::keys::pin_here;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::panes::photograph::Photographs;
+use crate::frame::actions::pin_here;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, display};
+use crate::pane::displayed::Displayed;
+use crate::pane::readout;
 use crate::pane::viewport::Viewport;
-use crate::widgets::readout::{self, Readout};
+use crate::photograph::compared::Photographs;
+use crate::widgets::numbers::{WIDTH, fixed};
 use crate::widgets::{number, theme};
 
 /// Width of the line, in points, below which its buttons have short names.
@@ -19,7 +20,7 @@ const FIELD: f32 = 56.0;
 const PLACE: usize = 9;
 
 /// Draws the line.
-pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, viewport: &Viewport, next: &mut Model) {
+pub fn ui(ui: &mut egui::Ui, shown: &Displayed<'_>, viewport: &Viewport, next: &mut Model) {
     let (view, materials) = (&shown.model.view, shown.materials());
     let hovered = viewport.hovered.filter(|_| !shown.model.dataset.sheet.is_open);
     let grid = shown.model.materials.ground_truth().map(LoadedMaterial::grid);
@@ -27,7 +28,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, viewport: &Viewport, next: &m
     let size = materials.first().map_or([0, 0], |one| one.material().size());
     let texel = hovered.and_then(|hovered| hovered.texel);
     let bar = StatusBar {
-        read: Readout::of(shown),
+        shown,
         texel: texel.filter(|texel| (0..2).all(|axis| texel[axis] < size[axis])),
         hovered: hovered.map(|hovered| hovered.index),
     };
@@ -42,7 +43,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, viewport: &Viewport, next: &m
 /// What the columns show.
 #[derive(Debug)]
 struct StatusBar<'a> {
-    read: Readout<'a>,
+    shown: &'a Displayed<'a>,
     /// The texel under the pointer.
     texel: Option<[usize; 2]>,
     /// The slot of the pane under the pointer.
@@ -61,11 +62,11 @@ impl StatusBar<'_> {
         let mono = |text: String| RichText::new(text).font(font.clone());
         ui.label(mono(format!("texel {place:<PLACE$}")));
         magnification_field(ui, pixels, next);
-        if let Some(photographs) = self.read.photographs {
+        if let Some(photographs) = self.shown.photographs() {
             self.photograph(ui, photographs, mono);
         }
         for index in self.order() {
-            let text = format!("{} {}", self.read.materials[index].number(), self.numbers(index));
+            let text = format!("{} {}", self.shown.materials()[index].number(), self.numbers(index));
             let glyph = ui.fonts_mut(|fonts| fonts.glyph_width(&font, 'm'));
             let width = glyph * text.chars().count() as f32;
             if ui.available_width() < width + 12.0 {
@@ -75,32 +76,29 @@ impl StatusBar<'_> {
             let text =
                 if index == 0 { mono(text).color(theme::ground_truth(ui.visuals())) } else { mono(text) };
             let text = if self.hovered == Some(index) { text.strong() } else { text };
-            ui.label(text).on_hover_text(self.read.materials[index].name());
+            ui.label(text).on_hover_text(self.shown.materials()[index].name());
         }
     }
 
     /// The column of the photograph, at the exposure of the chosen material.
     fn photograph(&self, ui: &mut egui::Ui, photographs: &Photographs, mono: impl Fn(String) -> RichText) {
-        let chosen =
-            (self.read.state.display.prediction + 1).min(self.read.materials.len().saturating_sub(1));
+        let chosen = self.shown.chosen();
         let numbers: Vec<String> = match self.texel {
-            Some(texel) => {
-                readout::photograph(photographs, chosen, texel).into_iter().map(readout::fixed).collect()
-            }
-            None => vec![format!("{:>1$}", "-", readout::WIDTH); 3],
+            Some(texel) => readout::photograph(photographs, chosen, texel).into_iter().map(fixed).collect(),
+            None => vec![format!("{:>1$}", "-", WIDTH); 3],
         };
         ui.separator();
         let text = mono(format!("photo {}", numbers.join(" "))).color(theme::ground_truth(ui.visuals()));
-        let hover = format!("The photograph at the exposure of {}", self.read.materials[chosen].name());
+        let hover = format!("The photograph at the exposure of {}", self.shown.materials()[chosen].name());
         ui.label(text).on_hover_text(hover);
     }
 
     /// The indices in the order of their columns: the ground truth, the chosen prediction, then the others. It does not depend
     /// on the pointer, so that columns stay where they are.
     fn order(&self) -> Vec<usize> {
-        let all = 0..self.read.materials.len();
-        let fits_all = self.read.materials.len() <= 4;
-        let chosen = self.read.state.display.prediction + 1;
+        let all = 0..self.shown.materials().len();
+        let fits_all = self.shown.materials().len() <= 4;
+        let chosen = self.shown.view().display.prediction + 1;
         let mut order: Vec<usize> = all.collect();
         if !fits_all && chosen < order.len() {
             order.remove(chosen);
@@ -111,14 +109,12 @@ impl StatusBar<'_> {
 
     /// The numbers of material `index` at the texel, always of the same width.
     fn numbers(&self, index: usize) -> String {
-        let (read, difference) = (self.read, self.read.state.display.difference);
+        let (shown, difference) = (self.shown, self.shown.view().display.difference);
         let numbers: Vec<String> = match self.texel {
-            Some(texel) => {
-                readout::numbers(read, index, difference, texel).into_iter().map(readout::fixed).collect()
-            }
-            None => vec![format!("{:>1$}", "-", readout::WIDTH); readout::count(read, index)],
+            Some(texel) => readout::numbers(shown, index, difference, texel).into_iter().map(fixed).collect(),
+            None => vec![format!("{:>1$}", "-", WIDTH); readout::count(shown, index)],
         };
-        format!("{}{}", numbers.join(" "), readout::unit(read.state, index))
+        format!("{}{}", numbers.join(" "), readout::unit(shown.view(), index))
     }
 }
 

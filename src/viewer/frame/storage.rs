@@ -11,8 +11,8 @@ use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::disk::{atomic, own};
 use svbrdf_files::session::Session;
 
+use crate::message::Message;
 use crate::model::Model;
-use crate::model::message::Message;
 use crate::model::ranges::bring_into_range;
 use crate::model::settings::Settings;
 

@@ -7,7 +7,7 @@ use egui_material_icons::icons;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session::window::SessionDisplay;
 
-use crate::frame::{keys, menu};
+use crate::frame::{actions, menu};
 use crate::model::view::{AutoExposure, Layout, Projection};
 use crate::model::{Model, display, exposure, undo};
 use crate::widgets::number;
@@ -219,9 +219,14 @@ fn window(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
 /// What opens and saves.
 fn files(ui: &mut egui::Ui, next: &mut Model) {
     for (icon, name, hover, edit) in [
-        (icons::ICON_FOLDER_OPEN, "Open", "Open materials (Ctrl+O)", keys::OPEN),
-        (icons::ICON_SAVE, "Save", "Save view, renderings, strip or session (Ctrl+S)", keys::SAVE),
-        (icons::ICON_CONTENT_COPY, "Copy", "Copy the view as a picture (Ctrl+Shift+C)", keys::COPY_PICTURE),
+        (icons::ICON_FOLDER_OPEN, "Open", "Open materials (Ctrl+O)", actions::OPEN),
+        (icons::ICON_SAVE, "Save", "Save view, renderings, strip or session (Ctrl+S)", actions::SAVE),
+        (
+            icons::ICON_CONTENT_COPY,
+            "Copy",
+            "Copy the view as a picture (Ctrl+Shift+C)",
+            actions::COPY_PICTURE,
+        ),
     ] {
         if button(ui, icon.codepoint, name, true, None).on_hover_text(hover).clicked() {
             edit(next);

@@ -1,24 +1,12 @@
-//! Jobs of the window: all background work, by one mechanism.
+//! Work on other threads: questions with their answers, materials that are read, and work that ends in an edit of the model.
 //!
-//! An answer belongs to its question, which names materials by a reading of a version of their files. Workers wake the window; nothing
-//! here knows the window library.
+//! Workers wake the window; nothing here knows the window library.
 
 pub mod answers;
-pub mod browse;
-pub mod dataset;
-pub mod displayed;
-pub mod follow;
-pub mod loss;
-pub mod order;
-pub mod panes;
 pub mod reading;
-pub mod saving;
-pub mod why;
 pub mod work;
 
 use std::collections::HashMap;
-use std::fmt;
-use std::path::PathBuf;
 
 use svbrdf_gpu::Gpu;
 
@@ -26,30 +14,17 @@ use crate::model::Model;
 use crate::model::material::request::{ReadRequest, Target};
 
 use answers::Answers;
-use dataset::DatasetJobs;
-use loss::DrawnLosses;
-use panes::Panes;
 use reading::opening::Openings;
 use reading::read::MaterialReader;
-use reading::upload::Uploads;
 use reading::watch::FileWatch;
 use work::job::Job;
 use work::waker::Waker;
 
 /// An edit of the model.
-pub struct Edit(pub Box<dyn FnOnce(&mut Model) + Send>);
+pub type Edit = Box<dyn FnOnce(&mut Model) + Send>;
 
-impl Edit {
-    pub fn new(edit: impl FnOnce(&mut Model) + Send + 'static) -> Self {
-        Self(Box::new(edit))
-    }
-}
-
-impl fmt::Debug for Edit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Edit")
-    }
-}
+/// The kind of edits that follow a file that is written.
+pub const SAVING: &str = "saving";
 
 /// All background work of the window.
 #[derive(Debug, Default)]
@@ -58,15 +33,10 @@ pub struct Jobs {
     pub answers: Answers,
     /// `None` where there is no adapter.
     pub gpu: Option<Gpu>,
-    pub uploads: Uploads,
     pub openings: Openings,
     pub watch: FileWatch,
-    pub loss: DrawnLosses,
-    pub panes: Panes,
-    pub dataset: DatasetJobs,
     /// Work that ends in an edit of the model, one of a kind at a time.
     pub edits: HashMap<&'static str, Job<Edit>>,
-    pub saving: Option<Job<PathBuf>>,
 }
 
 impl Jobs {
@@ -79,7 +49,26 @@ impl Jobs {
         // A file that is opened by hand and cannot be read is reported at once.
         let retries = model.settings.watch && matches!(request.target, Target::Again(_));
         let size = model.materials.size_for(&request.target);
-        let reader = MaterialReader { rules: model.materials.rules, size, retries };
-        self.openings.start(&self.waker, self.gpu.as_ref(), request, reader)
+        let reader = MaterialReader { rules: model.materials.rules, size, retries, gpu: self.gpu.clone() };
+        self.openings.start(&self.waker, request, reader)
     }
+
+    /// Takes over the edits whose work has ended.
+    pub fn take_edits(&mut self, model: &mut Model) {
+        self.edits.retain(|_, job| {
+            match job.poll() {
+                None => return true,
+                Some(Ok(edit)) => edit(model),
+                Some(Err(error)) => model.not_opened(error),
+            }
+            false
+        });
+    }
+}
+
+/// What a panel draws, and what it asks.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    pub model: &'a Model,
+    pub jobs: &'a Jobs,
 }

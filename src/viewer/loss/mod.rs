@@ -1,5 +1,6 @@
 //! Sampled rendering loss: its settings, its progress, its result.
 
+pub mod losses;
 pub mod order;
 pub mod results;
 
@@ -14,12 +15,11 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::analyses::SampledScenes;
 use svbrdf_evaluate::report::Report as _;
 
-use crate::jobs::displayed::Displayed;
-use crate::jobs::loss::{ComputedLosses, DrawnLosses};
+use crate::jobs::Shown;
+use crate::loss::losses::{ComputeLosses, ComputedLosses, DrawnLosses};
 use crate::loss::results::Results;
 use crate::model::Model;
 use crate::model::dialogs::OpenDialog;
-use crate::model::effect::Effect;
 use crate::widgets::numbers::{self, seconds};
 use crate::widgets::{copy, number, progress, theme};
 
@@ -31,14 +31,14 @@ const PERCENT: std::ops::RangeInclusive<f64> = 0.1..=20.0;
 const MILLISECONDS: std::ops::RangeInclusive<u64> = 16..=10_000;
 
 /// Draws the section.
-pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
-    let (materials, job) = (&shown.model.materials, &shown.jobs.loss);
+pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
+    let (materials, job) = (&shown.model.materials, DrawnLosses::ask(shown));
     let mut asks_for_file = false;
     request(ui, &mut next.settings.loss, &mut asks_for_file);
     if asks_for_file {
         next.dialogs.open = Some(OpenDialog::default());
     }
-    controls(ui, shown, next);
+    controls(ui, shown, &job, next);
     if materials.predictions().is_empty() {
         let missing = match materials.ground_truth() {
             Some(_) => "Open a prediction to compare with the ground truth.",
@@ -49,7 +49,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
     }
     // Of other materials or settings, or of other files than there are now.
     let is_stale = !job.is_current || materials.is_stale();
-    state(ui, job, is_stale);
+    state(ui, &job, is_stale);
     if let Some((latest, _)) = job.losses() {
         ui.scope(|ui| {
             if is_stale {
@@ -63,16 +63,18 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
     }
 }
 
-fn controls(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
-    let job = &shown.jobs.loss;
+fn controls(ui: &mut egui::Ui, shown: Shown<'_>, job: &DrawnLosses, next: &mut Model) {
+    let answers = &shown.jobs.answers;
     ui.horizontal_wrapped(|ui| {
-        let (text, hover, effect) = match job.is_cancelled {
-            true => ("Compute loss", "Begin again", Effect::ComputeLoss),
-            false => ("Cancel loss", "Stop, and keep the result so far (Esc)", Effect::CancelLoss),
+        let (text, hover) = match job.is_cancelled {
+            true => ("Compute loss", "Begin again"),
+            false => ("Cancel loss", "Stop, and keep the result so far (Esc)"),
         };
         let button = ui.add_enabled(job.is_cancelled || job.busy().is_some(), button(text));
-        if button.on_hover_text(hover).clicked() {
-            next.effects.push(effect);
+        match button.on_hover_text(hover).clicked() {
+            true if job.is_cancelled => answers.resume::<ComputeLosses>(),
+            true => answers.stop::<ComputeLosses>(),
+            false => {}
         }
         let losses = job.losses();
         let button = ui.add_enabled(losses.is_some(), egui::Button::new("Copy losses"));

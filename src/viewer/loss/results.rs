@@ -6,7 +6,7 @@ use svbrdf_core::loss::{Estimate, Loss};
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_evaluate::analyses::SampledScenes;
 
-use crate::jobs::loss::ComputedLosses;
+use crate::loss::losses::ComputedLosses;
 use crate::model::{Model, display};
 use crate::widgets::names::{FEWEST, Names, fitted};
 use crate::widgets::numbers::{half_width, means, signed, significant};
@@ -144,13 +144,16 @@ impl Results<'_> {
         }
         let of_chosen = self.latest.differences.get(self.chosen);
         let Some(estimate) = of_chosen.and_then(|all| all.get(index)) else { return };
-        let verdict = Verdict::of(estimate);
+        let Verdict { arrow, text: said, colour, place } = verdict(estimate);
         let [mean, interval] = significant(estimate);
-        let text = format!("{} {}", signed(&mean), verdict.arrow());
-        let text = RichText::new(text).monospace().size(NUMBERS).color(verdict.colour(ui.visuals()));
+        let text = format!("{} {arrow}", signed(&mean));
+        let text = RichText::new(text).monospace().size(NUMBERS).color(colour(ui.visuals()));
         let response = cell(ui, DIFFERENCE, text);
-        let meaning = verdict.meaning(self.slot(index), self.slot(self.chosen));
-        let full = format!("{} {interval} {}", signed(&mean), verdict.text());
+        let meaning = match place {
+            "" => "The 95% interval includes 0: use more scenes".to_owned(),
+            _ => format!("{} is {place} the ground truth than {}", self.slot(index), self.slot(self.chosen)),
+        };
+        let full = format!("{} {interval} {said}", signed(&mean));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &full));
         response.on_hover_text(format!("95% interval {interval}\n{meaning}\n{}", self.in_full(estimate)));
     }
@@ -199,53 +202,32 @@ fn order(losses: &[Loss]) -> Vec<usize> {
 }
 
 /// What a difference says of its first prediction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Verdict {
-    Better,
-    Worse,
-    NotSignificant,
+struct Verdict {
+    arrow: &'static str,
+    text: &'static str,
+    colour: fn(&egui::Visuals) -> Color32,
+    /// How far from the ground truth the first is; nothing where that is not known.
+    place: &'static str,
 }
 
-impl Verdict {
-    /// By whether the 95% interval excludes 0, and on which side.
-    fn of(difference: &Estimate) -> Self {
-        match difference.interval95 {
-            Some([_, high]) if high < 0.0 => Self::Better,
-            Some([low, _]) if low > 0.0 => Self::Worse,
-            _ => Self::NotSignificant,
+/// By whether the 95% interval excludes 0, and on which side.
+fn verdict(difference: &Estimate) -> Verdict {
+    match difference.interval95 {
+        Some([_, high]) if high < 0.0 => {
+            Verdict { arrow: "\u{2193}", text: "\u{2193} better", colour: theme::better, place: "closer to" }
         }
-    }
-
-    fn text(self) -> &'static str {
-        match self {
-            Self::Better => "\u{2193} better",
-            Self::Worse => "\u{2191} worse",
-            Self::NotSignificant => "no significant difference",
-        }
-    }
-
-    fn arrow(self) -> &'static str {
-        match self {
-            Self::Better => "\u{2193}",
-            Self::Worse => "\u{2191}",
-            Self::NotSignificant => "~",
-        }
-    }
-
-    fn colour(self, visuals: &egui::Visuals) -> Color32 {
-        match self {
-            Self::Better => theme::better(visuals),
-            Self::Worse => theme::problem(visuals),
-            Self::NotSignificant => visuals.weak_text_color(),
-        }
-    }
-
-    fn meaning(self, first: usize, second: usize) -> String {
-        match self {
-            Self::Better => format!("{first} is closer to the ground truth than {second}"),
-            Self::Worse => format!("{first} is farther from the ground truth than {second}"),
-            Self::NotSignificant => "The 95% interval includes 0: use more scenes".to_owned(),
-        }
+        Some([low, _]) if low > 0.0 => Verdict {
+            arrow: "\u{2191}",
+            text: "\u{2191} worse",
+            colour: theme::problem,
+            place: "farther from",
+        },
+        _ => Verdict {
+            arrow: "~",
+            text: "no significant difference",
+            colour: egui::Visuals::weak_text_color,
+            place: "",
+        },
     }
 }
 
@@ -272,11 +254,11 @@ mod tests {
 
     #[test]
     fn a_difference_is_a_verdict_only_where_its_interval_excludes_0() {
-        let of = |interval95| Verdict::of(&Estimate { mean: 0.0, standard_error: None, interval95 });
-        assert_eq!(of(Some([-0.2, -0.1])), Verdict::Better);
-        assert_eq!(of(Some([0.1, 0.2])), Verdict::Worse);
-        assert_eq!(of(Some([-0.1, 0.2])), Verdict::NotSignificant);
-        assert_eq!(of(Some([0.0, 0.0])), Verdict::NotSignificant);
-        assert_eq!(of(None), Verdict::NotSignificant);
+        let of = |interval95| verdict(&Estimate { mean: 0.0, standard_error: None, interval95 }).place;
+        assert_eq!(of(Some([-0.2, -0.1])), "closer to");
+        assert_eq!(of(Some([0.1, 0.2])), "farther from");
+        for interval in [Some([-0.1, 0.2]), Some([0.0, 0.0]), None] {
+            assert_eq!(of(interval), "");
+        }
     }
 }

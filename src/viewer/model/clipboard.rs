@@ -2,7 +2,7 @@
 
 use svbrdf_core::model::scene::{Scene, SceneFile};
 
-use crate::model::message::Message;
+use crate::message::Message;
 use crate::model::{Model, exposure};
 
 /// Takes the scene of this text of the clipboard.

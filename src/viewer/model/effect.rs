@@ -7,13 +7,11 @@ use svbrdf_files::session::dataset::SessionDataset;
 use crate::model::dialogs::SaveRequest;
 use crate::model::material::request::ReadRequest;
 
-/// What happens outside of the model: files, dialogs of the system, the clipboard, work that a person starts or cancels.
+/// What happens outside of the model: files, dialogs of the system, the clipboard.
 #[derive(Clone, Debug)]
 pub enum Effect {
     /// Reads materials; a dialog that has asked for them stays open until they are there.
     Read(ReadRequest),
-    /// Cancels the opening of this number.
-    CancelReading(u64),
     /// Reads scene files.
     ReadScenes(Vec<PathBuf>),
     /// Matches the materials of folders: the first has the ground truths, each other one the predictions of a method; or reads one
@@ -21,17 +19,10 @@ pub enum Effect {
     OpenDataset(Vec<PathBuf>),
     /// Opens the data set of a session, with the losses of a results folder.
     RestoreDataset(Box<SessionDataset>, Option<PathBuf>),
-    /// Reads a material of the data set and its losses again.
-    ReadCaseAgain(usize),
-    /// Goes on with a loss that was cancelled.
-    ComputeLoss,
-    CancelLoss,
     /// Asks with the system's dialog; the choice goes into the path field of the dialog that is open.
     Browse(BrowseFor),
     /// Writes a file.
     Save(SaveRequest),
-    /// Cancels what is being written.
-    CancelSaving,
     /// Puts the view on the clipboard as a picture.
     CopyPicture,
 }

@@ -2,7 +2,6 @@
 //!
 //! What an edit needs outside of it, as a file to be read, it adds to [`Model::effects`].
 
-pub mod case;
 pub mod clipboard;
 pub mod dataset;
 pub mod dialogs;
@@ -14,7 +13,6 @@ pub mod framing;
 pub mod history;
 pub mod inspection;
 pub mod material;
-pub mod message;
 pub mod opening;
 pub mod ranges;
 pub mod session;
@@ -30,6 +28,7 @@ use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::Session;
 
 use crate::error::Error;
+use crate::message::{Message, MessageList};
 use crate::model::dataset::DatasetState;
 use crate::model::dialogs::Dialogs;
 use crate::model::effect::Effect;
@@ -39,7 +38,6 @@ use crate::model::material::list::MaterialList;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::photograph::PhotographState;
 use crate::model::material::read::MaterialId;
-use crate::model::message::{Message, MessageList};
 use crate::model::settings::Settings;
 use crate::model::view::{Exposed, ViewState, WindowGeometry};
 
@@ -133,6 +131,20 @@ impl Model {
         match &mut self.dialogs.open {
             Some(dialog) => dialog.fail(error.to_string()),
             None => self.report([Message::Failed(error)]),
+        }
+    }
+
+    /// Reports a file that was written, or why it was not: in the dialog that has asked for it, where it is open.
+    pub fn saved(&mut self, result: Result<PathBuf, Error>) {
+        match (result, &mut self.dialogs.save) {
+            (Ok(path), _) => {
+                self.dialogs.save = None;
+                let path = std::path::absolute(&path).unwrap_or(path);
+                self.report([Message::Done(format!("Saved {}", path.display()))]);
+            }
+            (Err(error), _) if error.is_cancelled() => {}
+            (Err(error), Some(dialog)) => dialog.field.fail(error.to_string()),
+            (Err(error), None) => self.report([Message::Failed(error)]),
         }
     }
 

@@ -14,11 +14,11 @@ use svbrdf_files::session::Session;
 use svbrdf_files::source::MaterialSource;
 use svbrdf_files::{Error as FilesError, scene_file};
 
+use crate::message::Retry;
 use crate::model::Model;
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::effect::Effect;
 use crate::model::material::request::{ReadRequest, Target};
-use crate::model::message::Retry;
 
 /// Opens materials: the first as ground truth where there is none or where `replace` is set, the others as predictions. Scene files,
 /// conventions, sessions and data sets among them are what they are.
@@ -150,8 +150,7 @@ pub fn retry(model: &mut Model, retry: Retry) {
 /// Reads all files again.
 pub fn reload(model: &mut Model) {
     if model.dataset.open.is_some() {
-        model.dataset.is_stale = true;
-        model.effects.push(Effect::ReadCaseAgain(model.dataset.wanted));
+        model.dataset.read_again(model.dataset.wanted);
     } else {
         model.effects.extend(model.materials.reload(None).into_iter().map(Effect::Read));
     }

@@ -1,7 +1,7 @@
 //! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes};
@@ -14,13 +14,13 @@ use svbrdf_files::session::window::{SessionInspection, SessionWindow};
 use svbrdf_files::session::{Session, SessionMaterial};
 use svbrdf_files::source::{MaterialSource, Place};
 
+use crate::message::Message;
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::effect::Effect;
 use crate::model::history::History;
 use crate::model::inspection::Inspection;
 use crate::model::material::read::Rules;
 use crate::model::material::request::{ReadRequest, Target};
-use crate::model::message::Message;
 use crate::model::ranges::bring_into_range;
 use crate::model::view::{Exposed, ViewState};
 use crate::model::{Model, opening};
@@ -103,7 +103,7 @@ impl Model {
     pub fn session(&self) -> Session {
         let materials = self.materials.all.iter().map(|one| {
             let (path, built_in) = match &one.read.source.place {
-                Place::Path(path) => (Some(std::path::absolute(path).unwrap_or_else(|_| path.clone())), None),
+                Place::Path(path) => (Some(absolute(path)), None),
                 Place::BuiltIn(number) => (None, Some(*number)),
             };
             let read = if built_in.is_some() { ReadOptions::AUTO } else { one.read.record.options };
@@ -118,7 +118,6 @@ impl Model {
         let view = &self.view;
         let convention = view.convention.content();
         let mut session = Session::new(materials.collect(), view.scene, convention, view.exposure_ev);
-        let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
         session.photograph = self
             .photograph
             .source()
@@ -133,7 +132,6 @@ impl Model {
 
     /// The data set of the current session.
     fn session_dataset(&self, open: &OpenDataset) -> SessionDataset {
-        let absolute = |path: &PathBuf| std::path::absolute(path).unwrap_or_else(|_| path.clone());
         let of_session = |all: &[Method]| {
             let one = |one: &Method| SessionMethod { name: one.name.clone(), path: absolute(&one.path) };
             all.iter().map(one).collect()
@@ -145,7 +143,7 @@ impl Model {
             Source::Predictions { predictions, .. } => (Vec::new(), of_session(predictions)),
         };
         SessionDataset {
-            ground_truths: std::path::absolute(source.path()).unwrap_or_else(|_| source.path().to_owned()),
+            ground_truths: absolute(source.path()),
             methods,
             predictions,
             target_error: open.settings.scenes.target().unwrap_or(ALL_SCENES_TARGET),
@@ -200,6 +198,10 @@ impl Model {
             recent.truncate(RECENT);
         }
     }
+}
+
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// The files of a comparison.

@@ -76,7 +76,7 @@ mod tests {
         let samples = svbrdf_files::samples::load::<f32>().unwrap();
         let all = std::iter::once(samples.ground_truth).chain(samples.predictions).enumerate();
         let loaded = |(number, read)| {
-            let read = ReadMaterial::new(MaterialSource::built_in(number), read);
+            let read = ReadMaterial::new(MaterialSource::built_in(number), read, None);
             LoadedMaterial::new(std::sync::Arc::new(read))
         };
         let mut model = Model::default();

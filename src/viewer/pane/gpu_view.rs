@@ -10,13 +10,10 @@ use svbrdf_gpu::{
     Blit, DisplayParams, DisplayPass, Gpu, Pane, PanePlace, Shaded, Shading, Still, texels_a_pixel,
 };
 
-use crate::jobs::reading::upload::{SentTextures, Uploaded, Uploads};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
+use crate::model::material::textures::SentTextures;
 use crate::pane::shaded::{ShadedMaterial, ShadedPart, ShadingDevice, ShadingRequest};
-
-/// What a pane shows until the maps of a material are on the adapter.
-const SENDING: &str = "Sending the material to the graphics adapter...";
 
 /// Texels of all materials that are sharpened in a frame: of new materials, whose light nobody drags yet, and of others.
 const SHARPENED_FIRST: usize = 1 << 21;
@@ -37,19 +34,19 @@ enum ShadingError {
 }
 
 /// The texels of a pane, or those that they are compared with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Debug)]
 pub enum PaneTexels {
     Shaded(MaterialId),
-    /// The differences given for the material of this id.
-    Differences(MaterialId),
-    /// The photograph given for the material of this id.
-    Photograph(MaterialId),
+    /// Those that were computed elsewhere.
+    Given(Arc<Shaded>),
 }
 
-impl PaneTexels {
-    fn id(self) -> MaterialId {
-        match self {
-            Self::Shaded(id) | Self::Differences(id) | Self::Photograph(id) => id,
+impl PartialEq for PaneTexels {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Shaded(one), Self::Shaded(other)) => one == other,
+            (Self::Given(one), Self::Given(other)) => Arc::ptr_eq(one, other),
+            _ => false,
         }
     }
 }
@@ -83,8 +80,6 @@ pub struct GpuView {
     least_stride: usize,
     reduced_for: Vec<MaterialId>,
     reduction: usize,
-    /// Texels that were computed elsewhere, each with their version.
-    given: HashMap<PaneTexels, (Arc<Shaded>, u64)>,
     versions: u64,
     panes: Vec<Option<SavedPane>>,
 }
@@ -107,7 +102,6 @@ impl GpuView {
             least_stride: 1,
             reduced_for: Vec::new(),
             reduction: 1,
-            given: HashMap::new(),
             versions: 0,
             panes: Vec::new(),
         })
@@ -118,14 +112,9 @@ impl GpuView {
     ///
     /// # Errors
     /// A text for the pane, where the adapter cannot hold a material.
-    pub fn shade(
-        &mut self,
-        materials: &[&LoadedMaterial],
-        uploads: &Uploads,
-        request: ShadingRequest,
-    ) -> Result<bool, String> {
+    pub fn shade(&mut self, materials: &[&LoadedMaterial], request: ShadingRequest) -> Result<bool, String> {
         loop {
-            match self.shade_at_reduction(materials, uploads, request) {
+            match self.shade_at_reduction(materials, request) {
                 Err(ShadingError::NoRoom(_)) if !request.exact && self.least_stride < MOST_REDUCED => {
                     self.least_stride *= 2;
                     self.shaded.clear();
@@ -144,15 +133,11 @@ impl GpuView {
     fn shade_at_reduction(
         &mut self,
         materials: &[&LoadedMaterial],
-        uploads: &Uploads,
         request: ShadingRequest,
     ) -> Result<bool, ShadingError> {
-        let uploads: Vec<&Arc<Uploaded>> = materials
-            .iter()
-            .map(|one| uploads.get(&one.id()).ok_or(ShadingError::NotThere(SENDING.to_owned())))
-            .collect::<Result<_, _>>()?;
         // A pane compares texels of one size: all materials are shown in full, or none.
-        let strides = uploads.iter().filter_map(|one| one.sent.as_ref()).map(|sent| sent.stride);
+        let uploads = materials.iter().filter_map(|one| one.read.uploaded.as_ref());
+        let strides = uploads.filter_map(|one| one.sent.as_ref()).map(|sent| sent.stride);
         let stride = strides.fold(self.least_stride, usize::max);
         self.reduction = stride;
         let is_whole = |one: &&LoadedMaterial| {
@@ -166,10 +151,12 @@ impl GpuView {
         };
         let sharpens = is_left && !request.waits;
         let part_request = ShadingRequest { part, sharpens, ..request };
-        for (material, uploaded) in materials.iter().zip(uploads) {
+        for material in materials {
             let is_usable = |one: &&SentTextures| one.stride == 1 || one.stride == stride && !request.exact;
-            let Some(sent) = uploaded.sent.as_ref().filter(is_usable) else {
-                return Err(ShadingError::NotThere(uploaded.problem.clone().unwrap_or_default()));
+            let uploaded = material.read.uploaded.as_ref();
+            let Some(sent) = uploaded.and_then(|one| one.sent.as_ref()).filter(is_usable) else {
+                let problem = uploaded.and_then(|one| one.problem.clone());
+                return Err(ShadingError::NotThere(problem.unwrap_or_default()));
             };
             let (textures, are_reduced) = (&sent.textures, sent.stride > 1);
             let Self { gpu, shading, versions, .. } = self;
@@ -183,22 +170,14 @@ impl GpuView {
         Ok(sharpens)
     }
 
-    /// Takes texels that were computed elsewhere, with a new version where they are others.
-    pub fn give(&mut self, place: PaneTexels, texels: &Arc<Shaded>) {
-        if self.given.get(&place).is_none_or(|(given, _)| !Arc::ptr_eq(given, texels)) {
-            self.versions += 1;
-            self.given.insert(place, (texels.clone(), self.versions));
-        }
-    }
-
     /// These texels and their version, where they are there.
-    fn texels(&self, texels: PaneTexels) -> Option<(&Shaded, u64)> {
+    fn texels<'a>(&'a self, texels: &'a PaneTexels) -> Option<(&'a Shaded, u64)> {
         match texels {
             PaneTexels::Shaded(id) => {
-                let texels = self.shaded.get(&id).and_then(ShadedMaterial::displayed)?;
+                let texels = self.shaded.get(id).and_then(ShadedMaterial::displayed)?;
                 Some((&texels.shaded, texels.version))
             }
-            given => self.given.get(&given).map(|(given, version)| (given.as_ref(), *version)),
+            PaneTexels::Given(texels) => Some((texels, 0)),
         }
     }
 
@@ -209,11 +188,10 @@ impl GpuView {
         }
         let is_here = |id: &MaterialId| materials.iter().any(|one| one.id() == *id);
         self.shaded.retain(|id, _| is_here(id));
-        self.given.retain(|texels, _| is_here(&texels.id()));
         self.panes.truncate(panes);
     }
 
-    /// Draws the first of `texels` into `rect`, with the second where the mode compares; both must have been shaded or given.
+    /// Draws the first of `texels` into `rect`, with the second where the mode compares; both must be there.
     ///
     /// Where pane `number` shows what it showed in the frame before, its pixels are kept and copied from then on. A pane that
     /// changes is drawn into the window at once, since its pixels would be copied only once; one of many texels a pixel, each of
@@ -230,9 +208,11 @@ impl GpuView {
             self.panes.resize_with(number + 1, || None);
         }
         let last = self.panes[number].take();
-        let [Some(displayed), Some(reference)] = texels.map(|texels| self.texels(texels)) else { return };
+        let [Some(displayed), Some(reference)] = texels.each_ref().map(|one| self.texels(one)) else {
+            return;
+        };
         let place = place(rect, painter.ctx().pixels_per_point());
-        let key = PaneKey { texels, versions: [displayed.1, reference.1], params, place };
+        let key = PaneKey { texels: texels.clone(), versions: [displayed.1, reference.1], params, place };
         let pane = |place| Arc::new(self.display.pane(&self.gpu, displayed.0, reference.0, &params, place));
         let (still, drawn) = match last {
             Some(SavedPane { of, still: Some(still) }) if of == key => {

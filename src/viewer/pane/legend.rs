@@ -9,9 +9,9 @@ use svbrdf_core::picture::differences::Differences;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::{Distributions, Histogram};
 
-use crate::jobs::displayed::Displayed;
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
+use crate::pane::displayed::Displayed;
 use crate::widgets::bounds::inset;
 use crate::widgets::numbers::digits;
 use crate::widgets::paint::colour_bar;
@@ -34,7 +34,7 @@ const AXIS: f64 = 1.5;
 /// The strip, and what all of its parts are drawn from.
 #[derive(Debug)]
 pub struct LegendStrip<'a> {
-    pub shown: Displayed<'a>,
+    pub shown: &'a Displayed<'a>,
     pub quantity: Quantity,
     pub kind: Difference,
     range: f64,
@@ -45,7 +45,7 @@ pub struct LegendStrip<'a> {
 }
 
 impl<'a> LegendStrip<'a> {
-    pub fn new(shown: Displayed<'a>) -> Self {
+    pub fn new(shown: &'a Displayed<'a>) -> Self {
         let view = &shown.model.view;
         let materials = shown.materials();
         let predictions = materials.get(1..).unwrap_or_default();

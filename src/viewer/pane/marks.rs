@@ -4,7 +4,7 @@ use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Shape, Stroke, pos2, 
 
 use crate::model::inspection::{Inspection, Region};
 use crate::pane::placed::Placed;
-use crate::widgets::readout::in_width;
+use crate::widgets::numbers::in_width;
 
 /// Side of a texel, in points, from which on its numbers are drawn on it.
 pub const READABLE: f32 = 48.0;

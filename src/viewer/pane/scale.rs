@@ -4,7 +4,8 @@ use eframe::egui::{Align2, Color32, FontId, Painter, Rect, pos2, vec2};
 
 use svbrdf_core::picture::quantity::Quantity;
 
-use crate::pane::scenery::{PaneContent, Scenery};
+use crate::pane::displayed::Displayed;
+use crate::pane::scenery::PaneContent;
 use crate::widgets::paint::colour_bar;
 
 /// Size of the colours, and the distance of the scale from the corner of the pane, in points.
@@ -16,8 +17,8 @@ const INK: Color32 = Color32::from_gray(0xf0);
 const BEHIND: Color32 = Color32::from_black_alpha(170);
 
 /// Whether a pane shows roughness in false colours, from 0 to 1.
-pub fn has_scale(scenery: &Scenery<'_>, content: PaneContent) -> bool {
-    let display = &scenery.shown.view().display;
+pub fn has_scale(shown: &Displayed<'_>, content: PaneContent) -> bool {
+    let display = &shown.view().display;
     display.false_colour && display.quantity == Quantity::Roughness && !content.difference
 }
 

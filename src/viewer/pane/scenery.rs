@@ -4,22 +4,14 @@ use eframe::egui;
 
 use svbrdf_gpu::DisplayMode;
 
-use crate::jobs::displayed::Displayed;
 use crate::model::dataset::Missing;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::Layout;
-use crate::pane::gpu_view::{GpuView, PaneTexels};
+use crate::pane::displayed::Displayed;
+use crate::pane::gpu_view::PaneTexels;
 use crate::pane::handles::ndc_from_pos;
 use crate::pane::placed::Placed;
 use crate::widgets::names::shortened;
-
-/// What the panes show, for one frame.
-#[derive(Debug)]
-pub struct Scenery<'a> {
-    pub shown: Displayed<'a>,
-    /// Whether every pane shows the ground truth, as long as a key is held.
-    peek: bool,
-}
 
 /// The content of a pane: the index of the material that it displays, that of the material it is compared with, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,22 +35,13 @@ pub enum PhotographUse {
     Reference,
 }
 
-impl<'a> Scenery<'a> {
-    pub fn new(ctx: &egui::Context, shown: Displayed<'a>) -> Self {
-        Self { shown, peek: !shown.is_picture && peeks(ctx) }
-    }
-
-    /// The predictions that are not there, which have empty panes.
-    fn missing(&self) -> &'a [Missing] {
-        &self.shown.model.dataset.missing
-    }
-
+impl Displayed<'_> {
     /// The index of the material that is displayed in the place of material `index`.
     fn in_place_of(&self, index: usize) -> usize {
         match index {
-            _ if self.peek => 0,
-            0 if self.shown.model.swapped => self.shown.chosen(),
-            i if self.shown.model.swapped && i == self.shown.chosen() => 0,
+            _ if self.peeks => 0,
+            0 if self.model.swapped => self.chosen(),
+            i if self.model.swapped && i == self.chosen() => 0,
             i => i,
         }
     }
@@ -66,34 +49,32 @@ impl<'a> Scenery<'a> {
     /// The content of every pane. The ground truth is never compared with itself: its pane shows its value.
     pub fn contents(&self) -> Vec<PaneContent> {
         let content = |index, reference, mode| {
-            let difference = self.shown.view().display.difference && index != 0;
+            let difference = self.view().display.difference && index != 0;
             let reference = if difference { 0 } else { reference };
             PaneContent { index, reference, mode, difference, photograph: PhotographUse::Absent }
         };
-        if self.shown.photograph().is_some() {
+        if self.photograph().is_some() {
             return self.photograph_contents();
         }
-        let (ground_truth, chosen) = (self.in_place_of(0), self.in_place_of(self.shown.chosen()));
-        match self.shown.view().display.layout {
-            Layout::SideBySide => (0..self.shown.materials().len())
+        let (ground_truth, chosen) = (self.in_place_of(0), self.in_place_of(self.chosen()));
+        match self.view().display.layout {
+            Layout::SideBySide => (0..self.materials().len())
                 .map(|i| content(self.in_place_of(i), 0, DisplayMode::Value))
                 .collect(),
             Layout::Single => vec![content(chosen, 0, DisplayMode::Value)],
             Layout::Wipe => {
-                vec![content(
-                    chosen,
-                    ground_truth,
-                    DisplayMode::Wipe(self.shown.view().display.wipe * 2.0 - 1.0),
-                )]
+                vec![content(chosen, ground_truth, DisplayMode::Wipe(self.view().display.wipe * 2.0 - 1.0))]
             }
         }
     }
 
     /// The panes of predictions that are not there, side by side with the others.
     pub fn empty(&self) -> impl Iterator<Item = (usize, &Missing)> {
-        let is_seen = self.shown.view().display.layout == Layout::SideBySide;
-        let before = usize::from(self.shown.photograph().is_some());
-        self.missing()
+        let is_seen = self.view().display.layout == Layout::SideBySide;
+        let before = usize::from(self.photograph().is_some());
+        self.model
+            .dataset
+            .missing
             .iter()
             .filter(move |one| is_seen && one.slot > 0)
             .map(move |one| (one.slot + before, one))
@@ -108,7 +89,7 @@ impl<'a> Scenery<'a> {
 
     /// The content of every pane beside a photograph: the photograph at the exposure of the chosen material, then every material.
     fn photograph_contents(&self) -> Vec<PaneContent> {
-        let difference = self.shown.view().display.difference;
+        let difference = self.view().display.difference;
         let material = |index| PaneContent {
             index,
             reference: index,
@@ -116,31 +97,28 @@ impl<'a> Scenery<'a> {
             difference,
             photograph: PhotographUse::Reference,
         };
-        let chosen = material(self.shown.chosen());
+        let chosen = material(self.chosen());
         let photograph = PaneContent { difference: false, photograph: PhotographUse::Displayed, ..chosen };
-        let mut panes: Vec<PaneContent> = match self.shown.view().display.layout {
+        let mut panes: Vec<PaneContent> = match self.view().display.layout {
             Layout::SideBySide => {
-                std::iter::once(photograph).chain((0..self.shown.materials().len()).map(material)).collect()
+                std::iter::once(photograph).chain((0..self.materials().len()).map(material)).collect()
             }
-            Layout::Single => vec![if self.shown.model.swapped { photograph } else { chosen }],
+            Layout::Single => vec![if self.model.swapped { photograph } else { chosen }],
             Layout::Wipe => {
-                vec![PaneContent {
-                    mode: DisplayMode::Wipe(self.shown.view().display.wipe * 2.0 - 1.0),
-                    ..chosen
-                }]
+                vec![PaneContent { mode: DisplayMode::Wipe(self.view().display.wipe * 2.0 - 1.0), ..chosen }]
             }
         };
-        if self.peek {
+        if self.peeks {
             panes.fill(photograph);
-        } else if self.shown.model.swapped && self.shown.view().display.layout == Layout::SideBySide {
-            panes.swap(0, self.shown.chosen() + 1);
+        } else if self.model.swapped && self.view().display.layout == Layout::SideBySide {
+            panes.swap(0, self.chosen() + 1);
         }
         panes
     }
 
     /// The name of what a pane shows, without its difference, in about `most` characters.
     pub fn name_of(&self, content: PaneContent, most: usize) -> String {
-        match (self.shown.photograph(), content.photograph) {
+        match (self.photograph(), content.photograph) {
             (Some(photograph), PhotographUse::Displayed) => photograph.title(content.index),
             _ => self.title(content.index, most),
         }
@@ -148,7 +126,7 @@ impl<'a> Scenery<'a> {
 
     /// The name of what a pane compares with, in about `most` characters.
     pub fn name_of_reference(&self, content: PaneContent, most: usize) -> String {
-        match (self.shown.photograph(), content.photograph) {
+        match (self.photograph(), content.photograph) {
             (Some(photograph), PhotographUse::Reference) => photograph.title(content.index),
             _ => self.title(content.reference, most),
         }
@@ -156,22 +134,18 @@ impl<'a> Scenery<'a> {
 
     /// What the first material is: alone it is the ground truth of nothing.
     fn role(&self) -> &'static str {
-        if self.shown.materials().len() == 1 && self.shown.photograph().is_none() {
-            "MATERIAL"
-        } else {
-            "GROUND TRUTH"
-        }
+        if self.materials().len() == 1 && self.photograph().is_none() { "MATERIAL" } else { "GROUND TRUTH" }
     }
 
     /// The name of material `index` in titles. Of names that are too long, what all have in common is left out.
     fn title(&self, index: usize, most: usize) -> String {
-        let labels: Vec<String> = self.shown.materials().iter().map(LoadedMaterial::label).collect();
+        let labels: Vec<String> = self.materials().iter().map(LoadedMaterial::label).collect();
         let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
         let (ground_truth, predictions) = labels.split_at(labels.len().min(1));
         match index.checked_sub(1) {
             None => format!("{}  {}", self.role(), shortened(ground_truth, most).concat()),
             Some(prediction) => {
-                let slot = self.shown.materials()[index].slot;
+                let slot = self.materials()[index].slot;
                 format!("{slot}  {}", shortened(predictions, most)[prediction])
             }
         }
@@ -179,7 +153,7 @@ impl<'a> Scenery<'a> {
 }
 
 /// Whether the key of the ground truth is held: G, or Shift alone, which with the wheel, a button or another key does other things.
-fn peeks(ctx: &egui::Context) -> bool {
+pub fn peeks(ctx: &egui::Context) -> bool {
     let (is_held, is_shift) = ctx.input(|i| {
         let is_used =
             !i.keys_down.is_empty() || i.pointer.any_down() || i.smooth_scroll_delta != egui::Vec2::ZERO;
@@ -189,38 +163,31 @@ fn peeks(ctx: &egui::Context) -> bool {
 }
 
 /// What a pane draws and what it compares that with; a hint in its place where that is not there yet.
-pub fn texels(
-    gpu: &mut GpuView,
-    scenery: &Scenery<'_>,
-    content: PaneContent,
-) -> Result<[PaneTexels; 2], &'static str> {
-    let [material_id, reference] =
-        [content.index, content.reference].map(|i| scenery.shown.materials()[i].id());
-    let material = PaneTexels::Shaded(material_id);
-    if content.difference && scenery.shown.view().is_computed() {
-        let map = scenery.shown.computed_maps().and_then(|maps| maps.shaded(content.index));
-        let is_error_map = scenery.shown.view().is_error_map();
+pub fn texels(shown: &Displayed<'_>, content: PaneContent) -> Result<[PaneTexels; 2], &'static str> {
+    let shaded = |index: usize| PaneTexels::Shaded(shown.materials()[index].id());
+    let [material, reference] = [content.index, content.reference].map(shaded);
+    if content.difference && shown.view().is_computed() {
+        let map = shown.computed_maps().and_then(|maps| maps.shaded(content.index));
+        let is_error_map = shown.view().is_error_map();
         let hint =
             if is_error_map { "Averaging over the scenes of the loss..." } else { "Computing FLIP..." };
-        let differences = PaneTexels::Differences(material_id);
-        gpu.give(differences, map.ok_or(hint)?);
-        return Ok([differences, PaneTexels::Shaded(reference)]);
+        return Ok([PaneTexels::Given(map.ok_or(hint)?.clone()), reference]);
     }
     let compares = content.difference || content.mode != DisplayMode::Value;
     if content.photograph == PhotographUse::Absent
         || (content.photograph == PhotographUse::Reference && !compares)
     {
-        return Ok([material, PaneTexels::Shaded(reference)]);
+        return Ok([material, reference]);
     }
-    let photograph = scenery.shown.photograph().and_then(|photograph| photograph.all?.shaded(content.index));
-    let texels = PaneTexels::Photograph(material_id);
-    gpu.give(texels, photograph.ok_or("Reading the photograph...")?);
-    Ok([if content.photograph == PhotographUse::Displayed { texels } else { material }, texels])
+    let photograph = shown.photographs().and_then(|all| all.shaded(content.index));
+    let texels = PaneTexels::Given(photograph.ok_or("Reading the photograph...")?.clone());
+    let displayed = if content.photograph == PhotographUse::Displayed { texels.clone() } else { material };
+    Ok([displayed, texels])
 }
 
 /// The index of the material whose value is displayed at this x of a pane, from -1 to 1; the number of materials for a photograph.
-pub fn index_at(scenery: &Scenery<'_>, content: PaneContent, x: f32) -> usize {
-    let photograph = scenery.shown.materials().len();
+pub fn index_at(shown: &Displayed<'_>, content: PaneContent, x: f32) -> usize {
+    let photograph = shown.materials().len();
     match (content.mode, content.photograph) {
         (_, PhotographUse::Displayed) => photograph,
         (DisplayMode::Wipe(line), PhotographUse::Reference) if x < line => photograph,
@@ -242,7 +209,7 @@ impl Hovered {
     /// What is under the pointer, if it is over this pane and nothing lies in between.
     pub fn in_pane(
         ui: &egui::Ui,
-        scenery: &Scenery<'_>,
+        shown: &Displayed<'_>,
         content: PaneContent,
         placed: &Placed,
     ) -> Option<Self> {
@@ -251,7 +218,7 @@ impl Hovered {
         if covered {
             return None;
         }
-        let index = index_at(scenery, content, ndc_from_pos(placed.rect, pos)[0]);
+        let index = index_at(shown, content, ndc_from_pos(placed.rect, pos)[0]);
         placed.point(pos).map(|point| Self { index, texel: placed.grid.texel_at(point) })
     }
 }

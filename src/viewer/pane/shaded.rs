@@ -4,8 +4,8 @@ use svbrdf_files::Error;
 use svbrdf_files::disk::memory::Reserved;
 use svbrdf_gpu::{Gpu, MaterialTextures, ShadeParams, Shaded, Shading};
 
-use crate::jobs::reading::upload::reserve_for;
 use crate::model::inspection::Region;
+use crate::model::material::textures::reserve_for;
 
 /// Bytes of a shaded texel.
 const TARGET_BYTES: u64 = 16;

@@ -20,7 +20,7 @@ impl LegendStrip<'_> {
     pub fn statistics(&self, ui: &mut egui::Ui) {
         let scenes = self.shown.error_map_scenes();
         let Some((distributions, is_current)) = self.distributions else {
-            match (scenes, self.shown.jobs.panes.error_map_progress) {
+            match (scenes, self.shown.error_map_progress()) {
                 (Some(scenes), Some(fraction)) => {
                     let text = format!("{:.0}% of {scenes} scenes", 100.0 * fraction);
                     ui.add(egui::ProgressBar::new(fraction).text(text).desired_width(STATISTICS * 0.6));

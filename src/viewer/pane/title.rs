@@ -9,7 +9,8 @@ use crate::model::material::loaded::drawable;
 use crate::model::view::Layout;
 use crate::model::{Model, display};
 use crate::pane::cells::TITLE;
-use crate::pane::scenery::{PaneContent, PhotographUse, Scenery};
+use crate::pane::displayed::Displayed;
+use crate::pane::scenery::{PaneContent, PhotographUse};
 use crate::widgets::bounds::inset;
 use crate::widgets::names::{FEWEST, fitted};
 use crate::widgets::numbers::significant;
@@ -25,7 +26,7 @@ const SWATCH: f32 = 14.0;
 /// The title of a pane. A click on the title of a prediction chooses the prediction.
 pub fn title_bar(
     ui: &mut egui::Ui,
-    scenery: &Scenery<'_>,
+    shown: &Displayed<'_>,
     number: usize,
     content: PaneContent,
     rect: Rect,
@@ -33,16 +34,16 @@ pub fn title_bar(
 ) {
     let is_material = content.photograph != PhotographUse::Displayed;
     let prediction = content.index.checked_sub(1).filter(|_| is_material);
-    let chosen = is_material && content.index == scenery.shown.chosen() && content.index != 0;
-    let text = text(scenery, content, usize::MAX, true);
+    let chosen = is_material && content.index == shown.chosen() && content.index != 0;
+    let text = text(shown, content, usize::MAX, true);
     let response = ui.interact(rect, ui.scope_id().with(("title", number)), Sense::click());
-    let replaced = chosen && scenery.shown.view().display.is_replaced();
-    let loss = prediction.filter(|_| !replaced).and_then(|index| loss_of(scenery, index, rect));
+    let replaced = chosen && shown.view().display.is_replaced();
+    let loss = prediction.filter(|_| !replaced).and_then(|index| loss_of(shown, index, rect));
     response.widget_info(|| egui::WidgetInfo {
         current_text_value: loss.clone(),
         ..egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Title {text}"))
     });
-    let has_button = replaced && !scenery.shown.is_picture;
+    let has_button = replaced && !shown.is_picture;
     let back =
         inset(Rect::from_min_max(rect.right_top() - vec2(BACK, 0.0), rect.right_bottom()), vec2(2.0, 2.0));
     let painter = ui.painter_at(rect);
@@ -51,7 +52,7 @@ pub fn title_bar(
     } else {
         ui.visuals().text_color()
     };
-    let slot = prediction.map(|_| scenery.shown.materials()[content.index].slot);
+    let slot = prediction.map(|_| shown.materials()[content.index].slot);
     let swatch = slot.map(|slot| theme::series(slot, ui.visuals().dark_mode));
     let left = if swatch.is_some() { 8.0 + SWATCH } else { 8.0 };
     let middle = rect.left_center() + vec2(8.0 + 4.0, 0.0);
@@ -63,11 +64,11 @@ pub fn title_bar(
     let room_of = |loss: f32| (rect.width() - left - 8.0 - button.max(loss)).max(0.0);
     let font = FontId::proportional(13.5);
     let width = room_of(loss.as_ref().map_or(0.0, |loss| loss.size().x + 8.0));
-    let with_loss = short_in(ui, scenery, content, &font, width);
+    let with_loss = short_in(ui, shown, content, &font, width);
     // Where a name does not fit beside it, the loss goes, which the panel has.
     let (width, loss) = if with_loss.is_some() { (width, loss) } else { (room_of(0.0), None) };
-    let short = with_loss.or_else(|| short_in(ui, scenery, content, &font, width));
-    let short = short.unwrap_or_else(|| self::text(scenery, content, FEWEST, false));
+    let short = with_loss.or_else(|| short_in(ui, shown, content, &font, width));
+    let short = short.unwrap_or_else(|| self::text(shown, content, FEWEST, false));
     if let Some(loss) = loss {
         let at = rect.right_center() - vec2(8.0 + loss.size().x, 0.5 * loss.size().y);
         painter.galley(at, loss, weak);
@@ -77,14 +78,11 @@ pub fn title_bar(
     let elided = galley.elided || short != text;
     let at = rect.left_center() + vec2(left, -galley.size().y * 0.5);
     painter.galley(at, galley, colour);
-    if chosen
-        && scenery.shown.view().display.layout == Layout::SideBySide
-        && scenery.shown.materials().len() > 2
-    {
+    if chosen && shown.view().display.layout == Layout::SideBySide && shown.materials().len() > 2 {
         let line = Rect::from_min_max(rect.left_bottom() - vec2(0.0, 2.0), rect.right_bottom());
         painter.rect_filled(line, 0.0, theme::accent(ui.visuals()));
     }
-    if has_button && back_button(ui, scenery, back).clicked() {
+    if has_button && back_button(ui, shown, back).clicked() {
         return next.view.isolate(None);
     }
     let response = if elided { response.on_hover_text(text) } else { response };
@@ -94,18 +92,18 @@ pub fn title_bar(
 }
 
 /// The button that shows the prediction itself again.
-fn back_button(ui: &mut egui::Ui, scenery: &Scenery<'_>, place: Rect) -> egui::Response {
-    let is_corrected = scenery.shown.view().display.corrected.is_some();
+fn back_button(ui: &mut egui::Ui, shown: &Displayed<'_>, place: Rect) -> egui::Response {
+    let is_corrected = shown.view().display.corrected.is_some();
     let label = if is_corrected { "Show original" } else { "Show all maps" };
     let button = ui.put(place, egui::Button::new(egui::RichText::new(label).small()));
     button.on_hover_text("Show the prediction itself again (Esc)")
 }
 
 /// The pane of a prediction that is not there, with the reason.
-pub fn empty_pane(ui: &mut egui::Ui, scenery: &Scenery<'_>, missing: &Missing, cell: Rect) {
+pub fn empty_pane(ui: &mut egui::Ui, shown: &Displayed<'_>, missing: &Missing, cell: Rect) {
     let (title, picture) = cell.split_top_bottom_at_y(cell.top() + TITLE);
     let (colour, problem) = (theme::series(missing.slot, ui.visuals().dark_mode), drawable(&missing.problem));
-    ui.painter().rect_filled(picture, 0.0, theme::surround(scenery.shown.model.settings.dark));
+    ui.painter().rect_filled(picture, 0.0, theme::surround(shown.model.settings.dark));
     let room = inset(title, vec2(8.0, 0.0));
     ui.scope_builder(egui::UiBuilder::new().max_rect(room), |ui| {
         let name = format!("{}  {}", missing.slot, drawable(&missing.name));
@@ -119,35 +117,33 @@ pub fn empty_pane(ui: &mut egui::Ui, scenery: &Scenery<'_>, missing: &Missing, c
 /// the quantity goes, which the legend has.
 fn short_in(
     ui: &egui::Ui,
-    scenery: &Scenery<'_>,
+    shown: &Displayed<'_>,
     content: PaneContent,
     font: &FontId,
     width: f32,
 ) -> Option<String> {
-    let with =
-        |has_quantity: bool| fitted(ui, font, width, |most| text(scenery, content, most, has_quantity));
+    let with = |has_quantity: bool| fitted(ui, font, width, |most| text(shown, content, most, has_quantity));
     with(true).or_else(|| with(false))
 }
 
 /// The loss of a prediction, where there may be room for it.
-fn loss_of(scenery: &Scenery<'_>, prediction: usize, title: Rect) -> Option<String> {
-    let model = scenery.shown.model;
+fn loss_of(shown: &Displayed<'_>, prediction: usize, title: Rect) -> Option<String> {
+    let model = shown.model;
     // The panel has the loss of a single prediction.
     let is_repeated = model.dataset.open.is_none() && model.materials.all.len() == 2 && model.side_panel();
-    let losses = scenery.shown.losses();
-    let loss = losses.get(prediction)?.as_ref().filter(|_| title.width() >= LEAST && !is_repeated)?;
+    let loss = shown.losses.get(prediction)?.as_ref().filter(|_| title.width() >= LEAST && !is_repeated)?;
     Some(format!("loss {}", significant(loss)[0]))
 }
 
 /// The names, of at most `most` characters each, and the quantity of differences where there is room for it.
-fn text(scenery: &Scenery<'_>, content: PaneContent, most: usize, has_quantity: bool) -> String {
-    let name = scenery.name_of(content, most);
+fn text(shown: &Displayed<'_>, content: PaneContent, most: usize, has_quantity: bool) -> String {
+    let name = shown.name_of(content, most);
     let names = match content.mode {
         DisplayMode::Value => name,
-        DisplayMode::Wipe(_) => format!("{}   |   {name}", scenery.name_of_reference(content, most)),
+        DisplayMode::Wipe(_) => format!("{}   |   {name}", shown.name_of_reference(content, most)),
     };
     if content.difference && has_quantity {
-        format!("{names}: {}", scenery.shown.view().difference_name())
+        format!("{names}: {}", shown.view().difference_name())
     } else {
         names
     }

@@ -8,22 +8,22 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
 
-use crate::jobs::reading::upload::Uploads;
 use crate::model::Model;
 use crate::model::material::loaded::drawable;
 use crate::model::view::{Projection, ViewState};
 use crate::pane::cells::{TITLE, cells, columns, picture_rect};
+use crate::pane::displayed::Displayed;
 use crate::pane::draft_policy::{DraftPolicy, LARGE, PAUSE, PaneView};
 use crate::pane::gestures::{self, Gesture};
 use crate::pane::gpu_view::GpuView;
 use crate::pane::placed::Placed;
-use crate::pane::scenery::{Hovered, PaneContent, PhotographUse, Scenery, texels};
+use crate::pane::readout;
+use crate::pane::scenery::{Hovered, PaneContent, PhotographUse, texels};
 use crate::pane::shaded::{ShadedPart, ShadingRequest};
 use crate::pane::title::{empty_pane, title_bar};
 use crate::pane::visible::shaded_part;
 use crate::pane::{handles, scale};
 use crate::widgets::paint::{note, paint_hint};
-use crate::widgets::readout::{self, Readout};
 use crate::widgets::theme;
 
 /// A view steeper than this above the plane (its sine) is one from straight above.
@@ -40,7 +40,7 @@ pub const STRIP: f32 = 92.0;
 pub struct Viewport {
     gesture: Option<Gesture>,
     /// Where the panes with materials were drawn, for the gestures of the next frame.
-    drawn: Vec<DrawnPane>,
+    drawn: Vec<(egui::Id, Rect)>,
     /// What is under the pointer.
     pub hovered: Option<Hovered>,
     /// The texel that was under the pointer last.
@@ -56,12 +56,6 @@ pub struct Viewport {
     pane_pixels: Vec2,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct DrawnPane {
-    id: egui::Id,
-    rect: Rect,
-}
-
 impl Viewport {
     /// Panes like these that are shaded in full before they are drawn.
     pub fn exact(&self) -> Self {
@@ -72,9 +66,9 @@ impl Viewport {
     pub fn gestures(&mut self, ctx: &egui::Context, model: &mut Model) {
         let Some(ground_truth) = model.materials.ground_truth() else { return };
         let grid = ground_truth.grid();
-        for DrawnPane { id, rect } in &self.drawn {
+        for (id, rect) in &self.drawn {
             let Some(response) = ctx.read_response(*id) else { continue };
-            let placed = placed(&model.view, grid, *rect, self.pane_pixels());
+            let placed = self.placed(&model.view, grid, *rect);
             gestures::act(ctx, &response, &placed, &mut self.gesture, model);
         }
     }
@@ -83,10 +77,9 @@ impl Viewport {
     pub fn ui(
         &mut self,
         ui: &mut egui::Ui,
-        scenery: &Scenery<'_>,
+        shown: &Displayed<'_>,
         next: &mut Model,
         gpu: Option<&mut GpuView>,
-        uploads: &Uploads,
     ) {
         let area = ui.available_rect_before_wrap();
         self.area = Some(area);
@@ -96,12 +89,12 @@ impl Viewport {
             let text = "No graphics adapter: materials cannot be drawn. The loss can be computed.";
             return note(ui, area, text);
         };
-        if scenery.shown.materials().is_empty() {
-            return empty(ui, area, scenery);
+        if shown.materials().is_empty() {
+            return empty(ui, area, shown);
         }
-        let contents = scenery.contents();
-        let grid = scenery.shown.materials()[0].grid();
-        let count = contents.len() + scenery.empty().count();
+        let contents = shown.contents();
+        let grid = shown.materials()[0].grid();
+        let count = contents.len() + shown.empty().count();
         let columns = columns(area, count, grid);
         let cells = cells(area, count, columns, ui.pixels_per_point());
         if let Some(cell) = cells.first() {
@@ -112,31 +105,31 @@ impl Viewport {
             }
             self.pane_pixels = pixels;
         }
-        if let Err(problem) = self.shade(ui, gpu, uploads, scenery, &contents) {
+        if let Err(problem) = self.shade(ui, gpu, shown, &contents) {
             return note(ui, area, &problem);
         }
-        for (place, missing) in scenery.empty() {
-            cells.get(place).into_iter().for_each(|cell| empty_pane(ui, scenery, missing, *cell));
+        for (place, missing) in shown.empty() {
+            cells.get(place).into_iter().for_each(|cell| empty_pane(ui, shown, missing, *cell));
         }
-        let cell = |(number, content)| Some((content, *cells.get(scenery.place(number))?));
+        let cell = |(number, content)| Some((content, *cells.get(shown.place(number))?));
         let panes: Vec<(PaneContent, Rect)> = contents.into_iter().enumerate().filter_map(cell).collect();
         self.hovered = panes.iter().find_map(|(content, cell)| {
-            let placed = placed(scenery.shown.view(), grid, picture_rect(ui, *cell), self.pane_pixels());
-            Hovered::in_pane(ui, scenery, *content, &placed)
+            let placed = self.placed(shown.view(), grid, picture_rect(ui, *cell));
+            Hovered::in_pane(ui, shown, *content, &placed)
         });
         self.last_texel = self.hovered.and_then(|hovered| hovered.texel).or(self.last_texel);
         for (i, (content, cell)) in panes.into_iter().enumerate() {
             let (title, _) = cell.split_top_bottom_at_y(cell.top() + TITLE);
-            title_bar(ui, scenery, i, content, title, next);
+            title_bar(ui, shown, i, content, title, next);
             let rect = picture_rect(ui, cell);
-            self.pane(ui, scenery, gpu, i, content, rect);
+            self.pane(ui, shown, gpu, i, content, rect);
         }
     }
 
     fn pane(
         &mut self,
         ui: &mut egui::Ui,
-        scenery: &Scenery<'_>,
+        shown: &Displayed<'_>,
         gpu: &mut GpuView,
         number: usize,
         content: PaneContent,
@@ -144,33 +137,32 @@ impl Viewport {
     ) {
         let id = ui.scope_id().with(("pane", number));
         let response = ui.interact(rect, id, Sense::drag());
-        self.drawn.push(DrawnPane { id, rect });
-        let label = format!("Pane {}", scenery.name_of(content, usize::MAX));
+        self.drawn.push((id, rect));
+        let label = format!("Pane {}", shown.name_of(content, usize::MAX));
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &label));
-        let placed =
-            placed(scenery.shown.view(), scenery.shown.materials()[0].grid(), rect, self.pane_pixels());
-        self.paint(ui, scenery, gpu, (number, content), &placed);
+        let placed = self.placed(shown.view(), shown.materials()[0].grid(), rect);
+        self.paint(ui, shown, gpu, (number, content), &placed);
     }
 
     fn paint(
         &self,
         ui: &egui::Ui,
-        scenery: &Scenery<'_>,
+        shown: &Displayed<'_>,
         gpu: &mut GpuView,
         (number, content): (usize, PaneContent),
         placed: &Placed,
     ) {
         let (rect, camera) = (placed.rect, placed.camera);
-        let state = scenery.shown.view();
+        let state = shown.view();
         let painter = ui.painter_at(rect);
-        let background = theme::surround(scenery.shown.model.settings.dark).to_normalized_gamma_f32();
+        let background = theme::surround(shown.model.settings.dark).to_normalized_gamma_f32();
         let params = DisplayParams {
             camera,
             exposure_ev: state.exposure_ev,
             mode: content.mode,
             difference: content.difference.then(|| DisplayedDifference {
                 kind: state.difference_kind(),
-                range: scenery.shown.range() as f32,
+                range: shown.range() as f32,
                 is_computed: state.is_computed(),
             }),
             encoding: state.display.quantity.into(),
@@ -180,15 +172,15 @@ impl Viewport {
             nearest: self.is_draft,
             background: [background[0], background[1], background[2]],
         };
-        let drawn = match texels(gpu, scenery, content) {
+        let drawn = match texels(shown, content) {
             Ok(drawn) => drawn,
             Err(hint) => {
-                painter.rect_filled(rect, 0.0, theme::surround(scenery.shown.model.settings.dark));
+                painter.rect_filled(rect, 0.0, theme::surround(shown.model.settings.dark));
                 return paint_hint(&painter, rect, hint);
             }
         };
         gpu.paint(&painter, rect, number, drawn, params);
-        self.paint_marks(&painter, scenery, content, placed);
+        self.paint_marks(&painter, shown, content, placed);
         let has_room = rect.size().min_elem() >= HANDLES || ui.rect_contains_pointer(rect);
         if state.display.quantity == Quantity::Rendering && has_room {
             handles::paint_endpoints(&painter, rect, &camera, state);
@@ -196,17 +188,17 @@ impl Viewport {
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
         }
-        if scale::has_scale(scenery, content) {
+        if scale::has_scale(shown, content) {
             scale::paint(&painter, rect);
         }
-        if let (2.., Some(one)) = (gpu.reduction(), scenery.shown.materials().first()) {
+        if let (2.., Some(one)) = (gpu.reduction(), shown.materials().first()) {
             let grid = one.grid();
             paint_hint(
                 &painter,
                 rect,
                 &reduced(gpu.reduction(), grid, gpu.gpu.report.max_texture_side as usize),
             );
-        } else if let Some(text) = hint(scenery, content) {
+        } else if let Some(text) = hint(shown, content) {
             paint_hint(&painter, rect, &text);
         }
     }
@@ -217,28 +209,27 @@ impl Viewport {
         &mut self,
         ui: &egui::Ui,
         gpu: &mut GpuView,
-        uploads: &Uploads,
-        scenery: &Scenery<'_>,
+        shown: &Displayed<'_>,
         contents: &[PaneContent],
     ) -> Result<(), String> {
-        let state = scenery.shown.view();
+        let state = shown.view();
         let params = ShadeParams {
             scene: state.scene,
             convention: state.convention(),
             quantity: state.display.quantity,
         };
-        let grid = scenery.shown.materials()[0].grid();
+        let grid = shown.materials()[0].grid();
         let texels = grid.width * grid.height;
         let software = gpu.gpu.report.software;
         let visible = PaneView { params, framing: state.display.framing };
-        let is_slow = software && texels * scenery.shown.materials().len() > LARGE;
+        let is_slow = software && texels * shown.materials().len() > LARGE;
         let moves = self.policy.moves(visible, ui.input(|i| i.time)) && is_slow;
         if moves {
             ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
         }
         let is_large = texels > LARGE && software;
         // What is compared with a computed map or a photograph, and what is saved, is never shaded in part.
-        let is_exact = self.is_exact || state.is_computed() || scenery.shown.photograph().is_some();
+        let is_exact = self.is_exact || state.is_computed() || shown.photograph().is_some();
         self.is_draft = moves && !is_exact;
         let part = if self.is_draft || is_large && !is_exact {
             shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state))
@@ -250,14 +241,13 @@ impl Viewport {
             params,
             part,
             sharpens,
-            waits: !scenery.shown.jobs.openings.is_empty(),
+            waits: !shown.jobs.openings.is_empty(),
             exact: is_exact,
         };
-        gpu.keep_only(scenery.shown.materials(), contents.len());
+        gpu.keep_only(shown.materials(), contents.len());
         let displayed: BTreeSet<usize> = contents.iter().flat_map(|one| [one.index, one.reference]).collect();
-        let materials: Vec<_> =
-            displayed.into_iter().map(|index| &scenery.shown.materials()[index]).collect();
-        if gpu.shade(&materials, uploads, request)? {
+        let materials: Vec<_> = displayed.into_iter().map(|index| &shown.materials()[index]).collect();
+        if gpu.shade(&materials, request)? {
             ui.ctx().request_repaint();
         }
         Ok(())
@@ -267,22 +257,21 @@ impl Viewport {
     fn paint_marks(
         &self,
         painter: &egui::Painter,
-        scenery: &Scenery<'_>,
+        shown: &Displayed<'_>,
         content: PaneContent,
         placed: &Placed,
     ) {
-        let state = scenery.shown.view();
+        let state = shown.view();
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
-            let read = Readout::of(scenery.shown);
-            placed.paint_numbers(painter, |texel| match (content.photograph, read.photographs) {
+            placed.paint_numbers(painter, |texel| match (content.photograph, shown.photographs()) {
                 (PhotographUse::Displayed, Some(photographs)) => {
                     readout::photograph(photographs, index, texel)
                 }
-                _ => readout::numbers(read, index, difference, texel),
+                _ => readout::numbers(shown, index, difference, texel),
             });
         }
-        placed.paint_inspected(painter, &scenery.shown.model.inspection);
+        placed.paint_inspected(painter, &shown.model.inspection);
         let texel = self.hovered.and_then(|hovered| hovered.texel);
         if let Some(texel) = texel.filter(|_| self.gesture.is_none()) {
             placed.paint_crosshair(painter, texel);
@@ -292,18 +281,18 @@ impl Viewport {
     /// Screen pixels per texel in the middle of a pane.
     pub fn magnification(&self, grid: Grid, state: &ViewState) -> f32 {
         let rect = Rect::from_min_size(egui::Pos2::ZERO, self.pane_pixels);
-        placed(state, grid, rect, self.pane_pixels()).side_in_the_middle()
+        self.placed(state, grid, rect).side_in_the_middle()
+    }
+
+    /// The picture of a pane in `rect`.
+    fn placed(&self, state: &ViewState, grid: Grid, rect: Rect) -> Placed {
+        Placed { rect, camera: state.camera(grid, self.pane_pixels()), grid }
     }
 
     /// Width and height of the picture of a pane, in physical pixels; 0 before there is one.
     pub fn pane_pixels(&self) -> [f32; 2] {
         self.pane_pixels.into()
     }
-}
-
-/// A picture in `rect`, of panes of `pixels` = [width, height].
-fn placed(state: &ViewState, grid: Grid, rect: Rect, pixels: [f32; 2]) -> Placed {
-    Placed { rect, camera: state.camera(grid, pixels), grid }
 }
 
 /// The badge of a pane whose adapter has no room for all texels, of which it takes at most `limit` along a side.
@@ -318,8 +307,8 @@ fn reduced(stride: usize, grid: Grid, limit: usize) -> String {
 }
 
 /// What a pane says at its bottom, where its picture may puzzle.
-fn hint(scenery: &Scenery<'_>, content: PaneContent) -> Option<String> {
-    let state = scenery.shown.view();
+fn hint(shown: &Displayed<'_>, content: PaneContent) -> Option<String> {
+    let state = shown.view();
     let (convention, drawn) = (state.convention().name, state.convention().drawn().name);
     if state.display.quantity == Quantity::Rendering && drawn != convention {
         return Some(format!("drawn as {drawn}"));
@@ -331,16 +320,16 @@ fn hint(scenery: &Scenery<'_>, content: PaneContent) -> Option<String> {
         return Some("Perspective from straight above: right-drag to tilt".to_owned());
     }
     let is_new = content.index == 0
-        && !scenery.shown.model.settings.has_dragged
-        && !scenery.shown.is_picture
+        && !shown.model.settings.has_dragged
+        && !shown.is_picture
         && state.display.quantity == Quantity::Rendering;
     is_new.then(|| "left-drag moves the light, Space + left-drag pans".to_owned())
 }
 
 /// Says why there is no material.
-fn empty(ui: &mut egui::Ui, area: Rect, scenery: &Scenery<'_>) {
-    let text = match scenery.shown.model.dataset.missing.first() {
-        _ if !scenery.shown.jobs.openings.is_empty() => "Reading...",
+fn empty(ui: &mut egui::Ui, area: Rect, shown: &Displayed<'_>) {
+    let text = match shown.model.dataset.missing.first() {
+        _ if !shown.jobs.openings.is_empty() => "Reading...",
         Some(missing) => missing.problem.as_str(),
         None => "Open a material with Ctrl+O, or drop files or folders here.",
     };

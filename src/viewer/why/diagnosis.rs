@@ -1,19 +1,23 @@
 //! Section of the diagnosis: whether an error of exposure, alignment or reading explains the loss of the chosen prediction.
 
+use std::sync::Arc;
+
 use eframe::egui::text::TextFormat;
 use eframe::egui::{self, FontId, vec2};
 
 use svbrdf_core::loss::Estimate;
-use svbrdf_evaluate::diagnose::{Diagnosis, Finding, SCENES, sentence};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_evaluate::diagnose::{Diagnosis, Finding, SCENES, diagnose, floor, sentence};
+use svbrdf_files::read::ReadOptions;
+use svbrdf_files::source::Place;
 
-use crate::files::read_options::{is_offered, remedy_button};
-use crate::jobs::answers::Answered;
-use crate::jobs::answers::content::ComparedPair;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::why::questions::diagnosis;
-use crate::model::Model;
+use crate::error::Error;
+use crate::jobs::Shown;
+use crate::jobs::answers::content::{ComparedPair, Content};
+use crate::jobs::answers::{Answer, Answered, Answers, Question, Work};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::WhySection;
+use crate::model::{Model, opening};
 use crate::why::hypotheses::HypothesisLines;
 use crate::widgets::numbers::{digits, seconds};
 use crate::widgets::{rows, state_line};
@@ -22,7 +26,7 @@ use crate::widgets::{rows, state_line};
 const SENTENCE: usize = 3;
 
 /// The section of the chosen prediction, whose pair this is.
-pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pair: &ComparedPair, next: &mut Model) {
+pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, pair: &ComparedPair, next: &mut Model) {
     let model = shown.model;
     let (Some(ground_truth), Some(prediction)) = (model.materials.ground_truth(), model.chosen_prediction())
     else {
@@ -84,4 +88,104 @@ fn summary(floor: Option<&Estimate>, diagnosed: &Answered<Diagnosis>) -> String 
     let [near, distant] = SCENES;
     let floor = floor.map(below).unwrap_or_default();
     format!("{floor}{near} + {distant} scenes, {}", seconds(diagnosed.elapsed))
+}
+
+/// Whether a material can be read again with the options: one of a file that does not have them yet.
+pub fn is_offered(material: &LoadedMaterial, remedy: ReadOptions) -> bool {
+    let read = &material.read;
+    matches!(read.source.place, Place::Path(_)) && remedy.over(read.record.options) != read.record.options
+}
+
+/// The button for the material at `index`; a click reads it again, and shows it as it is read.
+pub fn remedy_button(
+    ui: &mut egui::Ui,
+    index: usize,
+    material: &LoadedMaterial,
+    remedy: ReadOptions,
+    next: &mut Model,
+) {
+    let words = remedy.words().replace("specular-albedo", "specular").replace(['-', '='], " ");
+    let button = ui.small_button(format!("Read with {}", words.replace(',', ", ")));
+    let hover = format!(
+        "Read {} again with this option, as Change... in Files does; undo (Ctrl+Z) goes back. If the ground truth is the one that is \
+         read wrongly, change it instead",
+        material.name()
+    );
+    if button.on_hover_text(hover).clicked() {
+        next.view.correct(None);
+        opening::read_as(next, index, remedy.over(material.read.record.options));
+    }
+}
+
+/// The loss that a ground truth cannot resolve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Floor {
+    pub ground_truth: Content,
+    pub convention: Convention,
+    pub seed: u64,
+}
+
+impl Floor {
+    fn of(pair: &ComparedPair, seed: u64) -> Self {
+        Self { ground_truth: pair.ground_truth.clone(), convention: pair.convention, seed }
+    }
+}
+
+impl Question for Floor {
+    type Answer = Estimate;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Estimate, Error> {
+        let read = self.ground_truth.read()?;
+        Ok(floor(read.material(), &read.storage, &self.convention, self.seed, work.progress())?)
+    }
+}
+
+/// Whether something trivial explains the loss of a pair.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnose {
+    pub pair: ComparedPair,
+    /// The loss that its ground truth cannot resolve.
+    pub floor: f64,
+    pub seed: u64,
+}
+
+impl Diagnose {
+    fn of(pair: &ComparedPair, seed: u64, floor: Option<&Answered<Estimate>>) -> Self {
+        Self { pair: pair.clone(), floor: floor.map_or(0.0, |floor| floor.mean), seed }
+    }
+}
+
+impl Question for Diagnose {
+    type Answer = Diagnosis;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Diagnosis, Error> {
+        let [truth, prediction] = self.pair.read()?;
+        let materials = [truth.material(), prediction.material()];
+        let storages = [&truth.storage, &prediction.storage];
+        Ok(diagnose(materials, storages, &self.pair.convention, self.floor, self.seed, work.progress())?)
+    }
+}
+
+/// The floor and the diagnosis of a pair.
+fn diagnosis(
+    answers: &Answers,
+    pair: &ComparedPair,
+    seed: u64,
+) -> (Option<Arc<Answered<Estimate>>>, Answer<Diagnosis>) {
+    let floor = match answers.get(&Floor::of(pair, seed)) {
+        Answer::Running(fraction, elapsed) => return (None, Answer::Running(fraction, elapsed)),
+        floor => floor.ready(),
+    };
+    let found = answers.get(&Diagnose::of(pair, seed, floor.as_deref()));
+    (floor, found)
+}
+
+/// The diagnosis of a pair, where it is known.
+pub fn known_diagnosis(
+    answers: &Answers,
+    pair: &ComparedPair,
+    seed: u64,
+) -> Option<Arc<Answered<Diagnosis>>> {
+    let floor = answers.known(&Floor::of(pair, seed));
+    answers.known(&Diagnose::of(pair, seed, floor.as_deref()))
 }

@@ -4,19 +4,22 @@ use std::time::Duration;
 
 use eframe::egui::{self, Align2, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
+use svbrdf_core::loss::Request;
 use svbrdf_core::material::Map;
 use svbrdf_core::model::scene::Kind;
-use svbrdf_evaluate::why::{Attribution, MapShare};
+use svbrdf_evaluate::why::{Attribution, MapShare, attribute};
 
+use crate::error::Error;
+use crate::jobs::Shown;
 use crate::jobs::answers::content::ComparedPair;
-use crate::jobs::answers::{Answer, Answered};
-use crate::jobs::displayed::Displayed;
-use crate::jobs::why::questions::{ATTRIBUTION_TARGET, Attribute};
+use crate::jobs::answers::{Answer, Answered, Question, Work};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::widgets::numbers::{accuracy, seconds, significant};
 use crate::widgets::{state_line, theme};
 
+/// Half of the 95% interval of a loss that is attributed, as a share of the loss.
+const ATTRIBUTION_TARGET: f64 = 0.01;
 /// Most predictions that have numbers in every row.
 const WITH_NUMBERS: usize = 4;
 /// Heights of rows with and without numbers, in points.
@@ -28,7 +31,7 @@ const NUMBER: f32 = 16.0;
 const AMOUNTS: f32 = 114.0;
 
 /// The section; `pairs` are the ground truth and each prediction.
-pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, pairs: &[ComparedPair], next: &mut Model) {
+pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, pairs: &[ComparedPair], next: &mut Model) {
     let (display, seed) = (&shown.model.view.display, shown.model.settings.loss.seed);
     let predictions = shown.model.materials.predictions();
     let answers = &shown.jobs.answers;
@@ -226,4 +229,27 @@ fn axis<'a>(all: impl Iterator<Item = &'a Attribution>) -> [f64; 2] {
     all.flat_map(|one| &one.maps)
         .map(ends)
         .fold([0.0, f64::MIN_POSITIVE], |[low, high], ends| [low.min(ends[0]), high.max(ends[1])])
+}
+
+/// How much of the loss of a pair comes from each map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attribute {
+    pub pair: ComparedPair,
+    pub seed: u64,
+}
+
+impl Question for Attribute {
+    type Answer = Attribution;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Attribution, Error> {
+        let [truth, prediction] = self.pair.read()?;
+        let request = Request::Accuracy { target: ATTRIBUTION_TARGET, seed: self.seed };
+        Ok(attribute(
+            truth.material(),
+            prediction.material(),
+            &self.pair.convention,
+            &request,
+            work.progress(),
+        )?)
+    }
 }

@@ -3,15 +3,24 @@
 pub mod diagnosis;
 pub mod hypotheses;
 pub mod maps;
+pub mod replacement;
 pub mod scenes;
+pub mod thumbnails;
 
 use eframe::egui::{self, Rect, RichText, Sense, Sides, vec2};
 
-use svbrdf_evaluate::analyses::ANALYSES;
+use serde_json::json;
 
-use crate::jobs::answers::content::ComparedPair;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::why::questions::{Analyse, AnalysisTable, SceneLosses};
+use svbrdf_core::loss::{Comparison, LossOptions, Request};
+use svbrdf_core::model::convention::Convention;
+use svbrdf_core::model::scene::Scene;
+use svbrdf_evaluate::analyses::{ANALYSES, AnyAnalysis};
+use svbrdf_evaluate::report::{AnalysisInput, Reader, Table};
+
+use crate::error::Error;
+use crate::jobs::Shown;
+use crate::jobs::answers::content::{ComparedPair, Content, read_all};
+use crate::jobs::answers::{Pace, Question, Work};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::settings::WhySection;
 use crate::model::view::ViewState;
@@ -26,7 +35,7 @@ const LONG: usize = 4;
 const NAME: usize = 30;
 
 /// Draws the tab.
-pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &mut PanelTextures) {
+pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model, textures: &mut PanelTextures) {
     let (model, answers) = (shown.model, &shown.jobs.answers);
     let pairs = ComparedPair::all(&model.materials.all, &model.view);
     let Some(pair) = pairs.get(model.view.display.prediction) else {
@@ -37,7 +46,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
         "Under the light and view of the panes: the mean of the log difference over the texels",
     );
     let losses = SceneLosses::of(&model.materials.all, &model.view);
-    let losses = losses.and_then(|question| question.drawn(answers));
+    let losses = losses.and_then(|question| answers.drawn(&question));
     ui.scope(|ui| {
         if losses.as_ref().is_none_or(|(_, is_current)| !is_current) {
             ui.set_opacity(0.5);
@@ -76,7 +85,7 @@ pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model, textures: &
 }
 
 /// A row per prediction, which stays where it is while its loss is computed.
-fn rows(ui: &mut egui::Ui, shown: Displayed<'_>, losses: Option<&[f64]>, next: &mut Model) {
+fn rows(ui: &mut egui::Ui, shown: Shown<'_>, losses: Option<&[f64]>, next: &mut Model) {
     let predictions = shown.model.materials.predictions();
     let names: Vec<&str> = predictions.iter().map(LoadedMaterial::name).collect();
     let most = losses.unwrap_or_default().iter().copied().fold(f64::MIN_POSITIVE, f64::max);
@@ -132,4 +141,82 @@ fn table(ui: &mut egui::Ui, AnalysisTable { heading, table }: &AnalysisTable) {
         ui.add(egui::Label::new(line).truncate()).on_hover_text(heading.trim_end());
     });
     report_table(ui, table);
+}
+
+/// The loss of each prediction under a light and view. The ground truth is the first of the materials.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneLosses {
+    pub materials: Vec<Content>,
+    pub scene: Scene,
+    pub convention: Convention,
+}
+
+impl SceneLosses {
+    /// What is drawn under this view, where there is a prediction.
+    pub fn of(materials: &[LoadedMaterial], view: &ViewState) -> Option<Self> {
+        let (scene, convention) = (view.scene, view.convention());
+        (materials.len() > 1).then(|| Self { materials: Content::all(materials), scene, convention })
+    }
+}
+
+impl Question for SceneLosses {
+    type Answer = Vec<f64>;
+    const PACE: Pace = Pace::AtOnce;
+    const KEPT: usize = 1;
+
+    fn is_like(&self, earlier: &Self) -> bool {
+        self.materials == earlier.materials
+    }
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Vec<f64>, Error> {
+        let read = read_all(&self.materials)?;
+        let all: Vec<_> = read.iter().map(|one| one.material()).collect();
+        let comparison = Comparison::new(all[0], &all[1..], self.convention)?;
+        let outcome = comparison.run(&Request::Listed(vec![self.scene]), work.progress())?;
+        Ok(outcome.losses.iter().map(|loss| loss.estimate.mean).collect())
+    }
+}
+
+/// The report of an analysis of a pair.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Analyse {
+    /// The name of the analysis.
+    pub analysis: &'static str,
+    pub pair: ComparedPair,
+    pub scenes: Request,
+}
+
+/// The report of an analysis of one prediction.
+#[derive(Clone, Debug)]
+pub struct AnalysisTable {
+    /// The lines about its settings.
+    pub heading: String,
+    pub table: Table,
+}
+
+impl Question for Analyse {
+    type Answer = AnalysisTable;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<AnalysisTable, Error> {
+        let analysis = AnyAnalysis::named(self.analysis)
+            .ok_or_else(|| Error::internal(format!("there is no analysis {}", self.analysis)))?;
+        let [truth, prediction] = self.pair.read()?;
+        let seed = LossOptions { seed: self.scenes.seed(), ..LossOptions::default() };
+        let request = match analysis.lists_scenes() {
+            true => self.scenes.clone(),
+            false => analysis.request(&seed, None)?,
+        };
+        let input = AnalysisInput {
+            ground_truth: truth.material(),
+            predictions: vec![prediction.material()],
+            storages: vec![&truth.storage, &prediction.storage],
+            paths: Vec::new(),
+            convention: self.pair.convention,
+            request,
+            few_scenes: false,
+            mask: None,
+        };
+        let report = analysis.run(&input, json!({}), work.progress())?;
+        Ok(AnalysisTable { heading: report.heading(), table: report.table(Reader::Person) })
+    }
 }

@@ -2,16 +2,18 @@
 
 use eframe::egui::{self, Align2, Color32, FontId, Rect, RichText, Sense, Stroke, pos2, vec2};
 
+use svbrdf_core::loss::{Comparison, Request};
 use svbrdf_core::model::scene::{Kind, Scene};
-use svbrdf_evaluate::why::{RankedScene, Worst};
+use svbrdf_evaluate::why::{RankedScene, TAIL, Worst, worst, worst_first};
 
+use crate::error::Error;
+use crate::jobs::Shown;
 use crate::jobs::answers::content::ComparedPair;
-use crate::jobs::displayed::Displayed;
-use crate::jobs::why::questions::{DrawScenes, FindWorst, RankScenes};
-use crate::jobs::why::{MOST_THUMBNAILS, Thumbnails};
+use crate::jobs::answers::{Question, Work};
 use crate::model::dialogs::{SaveDialog, SaveKind};
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, exposure};
+use crate::why::thumbnails::{self, Thumbnails};
 use crate::widgets::numbers::digits;
 use crate::widgets::paint::PanelTextures;
 use crate::widgets::{progress, theme};
@@ -26,7 +28,7 @@ const MORE: usize = 20;
 /// The section, as high while it is computed as afterwards: what is below does not move by itself.
 pub fn ui(
     ui: &mut egui::Ui,
-    shown: Displayed<'_>,
+    shown: Shown<'_>,
     pair: &ComparedPair,
     textures: &mut PanelTextures,
     next: &mut Model,
@@ -37,14 +39,14 @@ pub fn ui(
     let busy = listed.busy();
     let list = listed.ready();
     let pictures = list.as_ref().and_then(|list| {
-        let scenes = list.iter().take(MOST_THUMBNAILS).map(|ranked| ranked.scene).collect();
+        let scenes = list.iter().take(thumbnails::MOST).map(|ranked| ranked.scene).collect();
         answers.get(&DrawScenes { pair: pair.clone(), scenes }).ready()
     });
     let pictures = pictures.as_deref().map(|pictures| &pictures.answer);
     let texture =
         pictures.map(|pictures| textures.id(ui.ctx(), &pictures.atlas.picture, egui::TextureOptions::LINEAR));
     let list = list.as_deref().map(|list| list.answer.as_slice());
-    thumbnails(ui, shown, list, count, pictures.zip(texture), next);
+    listed_scenes(ui, shown, list, count, pictures.zip(texture), next);
     let text = match (pictures, busy) {
         (Some(pictures), _) => format!("log difference, 0 to {}", digits(pictures.range)),
         (None, Some((fraction, _))) => format!("{:.0}% of {count} scenes", 100.0 * fraction),
@@ -55,9 +57,9 @@ pub fn ui(
     search(ui, shown, pair, next);
 }
 
-fn thumbnails(
+fn listed_scenes(
     ui: &mut egui::Ui,
-    shown: Displayed<'_>,
+    shown: Shown<'_>,
     list: Option<&[RankedScene]>,
     count: usize,
     thumbnails: Option<(&Thumbnails, egui::TextureId)>,
@@ -83,7 +85,7 @@ fn thumbnails(
         }
     });
     ui.horizontal_wrapped(|ui| {
-        let most = count.min(MOST_THUMBNAILS);
+        let most = count.min(thumbnails::MOST);
         if listed < most {
             let more = ui.small_button("More scenes");
             if more.on_hover_text(format!("{listed} of {count} are listed")).clicked() {
@@ -99,7 +101,7 @@ fn thumbnails(
 }
 
 /// The button that searches, its progress, and what was found, in two rows.
-fn search(ui: &mut egui::Ui, shown: Displayed<'_>, pair: &ComparedPair, next: &mut Model) {
+fn search(ui: &mut egui::Ui, shown: Shown<'_>, pair: &ComparedPair, next: &mut Model) {
     let (answers, model) = (&shown.jobs.answers, shown.model);
     let question = FindWorst { pair: pair.clone(), seed: model.settings.loss.seed };
     let busy = model.searched.is_some().then(|| answers.get(&question).busy().unwrap_or_default());
@@ -203,4 +205,59 @@ fn thumbnail(
         rank + 1,
         place(&ranked.scene)
     ))
+}
+
+/// The scenes of the loss of a pair, worst first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RankScenes {
+    pub pair: ComparedPair,
+    pub scenes: Request,
+}
+
+impl Question for RankScenes {
+    type Answer = Vec<RankedScene>;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Vec<RankedScene>, Error> {
+        let [truth, prediction] = self.pair.read()?;
+        let predictions = [prediction.material()];
+        let comparison =
+            Comparison::new(truth.material(), &predictions, self.pair.convention)?.without_pilot();
+        Ok(worst_first(&comparison.run(&self.scenes, work.progress())?))
+    }
+}
+
+/// Pictures of the differences of a pair in these scenes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DrawScenes {
+    pub pair: ComparedPair,
+    pub scenes: Vec<Scene>,
+}
+
+impl Question for DrawScenes {
+    type Answer = Thumbnails;
+    const KEPT: usize = 4;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Thumbnails, Error> {
+        let [truth, prediction] = self.pair.read()?;
+        let materials = [truth.material(), prediction.material()];
+        thumbnails::make(materials, &self.pair.convention, &self.scenes, work.progress())
+    }
+}
+
+/// The scene with the largest loss of a pair.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FindWorst {
+    pub pair: ComparedPair,
+    /// Names the scenes that the search starts from.
+    pub seed: u64,
+}
+
+impl Question for FindWorst {
+    type Answer = Worst;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Worst, Error> {
+        let [truth, prediction] = self.pair.read()?;
+        let materials = [truth.material(), prediction.material()];
+        Ok(worst(materials[0], materials[1], &self.pair.convention, self.seed, TAIL, work.progress())?)
+    }
 }

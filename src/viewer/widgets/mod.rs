@@ -4,7 +4,6 @@ pub mod bounds;
 pub mod names;
 pub mod numbers;
 pub mod paint;
-pub mod readout;
 pub mod theme;
 
 use eframe::egui::text::{LayoutJob, TextFormat};
@@ -13,9 +12,9 @@ use eframe::egui::{self, DragValue, Response, RichText};
 use svbrdf_evaluate::report::{Cell, Table};
 
 use crate::jobs::answers::Answer;
+use crate::message::Message;
 use crate::model::Model;
 use crate::model::material::loaded::drawable;
-use crate::model::message::Message;
 
 /// A number to drag or type; a double-click resets it to `default`. A field that nobody edits writes nothing.
 ///

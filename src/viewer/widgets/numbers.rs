@@ -102,6 +102,32 @@ pub fn seconds(time: Duration) -> String {
     }
 }
 
+/// Characters of a number.
+pub const WIDTH: usize = 8;
+
+/// A number in exactly [`WIDTH`] characters, with as many digits as fit, at most 4 behind the point.
+pub fn fixed(value: f64) -> String {
+    in_width(value, WIDTH, 4)
+}
+
+/// A number in `width` characters, at least 6, with as many digits behind the point as fit, at most `digits`; with an exponent where
+/// these would leave fewer than two digits of it.
+pub fn in_width(value: f64, width: usize, digits: usize) -> String {
+    let size = value.abs();
+    if !size.is_finite() {
+        return format!("{value:>width$}");
+    }
+    if size > 0.0 && size < 10_f64.powi(1 - digits.min(width - 3) as i32) {
+        let fits = |text: &String| text.len() <= width;
+        let texts = [2, 1, 0].map(|digits| format!("{value:>width$.digits$e}"));
+        return texts.into_iter().find(fits).unwrap_or_else(|| format!("{:>width$}", 0));
+    }
+    let before = 1 + (1..).take_while(|&power| size >= 10_f64.powi(power)).count();
+    // Of the sign and the point.
+    let behind = width.saturating_sub(2 + before).min(digits);
+    if behind > 0 { format!("{value:>width$.behind$}") } else { format!("{value:>width$.1e}") }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,5 +182,22 @@ mod tests {
         assert_eq!(all, ["±20.6%", "±2.31%", "±0.05%", "error unknown"]);
         let all = [0.00131, 0.0463, 0.9, 12.34].map(|s| seconds(Duration::from_secs_f64(s)));
         assert_eq!(all, ["1.3 ms", "46 ms", "900 ms", "12.3 s"]);
+    }
+
+    #[test]
+    fn numbers_keep_their_width() {
+        for value in
+            [0.0, -0.12345, 12.345_678, -99.9999, 123.456, 9_999.9, 65_504.0, 1e30, f64::NAN, f64::INFINITY]
+        {
+            assert_eq!(fixed(value).len(), WIDTH, "{value}: {:?}", fixed(value));
+        }
+        assert_eq!([fixed(0.5), fixed(-12.3456)], ["  0.5000", "-12.3456"]);
+        // A dim gray is not 0.0001 three times.
+        let dim = [1.234e-4, -9.87e-4, 0.001, -4.321e-12, 1e-310].map(fixed);
+        assert_eq!(dim, [" 1.23e-4", "-9.87e-4", "  0.0010", "-4.3e-12", "1.0e-310"]);
+        let narrow = [4.56e-4, -4.56e-4, -4.56e-14].map(|value| in_width(value, 6, 3));
+        assert_eq!(narrow, ["4.6e-4", " -5e-4", "-5e-14"]);
+        let narrow = [0.25, -0.123_45, 12.345, -123.45, 1234.5, 1e30].map(|value| in_width(value, 6, 3));
+        assert_eq!(narrow, [" 0.250", "-0.123", " 12.35", "-123.5", " 1.2e3", "1.0e30"]);
     }
 }

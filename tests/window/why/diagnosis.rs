@@ -124,14 +124,14 @@ fn a_click_shows_the_corrected_prediction_in_its_pane_and_another_one_the_predic
         window.run_steps(3);
         let name = "flipped, Y of normals flipped";
         wait(&mut window, name, |app| app.displayed_materials()[1].0 == name);
-        assert_eq!(*window.displayed_materials()[1].1, expected);
+        assert_eq!(window.displayed_materials()[1].1, expected);
         assert_eq!(window.names()[1], "flipped", "the material itself is unchanged");
         window.get_by_label(&format!("Title 1  {name}"));
         assert!(pixels(&mut window, rect) != before);
         back(&mut window);
         window.run_steps(3);
         assert_eq!(window.view().display.corrected, None);
-        assert_eq!(*window.displayed_materials()[1].1, original);
+        assert_eq!(window.displayed_materials()[1].1, original);
         assert!(pixels(&mut window, rect) == before);
     }
     // A correction is of one prediction.

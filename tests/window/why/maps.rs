@@ -84,9 +84,9 @@ fn a_click_on_a_map_shows_the_mixture_and_its_title_says_so() {
     assert!(seen != whole && seen != ground_truth);
     let expected = materials[1].with_maps_of(&materials[0], |map| map == Map::Normal).unwrap();
     let app = window.state();
-    assert_eq!(*app.displayed_materials()[1].1, expected);
+    assert_eq!(app.displayed_materials()[1].1, expected);
     assert_ne!(expected, materials[1].with_maps_of(&materials[0], |map| map != Map::Normal).unwrap());
-    assert_eq!(*app.displayed_materials()[0].1, materials[0]);
+    assert_eq!(app.displayed_materials()[0].1, materials[0]);
     assert_eq!(app.names()[1], "blurred normals", "the material itself is unchanged");
 }
 

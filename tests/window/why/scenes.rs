@@ -4,7 +4,7 @@ use svbrdf_core::image::Image;
 use svbrdf_evaluate::analyses::AnyAnalysis;
 use svbrdf_evaluate::report::{AnalysisInput, Cell, Reader};
 use svbrdf_evaluate::why::{RankedScene, TAIL, error_maps, worst, worst_first};
-use svbrdf_viewer::jobs::why::questions::FindWorst;
+use svbrdf_viewer::why::scenes::FindWorst;
 
 use super::*;
 

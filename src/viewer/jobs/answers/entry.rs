@@ -4,9 +4,7 @@ use std::any::{Any, TypeId};
 use std::sync::Arc;
 use std::time::Duration;
 
-use svbrdf_core::progress::Progress;
-
-use super::question::{Answer, Answered, Question, Work};
+use super::question::{Answer, Answered, Pace, Question, Work};
 use crate::error::Error;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
@@ -18,6 +16,8 @@ pub type Turn = (u64, bool, usize);
 pub struct Entry<Q: Question> {
     pub question: Q,
     pub turn: Turn,
+    /// The frame in which its answer was drawn last in the place of another.
+    pub drawn: u64,
     state: State<Q::Answer>,
 }
 
@@ -48,8 +48,10 @@ pub enum Phase {
 /// An entry of any kind.
 pub trait AnyEntry: Any {
     fn kind(&self) -> TypeId;
-    fn is_short(&self) -> bool;
+    fn pace(&self) -> Pace;
     fn turn(&self) -> Turn;
+    /// Whether it was asked, or its answer drawn, in this frame.
+    fn is_of(&self, frame: u64) -> bool;
     fn phase(&self) -> Phase;
     fn start(&mut self, waker: &Waker);
     fn stop(&mut self);
@@ -60,7 +62,7 @@ pub trait AnyEntry: Any {
 impl<Q: Question> Entry<Q> {
     /// A question that waits.
     pub fn new(question: Q, turn: Turn) -> Self {
-        Self { question, turn, state: State::Waiting }
+        Self { question, turn, drawn: turn.0, state: State::Waiting }
     }
 
     pub fn state(&self) -> Answer<Q::Answer> {
@@ -95,12 +97,16 @@ impl<Q: Question> AnyEntry for Entry<Q> {
         TypeId::of::<Q>()
     }
 
-    fn is_short(&self) -> bool {
-        Q::IS_SHORT
+    fn pace(&self) -> Pace {
+        Q::PACE
     }
 
     fn turn(&self) -> Turn {
         self.turn
+    }
+
+    fn is_of(&self, frame: u64) -> bool {
+        self.turn.0.max(self.drawn) == frame
     }
 
     fn phase(&self) -> Phase {
@@ -115,7 +121,7 @@ impl<Q: Question> AnyEntry for Entry<Q> {
     fn start(&mut self, waker: &Waker) {
         if matches!(self.state, State::Waiting) {
             let question = self.question.clone();
-            let job = Job::stream(waker, Progress::default(), move |worker| {
+            let job = Job::stream(waker, move |worker| {
                 let work = Work::new(worker);
                 Ok(work.answered(question.answer(&work)?))
             });

@@ -18,7 +18,7 @@ use std::time::Duration;
 use super::work::waker::Waker;
 use crate::error::Error;
 use entry::{AnyEntry, Entry, Phase};
-pub use question::{Answer, Answered, Question, Work};
+pub use question::{Answer, Answered, Pace, Question, Work};
 
 /// The questions of the window with their answers.
 #[derive(Default)]
@@ -70,13 +70,23 @@ impl Answers {
         asked.entry(question)?.state().ready()
     }
 
-    /// The latest answer to a question like this one, of those for which `is_like` holds.
-    pub fn latest<Q: Question>(&self, is_like: impl Fn(&Q) -> bool) -> Option<(Q, Arc<Answered<Q::Answer>>)> {
+    /// The answer to `question`, or the latest one that may be drawn until it is there; and whether it is its own.
+    pub fn drawn<Q: Question>(&self, question: &Q) -> Option<(Arc<Answered<Q::Answer>>, bool)> {
+        match self.get(question) {
+            Answer::Ready(answered) | Answer::Partial(answered, ..) => Some((answered, true)),
+            _ => Some((self.latest(question)?, false)),
+        }
+    }
+
+    /// The latest answer to a question that this one is like. It stays while it is drawn.
+    pub fn latest<Q: Question>(&self, question: &Q) -> Option<Arc<Answered<Q::Answer>>> {
         let mut asked = self.asked.borrow_mut();
-        let all = asked.of_kind::<Q>().filter(|entry| is_like(&entry.question));
-        let ready =
-            all.filter_map(|entry| Some((entry.turn, entry.question.clone(), entry.state().ready()?)));
-        ready.max_by_key(|(turn, ..)| *turn).map(|(_, question, answered)| (question, answered))
+        let frame = asked.frame;
+        let all = asked.of_kind::<Q>().filter(|entry| question.is_like(&entry.question));
+        let ready = all.filter(|entry| matches!(entry.phase(), Phase::Ready(_)));
+        let latest = ready.max_by_key(|entry| entry.turn)?;
+        latest.drawn = frame;
+        latest.state().ready()
     }
 
     /// Whether a question like this one is being answered.
@@ -113,16 +123,16 @@ impl Answers {
     pub fn end_frame(&mut self) {
         let Asked { entries, frame, count } = self.asked.get_mut();
         entries.sort_by_key(|entry| (u64::MAX - entry.turn().0, entry.turn()));
-        let is_asked = |entry: &dyn AnyEntry| entry.turn().0 == *frame;
+        let is_asked = |entry: &dyn AnyEntry| entry.is_of(*frame);
         let in_sight: Vec<TypeId> =
             entries.iter().filter(|entry| is_asked(&***entry)).map(|entry| entry.kind()).collect();
         let mut kept: Vec<(TypeId, usize)> = Vec::new();
         entries.retain(|entry| {
             match entry.phase() {
                 _ if is_asked(&**entry) => true,
-                Phase::Running => entry.is_short(),
+                Phase::Running => entry.pace() == Pace::AtOnce,
                 // What it holds may be large.
-                Phase::Ready(_) if entry.is_short() && !in_sight.contains(&entry.kind()) => false,
+                Phase::Ready(_) if entry.pace() == Pace::AtOnce && !in_sight.contains(&entry.kind()) => false,
                 Phase::Ready(most) => {
                     let kind = entry.kind();
                     let at = kept.iter().position(|(of, _)| *of == kind).unwrap_or_else(|| {
@@ -140,14 +150,12 @@ impl Answers {
     }
 }
 
-/// Starts the short ones, one of a kind at a time, and the first of the others; what is before it in turn stops a running one.
+/// Starts those that do not wait, one of a kind at a time, and the first of the others; what is before it in turn stops a running one.
 fn start_next(entries: &mut [Box<dyn AnyEntry>], waker: &Waker) {
-    let mut busy: Vec<TypeId> = entries
-        .iter()
-        .filter(|entry| entry.is_short() && entry.phase() == Phase::Running)
-        .map(|entry| entry.kind())
-        .collect();
-    for entry in entries.iter_mut().filter(|entry| entry.is_short() && entry.phase() == Phase::Waiting) {
+    let is_in_turn = |entry: &dyn AnyEntry| entry.pace() == Pace::InTurn;
+    let running = entries.iter().filter(|entry| !is_in_turn(&***entry) && entry.phase() == Phase::Running);
+    let mut busy: Vec<TypeId> = running.map(|entry| entry.kind()).collect();
+    for entry in entries.iter_mut().filter(|one| !is_in_turn(&***one) && one.phase() == Phase::Waiting) {
         if !busy.contains(&entry.kind()) {
             busy.push(entry.kind());
             entry.start(waker);
@@ -155,7 +163,7 @@ fn start_next(entries: &mut [Box<dyn AnyEntry>], waker: &Waker) {
     }
     let mut others = entries
         .iter_mut()
-        .filter(|entry| !entry.is_short() && matches!(entry.phase(), Phase::Waiting | Phase::Running));
+        .filter(|entry| is_in_turn(&***entry) && matches!(entry.phase(), Phase::Waiting | Phase::Running));
     if let Some(first) = others.next() {
         others.for_each(|entry| entry.stop());
         first.start(waker);

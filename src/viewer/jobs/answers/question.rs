@@ -13,9 +13,7 @@ use crate::jobs::work::job::Worker;
 pub trait Question: Clone + PartialEq + Send + 'static {
     type Answer: Send + Sync + 'static;
 
-    /// Whether it is answered in a moment. Then it does not wait for others, and an earlier one of its kind is answered to the end: there
-    /// are answers while something moves.
-    const IS_SHORT: bool = false;
+    const PACE: Pace = Pace::InTurn;
 
     /// The answers of its kind that stay although no frame asks for them.
     const KEPT: usize = 64;
@@ -23,11 +21,28 @@ pub trait Question: Clone + PartialEq + Send + 'static {
     /// Whether a failure is told in a message; otherwise where the answer is drawn.
     const HAS_MESSAGE: bool = true;
 
+    /// Whether the answer to an earlier question may be drawn, as stale, until there is one to this.
+    fn is_like(&self, _earlier: &Self) -> bool {
+        false
+    }
+
     /// The answer, computed on a thread of its own.
     ///
     /// # Errors
     /// Where there is none; it is told once, and not tried again while it is asked for.
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Self::Answer, Error>;
+}
+
+/// When a question is answered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// One after the other, in the order of asking, each on all processors.
+    InTurn,
+    /// In a moment: it does not wait for others, and an earlier one of its kind is answered to the end. There are answers while something
+    /// moves.
+    AtOnce,
+    /// Beside all others, as long as it is asked for.
+    Beside,
 }
 
 /// The work on an answer.

@@ -10,6 +10,10 @@ impl Question for Double {
     type Answer = u32;
     const KEPT: usize = 2;
 
+    fn is_like(&self, earlier: &Self) -> bool {
+        earlier.0 < self.0
+    }
+
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<u32, Error> {
         if self.0 >= 100 {
             loop {
@@ -126,8 +130,7 @@ fn answers_out_of_sight_stay_as_many_as_their_kind_keeps_the_latest_first() {
     }
     frame(&mut answers, &[8]);
     assert_eq!([2, 4, 6, 8].map(|number| known(&answers, number)), [None, Some(8), Some(12), Some(16)]);
-    let (latest, answered) = answers.latest::<Double>(|one| one.0 < 8).unwrap();
-    assert_eq!((latest, **answered), (Double(6), 12));
+    assert_eq!(answers.latest(&Double(8)).map(|answered| **answered), Some(12), "it is like those below it");
 }
 
 /// A short one.
@@ -136,8 +139,12 @@ struct Moving(u32);
 
 impl Question for Moving {
     type Answer = u32;
-    const IS_SHORT: bool = true;
+    const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 1;
+
+    fn is_like(&self, _: &Self) -> bool {
+        true
+    }
 
     fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<u32, Error> {
         Ok(self.0)
@@ -155,7 +162,7 @@ fn an_answer_that_moves_stays_while_another_one_of_its_kind_is_asked_for_and_no_
     answers.end_frame();
     answers.get(&Moving(2));
     answers.end_frame();
-    assert!(answers.latest(|_: &Moving| true).is_some(), "it is drawn until the next one is there");
+    assert!(answers.latest(&Moving(2)).is_some(), "it is drawn until the next one is there");
     answers.get(&Double(100));
     answers.end_frame();
     assert!(answers.known(&Moving(1)).is_none(), "out of sight");

@@ -1,5 +1,6 @@
 //! Job: one piece of work on its own thread, with updates on the way, progress and cancellation.
 
+use std::fmt;
 use std::sync::mpsc::{self, Receiver, TryRecvError};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -15,7 +16,6 @@ use crate::error::Error;
 const LOOK_AGAIN: Duration = Duration::from_millis(250);
 
 /// Work on a thread, which ends in a `T` and reports `U`s on the way. Dropping it cancels the work: the latest request wins.
-#[derive(Debug)]
 pub struct Job<T, U = ()> {
     progress: Arc<Progress>,
     updates: Arc<Mutex<Vec<U>>>,
@@ -69,34 +69,28 @@ impl<U> Worker<U> {
 impl<T: Send + 'static> Job<T> {
     /// Starts `work`, which has no updates; the window is woken when it ends.
     pub fn start(waker: &Waker, work: impl FnOnce(&Progress) -> Result<T, Error> + Send + 'static) -> Self {
-        Self::stream(waker, Progress::default(), move |worker| work(&worker.progress))
+        Self::stream(waker, move |worker| work(&worker.progress))
     }
 }
 
 impl<T: Send + 'static, U: Send + 'static> Job<T, U> {
-    /// Starts `work`, with a progress that is known before it; the window is woken at every update and when it ends. A panic
-    /// ends it with an error.
-    pub fn stream(
-        waker: &Waker,
-        progress: Progress,
-        work: impl FnOnce(&Worker<U>) -> Result<T, Error> + Send + 'static,
-    ) -> Self {
+    /// Starts `work`; the window is woken at every update and when it ends. A panic ends it with an error.
+    pub fn stream(waker: &Waker, work: impl FnOnce(&Worker<U>) -> Result<T, Error> + Send + 'static) -> Self {
         waker.wake_after(LOOK_AGAIN);
-        Self::spawn(waker, progress, true, work)
+        Self::spawn(waker, true, work)
     }
 
     /// Starts `work` that goes on until the job is dropped: the window is woken at updates alone.
     pub fn watch(waker: &Waker, work: impl FnOnce(&Worker<U>) -> Result<T, Error> + Send + 'static) -> Self {
-        Self::spawn(waker, Progress::default(), false, work)
+        Self::spawn(waker, false, work)
     }
 
     fn spawn(
         waker: &Waker,
-        progress: Progress,
         has_progress: bool,
         work: impl FnOnce(&Worker<U>) -> Result<T, Error> + Send + 'static,
     ) -> Self {
-        let (progress, updates) = (Arc::new(progress), Arc::new(Mutex::new(Vec::new())));
+        let (progress, updates) = (Arc::new(Progress::default()), Arc::new(Mutex::new(Vec::new())));
         let (sender, result) = mpsc::channel();
         let worker = Worker { progress: progress.clone(), updates: updates.clone(), waker: waker.clone() };
         std::thread::spawn(move || {
@@ -127,11 +121,6 @@ impl<T: Send + 'static, U: Send + 'static> Job<T, U> {
         std::mem::take(&mut self.updates.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// The progress of the work, to cancel it from elsewhere.
-    pub fn progress(&self) -> Arc<Progress> {
-        self.progress.clone()
-    }
-
     /// Waits for the end of the work.
     ///
     /// # Errors
@@ -155,6 +144,12 @@ impl<T: Send + 'static, U: Send + 'static> Job<T, U> {
     }
 }
 
+impl<T, U> fmt::Debug for Job<T, U> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Job").field(&self.progress).finish()
+    }
+}
+
 impl<T, U> Drop for Job<T, U> {
     fn drop(&mut self) {
         self.progress.cancel();
@@ -175,7 +170,7 @@ mod tests {
         let waker = Waker::new(move |after| {
             let _ = sender.send(after);
         });
-        let job = Job::stream(&waker, Progress::default(), |worker| {
+        let job = Job::stream(&waker, |worker| {
             worker.report(1)?;
             worker.report(2)?;
             Ok("done")
@@ -187,9 +182,7 @@ mod tests {
 
     #[test]
     fn the_latest_update_can_stand_for_all() {
-        let job = Job::stream(&Waker::default(), Progress::default(), |worker| {
-            (0..1000).try_for_each(|i| worker.replace(i))
-        });
+        let job = Job::stream(&Waker::default(), |worker| (0..1000).try_for_each(|i| worker.replace(i)));
         job.wait().unwrap();
         assert_eq!(job.updates(), [999]);
     }

@@ -4,7 +4,7 @@ pub mod list;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Request};
 use svbrdf_evaluate::dataset::{CandidateFile, Case, DatasetReading, DatasetSettings, Source};
@@ -128,6 +128,10 @@ pub struct DatasetState {
     pub shown: Option<usize>,
     /// Whether that is read again.
     pub is_stale: bool,
+    /// How often the files of each material were read again.
+    pub versions: Arc<Vec<u64>>,
+    /// What the last frame had in sight.
+    pub in_sight: InSight,
     /// What of it is not in the window.
     pub missing: Vec<Missing>,
     /// The method that was chosen last, which may have no prediction of the material in the window.
@@ -138,6 +142,20 @@ pub struct DatasetState {
     /// Marks and notes, by the name of a material.
     pub marks: BTreeMap<String, SessionMark>,
     pub sheet: SheetState,
+}
+
+/// The materials in sight, as a worker looks at them.
+#[derive(Clone, Debug, Default)]
+pub struct InSight(Arc<Mutex<Vec<usize>>>);
+
+impl InSight {
+    pub fn get(&self) -> Vec<usize> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    pub fn set(&self, cases: &[usize]) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = cases.to_vec();
+    }
 }
 
 /// A ground truth, or a prediction of it, that is not there.
@@ -172,7 +190,8 @@ impl DatasetState {
     /// A data set that has just been opened, with the marks of a session.
     pub fn of(open: Arc<OpenDataset>, wanted: usize, marks: BTreeMap<String, SessionMark>) -> Self {
         let wanted = wanted.min(open.cases.len().saturating_sub(1));
-        Self { open: Some(open), wanted, marks, ..Self::default() }
+        let versions = Arc::new(vec![0; open.cases.len()]);
+        Self { open: Some(open), wanted, marks, versions, ..Self::default() }
     }
 
     /// Shows a material, and reads others ahead.
@@ -180,6 +199,20 @@ impl DatasetState {
         if self.open.as_ref().is_some_and(|open| case < open.cases.len()) {
             (self.wanted, self.ahead) = (case, ahead);
         }
+    }
+
+    /// How often the files of a material were read again.
+    pub fn version(&self, case: usize) -> u64 {
+        self.versions.get(case).copied().unwrap_or_default()
+    }
+
+    /// Reads the files of a material in the window again, with its losses.
+    pub fn read_again(&mut self, case: usize) {
+        // It may be the ground truth of all.
+        let has_all = self.open.as_ref().is_some_and(|open| open.is_of_predictions());
+        let versions = Arc::make_mut(&mut self.versions).iter_mut().enumerate();
+        versions.filter(|(of, _)| has_all || *of == case).for_each(|(_, version)| *version += 1);
+        self.is_stale = true;
     }
 
     /// Shows a material of the contact sheet, to which Escape returns.

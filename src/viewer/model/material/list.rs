@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use svbrdf_files::read::ReadOptions;
 
+use crate::message::Message;
 use crate::model::material::loaded::{LoadedMaterial, mismatch, rename};
-use crate::model::material::problem::MaterialProblem;
 use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
 use crate::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use svbrdf_files::source::{MaterialSource, Place};
@@ -103,21 +103,16 @@ impl MaterialList {
     }
 
     /// Places a material; false where those after it are not wanted.
-    pub fn place(
-        &mut self,
-        place: &ArrivalPlace,
-        arrival: Arrival,
-        problems: &mut Vec<MaterialProblem>,
-    ) -> bool {
-        let replaces_all = place.target == Target::Everything && place.is_first;
+    pub fn place(&mut self, place: &ArrivalPlace, arrival: Arrival, problems: &mut Vec<Message>) -> bool {
+        let replaces_all = place.target == Target::Everything && place.arrived == 0;
         match (arrival, &place.target) {
             (Arrival::Failed(_, error), _) if error.is_cancelled() => return false,
             (Arrival::Failed(source, error), target) => {
                 self.mark(target, &error);
-                problems.push(MaterialProblem::NotRead { source, error, opening: place.opening });
+                problems.push(Message::NotRead { source, error, opening: place.opening });
                 // Predictions need their ground truth: the materials in the window stay.
-                if replaces_all && !place.others.is_empty() {
-                    problems.push(MaterialProblem::NotOpened(place.others.clone()));
+                if replaces_all && place.names.len() > 1 {
+                    problems.push(Message::NotOpened(place.names[1..].to_vec()));
                 }
                 return !replaces_all;
             }
@@ -146,9 +141,9 @@ impl MaterialList {
         }
     }
 
-    fn add(&mut self, read: Arc<ReadMaterial>, problems: &mut Vec<MaterialProblem>) {
+    fn add(&mut self, read: Arc<ReadMaterial>, problems: &mut Vec<Message>) {
         if let Some(sizes) = self.ground_truth().and_then(|ground_truth| mismatch(ground_truth, &read)) {
-            return problems.push(MaterialProblem::Refused(Box::new(sizes)));
+            return problems.push(Message::Refused(Box::new(sizes)));
         }
         if let Place::Path(path) = &read.source.place {
             self.read.push(path.clone());
@@ -158,17 +153,17 @@ impl MaterialList {
 
     /// Replaces the material of this id. A ground truth of another size closes the predictions; a prediction of another size is
     /// refused, and the one in the window is stale from then on.
-    fn replace(&mut self, id: MaterialId, read: Arc<ReadMaterial>, problems: &mut Vec<MaterialProblem>) {
+    fn replace(&mut self, id: MaterialId, read: Arc<ReadMaterial>, problems: &mut Vec<Message>) {
         let Some(index) = self.all.iter().position(|one| one.id() == id) else { return };
         self.read.push(read.path().to_owned());
         let new = LoadedMaterial::new(read).at(self.all[index].slot);
         if index == 0 {
             let mismatches = self.predictions().iter().filter_map(|one| mismatch(&new, &one.read));
-            problems.extend(mismatches.map(|sizes| MaterialProblem::Closed(Box::new(sizes))));
+            problems.extend(mismatches.map(|sizes| Message::Closed(Box::new(sizes))));
             self.all.retain(|one| one.id() == id || mismatch(&new, &one.read).is_none());
         } else if let Some(sizes) = self.ground_truth().and_then(|gt| mismatch(gt, &new.read)) {
-            self.mark(&Target::Again(id), &sizes);
-            return problems.push(MaterialProblem::Refused(Box::new(sizes)));
+            self.mark(&Target::Again(id), &sizes.text);
+            return problems.push(Message::Refused(Box::new(sizes)));
         }
         self.all[index] = new;
     }

@@ -7,7 +7,7 @@ use svbrdf_core::material::{Grid, Material};
 use svbrdf_evaluate::report::distinct_names;
 use svbrdf_files::source::Place;
 
-use crate::model::material::problem::SizeMismatch;
+use crate::message::SizeMismatch;
 use crate::model::material::read::{MaterialId, ReadMaterial};
 
 /// A material in the window.
@@ -101,11 +101,6 @@ pub const DRAWN: [RangeInclusive<char>; 9] = [
     '\u{2026}'..='\u{2026}',
 ];
 
-/// The ids of materials, in their order: what results of them depend on.
-pub fn ids(materials: &[LoadedMaterial]) -> Vec<MaterialId> {
-    materials.iter().map(LoadedMaterial::id).collect()
-}
-
 /// Gives every material a unique name.
 pub fn rename(materials: &mut [LoadedMaterial]) {
     let named: Vec<_> = materials.iter().map(|one| (one.material().name(), one.read.path())).collect();
@@ -116,13 +111,11 @@ pub fn rename(materials: &mut [LoadedMaterial]) {
 /// The two sizes, where `prediction` has another size than the ground truth.
 pub fn mismatch(ground_truth: &LoadedMaterial, prediction: &ReadMaterial) -> Option<SizeMismatch> {
     let [gt, material] = [ground_truth.material(), prediction.material()];
-    (gt.size() != material.size()).then(|| SizeMismatch {
-        prediction: named(prediction),
-        prediction_size: material.size(),
-        ground_truth: gt.name().to_owned(),
-        ground_truth_size: gt.size(),
-        source: prediction.reopened(),
-    })
+    let ([w, h], [gt_w, gt_h]) = (material.size(), gt.size());
+    let text = || {
+        format!("{} is {w} x {h} and the ground truth {} is {gt_w} x {gt_h}", named(prediction), gt.name())
+    };
+    ([w, h] != [gt_w, gt_h]).then(|| SizeMismatch { text: text(), source: prediction.reopened() })
 }
 
 /// The name of a material that is not in the window, and where it is: several may have one name.
@@ -144,7 +137,7 @@ mod tests {
         let material = |name: String| {
             let mut read = read.clone();
             read.material = read.material.renamed(name);
-            LoadedMaterial::new(Arc::new(ReadMaterial::new(MaterialSource::built_in(0), read)))
+            LoadedMaterial::new(Arc::new(ReadMaterial::new(MaterialSource::built_in(0), read, None)))
         };
         let hostile = ["a\u{202e}gnp.b".to_owned(), "\u{1b}[2J".to_owned(), "long ".repeat(100_000)];
         let mut all: Vec<_> = hostile.into_iter().map(material).collect();

@@ -3,6 +3,6 @@
 pub mod list;
 pub mod loaded;
 pub mod photograph;
-pub mod problem;
 pub mod read;
 pub mod request;
+pub mod textures;

@@ -6,10 +6,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use svbrdf_core::material::Material;
 use svbrdf_evaluate::diagnose::Storage;
 use svbrdf_files::disk::stamp::Stamp;
-use svbrdf_files::read::{Note, Read};
+use svbrdf_files::read::Read;
 use svbrdf_files::source::{MaterialSource, Place};
+use svbrdf_gpu::Gpu;
 
-use crate::error::Error;
+use crate::model::material::textures::Uploaded;
 
 /// What identifies the maps of a material: the reading that brought them, which is never used twice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -33,16 +34,19 @@ pub struct ReadMaterial {
     pub record: Read<f32>,
     /// How its maps are stored, for its diagnosis.
     pub storage: Storage,
+    /// Its maps on the adapter, where there is one.
+    pub uploaded: Option<Uploaded>,
     /// The stamps of the files that were read, in their order.
     stamps: Vec<Option<Stamp>>,
 }
 
 impl ReadMaterial {
-    /// The material of what was read from `source`.
-    pub fn new(source: MaterialSource, record: Read<f32>) -> Self {
+    /// The material of what was read from `source`, which is sent to the adapter.
+    pub fn new(source: MaterialSource, record: Read<f32>, gpu: Option<&Gpu>) -> Self {
         let storage = record.storage();
         let stamps = record.files.iter().map(|path| Stamp::of(path)).collect();
-        Self { id: MaterialId::next(), source, record, storage, stamps }
+        let uploaded = gpu.map(|gpu| Uploaded::new(gpu, &record.material));
+        Self { id: MaterialId::next(), source, record, storage, uploaded, stamps }
     }
 
     pub fn material(&self) -> &Material<f32> {
@@ -60,10 +64,16 @@ impl ReadMaterial {
     }
 
     /// The part of it, or a change of it, that is compared; it is read from the same files.
-    pub fn part(&self, material: Material<f32>) -> Self {
+    pub fn part(&self, material: Material<f32>, gpu: Option<&Gpu>) -> Self {
+        let uploaded = gpu.map(|gpu| Uploaded::new(gpu, &material));
         let record = Read { material, ..self.record.clone() };
         let (source, storage, stamps) = (self.source.clone(), self.storage.clone(), self.stamps.clone());
-        Self { id: MaterialId::next(), source, record, storage, stamps }
+        Self { id: MaterialId::next(), source, record, storage, uploaded, stamps }
+    }
+
+    /// Whether its files are those that were read.
+    pub fn is_of_now(&self) -> bool {
+        self.record.files.iter().zip(&self.stamps).all(|(path, stamp)| Stamp::of(path) == *stamp)
     }
 
     /// What it takes to open it again.
@@ -82,33 +92,6 @@ pub struct Rules {
     pub strict: bool,
     /// Whether a prediction of another size is resized to the ground truth.
     pub fit: bool,
-}
-
-impl Rules {
-    /// Takes in the material at `path`; the first one sets the `size`, where there is none yet.
-    ///
-    /// # Errors
-    /// [`Guessed`](svbrdf_files::Error::Guessed) where guesses are errors,
-    /// [`SizesDiffer`](svbrdf_core::error::Error::SizesDiffer) where it cannot be resized.
-    pub fn take(
-        self,
-        path: &Path,
-        mut source: MaterialSource,
-        mut read: Read<f32>,
-        size: &mut Option<[usize; 2]>,
-    ) -> Result<ReadMaterial, Error> {
-        if self.strict {
-            read.refuse_guesses(path)?;
-        }
-        source.fit |= self.fit;
-        let from = read.material.size();
-        let size = *size.get_or_insert(from);
-        if source.fit && from != size {
-            read.material = read.material.resized(size)?;
-            read.notes.push(Note::Resized { from, to: size });
-        }
-        Ok(ReadMaterial::new(source, read))
-    }
 }
 
 /// The name that it is given, or the last part of its path.

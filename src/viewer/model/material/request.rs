@@ -53,14 +53,13 @@ pub enum Arrival {
     Failed(Box<MaterialSource>, Error),
 }
 
-/// Which opening an arrival belongs to.
+/// Which opening an arrival belongs to, and how many were before it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArrivalPlace {
     /// The number of the opening.
     pub opening: u64,
     pub target: Target,
-    /// Whether it is the first material of its opening.
-    pub is_first: bool,
-    /// The names of the materials after the first.
-    pub others: Vec<String>,
+    /// The names of all its materials.
+    pub names: Vec<String>,
+    pub arrived: usize,
 }

@@ -9,7 +9,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::read::Read;
 
 use crate::error::Error;
-use crate::jobs::answers::{Question, Work};
+use crate::jobs::answers::{Pace, Question, Work};
 use crate::model::dataset::OpenDataset;
 
 /// Longest sides of small materials, in texels.
@@ -32,21 +32,21 @@ pub struct ReadRow {
     case: usize,
     /// Longest side, in texels.
     side: usize,
-    read_again: u64,
+    version: u64,
 }
 
 impl PartialEq for ReadRow {
     fn eq(&self, other: &Self) -> bool {
-        let of = |one: &Self| (Arc::as_ptr(&one.open).addr(), one.case, one.side, one.read_again);
+        let of = |one: &Self| (Arc::as_ptr(&one.open).addr(), one.case, one.side, one.version);
         of(self) == of(other)
     }
 }
 
 impl ReadRow {
     /// The row of a material that is drawn with this longest side in pixels, after its files were read again so often.
-    pub fn of(open: &Arc<OpenDataset>, case: usize, pixels: usize, read_again: u64) -> Self {
+    pub fn of(open: &Arc<OpenDataset>, case: usize, pixels: usize, version: u64) -> Self {
         let side = SIDES.into_iter().find(|side| *side >= pixels).unwrap_or(SIDES[SIDES.len() - 1]);
-        Self { open: open.clone(), case, side, read_again }
+        Self { open: open.clone(), case, side, version }
     }
 
     fn read(&self, column: usize, progress: &Progress) -> Reduced {
@@ -61,7 +61,7 @@ impl ReadRow {
 
 impl Question for ReadRow {
     type Answer = Vec<Reduced>;
-    const IS_SHORT: bool = true;
+    const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 32;
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Self::Answer, Error> {

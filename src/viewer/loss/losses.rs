@@ -9,8 +9,9 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::analyses::LossReport;
 
 use crate::error::Error;
+use crate::jobs::Shown;
 use crate::jobs::answers::content::{Content, Given, read_all};
-use crate::jobs::answers::{Answer, Answered, Answers, Question, Work};
+use crate::jobs::answers::{Answer, Answered, Question, Work};
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
 
@@ -54,6 +55,10 @@ impl Question for ComputeLosses {
     const KEPT: usize = 8;
     const HAS_MESSAGE: bool = false;
 
+    fn is_like(&self, earlier: &Self) -> bool {
+        self.materials == earlier.materials
+    }
+
     /// Tells of the losses on the way.
     fn answer(&self, work: &Work<'_, ComputedLosses>) -> Result<ComputedLosses, Error> {
         let named = self.names.0.iter().zip(read_all(&self.materials)?);
@@ -90,12 +95,14 @@ pub struct DrawnLosses {
 
 impl DrawnLosses {
     /// Asks for the losses of the materials in the window, by its settings.
-    pub fn ask(answers: &Answers, model: &Model) -> Self {
-        if model.materials.predictions().is_empty() {
+    pub fn ask(Shown { model, jobs }: Shown<'_>) -> Self {
+        // A loss of materials that are not all there yet would be computed in vain; those of a data set are its own.
+        let has_own = model.dataset.open.is_some() || jobs.openings.expect_more();
+        if has_own || model.materials.predictions().is_empty() {
             return Self::default();
         }
         let wanted = ComputeLosses::of(model);
-        let answer = answers.get(&wanted);
+        let answer = jobs.answers.get(&wanted);
         let (busy, is_cancelled) = (answer.busy(), matches!(answer, Answer::Stopped(_)));
         let (of_now, problem) = match answer {
             Answer::Ready(found) | Answer::Partial(found, ..) => (Some(found), None),
@@ -104,8 +111,7 @@ impl DrawnLosses {
             Answer::Failed(problem) => (None, Some(problem)),
         };
         let is_current = of_now.is_some();
-        let is_like = |one: &ComputeLosses| one.materials == wanted.materials;
-        let latest = of_now.or_else(|| answers.latest(is_like).map(|(_, found)| found));
+        let latest = of_now.or_else(|| jobs.answers.latest(&wanted));
         Self { latest, is_current, is_cancelled, problem, busy }
     }
 
@@ -122,6 +128,11 @@ impl DrawnLosses {
     pub fn complete(&self) -> Option<&[Loss]> {
         let (losses, _) = self.losses().filter(|_| self.is_complete())?;
         Some(losses.report.outcome.losses.as_slice())
+    }
+
+    /// Of each prediction, where they are complete.
+    pub fn of_predictions(&self) -> Vec<Option<Estimate>> {
+        self.complete().unwrap_or_default().iter().map(|loss| Some(loss.estimate)).collect()
     }
 
     /// Progress of the losses that are computed: its share in [0, 1], its time, and whether it has losses yet. `None` without one,

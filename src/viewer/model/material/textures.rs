@@ -1,14 +1,9 @@
 //! Upload: the maps of a material on the adapter, or as many of their texels as it can hold.
 
-use std::collections::HashMap;
-use std::sync::Arc;
-
 use svbrdf_core::material::Material;
 use svbrdf_files::Error;
 use svbrdf_files::disk::memory::{self, Reserved};
 use svbrdf_gpu::{Gpu, MaterialTextures};
-
-use crate::model::material::read::MaterialId;
 
 /// Strides that are tried in turn where the adapter cannot hold all texels.
 const REDUCTIONS: [usize; 5] = [2, 4, 8, 16, 32];
@@ -57,9 +52,6 @@ impl Uploaded {
         }
     }
 }
-
-/// The maps on the adapter of all materials in the window.
-pub type Uploads = HashMap<MaterialId, Arc<Uploaded>>;
 
 /// Sends every `stride`-th texel.
 fn send(gpu: &Gpu, material: &Material<f32>, stride: usize) -> Result<SentTextures, Error> {

@@ -6,10 +6,9 @@ use std::sync::Arc;
 
 use svbrdf_files::Error as FilesError;
 use svbrdf_files::read::ReadOptions;
-use svbrdf_files::source::MaterialSource;
+use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::error::Error;
-use crate::model::material::problem::MaterialProblem;
 
 /// How much a message matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,9 +24,28 @@ pub enum Message {
     /// Something was done: it is shown for a moment.
     Done(String),
     Warning(String),
-    /// A material is not in the window, or not any more.
-    Material(MaterialProblem),
+    /// A prediction was not opened: its size is not the ground truth's.
+    Refused(Box<SizeMismatch>),
+    /// A prediction was closed: the new ground truth has another size.
+    Closed(Box<SizeMismatch>),
+    /// A material could not be read, in the opening of this number.
+    NotRead {
+        source: Box<MaterialSource>,
+        error: Error,
+        opening: u64,
+    },
+    /// These predictions were not opened: their ground truth could not be read.
+    NotOpened(Vec<String>),
     Failed(Error),
+}
+
+/// A prediction of another size than the ground truth.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SizeMismatch {
+    /// Both sizes in words.
+    pub text: String,
+    /// The prediction.
+    pub source: MaterialSource,
 }
 
 /// How what was refused is opened again.
@@ -49,28 +67,20 @@ impl Retry {
     }
 }
 
-impl From<MaterialProblem> for Message {
-    fn from(problem: MaterialProblem) -> Self {
-        Self::Material(problem)
-    }
-}
-
 impl Message {
     pub fn severity(&self) -> Severity {
         match self {
             Self::Done(_) => Severity::Success,
-            Self::Warning(_) | Self::Material(MaterialProblem::Closed(_)) => Severity::Warning,
-            Self::Material(_) | Self::Failed(_) => Severity::Error,
+            Self::Warning(_) | Self::Closed(_) => Severity::Warning,
+            Self::Refused(_) | Self::NotRead { .. } | Self::NotOpened(_) | Self::Failed(_) => Severity::Error,
         }
     }
 
     /// What can be done about it.
     pub fn retry(&self) -> Option<Retry> {
         match self {
-            Self::Material(MaterialProblem::Refused(sizes) | MaterialProblem::Closed(sizes)) => {
-                Some(Retry::Fitted(Box::new(sizes.source.clone())))
-            }
-            Self::Material(MaterialProblem::NotRead { source, error, .. }) => {
+            Self::Refused(sizes) | Self::Closed(sizes) => Some(Retry::Fitted(Box::new(sizes.source.clone()))),
+            Self::NotRead { source, error, .. } => {
                 error.names_outside()?;
                 Some(Retry::Outside(self.path()?.to_owned(), source.options))
             }
@@ -81,9 +91,14 @@ impl Message {
 
     /// The file that it is about: the message is settled once that has been read.
     pub fn path(&self) -> Option<&Path> {
-        match self {
-            Self::Material(problem) => problem.path(),
-            _ => None,
+        let source = match self {
+            Self::NotRead { source, .. } => source,
+            Self::Refused(sizes) | Self::Closed(sizes) => &sizes.source,
+            _ => return None,
+        };
+        match &source.place {
+            Place::Path(path) => Some(path),
+            Place::BuiltIn(_) => None,
         }
     }
 }
@@ -92,14 +107,18 @@ impl fmt::Display for Message {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Done(text) | Self::Warning(text) => f.write_str(text),
-            Self::Failed(error) | Self::Material(MaterialProblem::NotRead { error, .. }) => {
+            Self::Refused(sizes) => write!(f, "Not opened: {}.", sizes.text),
+            Self::Closed(sizes) => write!(f, "Prediction closed: {}.", sizes.text),
+            Self::NotOpened(names) => {
+                write!(f, "Not opened, because the ground truth could not be read: {}.", names.join(", "))
+            }
+            Self::Failed(error) | Self::NotRead { error, .. } => {
                 error.fmt(f)?;
                 match error.files() {
                     Some(FilesError::Memory { .. }) => f.write_str(" (start svbrdf with --max-memory)"),
                     _ => Ok(()),
                 }
             }
-            Self::Material(problem) => problem.fmt(f),
         }
     }
 }
@@ -173,15 +192,10 @@ impl MessageList {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::error::Error;
-    use crate::model::material::problem::MaterialProblem;
-    use std::path::PathBuf;
-    use svbrdf_files::source::MaterialSource;
 
     fn not_read(path: &str) -> Message {
         let source = Box::new(MaterialSource::from(PathBuf::from(path)));
-        MaterialProblem::NotRead { source, error: Error::internal(format!("{path} is broken")), opening: 1 }
-            .into()
+        Message::NotRead { source, error: Error::internal(format!("{path} is broken")), opening: 1 }
     }
 
     #[test]

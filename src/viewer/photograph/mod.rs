@@ -1,26 +1,38 @@
 //! The photograph in the side panel: which one it is, how it was read, and the factor of each material.
 
+pub mod compared;
+
 use eframe::egui::{self, RichText};
 
 use svbrdf_files::read::Transfer;
 
-use crate::jobs::displayed::Displayed;
-use crate::jobs::panes::photograph::DisplayedPhotograph;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, opening};
+use crate::photograph::compared::DisplayedPhotograph;
 use crate::widgets::{bare, named};
 
 /// Height of the list of factors, in points.
 const FACTORS: f32 = 76.0;
 
-/// Draws the section, where a photograph is open.
-pub fn ui(ui: &mut egui::Ui, shown: Displayed<'_>, next: &mut Model) {
-    let Some(displayed) = shown.open_photograph() else { return };
+/// Draws the section of the photograph that is open beside `materials`; whether the panes compare with it.
+pub fn ui(
+    ui: &mut egui::Ui,
+    displayed: &DisplayedPhotograph<'_>,
+    materials: &[LoadedMaterial],
+    is_compared: bool,
+    next: &mut Model,
+) {
     let panel = bare(egui::Panel::bottom("photograph"), ui).resizable(false);
-    panel.show(ui, |ui| card(ui, shown, displayed, next));
+    panel.show(ui, |ui| card(ui, displayed, materials, is_compared, next));
 }
 
-fn card(ui: &mut egui::Ui, shown: Displayed<'_>, displayed: DisplayedPhotograph<'_>, next: &mut Model) {
+fn card(
+    ui: &mut egui::Ui,
+    displayed: &DisplayedPhotograph<'_>,
+    materials: &[LoadedMaterial],
+    is_compared: bool,
+    next: &mut Model,
+) {
     let source = displayed.source;
     ui.horizontal(|ui| {
         ui.strong("Photograph");
@@ -30,11 +42,11 @@ fn card(ui: &mut egui::Ui, shown: Displayed<'_>, displayed: DisplayedPhotograph<
                 next.photograph.set(None);
             }
             ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                name(ui, shown, displayed, next);
+                name(ui, displayed, next);
             });
         });
     });
-    let Some(photograph) = displayed.photograph else {
+    let Some(photograph) = &displayed.photograph else {
         ui.add(egui::Spinner::new());
         return;
     };
@@ -59,10 +71,10 @@ fn card(ui: &mut egui::Ui, shown: Displayed<'_>, displayed: DisplayedPhotograph<
     for note in &photograph.notes {
         ui.label(RichText::new(note.to_string()).small().color(ui.visuals().warn_fg_color));
     }
-    if shown.photograph().is_none() {
+    if !is_compared {
         ui.weak("Maps and the error map are compared with the ground truth.");
     }
-    factors(ui, shown.materials(), displayed);
+    factors(ui, materials, displayed);
     let mut falloff = source.falloff;
     ui.checkbox(&mut falloff, "Divide out falloff").on_hover_text(
         "Divides the photograph by the falloff of a point light, which the renderings do not have: for photographs with \
@@ -74,9 +86,9 @@ fn card(ui: &mut egui::Ui, shown: Displayed<'_>, displayed: DisplayedPhotograph<
 }
 
 /// Its name, or a choice of all that are listed with it.
-fn name(ui: &mut egui::Ui, shown: Displayed<'_>, displayed: DisplayedPhotograph<'_>, next: &mut Model) {
+fn name(ui: &mut egui::Ui, displayed: &DisplayedPhotograph<'_>, next: &mut Model) {
     let path = displayed.source.path.display().to_string();
-    let Some((names, number)) = shown.model.photograph.listed() else {
+    let Some((names, number)) = next.photograph.listed() else {
         ui.add(egui::Label::new(displayed.name()).truncate()).on_hover_text(path);
         return;
     };
@@ -95,8 +107,8 @@ fn name(ui: &mut egui::Ui, shown: Displayed<'_>, displayed: DisplayedPhotograph<
 }
 
 /// The factor of each material, and what is left out.
-fn factors(ui: &mut egui::Ui, materials: &[LoadedMaterial], displayed: DisplayedPhotograph<'_>) {
-    let Some(all) = displayed.all else {
+fn factors(ui: &mut egui::Ui, materials: &[LoadedMaterial], displayed: &DisplayedPhotograph<'_>) {
+    let Some(all) = displayed.all() else {
         ui.weak("Fitting the exposure...");
         return;
     };

@@ -5,9 +5,10 @@ use std::time::{Duration, Instant};
 
 use svbrdf_files::read::EXTENSIONS;
 
-use super::Edit;
+use crate::jobs::Edit;
 use crate::jobs::work::job::Job;
 use crate::jobs::work::waker::Waker;
+use crate::model::Model;
 use crate::model::dialogs::Dialogs;
 use crate::model::effect::BrowseFor;
 
@@ -23,7 +24,7 @@ pub fn start(waker: &Waker, what: BrowseFor, from: Option<&Path>) -> Job<Edit> {
     let title = if what == BrowseFor::Saving { "Save" } else { "Open materials" };
     let dialog = rfd::AsyncFileDialog::new().set_title(title);
     let dialog = from.into_iter().fold(dialog, rfd::AsyncFileDialog::set_directory);
-    Job::start(waker, move |_| {
+    Job::<Edit>::start(waker, move |_| {
         let start = Instant::now();
         let chosen = match what {
             BrowseFor::Folders => pollster::block_on(dialog.pick_folders()),
@@ -34,7 +35,7 @@ pub fn start(waker: &Waker, what: BrowseFor, from: Option<&Path>) -> Job<Edit> {
         let is_cancelled = chosen.is_none() && start.elapsed() > AT_ONCE;
         let chosen = chosen.map(|all| all.iter().map(|one| one.path().to_owned()).collect::<Vec<_>>());
         let chosen = chosen.or_else(|| is_cancelled.then(Vec::new));
-        Ok(Edit::new(|model| take(&mut model.dialogs, chosen)))
+        Ok(Box::new(|model: &mut Model| take(&mut model.dialogs, chosen)))
     })
 }
 

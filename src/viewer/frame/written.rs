@@ -1,14 +1,16 @@
-//! Saving: pictures of the materials as `svbrdf render` and `svbrdf strip` write them, the view, the session, and scenes.
+//! What is saved: pictures of the materials as `svbrdf render` and `svbrdf strip` write them, the view, the session, and scenes.
 
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::Path;
 use std::sync::Arc;
 
 use svbrdf_core::image::Image;
-use svbrdf_core::loss::Comparison;
+use svbrdf_core::loss::{Comparison, Request, Sampling};
 use svbrdf_core::material::Material;
+use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::picture::quantity::Quantity;
+use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analyses::ScenesReport;
 use svbrdf_evaluate::report::{Cell, Compared, Json as _, Table};
@@ -18,17 +20,19 @@ use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::scene_file;
 
-use super::answers::content::ComparedPair;
-use super::displayed::Displayed;
-use super::work::job::Job;
-use super::work::waker::Waker;
+use crate::dataset::losses;
 use crate::error::Error;
+use crate::jobs::answers::content::ComparedPair;
 use crate::model::inspection::Region;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
+use crate::pane::displayed::Displayed;
+
+/// What writes a file, on a thread of its own.
+pub type Writing = Box<dyn FnOnce(&Path, &Progress) -> Result<(), Error> + Send>;
 
 /// The content of a picture of the panes.
-pub fn content(displayed: Displayed<'_>) -> PictureContent {
+pub fn content(displayed: &Displayed<'_>) -> PictureContent {
     let view = &displayed.model.view;
     let difference = ColouredDifference { kind: view.difference_kind(), range: Some(displayed.range()) };
     let compares = view.display.difference && displayed.materials().len() > 1;
@@ -36,7 +40,7 @@ pub fn content(displayed: Displayed<'_>) -> PictureContent {
 }
 
 /// Where a picture of the materials comes from.
-pub fn provenance(displayed: Displayed<'_>, content: PictureContent) -> Provenance {
+pub fn provenance(displayed: &Displayed<'_>, content: PictureContent) -> Provenance {
     let view = &displayed.model.view;
     Provenance {
         content,
@@ -56,25 +60,24 @@ fn materials(materials: &[LoadedMaterial]) -> Vec<Arc<ReadMaterial>> {
     materials.iter().map(|slot| slot.read.clone()).collect()
 }
 
-/// Starts to write what the panes show of all materials, side by side, to `path`.
-pub fn renderings(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+/// What the panes show of all materials, side by side.
+pub fn renderings(displayed: &Displayed<'_>) -> Writing {
     let content = content(displayed);
     let (all, mut provenance) = (materials(displayed.materials()), provenance(displayed, content));
-    Job::start(&displayed.jobs.waker, move |progress| {
-        let destination = Destination::new(&path)?;
+    Box::new(move |path, progress| {
+        let destination = Destination::new(path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
         let Provenance { scene, convention, exposure_ev, .. } = &provenance;
         let Pictures { images, content } =
             content.pictures(&all, scene, convention, *exposure_ev, progress)?;
         provenance.content = content;
-        destination.write(&images, &provenance, progress)?;
-        Ok(path)
+        Ok(destination.write(&images, &provenance, progress)?)
     })
 }
 
-/// Starts to write the materials of a data set in these places to `path`: marks, notes and losses.
-pub fn materials_csv(displayed: Displayed<'_>, cases: Vec<usize>, path: PathBuf) -> Job<PathBuf> {
-    let (dataset, losses) = (&displayed.model.dataset, &displayed.jobs.dataset.losses);
+/// The materials of a data set in these places: marks, notes and losses.
+pub fn materials_csv(displayed: &Displayed<'_>, cases: &[usize]) -> Writing {
+    let (dataset, losses) = (&displayed.model.dataset, losses::ask(displayed.shown()));
     let methods = dataset.open.as_ref().map(|open| open.methods().to_vec()).unwrap_or_default();
     let mut columns = vec!["material".to_owned(), "marked".to_owned(), "note".to_owned()];
     columns.extend(methods);
@@ -88,14 +91,11 @@ pub fn materials_csv(displayed: Displayed<'_>, cases: Vec<usize>, path: PathBuf)
     };
     let rows = cases.iter().map(row).collect();
     let table = Table { columns, rows };
-    Job::start(&displayed.jobs.waker, move |progress| {
-        atomic::write_text(&path, &table.csv()?, progress)?;
-        Ok(path)
-    })
+    Box::new(move |path, progress| Ok(atomic::write_text(path, &table.csv()?, progress)?))
 }
 
-/// Starts to write the figure of all materials to `path`, the rectangle magnified.
-pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+/// The figure of all materials, the rectangle magnified.
+pub fn strip(displayed: &Displayed<'_>) -> Writing {
     let state = &displayed.model.view;
     let (all, names) = (materials(displayed.materials()), names(displayed.materials()));
     let value = |quantity| PictureContent { quantity, difference: None };
@@ -117,62 +117,53 @@ pub fn strip(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
     let crops = region.into_iter().map(crop).collect();
     let (convention, exposure_ev) = (state.convention(), state.exposure_ev);
     let strip = Strip { columns, convention, exposure_ev, crops, paper: Paper::default() };
-    Job::start(&displayed.jobs.waker, move |progress| {
-        let destination = FigureDestination::new(&path)?;
+    Box::new(move |path, progress| {
+        let destination = FigureDestination::new(path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
         let figure = strip.figure(&all, &names, progress)?;
-        destination.write(&figure, &strip.entries(&names), progress)?;
-        Ok(path)
+        Ok(destination.write(&figure, &strip.entries(&names), progress)?)
     })
 }
 
-/// Starts to write a picture of the window, its pixels row by row, to `path`.
-pub fn view(
-    waker: &Waker,
-    picture: Image<u8>,
-    entries: Vec<(&'static str, String)>,
-    path: PathBuf,
-) -> Job<PathBuf> {
-    Job::start(waker, move |progress| {
-        let destination = PngDestination::new(&path)?;
-        destination.write(&picture, &entries, progress)?;
-        Ok(path)
+/// A picture of the window, its pixels row by row.
+pub fn view(picture: Image<u8>, entries: Vec<(&'static str, String)>) -> Writing {
+    Box::new(move |path, progress| {
+        let destination = PngDestination::new(path)?;
+        Ok(destination.write(&picture, &entries, progress)?)
     })
 }
 
-/// Starts to write the scenes of the loss of the chosen prediction, worst first.
-pub fn scenes(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+/// The scenes of the loss of the chosen prediction, worst first.
+pub fn scenes(displayed: &Displayed<'_>) -> Writing {
     let pair = ComparedPair::of(&displayed.model.materials.all, &displayed.model.view);
     // Also where they are closed by then.
     let read = pair.as_ref().map(ComparedPair::read);
     let convention = displayed.model.view.convention();
     let request = displayed.model.settings.loss.listed_scenes();
-    Job::start(&displayed.jobs.waker, move |progress| {
+    Box::new(move |path, progress| {
         let [truth, prediction] = read.ok_or(EvaluateError::NoPrediction)??;
-        let destination = scene_file::destination(&path)?;
+        let destination = scene_file::destination(path)?;
         let (predictions, truth) = ([prediction.material()], truth.material());
         let comparison = Comparison::new(truth, &predictions, convention)?.without_pilot();
         let outcome = comparison.run(&request, progress)?;
         let compared = Compared::new(truth, &convention);
         let text = ScenesReport::new(compared, &outcome, usize::MAX).json()?;
-        destination.replace(progress, |file| file.write_all(text.as_bytes()))?;
-        Ok(path)
+        Ok(destination.replace(progress, |file| file.write_all(text.as_bytes()))?)
     })
 }
 
-/// Starts to write the session.
-pub fn session(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+/// The session.
+pub fn session(displayed: &Displayed<'_>) -> Writing {
     let session = displayed.model.session();
-    Job::start(&displayed.jobs.waker, move |progress| {
-        let text = session.text(&path)?;
-        atomic::check_place(&path)?;
-        atomic::replace(&path, progress, |file| file.write_all(text.as_bytes()))?;
-        Ok(path)
+    Box::new(move |path, progress| {
+        let text = session.text(path)?;
+        atomic::check_place(path)?;
+        Ok(atomic::replace(path, progress, |file| file.write_all(text.as_bytes()))?)
     })
 }
 
-/// Starts to write the photograph and the renderings, or the differences of the renderings from it, side by side to `path`.
-pub fn against_photograph(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
+/// The photograph and the renderings, or the differences of the renderings from it, side by side.
+pub fn against_photograph(displayed: &Displayed<'_>) -> Writing {
     let all = displayed.photographs().cloned();
     let view = &displayed.model.view;
     let (kind, difference) = (view.difference_kind(), view.display.difference);
@@ -180,13 +171,13 @@ pub fn against_photograph(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBu
     let content =
         PictureContent { quantity: view.display.quantity, difference: difference.then_some(content) };
     let mut provenance = provenance(displayed, content);
-    let chosen = (view.display.prediction + 1).min(displayed.materials().len().saturating_sub(1));
+    let chosen = displayed.chosen();
     if let (false, Some(photograph)) = (difference, displayed.photograph()) {
         provenance.sources.insert(0, photograph.title(chosen));
     }
-    let text = displayed.photograph_text();
-    Job::start(&displayed.jobs.waker, move |progress| {
-        let destination = Destination::new(&path)?;
+    let text = photograph_text(displayed);
+    Box::new(move |path, progress| {
+        let destination = Destination::new(path)?;
         let all = all.ok_or(Error::Incomplete("the comparison with the photograph"))?;
         let images: Vec<_> = if difference {
             all.comparisons.iter().map(|one| one.difference(kind)).collect()
@@ -195,25 +186,56 @@ pub fn against_photograph(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBu
             let renderings = all.comparisons.iter().map(|one| one.rendering.clone());
             photograph.into_iter().chain(renderings).collect()
         };
-        destination.write_described(&images, &provenance, text, progress)?;
-        Ok(path)
+        Ok(destination.write_described(&images, &provenance, text, progress)?)
     })
 }
 
-/// Starts to write the error maps side by side to `path`, as `svbrdf map` does.
-pub fn error_maps(displayed: Displayed<'_>, path: PathBuf) -> Job<PathBuf> {
-    let maps = displayed.jobs.panes.difference.as_ref().map(|(found, _)| found.clone());
+/// The error maps side by side, as `svbrdf map` writes them.
+pub fn error_maps(displayed: &Displayed<'_>) -> Writing {
+    let maps = displayed.computed_maps().cloned();
     let entries = [
-        ("svbrdf:shows", displayed.error_map_text().unwrap_or_default()),
+        ("svbrdf:shows", error_map_text(displayed).unwrap_or_default()),
         ("svbrdf:sources", names(displayed.materials()).join(" | ")),
         ("svbrdf:convention", displayed.model.view.convention().name.to_owned()),
         ("svbrdf:version", Provenance::SOFTWARE.to_owned()),
     ];
     let range = displayed.range() as f32;
-    Job::start(&displayed.jobs.waker, move |progress| {
-        let destination = Destination::new(&path)?;
-        let maps = maps.as_ref().and_then(|found| found.maps()).ok_or(Error::Incomplete("the error map"))?;
-        destination.write_maps(&maps.images, range, &entries, progress)?;
-        Ok(path)
+    Box::new(move |path, progress| {
+        let destination = Destination::new(path)?;
+        let maps = maps.ok_or(Error::Incomplete("the error map"))?;
+        Ok(destination.write_maps(&maps.images, range, &entries, progress)?)
     })
+}
+
+/// What the metadata of a picture say where it shows error maps.
+pub fn error_map_text(displayed: &Displayed<'_>) -> Option<String> {
+    let (loss, view) = (&displayed.model.settings.loss, displayed.view());
+    let scenes = match (loss.listed_scenes(), loss.file_scenes()) {
+        (Request::Scenes(Sampling { near, distant, seed, sampler, .. }), _) => {
+            let sampler = if sampler == Sampler::Sobol { "scrambled Sobol" } else { "random" };
+            format!("{near} near-field and {distant} distant scenes, seed {seed}, {sampler}")
+        }
+        (_, file) => {
+            let (count, name) = file.map_or((0, ""), |file| (file.scenes.len(), file.name.as_str()));
+            format!("{count} scenes of {name}")
+        }
+    };
+    let range = displayed.range();
+    (view.display.difference && view.is_error_map())
+        .then(|| format!("mean log difference of each texel over {scenes}; {range} the last colour"))
+}
+
+/// What the metadata of a picture say where it shows differences from a photograph.
+pub fn photograph_text(displayed: &Displayed<'_>) -> Option<String> {
+    let kind = displayed.view().difference_kind();
+    let photograph = displayed.photograph().filter(|_| displayed.view().display.difference)?;
+    let factors = photograph.all()?.comparisons.iter().map(|one| one.factor.to_string());
+    Some(format!(
+        "{} of renderings p from {} as g: {}, multiplied by {}; NaN or gray where it is clipped; {} the last colour",
+        kind.name(),
+        photograph.source.path.display(),
+        kind.unit(),
+        factors.collect::<Vec<_>>().join(" | "),
+        displayed.range()
+    ))
 }

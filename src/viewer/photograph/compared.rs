@@ -17,34 +17,24 @@ use svbrdf_files::read::{Photograph, Transfer, read_photograph};
 use svbrdf_gpu::{Gpu, Shaded};
 
 use crate::error::Error;
+use crate::jobs::Shown;
 use crate::jobs::answers::content::{Content, Given, read_all};
-use crate::jobs::answers::{Answered, Question, Work};
+use crate::jobs::answers::{Answer, Answered, Pace, Question, Work};
 use crate::model::material::loaded::LoadedMaterial;
-use crate::model::material::photograph::PhotographState;
-use crate::model::material::read::ReadMaterial;
-use crate::model::material::read::file_name;
-use crate::model::view::ViewState;
+use crate::model::material::read::{ReadMaterial, file_name};
 
 /// The samples of a photograph.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ReadPhotograph {
+struct ReadPhotograph {
     path: PathBuf,
     /// Of the file when it was opened.
     stamp: Option<Stamp>,
     transfer: Option<Transfer>,
 }
 
-impl ReadPhotograph {
-    /// Of what is open.
-    pub fn of(state: &PhotographState) -> Option<Self> {
-        let source = state.source()?;
-        Some(Self { path: source.path.clone(), stamp: state.stamp(), transfer: source.transfer })
-    }
-}
-
 impl Question for ReadPhotograph {
     type Answer = Photograph;
-    const IS_SHORT: bool = true;
+    const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 1;
 
     fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<Photograph, Error> {
@@ -52,12 +42,9 @@ impl Question for ReadPhotograph {
     }
 }
 
-/// What was read of a photograph.
-pub type Samples = Arc<Answered<Photograph>>;
-
 /// A photograph beside every material.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ComparePhotograph {
+struct ComparePhotograph {
     read: ReadPhotograph,
     falloff: bool,
     materials: Vec<Content>,
@@ -65,44 +52,18 @@ pub struct ComparePhotograph {
     convention: Convention,
     kind: Difference,
     /// What was read, and the adapter.
-    given: Given<(Option<Samples>, Option<Gpu>)>,
-}
-
-impl ComparePhotograph {
-    /// Of the photograph that is open, which is `photograph` once it has been read.
-    pub fn of(
-        state: &PhotographState,
-        materials: &[LoadedMaterial],
-        view: &ViewState,
-        photograph: Option<Samples>,
-        gpu: Option<&Gpu>,
-    ) -> Option<Self> {
-        Some(Self {
-            read: ReadPhotograph::of(state)?,
-            falloff: state.source()?.falloff,
-            materials: Content::all(materials),
-            scene: view.scene,
-            convention: view.convention(),
-            kind: view.display.differences.kind(Quantity::Rendering),
-            given: Given((photograph, gpu.cloned())),
-        })
-    }
-
-    /// Whether it is of the same photograph and materials, perhaps in another scene.
-    pub fn is_like(&self, other: &Self) -> bool {
-        self.materials == other.materials && self.read == other.read
-    }
-
-    /// Whether the differences are of the same kind, too.
-    pub fn has_kind_of(&self, other: &Self) -> bool {
-        self.is_like(other) && self.kind == other.kind
-    }
+    given: Given<(Arc<Answered<Photograph>>, Option<Gpu>)>,
 }
 
 impl Question for ComparePhotograph {
     type Answer = Photographs;
-    const IS_SHORT: bool = true;
+    const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 1;
+
+    /// Perhaps in another scene.
+    fn is_like(&self, earlier: &Self) -> bool {
+        self.materials == earlier.materials && self.read == earlier.read
+    }
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Photographs, Error> {
         Photographs::new(self, work.progress())
@@ -116,8 +77,9 @@ pub struct Photographs {
     pub comparisons: Vec<PhotographComparison>,
     /// The photograph at the exposure of each material, where there is an adapter.
     shaded: Vec<Arc<Shaded>>,
-    /// Of the chosen difference of each material.
-    pub distributions: Distributions,
+    kind: Difference,
+    /// Of the difference of each material.
+    distributions: Distributions,
 }
 
 impl Photographs {
@@ -140,7 +102,6 @@ impl Photographs {
     fn new(asked: &ComparePhotograph, progress: &Progress) -> Result<Self, Error> {
         let ComparePhotograph { read, falloff, scene, convention, kind, given, .. } = asked;
         let Given((photograph, gpu)) = given;
-        let photograph = photograph.as_ref().ok_or_else(|| Error::internal("the photograph is not read"))?;
         let (name, falloff) = (file_name(&read.path), falloff.then_some(scene));
         let one = |loaded: &Arc<ReadMaterial>| -> Result<_, Error> {
             let material = loaded.material();
@@ -157,21 +118,56 @@ impl Photographs {
             comparisons.iter().map(one).collect::<Result<Vec<_>, _>>()
         };
         let shaded = gpu.as_ref().map(upload).transpose()?.unwrap_or_default();
-        Ok(Self { comparisons, shaded, distributions })
+        Ok(Self { comparisons, shaded, kind: *kind, distributions })
     }
 }
 
-/// The photograph as the panes and the panel display it.
-#[derive(Clone, Copy, Debug)]
+/// The photograph that is open, as far as it is there.
+#[derive(Clone, Debug)]
 pub struct DisplayedPhotograph<'a> {
     pub source: &'a SessionPhotograph,
     /// Once it has been read.
-    pub photograph: Option<&'a Photograph>,
-    /// Beside every material, once they are there.
-    pub all: Option<&'a Photographs>,
+    pub photograph: Option<Arc<Answered<Photograph>>>,
+    /// Whether it cannot be read.
+    pub has_failed: bool,
+    /// Beside every material, and whether at the exposures of the present scene.
+    pub all: Option<(Arc<Answered<Photographs>>, bool)>,
 }
 
-impl DisplayedPhotograph<'_> {
+impl<'a> DisplayedPhotograph<'a> {
+    /// Beside these materials.
+    pub fn ask(shown: Shown<'a>, materials: &[LoadedMaterial]) -> Option<Self> {
+        let (answers, view, state) = (&shown.jobs.answers, &shown.model.view, &shown.model.photograph);
+        let source = state.source()?;
+        let (path, stamp, transfer) = (source.path.clone(), state.stamp(), source.transfer);
+        let read = ReadPhotograph { path, stamp, transfer };
+        let answer = answers.get(&read);
+        let has_failed = matches!(answer, Answer::Failed(_));
+        let photograph = answer.ready();
+        let compare = |photograph: &Arc<Answered<Photograph>>| ComparePhotograph {
+            read,
+            falloff: source.falloff,
+            materials: Content::all(materials),
+            scene: view.scene,
+            convention: view.convention(),
+            kind: view.display.differences.kind(Quantity::Rendering),
+            given: Given((photograph.clone(), shown.jobs.gpu.clone())),
+        };
+        let compared = photograph.as_ref().filter(|_| !materials.is_empty()).map(compare);
+        let all = compared.and_then(|question| answers.drawn(&question));
+        Some(Self { source, photograph, has_failed, all })
+    }
+
+    pub fn all(&self) -> Option<&Photographs> {
+        self.all.as_ref().map(|(all, _)| &all.answer)
+    }
+
+    /// The distributions of this difference from it, and whether they are of the present scene.
+    pub fn distributions(&self, kind: Difference) -> Option<(&Distributions, bool)> {
+        let (all, is_current) = self.all.as_ref().filter(|(all, _)| all.kind == kind)?;
+        Some((&all.distributions, *is_current))
+    }
+
     /// The name of its file.
     pub fn name(&self) -> String {
         file_name(&self.source.path)
@@ -179,7 +175,8 @@ impl DisplayedPhotograph<'_> {
 
     /// The title of a pane that displays it at the exposure of the material at this index.
     pub fn title(&self, index: usize) -> String {
-        let ev = self.all.and_then(|all| all.get(index)).map(|one| format!("  {:+.2} EV", one.exposure_ev()));
+        let ev =
+            self.all().and_then(|all| all.get(index)).map(|one| format!("  {:+.2} EV", one.exposure_ev()));
         format!("PHOTOGRAPH  {}{}", self.name(), ev.unwrap_or_default())
     }
 }

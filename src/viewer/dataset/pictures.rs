@@ -9,9 +9,10 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::progress::Progress;
 
-use super::cells::{Cell, Reduced};
+use crate::dataset::cells::{Cell, Reduced};
 use crate::error::Error;
-use crate::jobs::answers::{Answered, Answers, Question, Work};
+use crate::jobs::Shown;
+use crate::jobs::answers::{Answered, Pace, Question, Work};
 use crate::jobs::work::picture::{Atlas, Picture};
 use crate::model::view::ViewState;
 
@@ -69,22 +70,21 @@ impl DrawSheet {
             content: PictureContent { quantity, difference },
         }
     }
+}
 
-    /// The pictures, or the latest ones while these are drawn.
-    pub fn drawn(&self, answers: &Answers) -> Option<Arc<Answered<SheetPicture>>> {
-        answers.get(self).ready().or_else(|| Self::latest(answers))
-    }
-
-    /// The latest pictures.
-    pub fn latest(answers: &Answers) -> Option<Arc<Answered<SheetPicture>>> {
-        answers.latest(|_: &Self| true).map(|(_, drawn)| drawn)
-    }
+/// The latest pictures.
+pub fn latest(Shown { model, jobs }: Shown<'_>) -> Option<Arc<Answered<SheetPicture>>> {
+    jobs.answers.latest(&DrawSheet::of(Vec::new(), &model.view))
 }
 
 impl Question for DrawSheet {
     type Answer = SheetPicture;
-    const IS_SHORT: bool = true;
+    const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 1;
+
+    fn is_like(&self, _: &Self) -> bool {
+        true
+    }
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<SheetPicture, Error> {
         let row = |row: &SheetRow| self.row(row, work.progress());

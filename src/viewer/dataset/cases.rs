@@ -8,13 +8,12 @@ use svbrdf_core::progress::Progress;
 use svbrdf_gpu::Gpu;
 
 use crate::error::Error;
+use crate::jobs::Shown;
 use crate::jobs::answers::content::Given;
-use crate::jobs::answers::{Answered, Answers, Question, Work};
-use crate::jobs::reading::read::{MaterialReader, read_with_retries};
-use crate::jobs::reading::upload::Uploaded;
-use crate::model::Model;
+use crate::jobs::answers::{Answered, Question, Work};
+use crate::jobs::reading::read::MaterialReader;
 use crate::model::dataset::{Missing, OpenDataset};
-use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
+use crate::model::material::read::{ReadMaterial, Rules};
 
 /// Bytes of a texel in the memory of the machine and of the adapter.
 const TEXEL_BYTES: usize = 88;
@@ -25,12 +24,8 @@ const AHEAD: usize = 256 << 20;
 #[derive(Debug)]
 pub struct ReadCase {
     pub case: usize,
-    /// The predictions of a list that were asked for beside it.
-    pub pinned: Vec<usize>,
     /// With their slots, the ground truth first; empty where it cannot be read.
     pub materials: Vec<(usize, Arc<ReadMaterial>)>,
-    /// Of each material, where there is an adapter.
-    pub uploads: Vec<(MaterialId, Arc<Uploaded>)>,
     pub missing: Vec<Missing>,
 }
 
@@ -42,34 +37,26 @@ impl ReadCase {
     }
 }
 
-/// The materials of a data set that the window has, the one that is waited for first, then those ahead.
-pub type ReadCases = Vec<Arc<Answered<ReadCase>>>;
-
-/// Asks for the material that was asked for, and for those ahead once it is there. `known` are the latest that were.
-pub fn ask(
-    answers: &Answers,
-    gpu: Option<&Gpu>,
-    model: &Model,
-    (read_again, known): (u64, &ReadCases),
-) -> ReadCases {
+/// The material that was asked for, once it has been read; then those ahead are read.
+pub fn ask(Shown { model, jobs }: Shown<'_>) -> Option<Arc<Answered<ReadCase>>> {
     let dataset = &model.dataset;
-    let Some(open) = &dataset.open else { return Vec::new() };
-    // All predictions of one ground truth have it in common.
-    let known = if open.is_of_predictions() { known.clone() } else { Vec::new() };
+    let open = dataset.open.as_ref()?;
+    let (is_of_predictions, materials) = (open.is_of_predictions(), &model.materials.all);
+    let known = materials.iter().filter(|_| is_of_predictions).map(|one| one.read.clone());
+    let known: Vec<_> = known.collect();
     let question = |case: usize| AskCase {
         case,
         pinned: dataset.pinned(),
         open: open.clone(),
-        read_again,
+        version: dataset.version(case),
         rules: model.materials.rules,
-        gpu: Given(gpu.cloned()),
-        known: Given(known.clone()),
+        given: Given((jobs.gpu.clone(), known.clone())),
     };
-    let mut cases: ReadCases = answers.get(&question(dataset.wanted)).ready().into_iter().collect();
-    if cases.iter().any(|case| case.bytes() <= AHEAD) {
-        cases.extend(dataset.ahead.iter().filter_map(|case| answers.get_later(&question(*case)).ready()));
+    let read = jobs.answers.get(&question(dataset.wanted)).ready()?;
+    if read.bytes() <= AHEAD {
+        dataset.ahead.iter().for_each(|case| drop(jobs.answers.get_later(&question(*case))));
     }
-    cases
+    Some(read)
 }
 
 /// A material with its predictions, and predictions of a list beside it.
@@ -77,18 +64,18 @@ pub fn ask(
 struct AskCase {
     open: Arc<OpenDataset>,
     case: usize,
+    /// The predictions of a list that are asked for beside it.
     pinned: Vec<usize>,
-    /// How often files were read again.
-    read_again: u64,
+    /// How often its files were read again.
+    version: u64,
     rules: Rules,
-    gpu: Given<Option<Gpu>>,
-    /// What has the ground truth of all, and the pinned predictions, once they are read.
-    known: Given<ReadCases>,
+    /// The adapter, and what is in the window: all predictions of one ground truth have it in common.
+    given: Given<(Option<Gpu>, Vec<Arc<ReadMaterial>>)>,
 }
 
 impl PartialEq for AskCase {
     fn eq(&self, other: &Self) -> bool {
-        let of = |one: &Self| (Arc::as_ptr(&one.open).addr(), one.case, one.read_again);
+        let of = |one: &Self| (Arc::as_ptr(&one.open).addr(), one.case, one.version);
         of(self) == of(other) && self.pinned == other.pinned && self.rules == other.rules
     }
 }
@@ -103,26 +90,22 @@ impl Question for AskCase {
     }
 }
 
-/// A material that was read and sent to the adapter.
-type Present = (Arc<ReadMaterial>, Option<Arc<Uploaded>>);
-
-/// The same, or why there is none.
-type Column = Result<Present, String>;
+/// A material, or why there is none.
+type Column = Result<Arc<ReadMaterial>, String>;
 
 impl AskCase {
     /// Reads a material with its predictions, several at a time.
     fn read(&self, progress: &Progress) -> ReadCase {
         let case = self.case;
-        let (pinned, missing) = (self.pinned.clone(), Vec::new());
-        let mut found = ReadCase { case, pinned, materials: Vec::new(), uploads: Vec::new(), missing };
-        let (truth, uploaded) = match self.column((case, 0), None, progress) {
+        let mut found = ReadCase { case, materials: Vec::new(), missing: Vec::new() };
+        let whole = match self.column((case, 0), None, progress) {
             Ok(read) => read,
             Err(problem) => {
                 found.missing.push(Missing { slot: 0, name: "ground truth".to_owned(), problem });
                 return found;
             }
         };
-        let size = Some(truth.material().size());
+        let size = Some(whole.material().size());
         let pinned = self.pinned.iter().filter(|pinned| **pinned != case).map(|pinned| (*pinned, 1));
         let places: Vec<(usize, usize)> =
             (1..=self.open.methods().len()).map(|column| (case, column)).chain(pinned).collect();
@@ -139,24 +122,17 @@ impl AskCase {
                 started.into_iter().map(|one| one.join().unwrap_or_else(failed)).collect::<Vec<_>>()
             }));
         }
-        let whole = (truth, uploaded);
-        let (truth, uploaded) = self.registered(&whole, &places, &mut columns).unwrap_or(whole);
-        found.uploads.extend(uploaded.map(|uploaded| (truth.id, uploaded)));
+        let truth = self.registered(&whole, &places, &mut columns).unwrap_or(whole);
         found.materials.push((0, truth.clone()));
         for (place, one) in places.into_iter().zip(columns) {
-            let of_size = one.and_then(|(read, uploaded)| {
+            let of_size = one.and_then(|read| {
                 check_same_size(truth.material(), read.material()).map_err(|problem| problem.to_string())?;
-                Ok((read, uploaded))
+                Ok(read)
             });
+            let slot = self.slot(place);
             match of_size {
-                Ok((read, uploaded)) => {
-                    found.uploads.extend(uploaded.map(|uploaded| (read.id, uploaded)));
-                    found.materials.push((self.slot(place), read));
-                }
-                Err(problem) => {
-                    let (slot, name) = (self.slot(place), self.name(place));
-                    found.missing.push(Missing { slot, name, problem });
-                }
+                Ok(read) => found.materials.push((slot, read)),
+                Err(problem) => found.missing.push(Missing { slot, name: self.name(place), problem }),
             }
         }
         found
@@ -166,28 +142,24 @@ impl AskCase {
     /// known and whose prediction has another size; `None` without one.
     fn registered(
         &self,
-        (truth, _): &Present,
+        truth: &ReadMaterial,
         places: &[(usize, usize)],
         columns: &mut [Column],
-    ) -> Option<Present> {
+    ) -> Option<Arc<ReadMaterial>> {
         let of = |place: &(usize, usize)| {
             self.open.reading.registrations.get(self.open.methods().get(place.1.checked_sub(1)?)?).copied()
         };
         let size = truth.material().size();
         let sample = |(place, one): (&(usize, usize), &Column)| {
-            let (read, _) = one.as_ref().ok().filter(|(read, _)| read.material().size() != size)?;
+            let read = one.as_ref().ok().filter(|read| read.material().size() != size)?;
             Some((of(place)?, read.clone()))
         };
         let (registration, sample) = places.iter().zip(&*columns).find_map(sample)?;
         let part = |whole: &ReadMaterial| registration.applied([whole.material(), sample.material()]);
-        let present = |read: &ReadMaterial, material| {
-            let read = Arc::new(read.part(material));
-            let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::new(gpu, read.material())));
-            (read, uploaded)
-        };
+        let gpu = self.given.0.0.as_ref();
         let [cut, _] = part(truth).ok()?;
         for (place, one) in places.iter().zip(columns) {
-            let Ok((read, _)) = one else { continue };
+            let Ok(read) = one else { continue };
             let material = if read.material().size() == size {
                 part(read).map(|[cut, _]| cut)
             } else if of(place) == Some(registration) {
@@ -195,9 +167,10 @@ impl AskCase {
             } else {
                 continue;
             };
-            *one = material.map(|material| present(read, material)).map_err(|problem| problem.to_string());
+            let present = material.map(|material| Arc::new(read.part(material, gpu)));
+            *one = present.map_err(|problem| problem.to_string());
         }
-        Some(present(truth, cut))
+        Some(Arc::new(truth.part(cut, gpu)))
     }
 
     /// The ground truth of a material, in column 0, or a prediction of it.
@@ -208,17 +181,12 @@ impl AskCase {
         progress: &Progress,
     ) -> Column {
         let source = self.open.source(case, column)?;
-        for known in &self.known.0 {
-            if let Some((_, read)) = known.materials.iter().find(|(_, one)| one.source == source) {
-                let uploaded = known.uploads.iter().find(|(id, _)| *id == read.id);
-                return Ok((read.clone(), uploaded.map(|(_, uploaded)| uploaded.clone())));
-            }
+        let Given((gpu, known)) = &self.given;
+        if let Some(known) = known.iter().find(|one| one.source == source && one.is_of_now()) {
+            return Ok(known.clone());
         }
-        let mut reader = MaterialReader { rules: self.rules, size, retries: false };
-        let read =
-            read_with_retries(&source, &mut reader, &progress.part()).map_err(|error| error.to_string())?;
-        let uploaded = self.gpu.0.as_ref().map(|gpu| Arc::new(Uploaded::new(gpu, read.material())));
-        Ok((Arc::new(read), uploaded))
+        let mut reader = MaterialReader { rules: self.rules, size, retries: false, gpu: gpu.clone() };
+        reader.read(&source, &progress.part()).map(Arc::new).map_err(|error| error.to_string())
     }
 
     /// The slot of a prediction: that of its method, or its place among the predictions of one ground truth.
