@@ -109,7 +109,9 @@ impl<'a> MaterialPath<'a> {
         let mut read = finish(located.read(options, progress)?, options)?;
         if let Some(file) = used.file {
             read.files.push(file.clone());
-            read.notes.insert(0, Note::SidecarUsed { file });
+            let how =
+                format!("{} specifies how the material is read, unless an option does.", file.display());
+            read.notes.insert(0, Note::Told(how));
         }
         read.files.iter().for_each(|file| inputs::protect(file));
         Ok(Read { options: used.options, ..read })

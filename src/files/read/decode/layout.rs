@@ -93,7 +93,14 @@ pub(super) fn chosen(shapes: &[Vec<u64>]) -> impl Iterator<Item = Option<ArrayAx
 /// The note where nothing but the default told the axes of the array `name`.
 pub(super) fn note(name: &str, shape: &[u64], axes: Option<ArrayAxes>) -> Option<Note> {
     let is_ambiguous = axes.is_some_and(|axes| axes.is_ambiguous);
-    is_ambiguous.then(|| Note::ChannelsLast { array: name.to_owned(), shape: shape.to_vec() })
+    is_ambiguous.then(|| {
+        // An array of a file by itself has no name.
+        let array = if name.is_empty() { "The array".to_owned() } else { format!("Array {name}") };
+        let shape = shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
+        Note::Told(format!(
+            "{array} of the shape ({shape}) is read as rows, columns and channels; channels could also come first."
+        ))
+    })
 }
 
 #[cfg(test)]

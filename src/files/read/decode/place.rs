@@ -181,7 +181,8 @@ impl<'a> DecodedFile<'a> {
         let mut notes = Vec::new();
         let what = self.what;
         if orientation != 1 && !self.is_photograph() {
-            notes.push(Note::Orientation(what));
+            let ignored = "has an EXIF orientation, which is ignored: rows are read as stored";
+            notes.push(Note::Told(format!("The {what} {ignored}.")));
         }
         if profile.filter(|_| !self.is_data()).is_some_and(|profile| !is_srgb(profile)) {
             notes.push(Note::Profile(what));

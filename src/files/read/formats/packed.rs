@@ -82,10 +82,13 @@ pub(super) fn material(
     found.assumptions.insert(0, Assumption::new(What::Layout, chosen, why, certainty));
     let photos = if grid.rows == 1 || grid.columns == 1 { first } else { 0 };
     if border > 0 {
-        found.notes.push(Note::Borders { border });
+        let borders = format!("The borders of {border} texels around the tiles are cut off.");
+        found.notes.push(Note::Told(borders));
     }
     if photos > 0 {
-        found.notes.push(Note::Photos { count: photos, tiles: grid.count() });
+        let tiles = grid.count();
+        let ignored = format!("The first {photos} of {tiles} tiles are taken as photos and ignored.");
+        found.notes.push(Note::Told(ignored));
     }
     if is_stack(grid, order.len()) {
         let index = first / grid.columns;

@@ -15,6 +15,8 @@ use crate::read::options::{Albedo, ReadOptions, Role, Roughness};
 use crate::read::record::{Assumption, Certainty, Note, Reason, Subject, Unused, What};
 use crate::read::stored::{Inferences, MapsByRole, StoredMap, StoredMaterial};
 
+const PREVIEW: &str = "The unnamed layer is taken as a preview and ignored.";
+
 /// A picture that may hold a whole material.
 #[derive(Debug)]
 pub(in crate::read) struct WholePicture {
@@ -123,7 +125,7 @@ fn of_layers(path: &Path, layers: Vec<Layer>, options: &ReadOptions) -> Result<S
                 stems.insert(label.role, label.stem.len());
                 maps.add(label.role, StoredMap { raster, file: path.to_owned(), part });
             }
-            None if name.is_empty() => notes.push(Note::Preview),
+            None if name.is_empty() => notes.push(Note::Told(PREVIEW.to_owned())),
             None => notes.push(unused(&name)),
         }
     }

@@ -130,5 +130,9 @@ fn contradiction(map: &StoredMap, chosen: Albedo) -> Option<Note> {
         _ => return None,
     };
     let is_other = (suggests == Albedo::Linear) != (chosen == Albedo::Linear) && !map.raster.is_float();
-    is_other.then_some(Note::SpecularMedian { chosen, median, suggests })
+    is_other.then(|| {
+        Note::Changed(format!(
+            "Specular is read as {chosen}, as specified, but its median is {median:.3}, which suggests {suggests}: check it."
+        ))
+    })
 }

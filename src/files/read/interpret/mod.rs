@@ -47,12 +47,12 @@ pub(super) fn interpret<T: Real>(
         gray_plane(map, Role::SpecularLevel, size, &mut clamped, notes)
     });
     clamped.record(&mut found.assumptions);
-    let maps = Reflection { colour, specular, metallic, level };
-    let (diffuse, specular) = separated(maps, options, &mut found.assumptions);
+    let (diffuse, specular) = separated(colour, specular, metallic, level, options, &mut found.assumptions);
     let mut planes = Planes { normal, diffuse, specular, roughness };
     if options.flip_v == Some(true) {
         mirror(&mut planes, size[0]);
-        found.notes.push(Note::RowsFlipped);
+        let mirrored = "Row 0 is the lowest row, as specified: the material is mirrored.";
+        found.notes.push(Note::Told(mirrored.to_owned()));
     }
     Ok(Material::new(found.name.as_str(), size[0], size[1], planes)?)
 }
@@ -99,7 +99,8 @@ fn note_alpha(found: &mut StoredMaterial) {
         .map(|(map, source)| (map, source.raster.is_float()))
         .collect();
     for (map, is_float) in maps {
-        found.notes.push(Note::AlphaIgnored { map });
+        let name = map.name();
+        found.notes.push(Note::Told(format!("The {name} map is partly transparent; its alpha is ignored.")));
         // Colours of EXR are multiplied by their alpha.
         if is_float && map.is_colour() {
             let why = Reason::measured(format!(
@@ -137,23 +138,16 @@ const MOST_DIELECTRIC: f64 = 0.08;
 
 type Colour<T> = [Vec<T>; 3];
 
-/// Linear maps of one size, from which diffuse and specular follow.
-struct Reflection<T> {
-    /// Diffuse, or the base colour where there is `metallic`.
-    pub colour: Colour<T>,
-    pub specular: Option<Colour<T>>,
-    pub metallic: Option<Vec<T>>,
-    /// The reflectance of dielectrics, 1 for 0.08.
-    pub level: Option<Vec<T>>,
-}
-
-/// Diffuse and specular of a material; the choices that are made here are recorded.
+/// Diffuse and specular of linear maps of one size: `colour` is diffuse, or the base colour where there is `metallic`, `level` the
+/// reflectance of dielectrics, 1 for 0.08. The choices that are made here are recorded.
 fn separated<T: Real>(
-    maps: Reflection<T>,
+    colour: Colour<T>,
+    specular: Option<Colour<T>>,
+    metallic: Option<Vec<T>>,
+    level: Option<Vec<T>>,
     options: &ReadOptions,
     assumptions: &mut Vec<Assumption>,
 ) -> (Colour<T>, Colour<T>) {
-    let Reflection { colour, specular, metallic, level } = maps;
     let dielectric = options.dielectric.unwrap_or(Reflectance::DIELECTRIC);
     let reflectance =
         |i: usize| level.as_ref().map_or(dielectric.value(), |level| MOST_DIELECTRIC * level[i].f64());

@@ -197,7 +197,10 @@ pub(super) fn roughness_plane<T: Real>(
     let value = |v: f64| transfer::roughness(unit(v, 1.0), code);
     let largest = channel_spread(channels);
     let (plane, out_of_range) = if code == Roughness::Anisotropic && channels.len() > 1 {
-        notes.push(Note::Anisotropic { channel_spread: channel_spread(&channels[..2]) });
+        notes.push(Note::Changed(format!(
+            "The two widths of the roughness map differ by up to {:.4}; an isotropic lobe replaces them.",
+            channel_spread(&channels[..2])
+        )));
         let top = channels[0].top();
         combined(&channels[..2], |widths| (widths[0] / top * (widths[1] / top)).sqrt(), value)
     } else if largest == 0.0 {

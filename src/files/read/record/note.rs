@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use derive_more::Display;
 
-use crate::read::options::{Albedo, Role, Workflow};
+use crate::read::options::{Role, Workflow};
 
 /// The reason why a file, a layer or a statement is not used, as the end of a sentence.
 #[derive(Clone, Debug, PartialEq, Eq, Display)]
@@ -57,45 +57,30 @@ pub enum Subject {
 #[derive(Clone, Debug, PartialEq, Display)]
 #[non_exhaustive]
 pub enum Note {
+    #[display("{_0}")]
+    Told(String),
+    /// Something is ignored or changed that may alter the look of the material.
+    #[display("{_0}")]
+    Changed(String),
     /// A file is a map, by its name or by the file that lists it.
     #[display("The {} map is {file}.", map.name())]
     MapFile { map: Role, file: String },
     /// A file is a map because someone specified it.
     #[display("The {} map is {}, as specified.", map.name(), file.display())]
     MapSpecified { map: Role, file: PathBuf },
-    #[display("{} specifies how the material is read, unless an option does.", file.display())]
-    SidecarUsed { file: PathBuf },
     #[display("{} lies outside of the folder of {}, which names it.", file.display(), by.display())]
     OutsideFolder { file: PathBuf, by: PathBuf },
-    #[display("Row 0 is the lowest row, as specified: the material is mirrored.")]
-    RowsFlipped,
     /// A file, a layer or a statement is not used.
     #[display("{what} is not used{why}.")]
     Unused { what: String, why: Unused },
     /// The maps are in a folder within the one that was opened.
     #[display("The maps are in the folder {folder} within.")]
     InFolder { folder: String },
-    #[display("The first {count} of {tiles} tiles are taken as photos and ignored.")]
-    Photos { count: usize, tiles: usize },
-    #[display("The borders of {border} texels around the tiles are cut off.")]
-    Borders { border: usize },
     #[display("The image holds {count} materials, one in each row; this is number {index} from 0.")]
     Rows { count: usize, index: usize },
     /// The file holds several materials of these names; `index` counts from 0.
     #[display("{}", materials(names, *index))]
     Materials { names: Vec<String>, index: usize },
-    #[display("These change the look and are not modelled: {}.", features.join(", "))]
-    NotModelled { features: Vec<String> },
-    /// A document beside the files of a set lists some of them, too.
-    #[display("{file} lists these pictures: open it to read them as it specifies.")]
-    ListedBy { file: String },
-    #[display(
-        "Rec. 709 does not have some of the colours in {}; they are clipped to [0, 1].",
-        spaces.join(", ")
-    )]
-    Gamut { spaces: Vec<String> },
-    #[display("The {} map is partly transparent; its alpha is ignored.", map.name())]
-    AlphaIgnored { map: Role },
     /// The share of the texels that are empty.
     #[display(
         "The alpha of the {} map looks like a mask: {:.0}% of the texels are empty, and count as all others unless a mask is asked for.",
@@ -108,33 +93,11 @@ pub enum Note {
         map.name(), if *map == Role::Roughness { "their mean" } else { "red" }
     )]
     ChannelsDiffer { map: Role, channel_spread: f64 },
-    #[display(
-        "The two widths of the roughness map differ by up to {channel_spread:.4}; an isotropic lobe replaces them."
-    )]
-    Anisotropic { channel_spread: f64 },
-    /// The encoding that was specified for specular contradicts its median.
-    #[display(
-        "Specular is read as {chosen}, as specified, but its median is {median:.3}, which suggests {suggests}: check it."
-    )]
-    SpecularMedian { chosen: Albedo, median: f64, suggests: Albedo },
-    #[display("{file} is read as a factor on 0.04, as OpenSVBRDF writes it.")]
-    SpecularFactor { file: String },
-    #[display("The unnamed layer is taken as a preview and ignored.")]
-    Preview,
-    /// The channels of an array could be its first axis or its last. An array of a file by itself has no name.
-    #[display(
-        "{} of the shape ({}) is read as rows, columns and channels; channels could also come first.",
-        if array.is_empty() { "The array".to_owned() } else { format!("Array {array}") },
-        shape.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
-    )]
-    ChannelsLast { array: String, shape: Vec<u64> },
     /// A chunk of a PNG or another header, by its name.
     #[display("The {_0} has a {_1} that declares it linear, which is ignored.")]
     LinearChunk(Subject, &'static str),
     #[display("The file of the {_0} holds several pages or frames; the first is used.")]
     FirstOnly(Subject),
-    #[display("The {_0} has an EXIF orientation, which is ignored: rows are read as stored.")]
-    Orientation(Subject),
     #[display("The {_0} has an ICC profile other than sRGB, which is ignored.")]
     Profile(Subject),
     #[display("The {_0} has a {_1} with primaries other than those of Rec. 709, which is ignored.")]
@@ -156,13 +119,6 @@ pub enum Note {
         layer_name(layer), data[0], data[1], display[0], display[1]
     )]
     PartialData { layer: String, data: [usize; 2], display: [usize; 2] },
-    /// The file that an .mtl names is absent, and another one of its name is used.
-    #[display("{file} is absent; {} is used.", by.display())]
-    Substituted { file: String, by: PathBuf },
-    #[display("Options of the {} map that are not used: {}.", map.name(), options.join(", "))]
-    OptionsUnused { map: Role, options: Vec<String> },
-    #[display("Statements of the .mtl that are not used: {}.", _0.join(", "))]
-    StatementsUnused(Vec<String>),
     /// The material was resized to the size of the ground truth.
     #[display("Resized from {} x {} to the {} x {} of the ground truth.", from[0], from[1], to[0], to[1])]
     Resized { from: [usize; 2], to: [usize; 2] },
@@ -177,13 +133,9 @@ impl Note {
     /// Whether it reports that something is ignored or changed that may alter the look of the material.
     pub fn changes_look(&self) -> bool {
         match self {
-            Self::ChannelsDiffer { .. } | Self::Anisotropic { .. } | Self::SpecularMedian { .. } => true,
-            Self::LinearChunk(..)
-            | Self::Profile(_)
-            | Self::Primaries
-            | Self::PrimariesChunk(..)
-            | Self::Gamut { .. } => true,
-            Self::DataWindow { .. } | Self::PartialData { .. } | Self::OptionsUnused { .. } => true,
+            Self::Changed(_) | Self::ChannelsDiffer { .. } | Self::Primaries => true,
+            Self::LinearChunk(..) | Self::Profile(_) | Self::PrimariesChunk(..) => true,
+            Self::DataWindow { .. } | Self::PartialData { .. } => true,
             Self::FirstOnly(_) | Self::MaskInAlpha { .. } => true,
             Self::Unused { why, .. } => {
                 matches!(why, Unused::Heights | Unused::NotNormals | Unused::Format)

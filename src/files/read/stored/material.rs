@@ -75,7 +75,8 @@ impl StoredMaterial {
     /// Notes the features of a document that are not modelled, and which of its materials this is.
     pub(crate) fn note_document(&mut self, not_modelled: Vec<String>, (names, index): (Vec<String>, usize)) {
         if !not_modelled.is_empty() {
-            self.notes.push(Note::NotModelled { features: not_modelled });
+            let features = not_modelled.join(", ");
+            self.notes.push(Note::Told(format!("These change the look and are not modelled: {features}.")));
         }
         if names.len() > 1 {
             self.notes.push(Note::Materials { names, index });

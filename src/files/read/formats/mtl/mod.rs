@@ -97,11 +97,14 @@ impl Mtl {
                 continue;
             }
             if map.file != self.path.with_file_name(&texture.named) {
-                notes.push(Note::Substituted { file: texture.named.clone(), by: map.file.clone() });
+                let (file, by) = (&texture.named, map.file.display());
+                notes.push(Note::Told(format!("{file} is absent; {by} is used.")));
             }
             notes.push(Note::MapFile { map: texture.role, file: map.file.display().to_string() });
             if !texture.options.is_empty() {
-                notes.push(Note::OptionsUnused { map: texture.role, options: texture.options.clone() });
+                let (map, options) = (texture.role.name(), texture.options.join(", "));
+                let unused = format!("Options of the {map} map that are not used: {options}.");
+                notes.push(Note::Changed(unused));
             }
             maps.add(texture.role, map);
         }
@@ -186,8 +189,9 @@ impl Mtl {
         let (pictures, others): (Vec<_>, Vec<_>) = left.partition(|(key, _)| names_picture(key));
         let text = |(key, rest): &(String, String)| format!("{key} {rest}");
         let unused = |line| Note::Unused { what: text(line), why: Unused::NotAMap };
-        let others: Vec<_> = others.into_iter().map(text).collect();
-        let others = (!others.is_empty()).then_some(Note::StatementsUnused(others));
+        let others = others.into_iter().map(text).collect::<Vec<_>>().join(", ");
+        let others = (!others.is_empty())
+            .then(|| Note::Told(format!("Statements of the .mtl that are not used: {others}.")));
         pictures.into_iter().map(unused).chain(others).collect()
     }
 }

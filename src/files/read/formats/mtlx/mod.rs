@@ -119,7 +119,9 @@ impl MtlxSurface<'_> {
         let mut spaces: Vec<_> = self.colours.iter().filter_map(|colour| colour.clipped.clone()).collect();
         spaces.sort();
         spaces.dedup();
-        (!spaces.is_empty()).then_some(Note::Gamut { spaces })
+        let spaces = Some(spaces.join(", ")).filter(|spaces| !spaces.is_empty())?;
+        let what = "Rec. 709 does not have some of the colours in";
+        Some(Note::Changed(format!("{what} {spaces}; they are clipped to [0, 1].")))
     }
 
     /// The reflectance of the dielectric at normal incidence.

@@ -94,7 +94,8 @@ impl<'a> PartialSet<'a> {
         self.notes.push(Note::MapFile { map: role, file: file.clone() });
         if label.word == "ps" && self.set.files.files.iter().any(|f| f.label.word == "axay") {
             raster = raster.scaled(&[Reflectance::DIELECTRIC.value() as f32]);
-            self.notes.push(Note::SpecularFactor { file: file.clone() });
+            let told = format!("{file} is read as a factor on 0.04, as OpenSVBRDF writes it.");
+            self.notes.push(Note::Told(told));
         }
         let source = StoredMap { raster, file: self.set.path_of(file), part: String::new() };
         match role {

@@ -82,7 +82,9 @@ impl Set {
         let heights = self.files.heights.iter().find(|file| Some(*file) != normal_bump);
         let file = heights.map(|file| StoredHeight::File(self.file(file)));
         found.height = file.or(height);
-        notes.extend(self.documents.iter().map(|one| Note::ListedBy { file: one.name.clone() }));
+        notes.extend(self.documents.iter().map(|one| {
+            Note::Told(format!("{} lists these pictures: open it to read them as it specifies.", one.name))
+        }));
         let is_used = |what: &String| is_bound(what) || Some(what) == normal_bump;
         let is_unused = |note: &&Note| !matches!(note, Note::Unused { what, .. } if is_used(what));
         notes.extend(self.files.notes.iter().filter(is_unused).cloned());
