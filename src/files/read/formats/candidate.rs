@@ -89,7 +89,7 @@ impl Candidate {
     fn files(&self) -> Vec<NamedFile> {
         match self {
             Self::Picture(picture) => vec![picture.file.clone()],
-            Self::Set(set) => set.files.names().map(|name| set.file(name)).collect(),
+            Self::Set(set) => set.all().collect(),
             Self::Gltf(gltf) => gltf.files(),
             Self::Mtl(mtl) => mtl.files(),
             Self::Mtlx(mtlx) => mtlx.files(),

@@ -45,12 +45,8 @@ pub(super) fn locate(path: &Path, folder: &Path, prefix: &str, bound: &[Role]) -
     }
     let wanted = if prefix.is_empty() { Wanted::All } else { Wanted::Named(prefix) };
     let found = set::choose(path, folder, &names, wanted, bound)?;
-    if prefix.is_empty()
-        && found.files.files.is_empty()
-        && bound.is_empty()
-        && !found.files.unlabelled.is_empty()
-    {
-        let picture = lone_picture(path, folder, &names, &found.files.unlabelled)?;
+    if prefix.is_empty() && found.files.is_empty() && bound.is_empty() && !found.unlabelled.is_empty() {
+        let picture = lone_picture(path, folder, &names, &found.unlabelled)?;
         return Ok(Located::new([Candidate::Picture(picture)]));
     }
     Ok(Located::new([Candidate::Set(found)]))
@@ -142,7 +138,7 @@ fn beside_previews(path: &Path, folder: &Path, names: &[String]) -> Result<Optio
     let Some((name, mut set)) = sets.pop().filter(|_| sets.is_empty()) else { return Ok(None) };
     let pictures: Vec<_> = names.iter().filter(|name| set::is_picture(name)).collect();
     let unused = |name: &&String| Note::Unused { what: (*name).clone(), why: Unused::NotAMap };
-    set.files.notes.extend([Note::InFolder { folder: name }].into_iter().chain(pictures.iter().map(unused)));
+    set.notes.extend([Note::InFolder { folder: name }].into_iter().chain(pictures.iter().map(unused)));
     set.name = material_name(path, "");
     // One that nothing is known of may be packed.
     let unlabelled: Vec<_> = pictures.iter().filter(|name| Label::of(&stem(name)).is_none()).collect();
@@ -158,7 +154,7 @@ fn beside_previews(path: &Path, folder: &Path, names: &[String]) -> Result<Optio
 fn set_within(folder: &Path) -> Option<Set> {
     let names = list(folder, folder, "").ok()?;
     let found = set::choose(folder, folder, &names, Wanted::All, &[]).ok()?;
-    set::is_complete(&found.files.files, &[]).then_some(found)
+    set::is_complete(&found.files, &[]).then_some(found)
 }
 
 /// Locates the set of maps that the file `path` belongs to by its name.

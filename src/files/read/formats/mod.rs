@@ -79,7 +79,7 @@ fn candidates(path: &Path, bound: &[Role], options: &ReadOptions) -> Result<Loca
     }
     let of_map = Label::of(&path.file_stem().unwrap_or_default().to_string_lossy()).is_some();
     match folder::around(path, bound) {
-        Ok(set) if !set.files.files.is_empty() => Ok(Located::new([first, Candidate::Set(set)])),
+        Ok(set) if !set.files.is_empty() => Ok(Located::new([first, Candidate::Set(set)])),
         // A set that cannot be located is the refusal of a picture that is named after a map.
         Err(error @ Error::NotAMaterial { .. }) if of_map => {
             Ok(Located::new([Candidate::Picture(WholePicture {

@@ -38,7 +38,11 @@ pub(crate) struct ListingDocument {
 
 /// One file for each map.
 #[derive(Debug, Default)]
-pub(crate) struct SetFiles {
+pub(in crate::read) struct Set {
+    /// The path that the user gave, for messages.
+    pub path: PathBuf,
+    pub folder: PathBuf,
+    pub name: String,
     pub files: Vec<LabelledFile>,
     /// Other pictures of the normal map, which count where the chosen one is constant.
     pub other_normals: Vec<LabelledFile>,
@@ -49,13 +53,19 @@ pub(crate) struct SetFiles {
     /// Pictures of heights, which tell the direction of y.
     pub heights: Vec<String>,
     pub notes: Vec<Note>,
+    /// Documents beside them that list them, too.
+    pub documents: Vec<ListingDocument>,
+    pub listing: String,
+    /// Whether a folder of renderings is beside the files, as in the data sets of SurfaceNet.
+    pub has_renderings: bool,
 }
 
-impl SetFiles {
-    /// The names of all pictures, also of those that count only where the pixels of others call for them.
-    pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
+impl Set {
+    /// All pictures, also those that count only where the pixels of others call for them.
+    pub(crate) fn all(&self) -> impl Iterator<Item = NamedFile> {
         let labelled = self.files.iter().chain(&self.other_normals).map(|one| &one.file);
-        labelled.chain(&self.unlabelled).chain(&self.misnamed).chain(&self.heights)
+        let all = labelled.chain(&self.unlabelled).chain(&self.misnamed).chain(&self.heights);
+        all.map(|name| self.file(name))
     }
 
     /// Sorts out the pictures of the folder that are not those of the set of this `stem`: some may be maps of it all the same.
@@ -76,23 +86,7 @@ impl SetFiles {
             self.unlabelled.retain(|name| stem.is_empty() || is_named_within(name, stem));
         }
     }
-}
 
-#[derive(Debug)]
-pub(in crate::read) struct Set {
-    /// The path that the user gave, for messages.
-    pub path: PathBuf,
-    pub folder: PathBuf,
-    pub name: String,
-    pub files: SetFiles,
-    /// Documents beside them that list them, too.
-    pub documents: Vec<ListingDocument>,
-    pub listing: String,
-    /// Whether a folder of renderings is beside the files, as in the data sets of SurfaceNet.
-    pub has_renderings: bool,
-}
-
-impl Set {
     /// A file of the folder, which the folder names.
     pub(crate) fn file(&self, name: &str) -> NamedFile {
         NamedFile::by_file(self.folder.join(name), &self.folder)
@@ -101,12 +95,12 @@ impl Set {
     pub(crate) fn pictures(&self) -> Vec<Picture> {
         let picture =
             |LabelledFile { file, label }: &LabelledFile| Picture::of_file(self.file(file), label.role);
-        self.files.files.iter().map(picture).collect()
+        self.files.iter().map(picture).collect()
     }
 
     /// The word that names the map `role`.
     pub(super) fn word(&self, role: Role) -> Option<&str> {
-        self.files.files.iter().find(|file| file.label.role == role).map(|file| file.label.word.as_str())
+        self.files.iter().find(|file| file.label.role == role).map(|file| file.label.word.as_str())
     }
 
     pub(crate) fn path_of(&self, name: &str) -> PathBuf {
@@ -118,7 +112,11 @@ impl Set {
 const LONGEST: u64 = 4 << 20;
 
 /// The documents among the files `names` of `folder` that name a file of the set.
-pub(super) fn documents_beside(folder: &Path, names: &[String], set: &SetFiles) -> Vec<ListingDocument> {
+pub(super) fn documents_beside(
+    folder: &Path,
+    names: &[String],
+    files: &[LabelledFile],
+) -> Vec<ListingDocument> {
     let listing = |name: &String| {
         let normal_y = match extension(name).as_str() {
             "gltf" | "mtlx" => Some(NormalY::Up),
@@ -132,7 +130,7 @@ pub(super) fn documents_beside(folder: &Path, names: &[String], set: &SetFiles) 
         let bytes = NamedFile::by_file(path, folder).bytes().ok()?;
         let text = String::from_utf8_lossy(&bytes);
         let is_named = |file: &String| text.contains(file);
-        let files: Vec<_> = set.files.iter().map(|file| file.file.clone()).filter(is_named).collect();
+        let files: Vec<_> = files.iter().map(|file| file.file.clone()).filter(is_named).collect();
         (!files.is_empty()).then(|| ListingDocument { name: name.clone(), files, normal_y })
     };
     names.iter().filter_map(listing).collect()

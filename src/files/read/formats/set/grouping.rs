@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::files::{
-    LabelledFile, NUMBERED, Set, SetFiles, add_letter_a, add_parameters, documents_beside, of_one_size,
+    LabelledFile, NUMBERED, Set, add_letter_a, add_parameters, documents_beside, of_one_size,
 };
 use crate::error::Error;
 use crate::read::names::{
@@ -48,32 +48,31 @@ pub(crate) fn choose(
     wanted: Wanted<'_>,
     bound: &[Role],
 ) -> Result<Set, Error> {
-    let (files, stem) = files_of(path, names, wanted, bound)?;
-    let name = match wanted {
+    let mut set = Set {
+        path: path.to_owned(),
+        folder: folder.to_owned(),
+        listing: listing(names),
+        has_renderings: folder.join("render").is_dir(),
+        ..Set::default()
+    };
+    let stem = add_files(&mut set, names, wanted, bound)?;
+    set.documents = documents_beside(folder, names, &set.files);
+    set.name = match wanted {
         Wanted::All => material_name(path, ""),
         Wanted::Named(prefix) => material_name(path, prefix),
         Wanted::SetOf(_) if stem.is_empty() => material_name(folder, ""),
         Wanted::SetOf(_) => stem.join(" "),
     };
-    Ok(Set {
-        path: path.to_owned(),
-        folder: folder.to_owned(),
-        name,
-        documents: documents_beside(folder, names, &files),
-        files,
-        listing: listing(names),
-        has_renderings: folder.join("render").is_dir(),
-    })
+    Ok(set)
 }
 
-/// The files of the set, and the words that their names have in common.
-fn files_of(
-    path: &Path,
+/// Adds the files of the set; returns the words that their names have in common.
+fn add_files(
+    set: &mut Set,
     names: &[String],
     wanted: Wanted<'_>,
     bound: &[Role],
-) -> Result<(SetFiles, Vec<String>), Error> {
-    let mut set = SetFiles::default();
+) -> Result<Vec<String>, Error> {
     let (mut groups, mut foreign) = (Groups::new(), Vec::new());
     for (name, label) in names.iter().zip(set_labels(names)) {
         match label {
@@ -117,18 +116,17 @@ fn files_of(
         (Some(stem), _) => (stem.clone(), groups.remove(&stem).unwrap_or_default()),
         (None, [only]) => (only.clone(), groups.remove(only).unwrap_or_default()),
         (None, []) => (Vec::new(), std::mem::take(&mut groups).into_values().flatten().collect()),
-        (None, several) => return Err(several_materials(path, several)),
+        (None, several) => return Err(several_materials(&set.path, several)),
     };
     let named = if let Wanted::SetOf(file) = wanted { Some(file) } else { None };
     let files = of_one_size(files, named, |files| is_complete(files, bound), &mut set.notes);
     set.heights = files.iter().filter(|file| file.label.is_height()).map(|file| file.file.clone()).collect();
-    let (files, normals) = best(path, files, bound, &mut set.notes)?;
-    (set.files, set.other_normals) = (files, normals);
+    (set.files, set.other_normals) = best(&set.path, files, bound, &mut set.notes)?;
     let foreign = foreign.into_iter().filter(|(_, label)| label.stem == stem);
     set.notes.extend(foreign.map(|(name, _)| Note::Unused { what: name.clone(), why: Unused::Format }));
     let others = groups.into_iter().filter(|(stem, _)| !complete.contains(stem)).chain(lone);
     set.leave(others.flat_map(|(_, files)| files).collect(), &stem, !matches!(wanted, Wanted::SetOf(_)));
-    Ok((set, stem))
+    Ok(stem)
 }
 
 fn several_materials(path: &Path, stems: &[Vec<String>]) -> Error {

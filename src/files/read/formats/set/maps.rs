@@ -36,7 +36,7 @@ impl<'a> PartialSet<'a> {
     }
 
     fn has_named(&self, is: impl Fn(Role) -> bool) -> bool {
-        self.set.files.files.iter().any(|file| is(file.label.role))
+        self.set.files.iter().any(|file| is(file.label.role))
     }
 
     fn doubt(&mut self, chosen: &str, why: impl Into<Cow<'static, str>>) {
@@ -50,7 +50,7 @@ impl<'a> PartialSet<'a> {
         file: &LabelledFile,
         raster: &Raster,
     ) -> Option<(&'a LabelledFile, Raster, Vec<Note>)> {
-        let others = &self.set.files.other_normals;
+        let others = &self.set.other_normals;
         let other = others.first().filter(|_| file.label.role == Role::Normal && is_flat(raster))?;
         let (raster, notes) = self.decoded(&other.file, Subject::Map(Role::Normal))?;
         if is_flat(&raster) {
@@ -63,7 +63,7 @@ impl<'a> PartialSet<'a> {
 
     /// Whether another picture of the normals is as good by its name, and not constant.
     pub(super) fn is_contested(&self, file: &LabelledFile) -> bool {
-        let others = &self.set.files.other_normals;
+        let others = &self.set.other_normals;
         let is_equal = |other: &&LabelledFile| other.rank() == file.rank() && other.file != file.file;
         let is_chosen = file.label.role == Role::Normal && !others.iter().any(|n| n.file == file.file);
         let other = others.iter().find(is_equal).filter(|_| is_chosen);
@@ -92,7 +92,7 @@ impl<'a> PartialSet<'a> {
         }
         let role = self.role_of(label);
         self.notes.push(Note::MapFile { map: role, file: file.clone() });
-        if label.word == "ps" && self.set.files.files.iter().any(|f| f.label.word == "axay") {
+        if label.word == "ps" && self.set.files.iter().any(|f| f.label.word == "axay") {
             raster = raster.scaled(&[Reflectance::DIELECTRIC.value() as f32]);
             let told = format!("{file} is read as a factor on 0.04, as OpenSVBRDF writes it.");
             self.notes.push(Note::Told(told));
@@ -111,7 +111,7 @@ impl<'a> PartialSet<'a> {
 
     /// The map that a label means in this set: `spec` of Texture Haven, beside `diff` and `rough`, scales 0.08.
     fn role_of(&mut self, label: &Label) -> Role {
-        let has = |word: &str| self.set.files.files.iter().any(|file| file.label.word == word);
+        let has = |word: &str| self.set.files.iter().any(|file| file.label.word == word);
         if label.word != "spec" || !(has("diff") && has("rough")) {
             return label.role;
         }
@@ -239,7 +239,7 @@ impl<'a> PartialSet<'a> {
     /// Uses a picture that is named after heights as the normal map where it looks like that.
     pub(super) fn rescue_bump(&mut self) {
         let set = self.set;
-        if let Some(bump) = set.files.heights.iter().find(|file| self.is_normal_map(file)) {
+        if let Some(bump) = set.heights.iter().find(|file| self.is_normal_map(file)) {
             self.normal_bump = Some(bump);
         }
     }
@@ -253,7 +253,7 @@ impl<'a> PartialSet<'a> {
         if self.is_normal_map(file) {
             return;
         }
-        let is_of_set = set.files.files.iter().any(|named| is_named_as(file, &named.label.stem));
+        let is_of_set = set.files.iter().any(|named| is_named_as(file, &named.label.stem));
         let has_colour = self.maps.has(Role::Base) || self.maps.has(Role::Diffuse);
         if is_of_set
             && !has_colour

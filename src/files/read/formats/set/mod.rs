@@ -35,7 +35,7 @@ impl Set {
         let mut set = PartialSet::new(self);
         let mut written = Vec::new();
         for (file, DecodedPicture { map, notes, meaning, .. }) in
-            self.files.files.iter().zip(decoded(&self.pictures(), progress)?)
+            self.files.iter().zip(decoded(&self.pictures(), progress)?)
         {
             let meaning = meaning.as_deref().and_then(written_albedo);
             written.extend(meaning.map(|albedo| (file.label.role, albedo)));
@@ -44,7 +44,7 @@ impl Set {
                 None => (file, map.raster, notes),
             };
             if set.is_contested(file) {
-                return Err(grouping::two_pictures(&self.path, file, &self.files.other_normals[0]));
+                return Err(grouping::two_pictures(&self.path, file, &self.other_normals[0]));
             }
             set.notes.extend(notes);
             let is_normal = file.label.role == Role::Normal;
@@ -63,8 +63,8 @@ impl Set {
         }
         set.rescue_bump();
         let is_bound = |file: &str| is_bound(self, bound, file);
-        let unlabelled = self.files.unlabelled.iter().map(|file| (file, Unused::Unlabelled));
-        let misnamed = self.files.misnamed.iter().map(|file| (file, Unused::OtherStem));
+        let unlabelled = self.unlabelled.iter().map(|file| (file, Unused::Unlabelled));
+        let misnamed = self.misnamed.iter().map(|file| (file, Unused::OtherStem));
         for (file, unused) in unlabelled.chain(misnamed).filter(|(file, _)| !is_bound(file)) {
             set.rescue(file, unused);
         }
@@ -79,7 +79,7 @@ impl Set {
             .iter()
             .filter(|one| is_own(one.0))
             .for_each(|(role, albedo)| found.specify(*albedo, &[*role]));
-        let heights = self.files.heights.iter().find(|file| Some(*file) != normal_bump);
+        let heights = self.heights.iter().find(|file| Some(*file) != normal_bump);
         let file = heights.map(|file| StoredHeight::File(self.file(file)));
         found.height = file.or(height);
         notes.extend(self.documents.iter().map(|one| {
@@ -87,7 +87,7 @@ impl Set {
         }));
         let is_used = |what: &String| is_bound(what) || Some(what) == normal_bump;
         let is_unused = |note: &&Note| !matches!(note, Note::Unused { what, .. } if is_used(what));
-        notes.extend(self.files.notes.iter().filter(is_unused).cloned());
+        notes.extend(self.notes.iter().filter(is_unused).cloned());
         notes.append(&mut found.notes);
         Ok(StoredMaterial { notes, ..found })
     }
@@ -132,7 +132,7 @@ fn numbers_mislead(set: &Set, file: &str) -> Error {
 fn add_hints(found: &mut StoredMaterial, set: &Set, is_glossy: bool) {
     found.inferred = inferred(set);
     found.infer_floats();
-    if is_diffmat(&set.files.files, found) {
+    if is_diffmat(&set.files, found) {
         let why = || Reason::measured("DiffMat writes these names and depths, with y down by default");
         found.inferred.albedo = Some((Albedo::Gamma22, why(), Certainty::Likely));
         found.inferred.normal_y = Some((NormalY::Down, why(), Certainty::Unsure));
@@ -147,7 +147,7 @@ fn add_hints(found: &mut StoredMaterial, set: &Set, is_glossy: bool) {
 
 /// The direction of y by the format of a document beside the set that lists its normal map.
 fn listed_y(set: &Set) -> Inferred<NormalY> {
-    let normal = set.files.files.iter().find(|file| file.label.role == Role::Normal)?;
+    let normal = set.files.iter().find(|file| file.label.role == Role::Normal)?;
     let document = set.documents.iter().find(|one| one.files.contains(&normal.file))?;
     let why = Reason::measured(format!("{} lists the map, and its format defines it", document.name));
     Some((document.normal_y?, why, Certainty::Likely))
@@ -164,7 +164,7 @@ fn is_diffmat(files: &[LabelledFile], found: &StoredMaterial) -> bool {
 }
 
 fn inferred(set: &Set) -> Inferences {
-    let files = &set.files.files;
+    let files = &set.files;
     let named = |f: &LabelledFile| {
         Some((f.label.roughness()?, Reason::stated(format!("{} is named so", f.file)), Certainty::Sure))
     };
