@@ -122,6 +122,7 @@ impl Mtl {
         let name = self.entry.name.clone();
         let mut found = maps.material(&self.path, name, "the statements of the .mtl", options)?;
         found.add_file(self.path.clone());
+        found.is_mapped = true;
         (found.inferred.albedo, found.inferred.specular) = (albedo, specular);
         found.inferred.normal_y = found.normal.as_ref().and_then(|source| named_y(&source.file));
         let layout = Assumption::new(What::Layout, "MTL", Reason::LISTED, Certainty::Sure);
