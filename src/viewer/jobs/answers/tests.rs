@@ -133,6 +133,69 @@ fn answers_out_of_sight_stay_as_many_as_their_kind_keeps_the_latest_first() {
     assert_eq!(answers.latest(&Double(8)).map(|answered| **answered), Some(12), "it is like those below it");
 }
 
+#[test]
+fn an_answer_that_is_drawn_in_the_place_of_another_stays() {
+    let mut answers = Answers::default();
+    settle(&mut answers, &[2]);
+    for number in [4, 6, 8, 10] {
+        let is_drawn = |answers: &mut Answers| {
+            answers.begin_frame();
+            let (own, earlier) = (answers.get(&Double(number)).ready(), answers.latest(&Double(3)));
+            answers.end_frame();
+            assert_eq!(earlier.map(|answered| **answered), Some(4), "{number}");
+            own.is_some()
+        };
+        while !is_drawn(&mut answers) {
+            std::thread::yield_now();
+        }
+    }
+    assert!(known(&answers, 4).is_none(), "others do not");
+}
+
+/// One that has no end, and tells when it is cancelled.
+#[derive(Clone, Debug)]
+struct Endless(std::sync::mpsc::Sender<()>);
+
+impl PartialEq for Endless {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Question for Endless {
+    type Answer = u32;
+    const PACE: Pace = Pace::Beside;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<u32, Error> {
+        work.tell(1);
+        while work.progress().step().is_ok() {
+            std::thread::yield_now();
+        }
+        let _ = self.0.send(());
+        Err(Error::internal("cancelled"))
+    }
+}
+
+#[test]
+fn what_goes_on_beside_the_others_tells_on_the_way_and_ends_where_it_is_not_asked_for() {
+    let mut answers = Answers::default();
+    let (sender, ends) = std::sync::mpsc::channel();
+    loop {
+        answers.begin_frame();
+        let told = answers.drawn(&Endless(sender.clone()));
+        let found = answers.get(&Double(2)).ready();
+        answers.end_frame();
+        if let (Some((told, true)), Some(found)) = (told, found) {
+            assert_eq!((**told, **found), (1, 4));
+            break;
+        }
+        std::thread::yield_now();
+    }
+    assert!(ends.try_recv().is_err());
+    frame(&mut answers, &[2]);
+    ends.recv().unwrap();
+}
+
 /// A short one.
 #[derive(Clone, Debug, PartialEq)]
 struct Moving(u32);
