@@ -13,6 +13,7 @@ pub mod placed;
 pub mod readout;
 pub mod scale;
 pub mod scenery;
+pub mod shade;
 pub mod shaded;
 pub mod snapshot;
 pub mod statistics;

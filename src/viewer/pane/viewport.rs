@@ -1,27 +1,23 @@
 //! Viewport: the panes, drawn, and the gestures in them.
 
-use std::collections::BTreeSet;
-
 use eframe::egui::{self, Align, Layout, Rect, RichText, Sense, Vec2, vec2};
 
 use svbrdf_core::material::Grid;
 use svbrdf_core::picture::quantity::Quantity;
-use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference, ShadeParams};
+use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference};
 
 use crate::model::Model;
 use crate::model::material::loaded::drawable;
 use crate::model::view::{Projection, ViewState};
 use crate::pane::cells::{TITLE, cells, columns, picture_rect};
 use crate::pane::displayed::Displayed;
-use crate::pane::draft_policy::{DraftPolicy, LARGE, PAUSE, PaneView};
+use crate::pane::draft_policy::DraftPolicy;
 use crate::pane::gestures::{self, Gesture};
 use crate::pane::gpu_view::GpuView;
 use crate::pane::placed::Placed;
 use crate::pane::readout;
 use crate::pane::scenery::{Hovered, PaneContent, PhotographUse, texels};
-use crate::pane::shaded::{ShadedPart, ShadingRequest};
 use crate::pane::title::{empty_pane, title_bar};
-use crate::pane::visible::shaded_part;
 use crate::pane::{handles, scale};
 use crate::widgets::paint::{note, paint_hint};
 use crate::widgets::theme;
@@ -45,11 +41,11 @@ pub struct Viewport {
     pub hovered: Option<Hovered>,
     /// The texel that was under the pointer last.
     pub last_texel: Option<[usize; 2]>,
-    policy: DraftPolicy,
+    pub(super) policy: DraftPolicy,
     /// Whether pixels show the nearest of their texels: while something moves on a slow adapter.
-    is_draft: bool,
+    pub(super) is_draft: bool,
     /// Whether everything is shaded in full at once, for pictures that are saved.
-    is_exact: bool,
+    pub(super) is_exact: bool,
     /// Where the panes are.
     pub area: Option<Rect>,
     /// Size of a pane in physical pixels.
@@ -201,56 +197,6 @@ impl Viewport {
         } else if let Some(text) = hint(shown, content) {
             paint_hint(&painter, rect, &text);
         }
-    }
-
-    /// Shades every material in a pane; on a slow adapter only what the screen needs while something moves, and the rest bit by
-    /// bit.
-    fn shade(
-        &mut self,
-        ui: &egui::Ui,
-        gpu: &mut GpuView,
-        shown: &Displayed<'_>,
-        contents: &[PaneContent],
-    ) -> Result<(), String> {
-        let state = shown.view();
-        let params = ShadeParams {
-            scene: state.scene,
-            convention: state.convention(),
-            quantity: state.display.quantity,
-        };
-        let grid = shown.materials()[0].grid();
-        let texels = grid.width * grid.height;
-        let software = gpu.gpu.report.software;
-        let visible = PaneView { params, framing: state.display.framing };
-        let is_slow = software && texels * shown.materials().len() > LARGE;
-        let moves = self.policy.moves(visible, ui.input(|i| i.time)) && is_slow;
-        if moves {
-            ui.ctx().request_repaint_after_secs(PAUSE as f32 + 0.01);
-        }
-        let is_large = texels > LARGE && software;
-        // What is compared with a computed map or a photograph, and what is saved, is never shaded in part.
-        let is_exact = self.is_exact || state.is_computed() || shown.photograph().is_some();
-        self.is_draft = moves && !is_exact;
-        let part = if self.is_draft || is_large && !is_exact {
-            shaded_part(state, grid, self.pane_pixels(), self.magnification(grid, state))
-        } else {
-            ShadedPart::Whole
-        };
-        let sharpens = !moves && part != ShadedPart::Whole;
-        let request = ShadingRequest {
-            params,
-            part,
-            sharpens,
-            waits: !shown.jobs.openings.is_empty(),
-            exact: is_exact,
-        };
-        gpu.keep_only(shown.materials(), contents.len());
-        let displayed: BTreeSet<usize> = contents.iter().flat_map(|one| [one.index, one.reference]).collect();
-        let materials: Vec<_> = displayed.into_iter().map(|index| &shown.materials()[index]).collect();
-        if gpu.shade(&materials, request)? {
-            ui.ctx().request_repaint();
-        }
-        Ok(())
     }
 
     /// What is drawn over a pane about texels.
