@@ -43,10 +43,10 @@ pub fn ask(Shown { model, jobs }: Shown<'_>) -> Option<Arc<Answered<ReadCase>>> 
     let open = dataset.open.as_ref()?;
     let (is_of_predictions, materials) = (open.is_of_predictions(), &model.materials.all);
     let known = materials.iter().filter(|_| is_of_predictions).map(|one| one.read.clone());
-    let known: Vec<_> = known.collect();
+    let (known, pinned): (Vec<_>, _) = (known.collect(), dataset.pinned());
     let question = |case: usize| AskCase {
         case,
-        pinned: dataset.pinned(),
+        pinned: pinned.clone(),
         open: open.clone(),
         version: dataset.version(case),
         rules: model.materials.rules,

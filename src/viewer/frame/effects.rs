@@ -63,7 +63,6 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
     }
     take_materials(parts);
     parts.jobs.take_edits(&mut parts.model);
-    opening::show(&mut parts.model, &parts.jobs);
     let fault = parts.gpu.as_ref().and_then(|gpu| gpu.gpu.take_fault());
     parts.model.report(fault.map(|fault| Message::Failed(fault.into())));
     follow_files(parts);
