@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::loss::Request;
 use svbrdf_core::material::Grid;
-use svbrdf_evaluate::dataset::{DatasetReading, Method, Source, decided};
-use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
+use svbrdf_evaluate::dataset::{DatasetReading, Source, decided};
+use svbrdf_files::session::dataset::SessionDataset;
 use svbrdf_files::session::window::Framing;
 
 use crate::dataset::cases::{self, ReadCase};
@@ -30,35 +29,10 @@ pub fn open(jobs: &mut Jobs, paths: Vec<PathBuf>) {
     jobs.edits.insert("dataset", job);
 }
 
-/// Matches the materials of a session; `results` is a folder that a person named. Where it is `strict`, guesses are errors.
+/// Matches the materials of a session, as [`DatasetState::of_session`].
 pub fn restore(jobs: &mut Jobs, session: SessionDataset, results: Option<PathBuf>, strict: bool) {
-    let job = Job::start(&jobs.waker, move |_| {
-        let SessionDataset { ground_truths, methods, predictions, shown, list, marks, .. } = session;
-        // Another version may have had other terms.
-        let list = serde_json::from_value(list).unwrap_or_default();
-        let named = |all: Vec<SessionMethod>| -> Vec<Method> {
-            all.into_iter().map(|one| Method { name: one.name, path: one.path }).collect()
-        };
-        let source = match (methods.is_empty(), predictions.is_empty()) {
-            (_, false) => {
-                Source::Predictions { ground_truth: ground_truths, predictions: named(predictions) }
-            }
-            (true, true) => Source::Table(ground_truths),
-            (false, true) => Source::Folders { ground_truths, methods: named(methods) },
-        };
-        let reading = DatasetReading {
-            ground_truths: session.read,
-            predictions: session.read_predictions,
-            methods: session.read_methods,
-            strict,
-            ..DatasetReading::default()
-        };
-        let request = Request::Accuracy { target: session.target_error, seed: session.seed };
-        let mut open = OpenDataset::new(source, reading, request, results)?;
-        open.settings.diagnose = session.diagnose;
-        let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
-        Ok(opened(DatasetState { list, ..DatasetState::of(Arc::new(open), wanted, marks) }))
-    });
+    let job =
+        Job::start(&jobs.waker, move |_| Ok(opened(DatasetState::of_session(session, results, strict)?)));
     jobs.edits.insert("dataset", job);
 }
 

@@ -1,6 +1,7 @@
 //! Rows of the list and of the sheet: the materials in their order.
 
 use svbrdf_evaluate::dataset::KnownLoss;
+use svbrdf_evaluate::report::{Cell, Table};
 
 use crate::dataset::losses;
 use crate::jobs::Shown;
@@ -71,4 +72,22 @@ pub fn chosen_method(shown: Shown<'_>) -> Option<&str> {
     let chosen = model.materials.predictions().get(model.view.display.prediction);
     let is_here = model.dataset.shown.is_some();
     chosen.filter(|_| is_here).map(|one| one.material().name()).or(model.dataset.method.as_deref())
+}
+
+/// The materials in these places: mark, note and the loss of each method.
+pub fn table(shown: Shown<'_>, cases: &[usize]) -> Table {
+    let (dataset, losses) = (&shown.model.dataset, losses::ask(shown));
+    let open = dataset.open.as_ref();
+    let mut columns = vec!["material".to_owned(), "marked".to_owned(), "note".to_owned()];
+    columns.extend(open.map(|open| open.methods().to_vec()).unwrap_or_default());
+    let row = |case: &usize| -> Vec<Cell> {
+        let name = open.map_or("", |open| open.name(*case));
+        let mark = dataset.mark(name).cloned().unwrap_or_default();
+        let known = losses.row(*case).map(|row| row.by_method.clone()).unwrap_or_default();
+        let losses = (3..columns.len())
+            .map(|column| known.get(column - 3).copied().flatten().map(|known| known.loss).into());
+        [name.into(), mark.is_marked.into(), mark.note.into()].into_iter().chain(losses).collect()
+    };
+    let rows = cases.iter().map(row).collect();
+    Table { columns, rows }
 }

@@ -13,14 +13,14 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analyses::ScenesReport;
-use svbrdf_evaluate::report::{Cell, Compared, Json as _, Table};
+use svbrdf_evaluate::report::{Compared, Json as _};
 use svbrdf_files::disk::atomic::{self, Destination};
 use svbrdf_files::export::figure::FigureDestination;
 use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::scene_file;
 
-use crate::dataset::losses;
+use crate::dataset::rows;
 use crate::error::Error;
 use crate::jobs::answers::content::ComparedPair;
 use crate::model::inspection::Region;
@@ -77,20 +77,7 @@ pub fn renderings(displayed: &Displayed<'_>) -> Writing {
 
 /// The materials of a data set in these places: marks, notes and losses.
 pub fn materials_csv(displayed: &Displayed<'_>, cases: &[usize]) -> Writing {
-    let (dataset, losses) = (&displayed.model.dataset, losses::ask(displayed.shown()));
-    let methods = dataset.open.as_ref().map(|open| open.methods().to_vec()).unwrap_or_default();
-    let mut columns = vec!["material".to_owned(), "marked".to_owned(), "note".to_owned()];
-    columns.extend(methods);
-    let row = |case: &usize| -> Vec<Cell> {
-        let name = dataset.open.as_ref().map_or("", |open| open.name(*case));
-        let mark = dataset.mark(name).cloned().unwrap_or_default();
-        let known = losses.row(*case).map(|row| row.by_method.clone()).unwrap_or_default();
-        let losses = (3..columns.len())
-            .map(|column| known.get(column - 3).copied().flatten().map(|known| known.loss).into());
-        [name.into(), mark.is_marked.into(), mark.note.into()].into_iter().chain(losses).collect()
-    };
-    let rows = cases.iter().map(row).collect();
-    let table = Table { columns, rows };
+    let table = rows::table(displayed.shown(), cases);
     Box::new(move |path, progress| Ok(atomic::write_text(path, &table.csv()?, progress)?))
 }
 

@@ -1,20 +1,19 @@
 //! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use svbrdf_core::loss::{ALL_SCENES_TARGET, FileScenes};
-use svbrdf_evaluate::dataset::{Method, Source};
+use svbrdf_core::loss::FileScenes;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
-use svbrdf_files::session::dataset::{SessionDataset, SessionMethod};
 use svbrdf_files::session::window::{SessionInspection, SessionWindow};
 use svbrdf_files::session::{Session, SessionMaterial};
 use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::message::Message;
+use crate::model::dataset::session::absolute;
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::effect::Effect;
 use crate::model::history::History;
@@ -125,37 +124,9 @@ impl Model {
         let (display, loss) = (Some(view.display.clone()), Some(self.settings.loss.clone()));
         let inspection =
             Some(SessionInspection::from(&self.inspection)).filter(|one| *one != Default::default());
-        session.dataset = self.dataset.open.as_ref().map(|open| self.session_dataset(open));
+        session.dataset = self.dataset.session();
         session.window = SessionWindow { display, loss, inspection };
         session
-    }
-
-    /// The data set of the current session.
-    fn session_dataset(&self, open: &OpenDataset) -> SessionDataset {
-        let of_session = |all: &[Method]| {
-            let one = |one: &Method| SessionMethod { name: one.name.clone(), path: absolute(&one.path) };
-            all.iter().map(one).collect()
-        };
-        let source = &open.settings.source;
-        let (methods, predictions) = match source {
-            Source::Table(_) => (Vec::new(), Vec::new()),
-            Source::Folders { methods, .. } => (of_session(methods), Vec::new()),
-            Source::Predictions { predictions, .. } => (Vec::new(), of_session(predictions)),
-        };
-        SessionDataset {
-            ground_truths: absolute(source.path()),
-            methods,
-            predictions,
-            target_error: open.settings.scenes.target().unwrap_or(ALL_SCENES_TARGET),
-            seed: open.settings.seed,
-            diagnose: open.settings.diagnose,
-            read: open.reading.ground_truths,
-            read_predictions: open.reading.predictions,
-            read_methods: open.reading.methods.clone(),
-            list: serde_json::to_value(&self.dataset.list).unwrap_or_default(),
-            shown: open.name(self.dataset.wanted).to_owned(),
-            marks: self.dataset.marks.clone(),
-        }
     }
 
     /// Takes over light, view, display, loss settings and photograph of a session; the request that reads its materials.
@@ -198,10 +169,6 @@ impl Model {
             recent.truncate(RECENT);
         }
     }
-}
-
-fn absolute(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// The files of a comparison.

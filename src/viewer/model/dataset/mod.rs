@@ -1,6 +1,7 @@
 //! Data set: methods over many materials, one of which is in the window.
 
 pub mod list;
+pub mod session;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
