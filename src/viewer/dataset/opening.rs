@@ -1,7 +1,6 @@
 //! Opening of a data set: matched on a worker, and shown material by material.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use svbrdf_core::material::Grid;
 use svbrdf_evaluate::dataset::{DatasetReading, Source, decided};
@@ -24,7 +23,7 @@ pub fn open(jobs: &mut Jobs, paths: Vec<PathBuf>) {
         let source = if methods.is_empty() { Source::Table(first) } else { Source::folders(first, methods) };
         let mut open = OpenDataset::new(source, DatasetReading::default(), REQUEST, None)?;
         open.reading = decided(&open.cases, open.reading, progress)?;
-        Ok(opened(DatasetState::of(Arc::new(open), 0, Default::default())))
+        Ok(opened(open.into()))
     });
     jobs.edits.insert("dataset", job);
 }

@@ -1,7 +1,6 @@
 //! Edits of which materials are open, and how they are read.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
@@ -16,7 +15,7 @@ use svbrdf_files::{Error as FilesError, scene_file};
 
 use crate::message::Retry;
 use crate::model::Model;
-use crate::model::dataset::{DatasetState, OpenDataset};
+use crate::model::dataset::OpenDataset;
 use crate::model::effect::Effect;
 use crate::model::material::request::{ReadRequest, Target};
 
@@ -47,7 +46,7 @@ pub fn open(model: &mut Model, mut paths: Vec<PathBuf>, replace: bool, read: Rea
     }
     if let Some(many) = many(model, &paths, replace, read) {
         model.dialogs.open = None;
-        return model.open_dataset(DatasetState::of(Arc::new(many), 0, Default::default()));
+        return model.open_dataset(many.into());
     }
     let target = if replace { Target::Everything } else { Target::Predictions };
     let material = |path: &PathBuf| MaterialSource::path(path.clone(), read);

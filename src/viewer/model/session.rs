@@ -1,6 +1,5 @@
 //! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -55,24 +54,22 @@ impl Model {
     /// Takes in what the window starts with.
     pub fn start(&mut self, options: ViewerOptions) {
         self.materials.rules = Rules { strict: options.strict, fit: options.fit };
-        let request = match (&options.session, options.ground_truth) {
-            (Some(session), _) => Some(self.open_session(session)),
-            (None, None) if options.dataset.is_some() => None,
-            (None, None) => Some(ReadRequest::built_in()),
-            (None, Some(ground_truth)) => {
-                let all: Vec<_> = std::iter::once(ground_truth).chain(options.predictions).collect();
-                let many = OpenDataset::of_many(&all, self.materials.rules);
-                match many.filter(|_| options.photograph.is_none()) {
-                    Some(open) => {
-                        self.open_dataset(DatasetState::of(Arc::new(open), 0, BTreeMap::new()));
-                        None
-                    }
-                    None => Some(ReadRequest::new(all, Target::Everything)),
-                }
-            }
+        let all = options.ground_truth.map(|ground_truth| {
+            std::iter::once(ground_truth).chain(options.predictions).collect::<Vec<MaterialSource>>()
+        });
+        let of_many = || {
+            let all = all.as_ref().filter(|_| options.photograph.is_none())?;
+            OpenDataset::of_many(all, self.materials.rules)
         };
-        if let Some(dataset) = options.dataset {
-            self.open_dataset(DatasetState::of(Arc::from(dataset), 0, BTreeMap::new()));
+        let dataset = options.dataset.map(|open| *open).or_else(of_many);
+        let request = match (&options.session, all) {
+            (Some(session), _) => Some(self.open_session(session)),
+            (None, _) if dataset.is_some() => None,
+            (None, Some(all)) => Some(ReadRequest::new(all, Target::Everything)),
+            (None, None) => Some(ReadRequest::built_in()),
+        };
+        if let Some(dataset) = dataset {
+            self.open_dataset(dataset.into());
         }
         // After a session, which may have others.
         options.convention.into_iter().for_each(|convention| self.use_convention(convention));

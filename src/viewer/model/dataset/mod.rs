@@ -187,14 +187,15 @@ impl Default for SheetState {
     }
 }
 
-impl DatasetState {
-    /// A data set that has just been opened, with the marks of a session.
-    pub fn of(open: Arc<OpenDataset>, wanted: usize, marks: BTreeMap<String, SessionMark>) -> Self {
-        let wanted = wanted.min(open.cases.len().saturating_sub(1));
+impl From<OpenDataset> for DatasetState {
+    /// A data set that has just been opened.
+    fn from(open: OpenDataset) -> Self {
         let versions = Arc::new(vec![0; open.cases.len()]);
-        Self { open: Some(open), wanted, marks, versions, ..Self::default() }
+        Self { open: Some(Arc::new(open)), versions, ..Self::default() }
     }
+}
 
+impl DatasetState {
     /// Shows a material, and reads others ahead.
     pub fn show(&mut self, case: usize, ahead: Vec<usize>) {
         if self.open.as_ref().is_some_and(|open| case < open.cases.len()) {

@@ -1,7 +1,6 @@
 //! Data set of a session, written and opened.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use svbrdf_core::loss::{ALL_SCENES_TARGET, Request};
 use svbrdf_evaluate::dataset::{DatasetReading, Method, Source};
@@ -74,7 +73,7 @@ impl DatasetState {
         let mut open = OpenDataset::new(source, reading, request, results)?;
         open.settings.diagnose = session.diagnose;
         let wanted = open.cases.iter().position(|case| case.material == shown).unwrap_or(0);
-        Ok(Self { list, ..Self::of(Arc::new(open), wanted, marks) })
+        Ok(Self { list, wanted, marks, ..open.into() })
     }
 }
 
