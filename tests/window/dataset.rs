@@ -185,7 +185,7 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     let mut window = on_dataset(&dataset(folders(folder.path()), Some(folder.path().join("results"))));
     let list = ListView { order: Order::Loss(0), ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = list);
-    let title = |window: &Window<'_>| window.state().parts.ui.dataset.title(window.model());
+    let title = |window: &Window<'_>| svbrdf_viewer::dataset::title(window.shown());
     let largest = (0..6)
         .max_by(|a, b| loss(&window, *a, 0).unwrap().loss.total_cmp(&loss(&window, *b, 0).unwrap().loss));
     let case = largest.unwrap();

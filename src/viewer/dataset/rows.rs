@@ -17,20 +17,17 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Sorts and filters.
-    pub fn follow(&mut self, shown: Shown<'_>) {
+    /// Those of the data set that is open, sorted and filtered.
+    pub fn ask(shown: Shown<'_>) -> Self {
         let (dataset, losses) = (&shown.model.dataset, losses::ask(shown));
-        let Some(open) = &dataset.open else {
-            *self = Self::default();
-            return;
-        };
+        let Some(open) = &dataset.open else { return Self::default() };
         let all = open.cases.iter().enumerate().map(|(case, one)| Listed {
             name: &one.material,
             losses: losses.row(case),
             is_marked: dataset.mark(&one.material).is_some_and(|mark| mark.is_marked),
         });
         let all: Vec<Listed<'_>> = all.collect();
-        self.cases = dataset.list.rows(&all);
+        Self { cases: dataset.list.rows(&all) }
     }
 
     /// The row of a material.
@@ -74,8 +71,8 @@ pub fn chosen_method(shown: Shown<'_>) -> Option<&str> {
     chosen.filter(|_| is_here).map(|one| one.material().name()).or(model.dataset.method.as_deref())
 }
 
-/// The materials in these places: mark, note and the loss of each method.
-pub fn table(shown: Shown<'_>, cases: &[usize]) -> Table {
+/// The materials that are listed: mark, note and the loss of each method.
+pub fn table(shown: Shown<'_>) -> Table {
     let (dataset, losses) = (&shown.model.dataset, losses::ask(shown));
     let open = dataset.open.as_ref();
     let mut columns = vec!["material".to_owned(), "marked".to_owned(), "note".to_owned()];
@@ -88,6 +85,6 @@ pub fn table(shown: Shown<'_>, cases: &[usize]) -> Table {
             .map(|column| known.get(column - 3).copied().flatten().map(|known| known.loss).into());
         [name.into(), mark.is_marked.into(), mark.note.into()].into_iter().chain(losses).collect()
     };
-    let rows = cases.iter().map(row).collect();
+    let rows = Rows::ask(shown).cases.iter().map(row).collect();
     Table { columns, rows }
 }

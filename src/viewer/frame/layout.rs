@@ -5,7 +5,7 @@
 
 use eframe::egui;
 
-use crate::dataset::DatasetUi;
+use crate::dataset::{self, DatasetUi};
 use crate::error::Error;
 use crate::files;
 use crate::frame::content::{self, CAPTION};
@@ -53,7 +53,7 @@ impl WindowUi {
         if model.is_modal() {
             return;
         }
-        self.dataset.turn_pages(ctx, model, jobs);
+        dataset::turn_pages(ctx, model, jobs);
         if !model.dataset.sheet.is_open {
             self.viewport.gestures(ctx, model);
         }
@@ -89,7 +89,7 @@ impl WindowUi {
         let area = ui.available_rect_before_wrap();
         let height = area.height() - content::reserve(shown, area.height());
         self.picture_size = [area.width(), height].map(|side| (side * ui.pixels_per_point()) as u32);
-        let panes = if self.dataset.sheet(ui, shown.shown(), next, &mut self.textures) {
+        let panes = if dataset::sheet(ui, shown.shown(), next, &mut self.textures) {
             area
         } else {
             content::ui(ui, shown, next, &mut self.viewport, gpu);

@@ -26,7 +26,7 @@ use std::time::Duration;
 
 use eframe::egui;
 
-use crate::dataset::opening;
+use crate::dataset::{self, opening};
 use crate::frame::crash::{DeviceLoss, lost, told};
 use crate::frame::layout::Parts;
 use crate::frame::restart::{IDLE, Restarts, watch_for_hardware};
@@ -157,7 +157,7 @@ impl App {
 
     /// Gives the window the name of what is open.
     fn name_window(&mut self, ctx: &egui::Context) {
-        let of_dataset = self.parts.ui.dataset.title(&self.parts.model);
+        let of_dataset = dataset::title(Shown { model: &self.parts.model, jobs: &self.parts.jobs });
         let open = of_dataset.or_else(|| self.parts.model.materials.title());
         let title = open.map_or_else(|| NAME.to_owned(), |open| format!("{open} - {NAME}"));
         // Assistive software asks the root for the name of the window.

@@ -48,7 +48,7 @@ fn writing(parts: &Parts, kind: SaveKind, picture: Option<egui::ColorImage>) -> 
         (SaveKind::Strip, _) => written::strip(displayed),
         (SaveKind::Session, _) => written::session(displayed),
         (SaveKind::Scenes, _) => written::scenes(displayed),
-        (SaveKind::Materials, _) => written::materials_csv(displayed, parts.ui.dataset.listed()),
+        (SaveKind::Materials, _) => written::materials_csv(displayed),
     }
 }
 

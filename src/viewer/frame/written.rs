@@ -75,9 +75,9 @@ pub fn renderings(displayed: &Displayed<'_>) -> Writing {
     })
 }
 
-/// The materials of a data set in these places: marks, notes and losses.
-pub fn materials_csv(displayed: &Displayed<'_>, cases: &[usize]) -> Writing {
-    let table = rows::table(displayed.shown(), cases);
+/// The materials of a data set that are listed: marks, notes and losses.
+pub fn materials_csv(displayed: &Displayed<'_>) -> Writing {
+    let table = rows::table(displayed.shown());
     Box::new(move |path, progress| Ok(atomic::write_text(path, &table.csv()?, progress)?))
 }
 

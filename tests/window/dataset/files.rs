@@ -1,5 +1,7 @@
 //! The files of a data set: they change, cannot be read, are many predictions of one material, or need a registration.
 
+use svbrdf_viewer::dataset::rows::Rows;
+
 use super::*;
 
 #[needs(adapter)]
@@ -81,7 +83,7 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     // Worst first.
     let list = ListView { order: Order::Loss(0), ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = list);
-    let listed = window.state().parts.ui.dataset.listed();
+    let listed = Rows::ask(window.shown()).cases;
     assert_eq!(listed[..3], [24, 23, 22]);
     let session = folder.path().join("many.svbrdf-session.json");
     save(&mut window, SaveKind::Session, &session);

@@ -2,6 +2,7 @@
 
 use svbrdf_viewer::dataset::cells::Cell;
 use svbrdf_viewer::dataset::pictures::{self, SheetPicture};
+use svbrdf_viewer::dataset::rows::Rows;
 use svbrdf_viewer::dataset::summary;
 use svbrdf_viewer::jobs::answers::Answered;
 
@@ -66,7 +67,7 @@ fn the_sheet_has_losses_sorts_by_its_heads_and_has_one_range() {
     let mut window = on_dataset(&dataset(folders(folder.path()), None));
     press(&mut window, egui::Key::S);
     // A click on the name of a method sorts by its losses; again, the other way round.
-    let listed = |window: &Window<'_>| window.state().parts.ui.dataset.listed().to_vec();
+    let listed = |window: &Window<'_>| Rows::ask(window.shown()).cases;
     let by_name = listed(&window);
     for is_reversed in [false, true] {
         window.get_by_label_contains("Sort by ours").click();
