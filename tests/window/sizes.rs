@@ -63,6 +63,18 @@ fn panes_are_drawn_at_every_size_and_scale() {
 }
 
 #[needs(adapter)]
+fn the_last_button_of_the_bar_is_there_in_every_width() {
+    let mut window = built_in();
+    for width in [500.0, 640.0, 700.0, 760.0, 900.0, 1060.0] {
+        resize(&mut window, [width, 500.0], 1.0);
+        click(&mut window, "Help");
+        assert!(window.model().help, "{width} points");
+        press(&mut window, egui::Key::Escape);
+        assert!(!window.model().help);
+    }
+}
+
+#[needs(adapter)]
 fn tabs_are_drawn_at_every_size_and_scale() {
     let mut window = built_in();
     wait(&mut window, "the loss", |app| app.losses().is_some());

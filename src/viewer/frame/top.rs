@@ -24,7 +24,8 @@ pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
     ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
     // In a window that is small for its scale the bar leaves most of the room to the panes.
     let highest = ui.ctx().content_rect().height() / 3.0;
-    egui::ScrollArea::vertical().max_height(highest).auto_shrink([false, true]).show(ui, |ui| {
+    let area = egui::ScrollArea::vertical().max_height(highest).min_scrolled_height(highest);
+    area.auto_shrink([false, true]).show(ui, |ui| {
         ui.horizontal_wrapped(|ui| {
             files(ui, next);
             ui.separator();
@@ -99,7 +100,7 @@ fn view(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
 }
 
 fn layouts(ui: &mut egui::Ui, display: &mut SessionDisplay) {
-    segments(ui, |ui| {
+    segments(ui, "layout", |ui| {
         for (layout, icon, hover) in [
             (
                 Layout::SideBySide,
@@ -124,7 +125,7 @@ fn layouts(ui: &mut egui::Ui, display: &mut SessionDisplay) {
 }
 
 fn quantities(ui: &mut egui::Ui, display: &mut SessionDisplay) {
-    segments(ui, |ui| {
+    segments(ui, "quantity", |ui| {
         for quantity in Quantity::ALL {
             let (name, text) = (quantity.name(), letter(quantity));
             let on = display.quantity == quantity;
@@ -141,7 +142,7 @@ fn quantities(ui: &mut egui::Ui, display: &mut SessionDisplay) {
 }
 
 fn differences(ui: &mut egui::Ui, display: &mut SessionDisplay) {
-    segments(ui, |ui| {
+    segments(ui, "difference", |ui| {
         for (difference, name) in [(false, "Value"), (true, "Difference")] {
             let on = display.difference == difference;
             let button = button(ui, name, name, true, Some(on));
@@ -154,7 +155,7 @@ fn differences(ui: &mut egui::Ui, display: &mut SessionDisplay) {
 }
 
 fn exposure_controls(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
-    segments(ui, |ui| {
+    segments(ui, "exposure", |ui| {
         let darker = button(ui, "\u{2212}", "Darker", true, None);
         if darker.on_hover_text("Exposure lower by 0.5 stops (Shift+E)").clicked() {
             display::step_exposure(next, -0.5);
@@ -259,10 +260,15 @@ fn shaped(text: &str, on: bool) -> egui::Button<'static> {
     egui::Button::selectable(on, RichText::new(text).size(size)).min_size(egui::vec2(width, HEIGHT))
 }
 
-/// Buttons without gaps, of which usually one is on.
-fn segments(ui: &mut egui::Ui, contents: impl FnOnce(&mut egui::Ui)) {
-    ui.scope(|ui| {
+/// Buttons without gaps, of which usually one is on, in one line.
+fn segments(ui: &mut egui::Ui, name: &str, contents: impl FnOnce(&mut egui::Ui)) {
+    let id = ui.id().with(name);
+    let width = ui.data(|data| data.get_temp(id)).unwrap_or(0.0);
+    let line = egui::Layout::left_to_right(egui::Align::Center);
+    // Where it does not fit behind what is before it, it begins the next line.
+    let drawn = ui.allocate_ui_with_layout(egui::vec2(width, HEIGHT), line, |ui| {
         ui.spacing_mut().item_spacing.x = 1.0;
         contents(ui);
     });
+    ui.data_mut(|data| data.insert_temp(id, drawn.response.rect.width()));
 }
