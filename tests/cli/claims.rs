@@ -40,6 +40,8 @@ const DEEP: &str = "di8xAQIIAABjaGFubmVscwBjaGxpc3QAEwAAAFkAAgAAAAAAAAABAAAAAQAA
                     BAAAAAEAAAAA";
 /// A JPEG of two components.
 const TWO: &[u8] = b"\xff\xd8\xff\xfe\0\x04hi\xff\xc0\0\x0e\x08\0\x08\0\x08\x02\x01\x11\0\x02\x11\0\xff\xda\0\x08\x01\x01\0\0\x3f\0\xff\xd9";
+/// One of four, as of CMYK.
+const FOUR: &[u8] = b"\xff\xd8\xff\xfe\0\x04hi\xff\xc0\0\x14\x08\0\x08\0\x08\x04\x01\x11\0\x02\x11\0\x03\x11\0\x04\x11\0\xff\xda\0\x08\x01\x01\0\0\x3f\0\xff\xd9";
 /// A WebP with loss of 16383 x 16383 texels, and nothing more.
 const LOSSY: &[u8] =
     b"RIFF\x20\0\0\0WEBPVP8 \x14\0\0\0\x50\x01\0\x9d\x01\x2a\xff\x3f\xff\x3f\0\0\0\0\0\0\0\0\0\0";
@@ -56,6 +58,7 @@ fn whole_files() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     vec![
         ("exr", STANDARD.decode(DEEP).unwrap(), "expected flat samples, found a deep EXR; flatten it"),
         ("jpg", TWO.to_vec(), "expected gray or RGB, found 2 components; convert it to RGB"),
+        ("jpg", FOUR.to_vec(), "expected gray or RGB, found 4 components; convert it to RGB"),
         ("webp", LOSSY.to_vec(), SHORT),
         ("npz", bomb, "expected at most 4 GiB in the npz, found 8 GiB"),
         ("npz", archive(65), "expected at most 64 arrays in the npz, found 65"),
