@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use svbrdf_core::loss::{ALL_SCENES_TARGET, Request, check_same_size};
+use svbrdf_core::loss::{Request, check_same_size};
 use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
@@ -22,8 +22,6 @@ use crate::cli::rank::cases;
 
 /// Pixels of an inch in a cell: as printed.
 const DPI: f64 = 300.0;
-/// What is asked of each loss below a cell: as `svbrdf rank` does.
-const REQUEST: Request = Request::Accuracy { target: ALL_SCENES_TARGET, seed: 0 };
 
 #[derive(Debug)]
 pub struct MethodsJob {
@@ -70,7 +68,7 @@ pub fn job(
     let cases = source.cases()?;
     let chosen_convention = comparison.convention.clone().unwrap_or_default();
     let convention = chosen_convention.convention;
-    let settings = DatasetSettings::new(source, chosen_convention, REQUEST, &cases);
+    let settings = DatasetSettings::new(source, chosen_convention, Request::over_all_scenes(0), &cases);
     let reading = cases::reading(given, &settings.methods, &[])?;
     let reading = dataset::decided(&cases, reading, &Progress::default())?;
     let cases = if chosen.is_empty() { cases } else { of_names(cases, chosen)? };

@@ -88,9 +88,7 @@ impl LossOptions {
             (Some(file), ..) => Ok(Request::Listed(file.scenes.clone())),
             (_, Some(target), _) => Ok(Request::Accuracy { target, seed }),
             (.., Some(budget)) => Ok(Request::Time { budget, seed }),
-            _ if self.is_open() => {
-                self.check_open().map(|()| Request::Accuracy { target: super::ALL_SCENES_TARGET, seed })
-            }
+            _ if self.is_open() => self.check_open().map(|()| Request::over_all_scenes(seed)),
             _ => self.sampled(Sampling::default()),
         }
     }

@@ -11,6 +11,9 @@ use crate::model::convention::Convention;
 use crate::model::sampler::Sampler;
 use crate::model::scene::Scene;
 
+/// The target of [`Request::over_all_scenes`]: half of the 95% interval, as a share of the loss.
+pub const ALL_SCENES_TARGET: f64 = 0.01;
+
 /// What decides the scenes of a loss.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -35,6 +38,12 @@ pub enum Request {
 }
 
 impl Request {
+    /// The loss over all scenes, known to +-1% at 95% confidence: what a loss over a few scenes estimates. With the most scenes that there
+    /// may be, intervals may be wider.
+    pub const fn over_all_scenes(seed: u64) -> Self {
+        Self::Accuracy { target: ALL_SCENES_TARGET, seed }
+    }
+
     /// The scenes, where neither an accuracy nor a time decides them.
     ///
     /// # Errors

@@ -10,9 +10,6 @@ use crate::error::Error;
 use crate::model::scene::Scene;
 use crate::progress::Progress;
 
-/// The target of [`Comparison::over_all_scenes`]: half of the 95% interval, as a share of the loss.
-pub const ALL_SCENES_TARGET: f64 = 0.01;
-
 impl<T: Compute> Comparison<'_, T> {
     /// The losses that `request` asks for. All predictions see the same scenes and texels.
     ///
@@ -35,15 +32,6 @@ impl<T: Compute> Comparison<'_, T> {
             }
             Request::Accuracy { .. } | Request::Time { .. } => self.stream(request, progress, |_| ()),
         }
-    }
-
-    /// The losses over all scenes, each known to +-1% at 95% confidence: what a loss over a few scenes
-    /// estimates. `seed` names the scenes that it takes. With the most scenes that there may be, the intervals may be wider.
-    ///
-    /// # Errors
-    /// [`Error::UnusableScene`], [`Error::Cancelled`].
-    pub fn over_all_scenes(&self, seed: u64, progress: &Progress) -> Result<Outcome, Error> {
-        self.run(&Request::Accuracy { target: ALL_SCENES_TARGET, seed }, progress)
     }
 
     /// As [`Comparison::run`]; `update` sees outcomes over growing numbers of scenes, the final one at last.

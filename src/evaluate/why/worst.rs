@@ -9,7 +9,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use super::attribution::MOST_SCENES;
 use super::cloud::Cloud;
 use crate::error::Error;
-use svbrdf_core::loss::{Comparison, Compute, Estimate, SharedTexels};
+use svbrdf_core::loss::{Comparison, Compute, Estimate, Request, SharedTexels};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::{Kind, Scene};
@@ -90,7 +90,7 @@ pub fn worst<T: Compute>(
     progress: &Progress,
 ) -> Result<Worst, Error> {
     let comparison = Comparison::new(ground_truth, &[prediction], *convention)?;
-    let mut all = comparison.clone().at_most(MOST_SCENES).over_all_scenes(seed, progress)?;
+    let mut all = comparison.clone().at_most(MOST_SCENES).run(&Request::over_all_scenes(seed), progress)?;
     let (mean, mean_scenes) = (all.losses.remove(0).estimate, all.scenes.len());
     progress.begin(EVALUATIONS as u64);
     let farthest = -Normal::standard().inverse_cdf(tail.clamp(1e-9, 0.49));

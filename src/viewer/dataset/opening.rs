@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use svbrdf_core::loss::Request;
 use svbrdf_core::material::Grid;
 use svbrdf_evaluate::dataset::{DatasetReading, Source, decided};
 use svbrdf_files::session::dataset::SessionDataset;
@@ -11,7 +12,7 @@ use crate::dataset::cases::{self, ReadCase};
 use crate::jobs::work::job::Job;
 use crate::jobs::{Edit, Jobs, Shown};
 use crate::model::Model;
-use crate::model::dataset::{DatasetState, OpenDataset, REQUEST};
+use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::material::loaded::LoadedMaterial;
 
 /// Matches the materials of these folders, or of one table.
@@ -21,7 +22,8 @@ pub fn open(jobs: &mut Jobs, paths: Vec<PathBuf>) {
         let first = paths.next().unwrap_or_default();
         let methods: Vec<_> = paths.map(|path| (None, path)).collect();
         let source = if methods.is_empty() { Source::Table(first) } else { Source::folders(first, methods) };
-        let mut open = OpenDataset::new(source, DatasetReading::default(), REQUEST, None)?;
+        let mut open =
+            OpenDataset::new(source, DatasetReading::default(), Request::over_all_scenes(0), None)?;
         open.reading = decided(&open.cases, open.reading, progress)?;
         Ok(opened(open.into()))
     });

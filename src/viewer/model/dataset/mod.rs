@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use svbrdf_core::loss::{ALL_SCENES_TARGET, Request};
+use svbrdf_core::loss::Request;
 use svbrdf_evaluate::dataset::{CandidateFile, Case, DatasetReading, DatasetSettings, Source};
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::session::dataset::SessionMark;
@@ -21,8 +21,6 @@ use crate::model::material::read::Rules;
 pub const MOST_PANES: usize = 24;
 /// The most predictions of the list that are pinned beside the chosen one.
 const MOST_PINNED: usize = 8;
-/// What is asked of each loss, where nothing else is: as `svbrdf rank` does.
-pub const REQUEST: Request = Request::Accuracy { target: ALL_SCENES_TARGET, seed: 0 };
 
 /// A data set as it was opened: names are matched, pixels are read when they are needed.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,7 +67,7 @@ impl OpenDataset {
             strict: rules.strict,
             ..DatasetReading::default()
         };
-        Self::new(source, reading, REQUEST, None).ok()
+        Self::new(source, reading, Request::over_all_scenes(0), None).ok()
     }
 
     /// Whether its materials are predictions of one ground truth.
