@@ -12,7 +12,7 @@ use svbrdf_evaluate::analyses::{AnyAnalysis, Precise};
 use svbrdf_evaluate::report::AnalysisInput;
 
 use crate::arrays;
-use crate::asked::{Asked, options};
+use crate::asked::{Asked, options, question};
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
 use crate::report::Views;
@@ -36,7 +36,7 @@ pub fn analysis<'py>(
 ) -> PyResult<AnalysisItems<'py>> {
     let analysis = AnyAnalysis::named(name).ok_or_else(|| Error::new_err(format!("no analysis {name}")))?;
     match Precision::from_str(&asked.precision).map_err(exception)? {
-        Precision::F32 => report(py, analysis, &asked, &asked.singles(), progress),
+        Precision::F32 => report(py, analysis, &asked, &asked.materials(CoreMaterial::single), progress),
         Precision::F64 => report(py, analysis, &asked, &asked.materials(CoreMaterial::double), progress),
     }
 }
@@ -50,7 +50,7 @@ fn report<'py, T: Precise>(
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<AnalysisItems<'py>> {
     let is_own = |name: &String| analysis.options.iter().any(|option| option.name == name);
-    let (own, scenes) = asked.question()?.into_iter().partition(|(name, _)| is_own(name));
+    let (own, scenes) = question(&asked.question)?.into_iter().partition(|(name, _)| is_own(name));
     let (own, scenes) = (Value::Object(own), options(scenes)?);
     let input = AnalysisInput {
         ground_truth: &materials[0],
@@ -65,7 +65,7 @@ fn report<'py, T: Precise>(
     // A report is no value of several threads.
     let (views, images) = work::run(py, progress, |progress| {
         let report = analysis.run(&input, own, progress)?;
-        let views = if analysis.pictures { Views::without_rows(&*report) } else { Views::new(&*report) };
+        let views = Views::new(&*report, !analysis.pictures);
         Ok::<_, EvaluateError>((views, report.pictures().map(|(images, _)| images.to_vec())))
     })?;
     let map = |Image { width, height, pixels }: Image<f32>| {

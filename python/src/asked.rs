@@ -48,7 +48,7 @@ pub struct Asked<'py> {
     pub convention: String,
     pub precision: String,
     /// [`LossOptions`], and the own ones of an analysis, as JSON.
-    question: String,
+    pub question: String,
 }
 
 impl Asked<'_> {
@@ -60,22 +60,9 @@ impl Asked<'_> {
         convention::of_loss(&self.convention).map_err(exception)
     }
 
-    /// The question.
-    ///
-    /// # Errors
-    /// As [`question`].
-    pub fn question(&self) -> PyResult<Map<String, Value>> {
-        question(&self.question)
-    }
-
     /// The materials as the report calls them: each as `of` takes it from Python.
     pub fn materials<T: Real>(&self, of: impl Fn(&CoreMaterial) -> Material<T>) -> Vec<Material<T>> {
         let all = self.materials.iter().zip(&self.names);
         all.map(|(material, name)| of(material.get()).renamed(name)).collect()
-    }
-
-    /// [`Asked::materials`] in f32.
-    pub fn singles(&self) -> Vec<Material<f32>> {
-        self.materials(CoreMaterial::single)
     }
 }

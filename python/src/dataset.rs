@@ -86,5 +86,5 @@ pub fn rank_dataset(
     for warning in notes.into_iter().chain(unkept).chain(report.doubts()) {
         py.import("warnings")?.call_method1("warn", (warning,))?;
     }
-    Views::new(&report)
+    Views::new(&report, true)
 }

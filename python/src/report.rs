@@ -20,22 +20,15 @@ pub struct Views {
 }
 
 impl Views {
-    /// The views of `report`.
+    /// The views of `report`, without its rows where they are arrays.
     ///
     /// # Errors
-    /// As [`Report::json`].
-    pub fn new(report: &(impl Report + ?Sized)) -> PyResult<Self> {
-        Ok(Self { csv: report.csv().map_err(exception)?, ..Self::without_rows(report)? })
-    }
-
-    /// The views of a `report` whose rows are arrays.
-    ///
-    /// # Errors
-    /// As [`Report::json`].
-    pub fn without_rows(report: &(impl Report + ?Sized)) -> PyResult<Self> {
+    /// As [`Report::csv`].
+    pub fn new(report: &(impl Report + ?Sized), has_rows: bool) -> PyResult<Self> {
+        let csv = if has_rows { report.csv().map_err(exception)? } else { String::new() };
         let (text, html) = (report.text(), format!("<div>{}</div>", report_html(report)));
         let warnings = report.missed();
-        Ok(Self { json: report.json().map_err(exception)?, csv: String::new(), html, text, warnings })
+        Ok(Self { json: report.json().map_err(exception)?, csv, html, text, warnings })
     }
 }
 

@@ -170,8 +170,13 @@ pub fn best_by_metric(report: &DatasetReport) -> Vec<(MetricRow, Vec<bool>)> {
         let best = compared.clone().flatten().min_by(|a, b| mean(a).total_cmp(&mean(b)));
         compared.map(|errors| errors.zip(best).is_some_and(|(errors, best)| ties(errors, best))).collect()
     };
-    let has_any = |row: &MetricRow| methods.iter().any(|method| row.value(method).is_some());
-    rows(report).into_iter().filter(has_any).map(|row| (row.clone(), best_of(&row))).collect()
+    known_rows(report).map(|row| (row.clone(), best_of(&row))).collect()
+}
+
+/// The rows that any method has.
+fn known_rows(report: &DatasetReport) -> impl Iterator<Item = MetricRow> {
+    let has_any = |row: &MetricRow| report.methods.iter().any(|method| row.value(method).is_some());
+    rows(report).into_iter().filter(has_any)
 }
 
 /// Whether the materials of both cannot separate a method from the best one.
@@ -247,8 +252,7 @@ pub(super) fn metrics_table(report: &DatasetReport) -> Option<Table> {
         });
         [row.title().into()].into_iter().chain(cells).collect()
     };
-    let has_any = |row: &MetricRow| report.methods.iter().any(|method| row.value(method).is_some());
-    let rows: Vec<_> = rows(report).into_iter().filter(has_any).map(row).collect();
+    let rows: Vec<_> = known_rows(report).map(row).collect();
     let titles = ["metric, mean over materials".to_owned()].into_iter().chain(titles);
     (!rows.is_empty()).then(|| Table::new(titles, rows))
 }
