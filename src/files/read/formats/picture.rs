@@ -62,7 +62,13 @@ impl WholePicture {
         }
         let found = match layers.pop() {
             Some(only) if layers.is_empty() && !is_named(&only) => {
-                packed::material(file.path(), &only.raster, only.meaning.as_deref(), options)
+                match packed::material(file.path(), &only.raster, only.meaning.as_deref(), options) {
+                    // An array with a name is more likely a map of another name than a picture of another shape.
+                    Err(Error::NotPacked { grid: None, .. }) if !only.name.is_empty() => {
+                        of_layers(file.path(), vec![only], options)
+                    }
+                    found => found,
+                }
             }
             last => of_layers(file.path(), layers.into_iter().chain(last).collect(), options),
         };
