@@ -53,6 +53,7 @@ fn an_order_that_depends_on_epsilon_is_said_to_in_every_format_and_on_the_page()
     let row = rows.iter().find(|row| row["question"] == "epsilon 0.1").unwrap();
     assert_eq!((row["tau"].parse(), row["order"].as_str()), (Ok(-1.0), "dark < bright"));
     succeed(folder.path(), &format!("{command} --format html -o page.html"));
+    succeed(folder.path(), "verify page.html");
     let page = text_of(folder.path(), "page.html");
     let section = page.split("id=\"does\"").nth(1).unwrap().split("</section>").next().unwrap();
     assert_has(section, &[sentence, " by default, -0", "under epsilon 0.1", "<td>-1.00</td>"]);

@@ -52,13 +52,16 @@ pub fn written(mut args: RankArgs, given: &Specified, format: RankFormat) -> Res
     args.output = OutputArgs::printed(RankFormat::Json);
     // The words are those of a document, which names no place that is written; and what is known already is no check.
     args.of_data_set.results = None;
+    let robust = std::mem::take(&mut args.robust);
     let (job, progress) = (new(args, given)?, Progress::default());
     let cases = part(job.shard, job.cases.clone());
     let (report, _) = job.report(&cases, true, &progress)?;
     Ok(match format {
         RankFormat::Html => {
+            let robust =
+                robust.then(|| asked(&cases, &report.settings, &report.reading, &progress)).transpose()?;
             let views = material_views(&report, &cases, None, Path::new(""), &progress)?;
-            ranking(&report, &views, None)
+            ranking(&report, &views, robust.as_ref())
         }
         format => OutputArgs::printed(format).text(&report, DatasetReport::latex)?,
     })
