@@ -262,7 +262,7 @@ fn shaped(text: &str, on: bool) -> egui::Button<'static> {
 
 /// Buttons without gaps, of which usually one is on, in one line.
 fn segments(ui: &mut egui::Ui, name: &str, contents: impl FnOnce(&mut egui::Ui)) {
-    let id = ui.id().with(name);
+    let id = ui.scope_id().with(name);
     let width = ui.data(|data| data.get_temp(id)).unwrap_or(0.0);
     let line = egui::Layout::left_to_right(egui::Align::Center);
     // Where it does not fit behind what is before it, it begins the next line.
