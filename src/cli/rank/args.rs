@@ -120,6 +120,15 @@ fn word(text: &str) -> Result<String, CoreError> {
     selection.map(|_| text.to_owned())
 }
 
+impl RankArgs {
+    /// The word of metrics that stands behind `--metrics` without a sign of equality, and so in the place of the ground truths.
+    pub fn word_of_metrics(&self) -> Option<&str> {
+        let first = self.comparison.materials.paths().next()?;
+        let is_open = self.of_data_set.metrics.as_ref().is_some_and(|words| *words == [""]);
+        first.to_str().filter(|text| is_open && word(text).is_ok() && !first.exists())
+    }
+}
+
 /// A registration, after the name of a method that it is for.
 fn registered(text: &str) -> Result<(Option<String>, Registration), CoreError> {
     match text.rsplit_once(':') {
