@@ -84,9 +84,8 @@ const ABOUT: &str = "The part of the loss that each change removes, in scenes ot
 
 /// The floor, and what the diagnosis took.
 fn summary(floor: Option<&Estimate>, diagnosed: &Answered<Diagnosis>) -> String {
-    let below = |floor: &Estimate| format!("Losses below {} are not resolvable; ", digits(floor.mean));
     let [near, distant] = SCENES;
-    let floor = floor.map(below).unwrap_or_default();
+    let floor = floor.map(|floor| format!("Floor {}; ", digits(floor.mean))).unwrap_or_default();
     format!("{floor}{near} + {distant} scenes, {}", seconds(diagnosed.elapsed))
 }
 
