@@ -92,7 +92,7 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
         hover(&mut window, at);
         let [x, y] = texel_read(&window).unwrap();
         let roughness = |slot: usize| materials[slot].texel(y * 256 + x).roughness;
-        for (start, index) in [("gt ", 0), ("1 ", 1), ("2 ", 2)] {
+        for (start, index) in [("GT ", 0), ("1 ", 1), ("2 ", 2)] {
             let expected = format!("{start}{:8.4}", roughness(index));
             assert_eq!(column(&window, start), expected, "under the pointer is slot {slot}");
         }

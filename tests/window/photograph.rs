@@ -114,7 +114,7 @@ fn panes_readout_pictures_and_sessions_have_the_photograph() {
     edit(&mut window, |model| display::zoom(model, 4.0, [0.0, 0.0]));
     wait_for_it(&mut window);
     for (slot, title) in [GROUND_TRUTH, PREDICTIONS[0], PREDICTIONS[1]].into_iter().enumerate() {
-        let start = if slot == 0 { "gt ".to_owned() } else { format!("{slot} ") };
+        let start = if slot == 0 { "GT ".to_owned() } else { format!("{slot} ") };
         assert_texels(&mut window, title, &start, &core[slot].differences(Difference::Log));
         // The photograph stands at the exposure of the chosen prediction.
         let at = pane(&window, title).center();

@@ -43,7 +43,7 @@ impl LoadedMaterial {
 
     /// Its number in titles and tables.
     pub fn number(&self) -> String {
-        if self.slot == 0 { "gt".to_owned() } else { self.slot.to_string() }
+        if self.slot == 0 { "GT".to_owned() } else { self.slot.to_string() }
     }
 
     /// What identifies its maps: every reading of every version of its files has another one.
