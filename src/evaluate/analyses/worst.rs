@@ -133,7 +133,7 @@ impl Analysis for WorstReport {
     type Options = WorstOptions;
     const OPTIONS: &'static [AnalysisOption] = &[AnalysisOption {
         name: "distance_tail",
-        about: "Leaves out this share of the nearest distances, and as much of the farthest",
+        about: "Leaves out this share of the nearest distances, and the same share of the farthest",
         value: OptionValue::Share(why::TAIL),
     }];
 
