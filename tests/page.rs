@@ -17,7 +17,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_files::read::Read;
 use svbrdf_files::session::window::SessionDisplay;
 use svbrdf_files::source::MaterialSource;
-use svbrdf_page::{Report, View};
+use svbrdf_page::{PageReport, View};
 
 #[cfg(target_os = "linux")]
 #[test]
@@ -58,13 +58,13 @@ fn figure(materials: &[Material<f32>], convention: Convention) -> String {
     html(&report(&materials.iter().collect::<Vec<_>>(), convention))
 }
 
-fn html(report: &Report<'_>) -> String {
+fn html(report: &PageReport<'_>) -> String {
     report.page(&Progress::default()).unwrap().html
 }
 
 /// The report of a figure alone.
-fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report<'a> {
-    Report {
+fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> PageReport<'a> {
+    PageReport {
         materials,
         convention,
         view: View {
@@ -83,7 +83,7 @@ fn report<'a>(materials: &'a [&Material<f32>], convention: Convention) -> Report
 fn maps_are_halved_until_the_file_fits() {
     let materials = [1, 2].map(|seed| noise(seed).resized([192, 192]).unwrap());
     let materials: Vec<&Material<f32>> = materials.iter().collect();
-    let page = Report { max_bytes: 900_000, ..report(&materials, Convention::default()) };
+    let page = PageReport { max_bytes: 900_000, ..report(&materials, Convention::default()) };
     let page = page.page(&Progress::default()).unwrap();
     assert!(page.html.len() <= 900_000, "{}", page.html.len());
     assert_eq!(page.reduced_to, Some([96, 96]));

@@ -5,7 +5,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_evaluate::Error;
-use svbrdf_evaluate::study::{self, Family, Point, Study};
+use svbrdf_evaluate::study::{self, Family, Study, StudyPoint};
 use svbrdf_files::samples;
 
 use crate::support::tolerance::{STUDY_ERROR, STUDY_REFERENCE};
@@ -15,7 +15,7 @@ fn run([ground_truth, prediction]: &[Material<f32>; 2], progress: &Progress) -> 
 }
 
 /// The loss over the scenes of a point for a seed, by the plain f64 kernel.
-fn plain_loss([ground_truth, prediction]: &[Material<f32>; 2], point: &Point, seed: u64) -> f64 {
+fn plain_loss([ground_truth, prediction]: &[Material<f32>; 2], point: &StudyPoint, seed: u64) -> f64 {
     let [ground_truth, prediction]: [Material<f64>; 2] = [ground_truth.cast(), prediction.cast()];
     let comparison = Comparison::new(&ground_truth, &[&prediction], PRINTED).unwrap().on(&Plain);
     let request = Request::Scenes(Sampling { seed, ..point.sampling });
@@ -32,7 +32,7 @@ fn errors_are_those_of_plain_losses_over_the_same_seeds_against_that_of_many_sce
         *study.points.iter().find(|p| p.family == family && p.scenes() == scenes).unwrap()
     };
     // The error as its definition has it, of the seeds from `first` on.
-    let reckoned = |point: &Point, first: u64| {
+    let reckoned = |point: &StudyPoint, first: u64| {
         let of_seed = |seed| plain_loss(&materials, point, first + seed) / study.reference.loss - 1.0;
         let squares: f64 = (0..point.seeds as u64).map(|seed| of_seed(seed).powi(2)).sum();
         (squares / point.seeds as f64).sqrt()

@@ -15,13 +15,13 @@ use crate::arrays;
 use crate::asked::{Asked, options, question};
 use crate::errors::{Error, exception};
 use crate::material::CoreMaterial;
-use crate::report::Views;
+use crate::report::ReportViews;
 use crate::work;
 
 /// A report.
 #[derive(Debug, IntoPyObject)]
 pub struct AnalysisItems<'py> {
-    views: Views,
+    views: ReportViews,
     /// Its pictures, where it has any.
     maps: Option<Vec<Bound<'py, PyAny>>>,
 }
@@ -65,7 +65,7 @@ fn report<'py, T: Precise>(
     // A report is no value of several threads.
     let (views, images) = work::run(py, progress, |progress| {
         let report = analysis.run(&input, own, progress)?;
-        let views = Views::new(&*report, !analysis.pictures);
+        let views = ReportViews::new(&*report, !analysis.pictures);
         Ok::<_, EvaluateError>((views, report.pictures().map(|(images, _)| images.to_vec())))
     })?;
     let map = |Image { width, height, pixels }: Image<f32>| {

@@ -14,7 +14,7 @@ use svbrdf_files::convention::ChosenConvention;
 use crate::asked::{options, question};
 use crate::errors::exception;
 use crate::material::read_options;
-use crate::report::Views;
+use crate::report::ReportViews;
 use crate::work;
 
 /// What is asked for.
@@ -49,7 +49,7 @@ pub fn rank_dataset(
     py: Python<'_>,
     asked: DatasetAsked,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<Views> {
+) -> PyResult<ReportViews> {
     let protocol = asked.protocol.as_deref().map(Protocol::read).transpose().map_err(exception)?;
     let convention = ChosenConvention::read(&asked.convention).map_err(exception)?;
     let pick: Pick = asked.pick.parse().map_err(exception)?;
@@ -86,5 +86,5 @@ pub fn rank_dataset(
     for warning in notes.into_iter().chain(unkept).chain(report.doubts()) {
         py.import("warnings")?.call_method1("warn", (warning,))?;
     }
-    Views::new(&report, true)
+    ReportViews::new(&report, true)
 }

@@ -63,7 +63,7 @@ macro_rules! of_either {
 /// The arrays of a material.
 #[derive(Debug, FromPyObject)]
 #[pyo3(from_item_all)]
-pub struct Arrays<'py> {
+pub struct MaterialArrays<'py> {
     name: String,
     size: [usize; 2],
     normal: Bound<'py, PyAny>,
@@ -72,7 +72,7 @@ pub struct Arrays<'py> {
     roughness: Bound<'py, PyAny>,
 }
 
-impl Arrays<'_> {
+impl MaterialArrays<'_> {
     /// The values go from the memory of numpy into the planes of the material without a copy between. The interpreter lock
     /// is held so long, and released for checking and normalizing them.
     fn material<T: Element + Real>(&self, py: Python<'_>) -> PyResult<Material<T>> {
@@ -90,7 +90,7 @@ impl Arrays<'_> {
 #[pymethods]
 impl CoreMaterial {
     #[new]
-    fn new(py: Python<'_>, arrays: Arrays<'_>, precision: &str) -> PyResult<Self> {
+    fn new(py: Python<'_>, arrays: MaterialArrays<'_>, precision: &str) -> PyResult<Self> {
         let values = match Precision::from_str(precision).map_err(exception)? {
             Precision::F32 => arrays.material::<f32>(py)?.into(),
             Precision::F64 => arrays.material::<f64>(py)?.into(),

@@ -8,7 +8,7 @@ use crate::errors::exception;
 
 /// A report: its JSON, its text, and its CSV.
 #[derive(Debug, IntoPyObject)]
-pub struct Views {
+pub struct ReportViews {
     json: String,
     text: String,
     /// Empty where rows are arrays.
@@ -19,7 +19,7 @@ pub struct Views {
     warnings: Vec<String>,
 }
 
-impl Views {
+impl ReportViews {
     /// The views of `report`, without its rows where they are arrays.
     ///
     /// # Errors

@@ -9,7 +9,7 @@ use svbrdf_evaluate::report::Report as _;
 use svbrdf_files::disk::atomic::write_text;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::session::window::SessionDisplay;
-use svbrdf_page::{Findings, MOST_BYTES, Report, View, check_destination, exposure};
+use svbrdf_page::{Findings, MOST_BYTES, PageReport, View, check_destination, exposure};
 
 use super::args::scenes::{Accuracy, RenderingArgs, SceneArgs};
 use super::args::{ComparisonArgs, Specified};
@@ -99,7 +99,7 @@ impl Job for ReportJob {
         let findings = request.as_ref().map(findings).transpose()?;
         let missed = findings.as_ref().map_or(Vec::new(), |findings| findings.loss.missed());
         let all: Vec<&Material<f32>> = std::iter::once(ground_truth).chain(predictions).collect();
-        let report = Report {
+        let report = PageReport {
             materials: &all,
             convention,
             view: View { scene, exposure_ev, display },

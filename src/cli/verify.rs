@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use svbrdf_evaluate::dataset::{self, Difference};
+use svbrdf_evaluate::dataset::{self, TableDifference};
 use svbrdf_files::disk::inputs;
 use svbrdf_files::disk::open::NamedFile;
 
@@ -53,7 +53,7 @@ pub fn run(args: &VerifyArgs, parse: impl FnOnce(Vec<String>) -> Parsed) -> Resu
         let but = if found.is_empty() { "" } else { ", but for the last digits of another processor" };
         return Ok(put_text(&format!("{path}: the same{but}\n"))?);
     }
-    let lines: String = found.iter().take(MOST).map(|one: &Difference| format!("{one}\n")).collect();
+    let lines: String = found.iter().take(MOST).map(|one: &TableDifference| format!("{one}\n")).collect();
     put_text(&lines)?;
     let places = found.len();
     Err(CommandError::Failed(format!(

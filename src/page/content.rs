@@ -58,7 +58,7 @@ impl Findings {
 
 /// The content of a report.
 #[derive(Clone, Debug)]
-pub struct Report<'a> {
+pub struct PageReport<'a> {
     /// The ground truth, then the predictions, of one size.
     pub materials: &'a [&'a Material<f32>],
     pub convention: Convention,

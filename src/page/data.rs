@@ -13,7 +13,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::Error;
 use svbrdf_shaders::PAGE_GLSL;
 
-use super::content::{Report, View};
+use super::content::{PageReport, View};
 use super::encode::EncodedMaterial;
 
 /// Colours of a legend.
@@ -68,7 +68,7 @@ struct Start<'a> {
 /// [`Error::Internal`], which these values never give.
 pub(super) fn json(
     materials: &[EncodedMaterial],
-    report: &Report<'_>,
+    report: &PageReport<'_>,
     scenes: &[LinkedScene],
 ) -> Result<String, Error> {
     let drawn = report.convention.drawn();
@@ -123,7 +123,7 @@ fn colours(map: fn(f32) -> [f32; 3], low: f32) -> Vec<String> {
     (0..COLOURS).map(colour).collect()
 }
 
-fn start<'a>(report: &'a Report<'_>) -> Start<'a> {
+fn start<'a>(report: &'a PageReport<'_>) -> Start<'a> {
     let View { scene, exposure_ev, ref display } = report.view;
     Start {
         scene,

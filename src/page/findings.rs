@@ -7,13 +7,13 @@ use svbrdf_core::model::scene::Kind;
 use svbrdf_evaluate::report::{Reader, Report as EvaluateReport, Table};
 use svbrdf_files::disk::atomic::SOFTWARE;
 
-use super::content::{Findings, Report};
+use super::content::{Findings, PageReport};
 use super::data::LinkedScene;
 use super::markup::{MOST_NAMES, escaped, number, place, section, table};
 use super::pictures::exposure;
 
 /// The sections below the figure, and the scenes that they link.
-pub(super) fn sections(report: &Report<'_>) -> (String, Vec<LinkedScene>) {
+pub(super) fn sections(report: &PageReport<'_>) -> (String, Vec<LinkedScene>) {
     let mut html = String::new();
     let mut linked = Vec::new();
     if let Some(findings) = &report.findings {
@@ -83,7 +83,7 @@ fn verdicts(outcome: &Outcome, best: usize) -> String {
     text
 }
 
-fn worst_scenes(report: &Report<'_>, findings: &Findings) -> (String, Vec<LinkedScene>) {
+fn worst_scenes(report: &PageReport<'_>, findings: &Findings) -> (String, Vec<LinkedScene>) {
     let mut items = String::new();
     let mut linked = Vec::new();
     for ranked in &findings.worst {
@@ -109,7 +109,7 @@ fn worst_scenes(report: &Report<'_>, findings: &Findings) -> (String, Vec<Linked
     (section("Worst scenes", &html), linked)
 }
 
-fn readings(report: &Report<'_>) -> String {
+fn readings(report: &PageReport<'_>) -> String {
     if report.readings.iter().all(Vec::is_empty) {
         return String::new();
     }
@@ -122,7 +122,7 @@ fn readings(report: &Report<'_>) -> String {
     section("Assumptions in reading the files", &html)
 }
 
-fn repetition(report: &Report<'_>) -> String {
+fn repetition(report: &PageReport<'_>) -> String {
     let Some(command) = &report.command else { return String::new() };
     let command = escaped(command);
     section(

@@ -21,7 +21,7 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent};
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
-pub use content::{Findings, Report, View};
+pub use content::{Findings, PageReport, View};
 use encode::EncodedMaterial;
 pub use findings::report_html;
 use markup::{Document, MOST_NAMES, escaped, filled};
@@ -75,7 +75,7 @@ pub fn check_destination(path: &Path) -> Result<(), Error> {
     check_place(path)
 }
 
-impl Report<'_> {
+impl PageReport<'_> {
     /// The report as one HTML file.
     ///
     /// # Errors

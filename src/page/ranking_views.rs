@@ -15,7 +15,7 @@ use svbrdf_core::parallel;
 use svbrdf_core::progress::Progress;
 use svbrdf_files::Error;
 
-use super::content::{Report, View};
+use super::content::{PageReport, View};
 use super::pictures::{self, exposure};
 use super::ranking::MaterialView;
 use svbrdf_evaluate::dataset::{Case, DatasetReport, MaterialResult, counted_loss, counted_sample};
@@ -178,7 +178,7 @@ fn write_figure(
     exposure_ev: f32,
     progress: &Progress,
 ) -> Result<String, Error> {
-    let report = Report {
+    let report = PageReport {
         materials,
         convention: *convention,
         view: View { scene: SCENE, exposure_ev, display: SessionDisplay::default() },

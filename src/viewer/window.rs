@@ -11,7 +11,7 @@ use svbrdf_gpu::Gpu;
 
 use crate::error::Error;
 use crate::frame::restart;
-use crate::frame::storage::{self, NAME, Storage};
+use crate::frame::storage::{self, NAME, SettingsStorage};
 use crate::frame::{App, CrashGuard};
 use crate::jobs::work::{panics, priority};
 use crate::model::session::ViewerOptions;
@@ -43,7 +43,7 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
 }
 
 fn open(options: ViewerOptions) -> Result<(), Error> {
-    let (storage, guard) = (Storage::read(storage::folder()), CrashGuard::default());
+    let (storage, guard) = (SettingsStorage::read(storage::folder()), CrashGuard::default());
     let (native, of_app) = (native_options(storage.window()), guard.clone());
     let create = move |cc: &eframe::CreationContext<'_>| {
         stop_at_signals(&of_app, &cc.egui_ctx);

@@ -7,7 +7,7 @@ use svbrdf_core::model::convention::PRINTED;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::line;
 use svbrdf_needs::needs;
-use svbrdf_page::{Findings, Report};
+use svbrdf_page::{Findings, PageReport};
 
 use super::browser::Page;
 use super::noise;
@@ -24,7 +24,7 @@ pub fn report_of(names: [&str; 2]) -> String {
     let request = Request::Accuracy { target: 0.05, seed: 0 };
     let findings = Findings::new(&truth, &[&prediction], PRINTED, &request, &progress).unwrap();
     let materials = [&truth, &prediction];
-    let report = Report {
+    let report = PageReport {
         findings: Some(findings),
         readings: names.map(|name| vec![name.to_owned()]).to_vec(),
         command: Some(names.concat()),

@@ -8,7 +8,7 @@ use svbrdf_core::model::scene::Endpoint;
 use svbrdf_evaluate::dataset::{DatasetReading, Evaluation, KnownLoss, Source};
 use svbrdf_viewer::OpenDataset;
 use svbrdf_viewer::dataset::losses as known;
-use svbrdf_viewer::model::dataset::list::{Filter, ListView, Order};
+use svbrdf_viewer::model::dataset::list::{ListFilter, ListOrder, ListView};
 use svbrdf_viewer::widgets::numbers::significant;
 
 use super::observed::Observed;
@@ -183,7 +183,7 @@ fn a_method_has_one_number_and_place_and_a_pair_one_loss() {
 fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = on_dataset(&dataset(folders(folder.path()), Some(folder.path().join("results"))));
-    let list = ListView { order: Order::Loss(0), ..ListView::default() };
+    let list = ListView { order: ListOrder::Loss(0), ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = list);
     let title = |window: &Window<'_>| svbrdf_viewer::dataset::title(window.shown());
     let largest = (0..6)
@@ -196,10 +196,10 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     window.key_press(egui::Key::K);
     window.run_steps(2);
     edit(&mut window, |model| model.dataset.change_mark(|mark| mark.note = FORMULA.to_owned()));
-    let marked = ListView { filter: Filter::Marked, ..ListView::default() };
+    let marked = ListView { filter: ListFilter::Marked, ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = marked);
     assert_eq!(title(&window).unwrap(), format!("{name} (1 of 1)"));
-    let failed = ListView { filter: Filter::Failed, ..ListView::default() };
+    let failed = ListView { filter: ListFilter::Failed, ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = failed);
     assert!(has(&window, "3 of 6 materials"));
 
@@ -215,7 +215,7 @@ fn the_list_is_sorted_filtered_and_marked_and_a_session_keeps_it() {
     assert!(list.contains(&format!("\n{name},true,'{FORMULA},{known},")), "{list}");
     assert_eq!(list.lines().count(), 7, "{list}");
 
-    let list = ListView { order: Order::Disagreement, filter: Filter::Marked, ..ListView::default() };
+    let list = ListView { order: ListOrder::Disagreement, filter: ListFilter::Marked, ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = list.clone());
     let path = folder.path().join("all.svbrdf-session.json");
     edit(&mut window, |model| {

@@ -72,7 +72,7 @@ use svbrdf_files::session::window::Framing;
 use svbrdf_needs::needs;
 use svbrdf_viewer::ViewerOptions;
 use svbrdf_viewer::frame::actions;
-use svbrdf_viewer::frame::storage::Storage;
+use svbrdf_viewer::frame::storage::SettingsStorage;
 use svbrdf_viewer::frame::{App, CrashGuard};
 use svbrdf_viewer::model::dialogs::{SaveKind, SaveRequest};
 use svbrdf_viewer::model::effect::Effect;
@@ -103,7 +103,7 @@ fn guarded_window<'a>(options: ViewerOptions, guard: CrashGuard, scale: f32) -> 
         .with_max_steps(16)
         .with_step_dt(1.0 / 30.0)
         .wgpu()
-        .build_eframe(|cc| App::new(cc, options, Storage::default()).guarded(guard));
+        .build_eframe(|cc| App::new(cc, options, SettingsStorage::default()).guarded(guard));
     window.set_render_cursor(false);
     // Otherwise a pane tells what a drag does.
     window.state_mut().parts.model.settings.has_dragged = true;

@@ -2,7 +2,7 @@
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf_viewer::dataset::cells::Cell;
+use svbrdf_viewer::dataset::cells::SheetCell;
 use svbrdf_viewer::dataset::{losses, pictures, summary};
 
 use super::materials::{SIDE, sample};
@@ -113,7 +113,7 @@ fn the_picture_of_a_data_set() {
     window.run_steps(4);
     edit(&mut window, |model| model.dataset.set_cell(142.0));
     wait(&mut window, "the summary", |app| summary::drawn(app.shown()).is_some());
-    let cell = Cell { case: 4, column: 2 };
+    let cell = SheetCell { case: 4, column: 2 };
     wait(&mut window, "the cells", |app| {
         pictures::latest(app.shown()).is_some_and(|sheet| sheet.part(cell).is_some())
     });

@@ -13,10 +13,10 @@ const LADDER: [f64; 16] =
 pub const SPOTS: [f64; 8] = [0.0, 1.0, 2.0, 4.0, 5.0, 8.0, 10.0, 16.0];
 
 /// Sets one number of a renderer.
-pub type Set = fn(&mut RendererTerms, f64);
+pub type SetNumber = fn(&mut RendererTerms, f64);
 
 /// Every number that is a floor or is added to something, and where it is 0 in [`RendererTerms::BASE`].
-const FLOORS: [Set; 21] = [
+const FLOORS: [SetNumber; 21] = [
     |t, x| t.material.r_min = x,
     |t, x| t.specular.d_den_min = x,
     |t, x| t.specular.d_add = x,
@@ -44,7 +44,7 @@ const FLOORS: [Set; 21] = [
 ];
 
 /// Largest values that are tried.
-const CAPS: [(Set, &[f64]); 3] = [
+const CAPS: [(SetNumber, &[f64]); 3] = [
     (|t, x| t.material.r_max = x, &[1.0]),
     (|t, x| t.specular.dot_max = x, &[1.0, 0.9999, 0.999, 0.99]),
     (|t, x| t.specular.d_cap = x, &[65_464.327_389_802_3, 65504.0, 1e4, 1e3, 100.0]),
@@ -97,7 +97,7 @@ pub fn of_words(terms: &RendererTerms) -> Vec<RendererTerms> {
 }
 
 /// The numbers that are tried, each with its setter.
-pub fn of_numbers() -> impl Iterator<Item = (Set, f64)> {
+pub fn of_numbers() -> impl Iterator<Item = (SetNumber, f64)> {
     let floors = FLOORS.iter().flat_map(|set| LADDER.iter().map(|value| (*set, *value)));
     floors.chain(CAPS.iter().flat_map(|(set, values)| values.iter().map(|value| (*set, *value))))
 }

@@ -5,7 +5,7 @@ use svbrdf_core::model::grammar::{Point, RendererTerms};
 use svbrdf_core::parallel;
 use svbrdf_core::statistics::sort_by_number;
 
-use super::alternatives::{self, SPOTS, Set};
+use super::alternatives::{self, SPOTS, SetNumber};
 use super::fit::{Fit, Problem, is_in_range, median, vectors};
 
 /// Largest absolute logarithm that counts in full.
@@ -172,10 +172,10 @@ pub fn refined(problem: &Problem, start: &RendererTerms) -> Fit {
 }
 
 /// The renderer that differs from `best` in one number and has the least score.
-fn best_number(problem: &Problem, best: &Fit) -> Option<(Fit, Set, f64)> {
+fn best_number(problem: &Problem, best: &Fit) -> Option<(Fit, SetNumber, f64)> {
     let numbers: Vec<_> = alternatives::of_numbers().collect();
     let with = |index: usize| {
-        let (set, value): (Set, f64) = numbers[index];
+        let (set, value): (SetNumber, f64) = numbers[index];
         let mut terms = best.terms;
         set(&mut terms, value);
         terms
@@ -196,7 +196,7 @@ fn best_of(
 }
 
 /// The best value of a number about `value`: golden sections of its logarithm, then the fewest digits that do as well.
-fn refined_number(problem: &Problem, fit: Fit, set: Set, value: f64) -> Fit {
+fn refined_number(problem: &Problem, fit: Fit, set: SetNumber, value: f64) -> Fit {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     if fit.is_perfect() {
         return fit;

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Where a table differs from the one that is computed now.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
+pub struct TableDifference {
     /// From 1.
     pub line: usize,
     pub written: String,
@@ -16,7 +16,7 @@ pub struct Difference {
 }
 
 /// As a sentence.
-impl fmt::Display for Difference {
+impl fmt::Display for TableDifference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { line, written, computed, .. } = self;
         match self.is_of_files {
@@ -27,7 +27,7 @@ impl fmt::Display for Difference {
 }
 
 /// The differences of the text of a table from what is computed now, but for the version of the program, line by line: those of files first.
-pub fn differences(written: &str, computed: &str) -> Vec<Difference> {
+pub fn differences(written: &str, computed: &str) -> Vec<TableDifference> {
     let [written, computed] = [written, computed].map(|text| text.lines().collect::<Vec<_>>());
     let lines = written.len().max(computed.len());
     let of = |index: usize| {
@@ -35,7 +35,7 @@ pub fn differences(written: &str, computed: &str) -> Vec<Difference> {
         let [a, b] = [without_pictures(a), without_pictures(b)];
         if a == b { Vec::new() } else { in_line(index + 1, &a, &b) }
     };
-    let mut all: Vec<Difference> = (0..lines).flat_map(of).collect();
+    let mut all: Vec<TableDifference> = (0..lines).flat_map(of).collect();
     all.sort_by_key(|one| (!one.is_of_files, one.line));
     all
 }
@@ -48,14 +48,14 @@ fn without_pictures(line: &str) -> String {
 }
 
 /// What differs in a line: its numbers and words one by one, where both have as many.
-fn in_line(line: usize, written: &str, computed: &str) -> Vec<Difference> {
+fn in_line(line: usize, written: &str, computed: &str) -> Vec<TableDifference> {
     let [a, b] = [written, computed].map(words);
     let is_number = |word: &str| word.contains('.') && word.chars().all(|c| c.is_ascii_digit() || c == '.');
     let is_version = |index: usize| {
         let follows = |words: &[&str]| index > 0 && words[index - 1] == "svbrdf" && is_number(words[index]);
         follows(&a) && follows(&b)
     };
-    let whole = |written: &str, computed: &str, share| Difference {
+    let whole = |written: &str, computed: &str, share| TableDifference {
         line,
         written: written.trim().to_owned(),
         computed: computed.trim().to_owned(),

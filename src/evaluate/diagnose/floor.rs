@@ -1,7 +1,7 @@
 //! The floor: the loss that a ground truth cannot resolve, since its maps have steps or its captures differ.
 
 use super::dither::dithered;
-use super::samples::Samples;
+use super::samples::LossSamples;
 use crate::error::Error;
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::loss::{Comparison, Compute as _, Estimate, Outcome, Request, Sampling, Texels};
@@ -33,7 +33,7 @@ pub fn floor(
 ) -> Result<Estimate, Error> {
     let sampling = sampling(ground_truth, seed);
     let scenes = sampling.scenes(convention)?;
-    let samples = Samples::of(&sampling, &scenes, ground_truth.grid());
+    let samples = LossSamples::of(&sampling, &scenes, ground_truth.grid());
     let held = samples.as_ref().map_or_else(|| ground_truth.clone(), |samples| samples.of_map(ground_truth));
     let dithered = |copy: usize| dithered(&held, storage, seed.wrapping_add(copy as u64));
     let copies = parallel::try_map(COPIES, dithered)?;

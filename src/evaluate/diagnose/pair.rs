@@ -1,6 +1,6 @@
 //! Pairs of a ground truth and a prediction.
 
-use super::samples::Samples;
+use super::samples::LossSamples;
 use svbrdf_core::material::Material;
 use svbrdf_files::read::Storage;
 
@@ -16,13 +16,13 @@ pub(super) struct Pair<'a> {
 /// The texels of a pair that it is compared on.
 #[derive(Debug)]
 pub(super) struct SampledPair {
-    pub(super) samples: Samples,
+    pub(super) samples: LossSamples,
     pub(super) ground_truth: Material<f32>,
     pub(super) prediction: Material<f32>,
 }
 
 impl SampledPair {
-    pub(super) fn new(samples: Samples, pair: &Pair<'_>) -> Self {
+    pub(super) fn new(samples: LossSamples, pair: &Pair<'_>) -> Self {
         let [ground_truth, prediction] = [pair.ground_truth, pair.prediction].map(|map| samples.of_map(map));
         Self { samples, ground_truth, prediction }
     }

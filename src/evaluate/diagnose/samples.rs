@@ -20,7 +20,7 @@ pub(super) fn subset(
 
 /// The subsets of all scenes, one after the other, where they have fewer texels than the map: what is changed is then these alone.
 #[derive(Debug)]
-pub(super) struct Samples {
+pub(super) struct LossSamples {
     grid: Grid,
     /// Places on the grid, as row * width + column.
     pub(super) texels: Vec<usize>,
@@ -28,7 +28,7 @@ pub(super) struct Samples {
     count: usize,
 }
 
-impl Samples {
+impl LossSamples {
     /// `None` where they have no fewer texels than a map of this `grid`.
     pub(super) fn of(sampling: &Sampling, scenes: &[Scene], grid: Grid) -> Option<Self> {
         let size = [grid.width, grid.height];

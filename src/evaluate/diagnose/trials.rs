@@ -8,7 +8,7 @@ use super::exposure;
 use super::factor;
 use super::pair::{Pair, SampledPair};
 use super::radiances::{Radiances, radiances};
-use super::samples::{Samples, subset};
+use super::samples::{LossSamples, subset};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::{Comparison, Compute as _, Request, Sampling, Texels};
 use svbrdf_core::material::Material;
@@ -69,7 +69,7 @@ impl<'a> Trials<'a> {
         let sampling =
             Sampling { near, distant, seed, sampler: Sampler::Sobol, texels: Texels::Sampled(texels) };
         let scenes = sampling.scenes(convention)?;
-        let samples = Samples::of(&sampling, &scenes, pair.ground_truth.grid());
+        let samples = LossSamples::of(&sampling, &scenes, pair.ground_truth.grid());
         let samples = samples.map(|samples| SampledPair::new(samples, &pair));
         Ok(Self { pair, convention, sampling, texels, scenes, progress, samples, latest: Mutex::default() })
     }

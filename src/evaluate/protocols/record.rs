@@ -24,7 +24,7 @@ pub struct Protocol {
     pub name: String,
     /// What it computes, in a sentence.
     pub about: String,
-    pub source: Source,
+    pub source: ProtocolSource,
     #[serde(default)]
     pub ground_truths: Side,
     #[serde(default)]
@@ -50,7 +50,7 @@ pub struct Protocol {
 /// Where a protocol is from.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Source {
+pub struct ProtocolSource {
     pub paper: String,
     #[serde(default)]
     pub code: String,
@@ -160,7 +160,7 @@ impl Protocol {
 /// The name, and the source.
 impl fmt::Display for Protocol {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Source { paper, code, commit, .. } = &self.source;
+        let ProtocolSource { paper, code, commit, .. } = &self.source;
         write!(f, "{} ({paper}", self.name)?;
         if !code.is_empty() {
             write!(f, "; {code}")?;

@@ -7,7 +7,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::progress::Progress;
 use svbrdf_core::text::time;
 
-use super::{Family, Point, Reference, Study};
+use super::{Family, Reference, Study, StudyPoint};
 use crate::error::Error;
 
 /// Scenes of the reference, 24 x 2^n for the Sobol sequence. It samples 1024 texels of each: more add little.
@@ -113,7 +113,7 @@ fn measure(
                 runs.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
             times.sort_by(f64::total_cmp);
             let (seconds, error) = (times[times.len() / 2], relative_rms(&losses, study.reference.loss));
-            study.points.push(Point { family, sampling, seconds, error, seeds, pareto: false });
+            study.points.push(StudyPoint { family, sampling, seconds, error, seeds, pareto: false });
         } else if !std::mem::replace(&mut is_left_out, true) {
             let (name, least) = (family.name(), time(seconds));
             study.left_out.push(format!("{name} from {scenes} scenes on, {least} or more each"));

@@ -89,7 +89,7 @@ pub struct Reference {
 
 /// A measured setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct StudyPoint {
     pub family: Family,
     pub sampling: Sampling,
     /// Median time of one loss in seconds.
@@ -102,7 +102,7 @@ pub struct Point {
     pub pareto: bool,
 }
 
-impl Point {
+impl StudyPoint {
     /// The number of scenes of both kinds.
     pub fn scenes(&self) -> usize {
         self.sampling.near + self.sampling.distant
@@ -117,7 +117,7 @@ impl Point {
     }
 }
 
-const FIELDS: [Field<Point>; 10] = [
+const FIELDS: [Field<StudyPoint>; 10] = [
     ("scenes", "", |p| p.scenes().into()),
     ("near", "", |p| p.sampling.near.into()),
     ("distant", "", |p| p.sampling.distant.into()),
@@ -141,14 +141,14 @@ pub struct Study {
     /// Number of CPU threads.
     pub threads: usize,
     pub reference: Reference,
-    pub points: Vec<Point>,
+    pub points: Vec<StudyPoint>,
     /// The settings that were not measured, with the reason.
     pub left_out: Vec<String>,
 }
 
 impl Study {
     /// The fastest point of the front whose error is at most `error`.
-    pub fn cheapest(&self, error: f64) -> Option<&Point> {
+    pub fn cheapest(&self, error: f64) -> Option<&StudyPoint> {
         let good = self.points.iter().filter(|point| point.pareto && point.error <= error);
         good.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
@@ -219,7 +219,7 @@ mod tests {
     fn the_front_holds_the_points_that_no_faster_point_beats_and_the_cheapest_is_on_it() {
         let point = |(seconds, error)| {
             let family = Family::Sobol;
-            Point { family, sampling: family.setting(24), seconds, error, seeds: 1, pareto: false }
+            StudyPoint { family, sampling: family.setting(24), seconds, error, seeds: 1, pareto: false }
         };
         let mut study = Study {
             names: Default::default(),

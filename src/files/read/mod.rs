@@ -46,7 +46,7 @@ use crate::disk::open::{NamedFile, hexadecimal};
 use crate::disk::{inputs, memory};
 use crate::error::Error;
 
-use decode::reader::Reader;
+use decode::reader::ByteReader;
 use formats::WholePicture;
 use stored::StoredMaterial;
 
@@ -166,7 +166,7 @@ pub struct Dependencies {
 /// As [`read`].
 pub fn read_bytes<T: Real>(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Read<T>, Error> {
     let options = &options.with_preset();
-    let decoded = decode::from_reader(Reader::of_bytes(bytes), Path::new(name), Subject::Material)?;
+    let decoded = decode::from_reader(ByteReader::of_bytes(bytes), Path::new(name), Subject::Material)?;
     let stored = WholePicture::by_user(Path::new(name)).recognized(decoded, options)?;
     let read = finish(StoredMaterial { name: name.to_owned(), ..stored }, options)?;
     Ok(Read { files: Vec::new(), ..read })

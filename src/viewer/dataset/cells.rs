@@ -17,7 +17,7 @@ const SIDES: [usize; 4] = [48, 96, 192, 384];
 
 /// A material of a data set: in column 0 the ground truth, from column 1 on the prediction of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Cell {
+pub struct SheetCell {
     pub case: usize,
     pub column: usize,
 }

@@ -11,7 +11,7 @@ use crate::dataset::losses::DatasetLosses;
 use crate::dataset::rows::{Rows, chosen_method, lines, texts};
 use crate::jobs::Shown;
 use crate::jobs::answers::Answered;
-use crate::model::dataset::list::{CaseLosses, Filter, ListView, Order};
+use crate::model::dataset::list::{CaseLosses, ListFilter, ListOrder, ListView};
 use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::material::loaded::drawable;
 use crate::widgets::names::shortened;
@@ -79,7 +79,7 @@ impl MaterialsDrawer<'_> {
             let filters = filters.show_ui(ui, |ui| {
                 let has_floors = self.open.settings.diagnose;
                 for filter in
-                    Filter::ALL.into_iter().filter(|one| has_floors || *one != Filter::NotResolvable)
+                    ListFilter::ALL.into_iter().filter(|one| has_floors || *one != ListFilter::NotResolvable)
                 {
                     ui.selectable_value(&mut list.filter, filter, filter.name());
                 }
@@ -105,18 +105,18 @@ impl MaterialsDrawer<'_> {
         let methods = self.open.methods();
         let names: Vec<&str> = methods.iter().map(String::as_str).collect();
         let names = shortened(&names, 14);
-        let text = |order: Order| match order {
-            Order::Name => "by name".to_owned(),
-            Order::Loss(method) => format!("loss of {}", names.get(method).map_or("", String::as_str)),
-            Order::Disagreement => "disagreement".to_owned(),
+        let text = |order: ListOrder| match order {
+            ListOrder::Name => "by name".to_owned(),
+            ListOrder::Loss(method) => format!("loss of {}", names.get(method).map_or("", String::as_str)),
+            ListOrder::Disagreement => "disagreement".to_owned(),
         };
         let combo = egui::ComboBox::from_id_salt("order").selected_text(text(list.order)).width(112.0);
         let combo = combo.show_ui(ui, |ui| {
             let mut one = |order| ui.selectable_value(&mut list.order, order, text(order));
-            one(Order::Name);
-            (0..methods.len()).for_each(|method| drop(one(Order::Loss(method))));
+            one(ListOrder::Name);
+            (0..methods.len()).for_each(|method| drop(one(ListOrder::Loss(method))));
             if methods.len() > 1 {
-                one(Order::Disagreement).on_hover_text("The largest difference of two methods first");
+                one(ListOrder::Disagreement).on_hover_text("The largest difference of two methods first");
             }
         });
         named(&combo.response, "Order of the materials");

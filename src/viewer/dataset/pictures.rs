@@ -9,11 +9,11 @@ use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::progress::Progress;
 
-use crate::dataset::cells::{Cell, Reduced};
+use crate::dataset::cells::{Reduced, SheetCell};
 use crate::error::Error;
 use crate::jobs::Shown;
 use crate::jobs::answers::{Answered, Pace, Question, Work};
-use crate::jobs::work::picture::{Atlas, Picture};
+use crate::jobs::work::picture::{Atlas, PanelPicture};
 use crate::model::view::ViewState;
 
 /// A material in sight, and what was read of it.
@@ -43,14 +43,14 @@ impl PartialEq for DrawSheet {
 pub struct SheetPicture {
     pub atlas: Atlas,
     /// In their order.
-    cells: Vec<Cell>,
+    cells: Vec<SheetCell>,
     /// The difference that has the last colour in all cells, where they show differences.
     pub range: Option<f64>,
 }
 
 impl SheetPicture {
     /// As [`Atlas::part`], of a cell.
-    pub fn part(&self, cell: Cell) -> Option<([[f32; 2]; 2], [usize; 2])> {
+    pub fn part(&self, cell: SheetCell) -> Option<([[f32; 2]; 2], [usize; 2])> {
         self.atlas.part(self.cells.iter().position(|one| *one == cell)?)
     }
 }
@@ -88,19 +88,20 @@ impl Question for DrawSheet {
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<SheetPicture, Error> {
         let row = |row: &SheetRow| self.row(row, work.progress());
-        let rows: Vec<Vec<(Cell, Pictures)>> = self.rows.par_iter().map(row).collect::<Result<_, _>>()?;
-        let all: Vec<(Cell, Pictures)> = rows.into_iter().flatten().collect();
+        let rows: Vec<Vec<(SheetCell, Pictures)>> =
+            self.rows.par_iter().map(row).collect::<Result<_, _>>()?;
+        let all: Vec<(SheetCell, Pictures)> = rows.into_iter().flatten().collect();
         // All cells share one legend.
         let ranges = all.iter().filter_map(|(_, pictures)| pictures.content.difference?.range);
         let range =
             ranges.fold(None, |most: Option<f64>, range| Some(most.map_or(range, |most| most.max(range))));
-        let colours = |(cell, pictures): &(Cell, Pictures)| {
+        let colours = |(cell, pictures): &(SheetCell, Pictures)| {
             let difference = pictures.content.difference.map(|one| ColouredDifference { range, ..one });
             let (content, image) =
                 (PictureContent { difference, ..pictures.content }, pictures.images.first()?);
             let pixels =
-                image.pixels.iter().map(|rgb| Picture::opaque(content.colour(*rgb, self.exposure_ev)));
-            Some((*cell, Picture { size: [image.width, image.height], pixels: pixels.collect() }))
+                image.pixels.iter().map(|rgb| PanelPicture::opaque(content.colour(*rgb, self.exposure_ev)));
+            Some((*cell, PanelPicture { size: [image.width, image.height], pixels: pixels.collect() }))
         };
         let (cells, pictures): (Vec<_>, Vec<_>) = all.par_iter().filter_map(colours).unzip();
         Ok(SheetPicture { atlas: Atlas::new(&pictures), cells, range })
@@ -109,7 +110,7 @@ impl Question for DrawSheet {
 
 impl DrawSheet {
     /// The value of the ground truth of a row, and the value or the difference of each prediction, where both have one size.
-    fn row(&self, (case, row): &SheetRow, progress: &Progress) -> Result<Vec<(Cell, Pictures)>, Error> {
+    fn row(&self, (case, row): &SheetRow, progress: &Progress) -> Result<Vec<(SheetCell, Pictures)>, Error> {
         let Some(Ok(truth)) = row.first() else { return Ok(Vec::new()) };
         let value = PictureContent { difference: None, ..self.content };
         let mut all = Vec::new();
@@ -123,7 +124,7 @@ impl DrawSheet {
             };
             let (scene, ev) = (&self.scene, self.exposure_ev);
             let pictures = content.pictures(&materials, scene, &self.convention, ev, &progress.part())?;
-            all.push((Cell { case: *case, column }, pictures));
+            all.push((SheetCell { case: *case, column }, pictures));
         }
         Ok(all)
     }

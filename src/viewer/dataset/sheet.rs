@@ -12,7 +12,7 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::text::line;
 
-use crate::dataset::cells::{Cell, ReadRow, Reduced};
+use crate::dataset::cells::{ReadRow, Reduced, SheetCell};
 use crate::dataset::list::MARK;
 use crate::dataset::losses::DatasetLosses;
 use crate::dataset::pictures::{self, DrawSheet, SheetPicture, SheetRow};
@@ -21,7 +21,7 @@ use crate::dataset::summary;
 use crate::jobs::Shown;
 use crate::jobs::answers::Answered;
 use crate::model::dataset::OpenDataset;
-use crate::model::dataset::list::Order;
+use crate::model::dataset::list::ListOrder;
 use crate::model::material::loaded::drawable;
 use crate::model::{Model, endpoint};
 use crate::widgets::names::Names;
@@ -46,7 +46,7 @@ struct Drawn {
 
 impl Drawn {
     /// Why there is no material in a cell.
-    fn problem(&self, cell: Cell) -> Option<&str> {
+    fn problem(&self, cell: SheetCell) -> Option<&str> {
         let (_, row) = self.rows.iter().find(|(case, _)| *case == cell.case)?;
         row.get(cell.column).and_then(|one: &Reduced| one.as_ref().err()).map(String::as_str)
     }
@@ -133,7 +133,7 @@ impl ContactSheet<'_> {
             let line = |share: f32| pos2(left, rect.top() + share * HEAD);
             painter.text(line(0.28), Align2::LEFT_CENTER, text.unwrap_or_default(), font.clone(), colour);
             let Some(method) = column.checked_sub(1) else { continue };
-            let order = Order::Loss(method);
+            let order = ListOrder::Loss(method);
             let arrow = match (next.dataset.list.order == order, next.dataset.list.is_reversed) {
                 (false, _) => "",
                 (true, false) => " \u{2193}",
@@ -195,7 +195,7 @@ impl ContactSheet<'_> {
             if !ui.is_rect_visible(square) {
                 continue;
             }
-            let at = Cell { case, column };
+            let at = SheetCell { case, column };
             let id = ui.scope_id().with(("cell", case, column));
             let response = ui.interact(square, id, Sense::click_and_drag());
             let shown = self.paint(ui, square, at, drawn);
@@ -219,7 +219,7 @@ impl ContactSheet<'_> {
         &mut self,
         ui: &egui::Ui,
         square: Rect,
-        cell: Cell,
+        cell: SheetCell,
         drawn: &Drawn,
     ) -> Option<(Rect, [usize; 2])> {
         if let Some(sheet) = &drawn.pictures
@@ -245,7 +245,7 @@ impl ContactSheet<'_> {
     }
 
     /// Prints the loss of a cell into its lower left corner.
-    fn paint_loss(&self, ui: &egui::Ui, square: Rect, cell: Cell, texts: &[String]) {
+    fn paint_loss(&self, ui: &egui::Ui, square: Rect, cell: SheetCell, texts: &[String]) {
         let text = cell.column.checked_sub(1).and_then(|method| texts.get(method));
         let Some(text) = text.filter(|text| !text.is_empty()) else { return };
         let painter = ui.painter().with_clip_rect(square.intersect(ui.clip_rect()));

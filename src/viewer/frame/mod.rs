@@ -30,7 +30,7 @@ use crate::dataset::{self, opening};
 use crate::frame::crash::{DeviceLoss, lost, told};
 use crate::frame::layout::Parts;
 use crate::frame::restart::{IDLE, Restarts, watch_for_hardware};
-use crate::frame::storage::{NAME, Storage};
+use crate::frame::storage::{NAME, SettingsStorage};
 pub use crash::CrashGuard;
 
 use crate::frame::layout::WindowUi;
@@ -53,7 +53,7 @@ use crate::widgets::theme;
 #[derive(Debug)]
 pub struct App {
     pub parts: Parts,
-    storage: Storage,
+    storage: SettingsStorage,
     crash: CrashGuard,
     /// The title that the window was given.
     title: String,
@@ -65,7 +65,7 @@ pub struct App {
 
 impl App {
     /// Starts to read the materials that `options` names, and returns before they have been read.
-    pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions, storage: Storage) -> Self {
+    pub fn new(cc: &eframe::CreationContext<'_>, options: ViewerOptions, storage: SettingsStorage) -> Self {
         theme::install(&cc.egui_ctx);
         let mut model = Model::default();
         storage.load(&mut model);

@@ -35,7 +35,7 @@ struct Stored {
 
 /// The file, and what was last stored in it.
 #[derive(Debug, Default)]
-pub struct Storage {
+pub struct SettingsStorage {
     /// `None`: nothing is stored.
     folder: Option<PathBuf>,
     /// `None` before there is a file.
@@ -43,7 +43,7 @@ pub struct Storage {
     is_damaged: bool,
 }
 
-impl Storage {
+impl SettingsStorage {
     /// Reads the file in `folder`. One that cannot be read is renamed.
     pub fn read(folder: Option<PathBuf>) -> Self {
         let path =
@@ -129,7 +129,7 @@ mod tests {
     /// The model of the next start on this folder.
     fn started(folder: &Path) -> Model {
         let mut model = Model::default();
-        Storage::read(Some(folder.to_owned())).load(&mut model);
+        SettingsStorage::read(Some(folder.to_owned())).load(&mut model);
         model
     }
 
@@ -142,7 +142,7 @@ mod tests {
         let file = FileScenes { name: "render.json".to_owned(), path: PathBuf::new(), scenes };
         let mut model = Model::default();
         model.recent = Arc::new(vec![model.session()]);
-        let mut storage = Storage::read(Some(folder.path().to_owned()));
+        let mut storage = SettingsStorage::read(Some(folder.path().to_owned()));
         for (stored, loss) in [(timed.clone(), timed), (plain.with_file(Some(file)), plain)] {
             model.settings = Settings { dark: false, loss: stored, ..Settings::default() };
             storage.store(&model);
@@ -181,7 +181,7 @@ mod tests {
         let text = r#"{"settings": {"dark": false}}"#;
         for size in [MOST as usize, MOST as usize + 1] {
             std::fs::write(&file, text.to_owned() + &" ".repeat(size - text.len())).unwrap();
-            assert_eq!(Storage::read(Some(folder.path().to_owned())).is_damaged, size as u64 > MOST);
+            assert_eq!(SettingsStorage::read(Some(folder.path().to_owned())).is_damaged, size as u64 > MOST);
         }
         assert!(!file.exists() && folder.path().join(DAMAGED).exists());
     }

@@ -74,13 +74,13 @@ pub fn displayed(
     }
     match view.is_error_map() {
         true => Some((answers.get(&ErrorMaps::of(shown, materials)).ready()?, true)),
-        false => answers.drawn(&Differences::of(shown, materials)),
+        false => answers.drawn(&ComputeDifferences::of(shown, materials)),
     }
 }
 
 /// The difference of each prediction from the ground truth, the first of the materials.
 #[derive(Clone, Debug, PartialEq)]
-struct Differences {
+struct ComputeDifferences {
     materials: Vec<Content>,
     quantity: Quantity,
     kind: Difference,
@@ -93,7 +93,7 @@ struct Differences {
     given: Given<(Scene, f32, Option<Gpu>)>,
 }
 
-impl Differences {
+impl ComputeDifferences {
     fn of(shown: Shown<'_>, materials: &[LoadedMaterial]) -> Self {
         let view = &shown.model.view;
         let (quantity, kind) = (view.display.quantity, view.difference_kind());
@@ -109,7 +109,7 @@ impl Differences {
     }
 }
 
-impl Question for Differences {
+impl Question for ComputeDifferences {
     type Answer = ComputedDifference;
     const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 1;

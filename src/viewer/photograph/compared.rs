@@ -25,14 +25,14 @@ use crate::model::material::read::{ReadMaterial, file_name};
 
 /// The samples of a photograph.
 #[derive(Clone, Debug, PartialEq)]
-struct ReadPhotograph {
+struct OpenPhotograph {
     path: PathBuf,
     /// Of the file when it was opened.
     stamp: Option<Stamp>,
     transfer: Option<Transfer>,
 }
 
-impl Question for ReadPhotograph {
+impl Question for OpenPhotograph {
     type Answer = Photograph;
     const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 1;
@@ -45,7 +45,7 @@ impl Question for ReadPhotograph {
 /// A photograph beside every material.
 #[derive(Clone, Debug, PartialEq)]
 struct ComparePhotograph {
-    read: ReadPhotograph,
+    read: OpenPhotograph,
     falloff: bool,
     materials: Vec<Content>,
     scene: Scene,
@@ -140,7 +140,7 @@ impl<'a> DisplayedPhotograph<'a> {
         let (answers, view, state) = (&shown.jobs.answers, &shown.model.view, &shown.model.photograph);
         let source = state.source()?;
         let (path, stamp, transfer) = (source.path.clone(), state.stamp(), source.transfer);
-        let read = ReadPhotograph { path, stamp, transfer };
+        let read = OpenPhotograph { path, stamp, transfer };
         let answer = answers.get(&read);
         let has_failed = matches!(answer, Answer::Failed(_));
         let photograph = answer.ready();

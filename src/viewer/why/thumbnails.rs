@@ -11,7 +11,7 @@ use svbrdf_core::render;
 use svbrdf_core::statistics::quantile;
 
 use crate::error::Error;
-use crate::jobs::work::picture::{Atlas, Picture};
+use crate::jobs::work::picture::{Atlas, PanelPicture};
 
 /// Side of a thumbnail, in pixels.
 pub const SIDE: usize = 48;
@@ -52,9 +52,9 @@ pub fn make(
     }
     let mut all: Vec<f32> = pixels.iter().flatten().copied().collect();
     let range = quantile(&mut all, RANGE).filter(|range| *range > 0.0).unwrap_or(1.0) as f32;
-    let colour = |value: &f32| Picture::opaque(difference_to_display(*value, range, false));
+    let colour = |value: &f32| PanelPicture::opaque(difference_to_display(*value, range, false));
     let picture =
-        |values: &Vec<f32>| Picture { size: [SIDE; 2], pixels: values.iter().map(colour).collect() };
+        |values: &Vec<f32>| PanelPicture { size: [SIDE; 2], pixels: values.iter().map(colour).collect() };
     let atlas = Atlas::new(&pixels.iter().map(picture).collect::<Vec<_>>());
     Ok(Thumbnails { atlas, range: f64::from(range), pixels })
 }

@@ -10,7 +10,7 @@ use eframe::egui::{
 
 use svbrdf_core::picture::colour_map::difference_to_display;
 
-use crate::jobs::work::picture::Picture;
+use crate::jobs::work::picture::PanelPicture;
 
 /// Colours from one end to the other.
 const STEPS: u32 = 64;
@@ -40,11 +40,11 @@ pub fn colour_bar(bar: Rect, [low, high]: [f32; 2], is_signed: bool) -> Mesh {
 
 /// The textures of the pictures that panels and panes draw; each is freed with its picture.
 #[derive(Default)]
-pub struct PanelTextures(HashMap<usize, (Weak<Picture>, TextureHandle)>);
+pub struct PanelTextures(HashMap<usize, (Weak<PanelPicture>, TextureHandle)>);
 
 impl PanelTextures {
     /// The texture of a picture, which is loaded where it is new.
-    pub fn id(&mut self, ctx: &Context, picture: &Arc<Picture>, options: TextureOptions) -> TextureId {
+    pub fn id(&mut self, ctx: &Context, picture: &Arc<PanelPicture>, options: TextureOptions) -> TextureId {
         self.0.retain(|_, (of, _)| of.strong_count() > 0);
         let load = || {
             let image = ColorImage::from_rgba_premultiplied(picture.size, picture.pixels.as_flattened());

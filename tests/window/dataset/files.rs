@@ -81,7 +81,7 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     wait(&mut window, "a pinned one once", |app| app.names() == ["gt", "p02", "p00"]);
     assert_eq!((id(&window), window.scene()), (first, scene));
     // Worst first.
-    let list = ListView { order: Order::Loss(0), ..ListView::default() };
+    let list = ListView { order: ListOrder::Loss(0), ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = list);
     let listed = Rows::ask(window.shown()).cases;
     assert_eq!(listed[..3], [24, 23, 22]);

@@ -1,6 +1,6 @@
 //! The contact sheet of a data set.
 
-use svbrdf_viewer::dataset::cells::Cell;
+use svbrdf_viewer::dataset::cells::SheetCell;
 use svbrdf_viewer::dataset::pictures::{self, SheetPicture};
 use svbrdf_viewer::dataset::rows::Rows;
 use svbrdf_viewer::dataset::summary;
@@ -29,7 +29,7 @@ fn the_light_is_dragged_in_any_cell_of_the_sheet_and_a_click_opens_what_escape_r
     window.run_steps(3);
     wait_in(&mut window, "the cells", |window| {
         let sheet = sheet(window);
-        let of = |case, column| Cell { case, column };
+        let of = |case, column| SheetCell { case, column };
         sheet.as_deref().is_some_and(|sheet| sheet.part(of(0, 1)).is_some() && sheet.part(of(2, 2)).is_none())
     });
     let before = sheet(&window).unwrap().atlas.picture.clone();
@@ -73,7 +73,7 @@ fn the_sheet_has_losses_sorts_by_its_heads_and_has_one_range() {
         window.get_by_label_contains("Sort by ours").click();
         window.run_steps(4);
         let list = window.model().dataset.list.clone();
-        assert_eq!((list.order, list.is_reversed), (Order::Loss(0), is_reversed));
+        assert_eq!((list.order, list.is_reversed), (ListOrder::Loss(0), is_reversed));
     }
     assert_eq!(listed(&window).iter().rev().copied().collect::<Vec<_>>(), {
         edit(&mut window, |model| model.dataset.list.is_reversed = false);

@@ -17,7 +17,7 @@ const MANTISSA: u32 = 0x007f_ffff;
 const ONE: u32 = 0x3f80_0000;
 
 /// What adds up the differences of two materials, tile by tile.
-pub(super) trait Differences<S: Simd> {
+pub(super) trait TileDifferences<S: Simd> {
     /// Adds all texels and channels of a tile. Radiances are positive and, unless `SAFE`, below 2^21.
     fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance);
 }
@@ -73,7 +73,7 @@ impl<S: Simd> LogProducts<S> {
     }
 }
 
-impl<S: Simd> Differences<S> for LogProducts<S> {
+impl<S: Simd> TileDifferences<S> for LogProducts<S> {
     /// The product of six radiances below 2^21 and a mantissa fits a float.
     #[inline(always)]
     fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
@@ -121,7 +121,7 @@ impl<S: Simd> TexelLogProducts<S> {
     }
 }
 
-impl<S: Simd> Differences<S> for TexelLogProducts<S> {
+impl<S: Simd> TileDifferences<S> for TexelLogProducts<S> {
     #[inline(always)]
     fn add<const SAFE: bool>(&mut self, simd: S, a: &TileRadiance, b: &TileRadiance) {
         for (i, channels) in self.products.iter_mut().enumerate() {

@@ -1,6 +1,6 @@
 //! One scene over the tile in cache: all materials are rendered and compared.
 
-use super::compare::Differences;
+use super::compare::TileDifferences;
 use super::inputs::LossInputs;
 use super::rows::Gathered;
 use crate::render::simd::geometry::{Geometry, KernelScene, TileGeometry, is_short};
@@ -69,7 +69,7 @@ impl LossTile {
 
     /// Adds the differences in one scene to the sums of the predictions. `distant` is the geometry of a distant scene.
     #[inline(always)]
-    pub(super) fn add<S: Lanes, D: Differences<S>>(
+    pub(super) fn add<S: Lanes, D: TileDifferences<S>>(
         &mut self,
         simd: S,
         params: &ShadingParams,
@@ -103,7 +103,7 @@ impl LossTile {
     }
 
     #[inline(always)]
-    fn add_with<S: Lanes, D: Differences<S>>(
+    fn add_with<S: Lanes, D: TileDifferences<S>>(
         &mut self,
         simd: S,
         params: &ShadingParams,

@@ -22,7 +22,7 @@ static KERNING: LazyLock<Vec<Lookup<'static>>> = LazyLock::new(|| {
 });
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed {
+pub(super) struct PlacedText {
     pub id: GlyphId,
     pub character: char,
     /// From the beginning of the text, in ems.
@@ -32,7 +32,7 @@ pub(super) struct Placed {
 }
 
 /// The glyphs of a text, kerned, one for each character.
-pub(super) fn glyphs(text: &str) -> Vec<Placed> {
+pub(super) fn glyphs(text: &str) -> Vec<PlacedText> {
     let Some(font) = FONT.as_ref() else { return Vec::new() };
     let em = font.units_per_em().unwrap_or(1000.0);
     let (mut end, mut last) = (0.0, None);
@@ -41,7 +41,7 @@ pub(super) fn glyphs(text: &str) -> Vec<Placed> {
         let x = end + last.replace(id).map_or(0.0, |last| kern(last, id) / em);
         let advance = font.h_advance_unscaled(id) / em;
         end = x + advance;
-        Placed { id, character, x, advance }
+        PlacedText { id, character, x, advance }
     };
     text.chars().map(place).collect()
 }

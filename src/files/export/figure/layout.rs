@@ -61,13 +61,13 @@ impl Text {
 
 /// A picture that covers a rectangle.
 #[derive(Clone, Debug)]
-pub(super) struct Picture {
+pub(super) struct FigurePicture {
     pub at: [f64; 2],
     pub size: [f64; 2],
     pub image: Image<u8>,
 }
 
-impl Picture {
+impl FigurePicture {
     /// Its pixels for a document, averaged where a printer cannot resolve them.
     pub(super) fn printed(&self) -> Cow<'_, Image<u8>> {
         let Image { width, height, pixels } = &self.image;
@@ -91,7 +91,7 @@ pub struct Figure {
     pub size: [f64; 2],
     /// Pixels of a point in a PNG.
     pub scale: f64,
-    pub(super) pictures: Vec<Picture>,
+    pub(super) pictures: Vec<FigurePicture>,
     pub(super) texts: Vec<Text>,
 }
 
@@ -103,7 +103,7 @@ impl Figure {
 
     /// Puts a picture into a rectangle, over what is there.
     pub fn picture(&mut self, at: [f64; 2], size: [f64; 2], image: Image<u8>) {
-        self.pictures.push(Picture { at, size, image });
+        self.pictures.push(FigurePicture { at, size, image });
     }
 
     /// Writes a text in lines of at most this width, the first below `top`; returns the bottom of the last.

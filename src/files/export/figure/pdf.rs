@@ -9,7 +9,7 @@ use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextSt
 use subsetter::GlyphRemapper;
 use svbrdf_core::image::Image;
 
-use super::font::{self, FILE, FONT, Placed};
+use super::font::{self, FILE, FONT, PlacedText};
 use super::layout::Figure;
 use crate::export::encode::{self, Entries, Provenance};
 
@@ -108,11 +108,11 @@ fn content(figure: &Figure, used: &mut Used) -> Vec<u8> {
 #[derive(Default)]
 struct Used {
     remapper: GlyphRemapper,
-    glyphs: BTreeMap<u16, Placed>,
+    glyphs: BTreeMap<u16, PlacedText>,
 }
 
 impl Used {
-    fn code(&mut self, glyph: Placed) -> u16 {
+    fn code(&mut self, glyph: PlacedText) -> u16 {
         let code = self.remapper.remap(glyph.id.0);
         self.glyphs.entry(code).or_insert(glyph);
         code

@@ -4,7 +4,7 @@ use ab_glyph::{Font as _, PxScale, point};
 use svbrdf_core::image::Image;
 
 use super::font::{self, FONT};
-use super::layout::{Figure, Picture, Text};
+use super::layout::{Figure, FigurePicture, Text};
 
 const WHITE: [u8; 3] = [255; 3];
 
@@ -17,7 +17,7 @@ pub(super) fn image(figure: &Figure) -> Image<u8> {
     image
 }
 
-fn put(image: &mut Image<u8>, picture: &Picture, scale: f64) {
+fn put(image: &mut Image<u8>, picture: &FigurePicture, scale: f64) {
     let [left, top] = picture.at.map(|place| (place * scale).round() as usize);
     let [width, height] = picture.size.map(|side| (side * scale).round().max(1.0) as usize);
     let from = &picture.image;

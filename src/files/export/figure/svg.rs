@@ -6,7 +6,7 @@ use std::io;
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 
-use super::layout::{Anchor, Figure, MILLIMETRE, Picture, Text};
+use super::layout::{Anchor, Figure, FigurePicture, MILLIMETRE, Text};
 use crate::export::encode::{self, Entries};
 
 /// The figure with its metadata as a description.
@@ -21,7 +21,7 @@ pub(super) fn text(figure: &Figure, entries: &Entries) -> io::Result<String> {
 "##
     );
     for picture in &figure.pictures {
-        let Picture { at: [x, y], size: [width, height], .. } = picture;
+        let FigurePicture { at: [x, y], size: [width, height], .. } = picture;
         let mut file = Vec::new();
         encode::png(&mut file, &picture.printed(), &[])?;
         let data = BASE64_STANDARD.encode(file);

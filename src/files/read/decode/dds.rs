@@ -6,13 +6,13 @@ use dds::header::{AlphaMode, Header};
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
 use super::place::{Decoded, DecodedFile, alone, ratio};
-use super::reader::Reader;
+use super::reader::ByteReader;
 use crate::disk::caught;
 use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
 use crate::read::record::Note;
 
-pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let head = reader.fill_buf().map_err(|error| Error::unreadable(place.path, error))?;
     if let Some(masks) = Masks::of(head) {
         return masks.decode(reader, place).map(alone);
@@ -104,7 +104,7 @@ impl Masks {
         (!masks.is_empty()).then_some(Self { size, is_one, bytes: bits as usize / 8, masks })
     }
 
-    fn decode(&self, mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
+    fn decode(&self, mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
         if !self.is_one {
             return Err(several(place));
         }
@@ -140,7 +140,7 @@ impl Masks {
 
 /// The pixels of the first surface.
 fn pixels<S: bytemuck::Pod>(
-    decoder: &mut dds::Decoder<Reader<'_>>,
+    decoder: &mut dds::Decoder<ByteReader<'_>>,
     mut samples: Vec<S>,
     format: ColorFormat,
     place: DecodedFile<'_>,

@@ -12,7 +12,7 @@ use exr::meta::header::Header;
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
 use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE, ratio};
-use super::reader::Reader;
+use super::reader::ByteReader;
 use crate::disk::caught;
 use crate::error::Error;
 use crate::read::names::Label;
@@ -28,7 +28,7 @@ const SMALL: u64 = 1 << 20;
 /// The channels of one layer: name in capitals, samples.
 type NamedSamples = Vec<(String, Samples)>;
 
-pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |e: exr::error::Error| match e {
         exr::error::Error::Io(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
         exr::error::Error::NotSupported(what) if what.contains("compression") => place.bad(
@@ -226,7 +226,7 @@ const NUMBERS: usize = 11;
 ///
 /// # Errors
 /// Those of the library, and where a block claims more.
-fn check_dwa(reader: &mut Reader<'_>, meta: &MetaData, most: u64) -> exr::error::Result<()> {
+fn check_dwa(reader: &mut ByteReader<'_>, meta: &MetaData, most: u64) -> exr::error::Result<()> {
     let is_dwa = |compression| matches!(compression, Compression::DWAA(_) | Compression::DWAB(_));
     if meta.headers.iter().any(|header| is_dwa(header.compression)) {
         for chunk in exr::block::read(&mut *reader, false)?.filter_chunks(false, |_, _, _| true)? {

@@ -6,7 +6,7 @@ use std::io::Read as _;
 use libjpeg_turbo_rs::{ColorSpace, DecodeLimits, Decoder, JpegError, PixelFormat};
 
 use super::place::{Decoded, DecodedFile, alone, ratio};
-use super::reader::Reader;
+use super::reader::ByteReader;
 use crate::disk::caught;
 use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
@@ -24,7 +24,7 @@ pub(super) struct Pixels {
     profile: Option<Vec<u8>>,
 }
 
-pub(super) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+pub(super) fn decode(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let unreadable = |error| Error::unreadable(place.path, error);
     let _reserved_for_file = place.reserve(place.length)?;
     let mut bytes = Vec::new();
@@ -142,7 +142,7 @@ mod tests {
 
     fn decoded(bytes: &[u8]) -> Result<Decoded, Error> {
         let place = DecodedFile::of(Path::new("m.jpg"), Subject::Material);
-        decode(Reader::of_bytes(bytes), DecodedFile { length: bytes.len() as u64, ..place })
+        decode(ByteReader::of_bytes(bytes), DecodedFile { length: bytes.len() as u64, ..place })
     }
 
     #[test]

@@ -28,14 +28,14 @@ use crate::read::record::{Note, Subject, Unused};
 pub(super) use place::{Decoded, Layer};
 
 use place::{DecodedFile, alone};
-use reader::Reader;
+use reader::ByteReader;
 
 /// Decodes `file`, which is expected to be `what`.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
 pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
-    let mut decoded = from_reader(Reader::File(file.reader()?), file.path(), what)?;
+    let mut decoded = from_reader(ByteReader::File(file.reader()?), file.path(), what)?;
     let by = file.outside().map(Path::to_owned);
     decoded.notes.extend(by.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
     Ok(decoded)
@@ -43,11 +43,11 @@ pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
 
 /// The number of materials of an npz file of batches; `None` of others.
 pub(super) fn batch(file: &NamedFile) -> Option<usize> {
-    numpy::batch(Reader::File(file.reader().ok()?))
+    numpy::batch(ByteReader::File(file.reader().ok()?))
 }
 
 /// As [`whole`], from what `reader` gives; `path` is the name for messages.
-pub(super) fn from_reader(mut reader: Reader<'_>, path: &Path, what: Subject) -> Result<Decoded, Error> {
+pub(super) fn from_reader(mut reader: ByteReader<'_>, path: &Path, what: Subject) -> Result<Decoded, Error> {
     let unreadable = |source| Error::unreadable(path, source);
     let place = DecodedFile { length: reader.length().map_err(unreadable)?, ..DecodedFile::of(path, what) };
     let head = reader.fill_buf().map_err(unreadable)?;

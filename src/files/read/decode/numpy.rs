@@ -6,7 +6,7 @@ use exr::prelude::f16;
 
 use super::layout::{self, ArrayAxes};
 use super::place::{Decoded, DecodedFile, Layer, MAX_BYTES, alone, ratio};
-use super::reader::Reader;
+use super::reader::ByteReader;
 use crate::error::Error;
 use crate::npy::Header;
 use crate::read::names::Label;
@@ -16,7 +16,7 @@ use crate::read::record::{Note, Subject, Unused};
 /// Most arrays that are read of an archive.
 const MOST_ARRAYS: usize = 64;
 
-pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode_archive(reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |e: zip::result::ZipError| place.invalid("npz", e);
     let mut archive = zip::ZipArchive::new(reader).map_err(invalid)?;
     let names: Vec<String> = {
@@ -74,7 +74,7 @@ pub(crate) fn decode_archive(reader: Reader<'_>, place: DecodedFile<'_>) -> Resu
 }
 
 /// The number of materials of an archive of batches.
-pub(crate) fn batch(reader: Reader<'_>) -> Option<usize> {
+pub(crate) fn batch(reader: ByteReader<'_>) -> Option<usize> {
     let mut archive = zip::ZipArchive::new(reader).ok()?;
     let names: Vec<String> = archive.file_names().flatten().map(|name| name.into_owned()).collect();
     let arrays = names.iter().filter(|name| name.ends_with(".npy")).take(MOST_ARRAYS);
@@ -87,7 +87,7 @@ fn stem(file: &str) -> &str {
     file.trim_end_matches(".npy")
 }
 
-pub(crate) fn decode_array(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode_array(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let shape = Header::read(&mut reader).map_err(|e| broken(&e, "", place))?.shape;
     reader.rewind().map_err(|source| Error::unreadable(place.path, source))?;
     let axes = layout::chosen(std::slice::from_ref(&shape)).next().flatten();

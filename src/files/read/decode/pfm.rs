@@ -3,14 +3,14 @@
 use std::io::{BufRead as _, Read as _};
 
 use super::place::{DecodedFile, MAX_BYTES, ratio};
-use super::reader::Reader;
+use super::reader::ByteReader;
 use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
 
 /// Most bytes of a line of text.
 const LONGEST: u64 = 64;
 
-pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
+pub(crate) fn decode(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Raster, Error> {
     let unreadable = |source| Error::unreadable(place.path, source);
     let mut line = || {
         let mut text = Vec::new();

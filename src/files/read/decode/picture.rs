@@ -15,7 +15,7 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
 use super::place::{Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone, ratio};
-use super::reader::Reader;
+use super::reader::ByteReader;
 use super::{jpeg, known};
 use crate::disk::caught;
 use crate::error::Error;
@@ -25,7 +25,7 @@ use crate::read::record::Note;
 /// Most bytes of the metadata of a PNG: an ICC profile of a printer has some megabytes.
 const MAX_METADATA: u64 = 64 << 20;
 
-pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
     let head = reader.fill_buf().map_err(unreadable)?;
     match image::guess_format(head) {
@@ -85,7 +85,7 @@ pub(crate) fn decode(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<D
     }
 }
 
-fn png(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+fn png(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
     let head = reader.fill_buf().map_err(unreadable)?;
     // A row of it counts as metadata, too.
@@ -105,7 +105,7 @@ fn png(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error>
     Ok(decoded)
 }
 
-fn pnm(mut reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+fn pnm(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let unreadable = |e| Error::unreadable(place.path, e);
     let header = PnmDecoder::new(&mut reader).map_err(|e| explain(&e, "PNM", place))?.into_inner().1;
     // The library does not scale samples by their maximum.
@@ -228,7 +228,7 @@ const LONGEST_HDR: u64 = 64 << 10;
 
 /// Whether the header of an HDR, an empty line and the line of the resolution at its end, is at most [`LONGEST_HDR`] long, or else
 /// the file: the library reads it to an end that may never come.
-fn is_hdr_head_short(reader: &mut Reader<'_>) -> io::Result<bool> {
+fn is_hdr_head_short(reader: &mut ByteReader<'_>) -> io::Result<bool> {
     let mut head = Vec::new();
     reader.take(LONGEST_HDR).read_to_end(&mut head)?;
     let end = head.windows(2).position(|two| two == b"\n\n");
@@ -253,7 +253,7 @@ const LINEAR: u8 = 8;
 /// The chromaticities of red, green and blue of Rec. 709, in 1/100000.
 const REC709: [[u32; 2]; 3] = [[64_000, 33_000], [30_000, 60_000], [15_000, 6_000]];
 
-fn png_head(reader: &mut Reader<'_>) -> Option<PngHead> {
+fn png_head(reader: &mut ByteReader<'_>) -> Option<PngHead> {
     let opened = png::Decoder::new(reader).read_info().ok()?;
     let info = opened.info();
     let has_no_srgb = info.srgb.is_none();

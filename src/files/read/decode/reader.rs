@@ -5,12 +5,12 @@ use std::io::{self, BufRead, BufReader, Cursor, Read, Seek, SeekFrom};
 
 /// A file, or a picture within another file that is in memory. One type for both: the libraries are compiled for each
 /// type that they read from.
-pub(crate) enum Reader<'a> {
+pub(crate) enum ByteReader<'a> {
     File(BufReader<File>),
     Memory(Cursor<&'a [u8]>),
 }
 
-impl<'a> Reader<'a> {
+impl<'a> ByteReader<'a> {
     pub(crate) fn of_bytes(bytes: &'a [u8]) -> Self {
         Self::Memory(Cursor::new(bytes))
     }
@@ -23,7 +23,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-impl Read for Reader<'_> {
+impl Read for ByteReader<'_> {
     #[inline]
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         match self {
@@ -48,7 +48,7 @@ impl Read for Reader<'_> {
     }
 }
 
-impl BufRead for Reader<'_> {
+impl BufRead for ByteReader<'_> {
     #[inline]
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
         match self {
@@ -66,7 +66,7 @@ impl BufRead for Reader<'_> {
     }
 }
 
-impl Seek for Reader<'_> {
+impl Seek for ByteReader<'_> {
     #[inline]
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         match self {

@@ -6,13 +6,13 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::place::{Decoded, DecodedFile, MAX_BYTES, alone, ratio};
-use super::reader::Reader;
+use super::reader::ByteReader;
 use super::tiff_jpeg;
 use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
 use crate::read::record::Note;
 
-pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+pub(crate) fn decode(reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
     let invalid = |error| explained(error, place);
     let mut limits = Limits::default();
     limits.decoding_buffer_size = usize::try_from(MAX_BYTES).unwrap_or(usize::MAX);
@@ -64,7 +64,7 @@ pub(crate) fn decode(reader: Reader<'_>, place: DecodedFile<'_>) -> Result<Decod
 /// The picture of a page with what its fields do to it, and the notes on the rest of the file.
 fn with_metadata(
     mut raster: Raster,
-    decoder: &mut Decoder<Reader<'_>>,
+    decoder: &mut Decoder<ByteReader<'_>>,
     place: DecodedFile<'_>,
 ) -> tiff::TiffResult<Decoded> {
     let extra = decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples)?.unwrap_or_default();
@@ -137,14 +137,14 @@ fn kind(result: &DecodingResult) -> &'static str {
 const MOST_PAGES: usize = 32;
 
 /// Whether a page calls itself a smaller version of another one.
-fn is_reduced(decoder: &mut Decoder<Reader<'_>>) -> tiff::TiffResult<bool> {
+fn is_reduced(decoder: &mut Decoder<ByteReader<'_>>) -> tiff::TiffResult<bool> {
     let [new, old] = [Tag::NewSubfileType, Tag::SubfileType]
         .map(|tag| decoder.find_tag_unsigned::<u32>(tag).ok().flatten().unwrap_or(0));
     Ok(new & 1 != 0 || old == 2)
 }
 
 /// Goes to the first page that is no smaller version of another one; to the first of all where each is.
-fn skip_thumbnails(decoder: &mut Decoder<Reader<'_>>) -> tiff::TiffResult<()> {
+fn skip_thumbnails(decoder: &mut Decoder<ByteReader<'_>>) -> tiff::TiffResult<()> {
     for _ in 0..MOST_PAGES {
         if !is_reduced(decoder)? {
             return Ok(());
@@ -157,7 +157,7 @@ fn skip_thumbnails(decoder: &mut Decoder<Reader<'_>>) -> tiff::TiffResult<()> {
 }
 
 /// Whether there are pages after this one which are no smaller versions of it.
-fn has_pages(decoder: &mut Decoder<Reader<'_>>) -> bool {
+fn has_pages(decoder: &mut Decoder<ByteReader<'_>>) -> bool {
     (0..MOST_PAGES)
         .map_while(|_| decoder.next_image().and_then(|()| is_reduced(decoder)).ok())
         .any(|is_reduced| !is_reduced)
@@ -269,7 +269,7 @@ mod tests {
     fn gray_of_few_bits_is_read_and_other_bits_are_named() {
         let read = |file: &[u8]| {
             let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
-            let decoded = decode(Reader::of_bytes(file), place).map_err(|error| error.to_string())?;
+            let decoded = decode(ByteReader::of_bytes(file), place).map_err(|error| error.to_string())?;
             let plane = &decoded.layers[0].raster.channels[0];
             Ok::<_, String>((0..plane.len()).map(|at| plane.stored(at)).collect::<Vec<_>>())
         };

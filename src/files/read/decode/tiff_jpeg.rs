@@ -9,7 +9,7 @@ use tiff::{ColorType, TiffResult};
 
 use super::jpeg::{self, Pixels};
 use super::place::DecodedFile;
-use super::reader::Reader;
+use super::reader::ByteReader;
 use crate::error::Error;
 
 /// The compression of JPEG in the way of today.
@@ -28,7 +28,7 @@ struct Chunks {
 
 impl Chunks {
     /// `None` of another compression, or of planes.
-    fn of(decoder: &mut Decoder<Reader<'_>>) -> TiffResult<Option<Self>> {
+    fn of(decoder: &mut Decoder<ByteReader<'_>>) -> TiffResult<Option<Self>> {
         let is_jpeg = decoder.find_tag_unsigned::<u16>(Tag::Compression)? == Some(JPEG);
         if !is_jpeg || decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration)? == Some(2) {
             return Ok(None);
@@ -58,7 +58,7 @@ impl Chunks {
 
 /// The samples of a picture of JPEG, texel by texel; `None` of another compression.
 pub(super) fn pixels(
-    decoder: &mut Decoder<Reader<'_>>,
+    decoder: &mut Decoder<ByteReader<'_>>,
     colour: ColorType,
     count: usize,
     place: DecodedFile<'_>,
@@ -102,7 +102,7 @@ mod tests {
     use base64::engine::general_purpose::STANDARD;
 
     use crate::read::decode::place::DecodedFile;
-    use crate::read::decode::reader::Reader;
+    use crate::read::decode::reader::ByteReader;
     use crate::read::decode::tiff;
     use crate::read::record::Subject;
 
@@ -117,7 +117,7 @@ mod tests {
     fn tiles_of_jpeg_have_the_values_of_libtiff() {
         let [file, values] = OF_LIBTIFF.map(|text| STANDARD.decode(text).unwrap());
         let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
-        let raster = tiff::decode(Reader::of_bytes(&file), place).unwrap().layers.remove(0).raster;
+        let raster = tiff::decode(ByteReader::of_bytes(&file), place).unwrap().layers.remove(0).raster;
         assert_eq!(raster.size(), [18, 20]);
         let rgb = |index| raster.rgb(index).map(|value| (255.0 * value).round() as u8);
         let read: Vec<u8> = (0..18 * 20).flat_map(rgb).collect();

@@ -11,7 +11,7 @@ use super::material::StoredMap;
 use super::material::StoredMaterial;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
-use crate::read::decode::reader::Reader;
+use crate::read::decode::reader::ByteReader;
 use crate::read::decode::{Decoded, Layer, from_reader, one};
 use crate::read::options::Role;
 use crate::read::raster::Raster;
@@ -74,7 +74,7 @@ impl Picture {
             }
             PictureSource::Embedded { within, bytes } => {
                 let Decoded { layers, notes, .. } =
-                    from_reader(Reader::of_bytes(bytes), within, self.subject)?;
+                    from_reader(ByteReader::of_bytes(bytes), within, self.subject)?;
                 let raster = layers.into_iter().next().map(|layer| layer.raster);
                 let raster = raster.ok_or_else(|| Error::BadImage {
                     path: within.clone(),

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 /// Pixels of sRGB with premultiplied alpha, row by row from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
+pub struct PanelPicture {
     /// Width and height.
     pub size: [usize; 2],
     pub pixels: Vec<[u8; 4]>,
 }
 
-impl Picture {
+impl PanelPicture {
     /// A pixel that hides what is behind it.
     pub fn opaque([r, g, b]: [u8; 3]) -> [u8; 4] {
         [r, g, b, 255]
@@ -23,18 +23,18 @@ impl Picture {
 /// Pictures in one, in cells of the size of the largest.
 #[derive(Debug)]
 pub struct Atlas {
-    pub picture: Arc<Picture>,
+    pub picture: Arc<PanelPicture>,
     /// The upper left corner and the size of each.
     parts: Vec<[[usize; 2]; 2]>,
 }
 
 impl Atlas {
-    pub fn new(pictures: &[Picture]) -> Self {
+    pub fn new(pictures: &[PanelPicture]) -> Self {
         let side = |axis: usize| pictures.iter().map(|one| one.size[axis]).max().unwrap_or(1);
         let columns = (pictures.len() as f64).sqrt().ceil().max(1.0) as usize;
         let sides = [side(0), side(1)];
         let size = [columns * sides[0], pictures.len().div_ceil(columns).max(1) * sides[1]];
-        let mut picture = Picture { size, pixels: vec![Picture::TRANSPARENT; size[0] * size[1]] };
+        let mut picture = PanelPicture { size, pixels: vec![PanelPicture::TRANSPARENT; size[0] * size[1]] };
         let mut parts = Vec::new();
         for (index, one) in pictures.iter().enumerate() {
             let least = [index % columns * sides[0], index / columns * sides[1]];
@@ -62,7 +62,7 @@ mod tests {
     #[test]
     fn each_part_of_the_picture_is_one_of_the_pictures() {
         let sizes = [[3, 2], [2, 3], [3, 3], [1, 1]];
-        let one = |(shade, size): (u8, [usize; 2])| Picture {
+        let one = |(shade, size): (u8, [usize; 2])| PanelPicture {
             size,
             pixels: vec![[shade, 0, 0, 255]; size[0] * size[1]],
         };

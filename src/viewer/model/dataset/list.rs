@@ -33,7 +33,7 @@ impl CaseLosses {
 
 /// What the list is sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Order {
+pub enum ListOrder {
     #[default]
     Name,
     /// Of this method, the largest first.
@@ -44,7 +44,7 @@ pub enum Order {
 
 /// Which materials are listed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Filter {
+pub enum ListFilter {
     #[default]
     All,
     Marked,
@@ -52,7 +52,7 @@ pub enum Filter {
     NotResolvable,
 }
 
-impl Filter {
+impl ListFilter {
     pub const ALL: [Self; 4] = [Self::All, Self::Marked, Self::Failed, Self::NotResolvable];
 
     pub fn name(self) -> &'static str {
@@ -70,22 +70,22 @@ impl Filter {
 #[serde(default)]
 pub struct ListView {
     pub is_open: bool,
-    pub order: Order,
+    pub order: ListOrder,
     /// Whether the order is the other way round.
     pub is_reversed: bool,
     /// Parts of names, in lower case.
     pub search: String,
-    pub filter: Filter,
+    pub filter: ListFilter,
 }
 
 impl Default for ListView {
     fn default() -> Self {
         Self {
             is_open: true,
-            order: Order::Name,
+            order: ListOrder::Name,
             is_reversed: false,
             search: String::new(),
-            filter: Filter::All,
+            filter: ListFilter::All,
         }
     }
 }
@@ -108,7 +108,7 @@ impl ListView {
             .filter(|row| self.lists(&all[*row], &search))
             .map(|row| (row, self.value(&all[row])))
             .collect();
-        if self.order != Order::Name {
+        if self.order != ListOrder::Name {
             rows.sort_by(|(_, a), (_, b)| self.compare(*a, *b));
         } else if self.is_reversed {
             rows.reverse();
@@ -117,7 +117,7 @@ impl ListView {
     }
 
     /// Sorts by `order`, or the other way round where it is sorted so.
-    pub fn sort_by(&mut self, order: Order) {
+    pub fn sort_by(&mut self, order: ListOrder) {
         self.is_reversed = self.order == order && !self.is_reversed;
         self.order = order;
     }
@@ -125,10 +125,10 @@ impl ListView {
     fn lists(&self, one: &Listed<'_>, search: &str) -> bool {
         let is_of = |is: fn(&CaseLosses) -> bool| one.losses.is_some_and(is);
         let passes = match self.filter {
-            Filter::All => true,
-            Filter::Marked => one.is_marked,
-            Filter::Failed => is_of(|losses| !losses.problems.is_empty()),
-            Filter::NotResolvable => is_of(|losses| losses.is_below_floor),
+            ListFilter::All => true,
+            ListFilter::Marked => one.is_marked,
+            ListFilter::Failed => is_of(|losses| !losses.problems.is_empty()),
+            ListFilter::NotResolvable => is_of(|losses| losses.is_below_floor),
         };
         passes && (search.is_empty() || one.name.to_lowercase().contains(search))
     }
@@ -136,9 +136,9 @@ impl ListView {
     /// What a material is sorted by; the largest comes first.
     fn value(&self, one: &Listed<'_>) -> Option<f64> {
         match self.order {
-            Order::Name => None,
-            Order::Loss(method) => one.losses?.loss(method),
-            Order::Disagreement => one.losses?.disagreement(),
+            ListOrder::Name => None,
+            ListOrder::Loss(method) => one.losses?.loss(method),
+            ListOrder::Disagreement => one.losses?.disagreement(),
         }
     }
 
@@ -182,12 +182,12 @@ mod tests {
         let by = |order| ListView { order, ..ListView::default() };
         assert_eq!(rows(ListView::default()), [0, 1, 2, 3]);
         assert_eq!(rows(ListView { is_reversed: true, ..ListView::default() }), [3, 2, 1, 0]);
-        assert_eq!(rows(by(Order::Loss(0))), [0, 3, 1, 2]);
-        assert_eq!(rows(ListView { is_reversed: true, ..by(Order::Loss(0)) }), [1, 3, 0, 2]);
-        assert_eq!(rows(by(Order::Disagreement)), [1, 0, 2, 3]);
+        assert_eq!(rows(by(ListOrder::Loss(0))), [0, 3, 1, 2]);
+        assert_eq!(rows(ListView { is_reversed: true, ..by(ListOrder::Loss(0)) }), [1, 3, 0, 2]);
+        assert_eq!(rows(by(ListOrder::Disagreement)), [1, 0, 2, 3]);
         assert_eq!(rows(ListView { search: "BRICK".to_owned(), ..ListView::default() }), [0, 2]);
         let only = |filter| rows(ListView { filter, ..ListView::default() });
-        assert_eq!([only(Filter::Marked), only(Filter::Failed)], [vec![1], vec![3]]);
-        assert!(only(Filter::NotResolvable).is_empty());
+        assert_eq!([only(ListFilter::Marked), only(ListFilter::Failed)], [vec![1], vec![3]]);
+        assert!(only(ListFilter::NotResolvable).is_empty());
     }
 }

@@ -10,7 +10,7 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 
-use super::material::Material;
+use super::material::GltfMaterial;
 use crate::disk::memory::{self, Reserved};
 use crate::disk::open::NamedFile;
 use crate::disk::refuse_pointer;
@@ -22,9 +22,9 @@ use crate::read::stored::PictureSource;
 pub(super) const SOURCES: [&str; 3] = ["EXT_texture_webp", "MSFT_texture_dds", "EXT_texture_avif"];
 
 /// A glTF and its binary part.
-pub(super) struct Document {
+pub(super) struct GltfDocument {
     path: PathBuf,
-    pub materials: Vec<Material>,
+    pub materials: Vec<GltfMaterial>,
     textures: Vec<Texture>,
     images: Vec<Image>,
     views: Vec<View>,
@@ -69,7 +69,7 @@ struct Asset {
     version: String,
 }
 
-impl Document {
+impl GltfDocument {
     /// The document of the file `path`, whose bytes these are.
     ///
     /// # Errors
@@ -216,7 +216,7 @@ fn part<T: DeserializeOwned>(all: &mut Map<String, Value>, name: &str) -> Result
 /// The memory that a document takes at most: as JSON, and as the objects that are read of it.
 fn bytes_of(json: &[u8]) -> u64 {
     /// An object in bytes: a node of each map, and the largest object that is read.
-    const OBJECT: u64 = 1280 + size_of::<Material>() as u64;
+    const OBJECT: u64 = 1280 + size_of::<GltfMaterial>() as u64;
     /// A value of an array or a map, with room to grow, in bytes.
     const VALUE: u64 = 128;
     let count = |searched: u8| json.iter().filter(|byte| **byte == searched).count() as u64;

@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Value};
 
-use super::document::{Document, SOURCES, array};
-use super::material::{Material, TextureInfo};
+use super::document::{GltfDocument, SOURCES, array};
+use super::material::{GltfMaterial, TextureInfo};
 use crate::read::options::Role;
 
 /// Extensions that change the look and are not modelled. Each has a factor whose 0 turns it off, where it has one.
@@ -25,7 +25,7 @@ const NOT_MODELLED: [(&str, &str, Option<&str>); 11] = [
 const READ: [&str; 2] = ["KHR_materials_emissive_strength", "KHR_texture_transform"];
 
 /// The problem where textures are placed differently: then the maps do not lie over one another.
-pub(super) fn transforms_differ(material: &Material) -> Option<String> {
+pub(super) fn transforms_differ(material: &GltfMaterial) -> Option<String> {
     let textures = material.textures();
     let (first, others) = textures.split_first()?;
     let other = others.iter().find(|other| !is_same(transform(other.2), transform(first.2)))?;
@@ -36,7 +36,7 @@ pub(super) fn transforms_differ(material: &Material) -> Option<String> {
 }
 
 /// The textures of a material whose coordinates are not those of the first, by their sets: the maps may not lie over one another.
-fn unlike_coordinates(material: &Material) -> Option<String> {
+fn unlike_coordinates(material: &GltfMaterial) -> Option<String> {
     let set = |texture: &TextureInfo| {
         let transform = texture.extensions.get("KHR_texture_transform");
         transform.and_then(|all| all.get("texCoord")?.as_u64()).unwrap_or(texture.tex_coord)
@@ -76,7 +76,7 @@ fn transform(texture: &TextureInfo) -> [f64; 5] {
 }
 
 /// The features of material number `index` that change its look and are not modelled, by name.
-pub(super) fn ignored(file: &Document, index: usize) -> Vec<String> {
+pub(super) fn ignored(file: &GltfDocument, index: usize) -> Vec<String> {
     let material = &file.materials[index];
     let modelled = |(extension, declared): (&String, &Value)| {
         let known = NOT_MODELLED.iter().find(|(name, ..)| name == extension);
@@ -103,7 +103,7 @@ pub(super) fn ignored(file: &Document, index: usize) -> Vec<String> {
 }
 
 /// The first extension that the file requires, that the material uses, and that is not known.
-pub(super) fn unknown_required(file: &Document, material: &Material) -> Option<String> {
+pub(super) fn unknown_required(file: &GltfDocument, material: &GltfMaterial) -> Option<String> {
     let required = file.array("extensionsRequired");
     let mut used = extensions(file, material).into_iter().map(|(name, _)| name);
     let is_required = |name: &str| required.iter().any(|one| one.as_str() == Some(name));
@@ -116,7 +116,7 @@ fn is_unknown(extension: &str) -> bool {
 }
 
 /// The extensions of a material and of its textures, with what they declare, each once; without those of factors that are read.
-fn extensions<'a>(file: &'a Document, material: &'a Material) -> Vec<(&'a String, &'a Value)> {
+fn extensions<'a>(file: &'a GltfDocument, material: &'a GltfMaterial) -> Vec<(&'a String, &'a Value)> {
     let infos = material.textures();
     let sources = infos.iter().filter_map(|(.., info)| file.extensions_of(info.index));
     let places =
@@ -131,7 +131,7 @@ fn extensions<'a>(file: &'a Document, material: &'a Material) -> Vec<(&'a String
 }
 
 /// Whether a primitive with material number `material` has colours of its vertices (glTF 2.0, 3.9.2).
-fn has_vertex_colours(file: &Document, material: usize) -> bool {
+fn has_vertex_colours(file: &GltfDocument, material: usize) -> bool {
     let primitives = file.array("meshes").iter().flat_map(|mesh| array(mesh, "primitives"));
     let is_of_material =
         |primitive: &&Value| primitive.get("material").and_then(Value::as_u64) == Some(material as u64);

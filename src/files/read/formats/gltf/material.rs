@@ -7,7 +7,7 @@ use crate::read::options::Role;
 
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
-pub(super) struct Material {
+pub(super) struct GltfMaterial {
     name: Option<String>,
     pub pbr_metallic_roughness: MetallicRoughness,
     normal_texture: Option<TextureInfo>,
@@ -77,7 +77,7 @@ pub(super) struct Specular {
     specular_color_texture: Option<TextureInfo>,
 }
 
-impl Material {
+impl GltfMaterial {
     pub(super) fn name(&self) -> Option<&str> {
         self.name.as_deref().filter(|name| !name.trim().is_empty())
     }

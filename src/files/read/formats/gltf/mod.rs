@@ -18,8 +18,8 @@ use crate::read::stored::{
     separated,
 };
 
-use document::Document;
-use material::Material;
+use document::GltfDocument;
+use material::GltfMaterial;
 
 /// The refractive index of a material that declares none.
 const DEFAULT_IOR: f32 = 1.5;
@@ -29,7 +29,7 @@ const DEFAULT_IOR: f32 = 1.5;
 pub(in crate::read) struct Gltf {
     path: PathBuf,
     pub name: String,
-    material: Material,
+    material: GltfMaterial,
     /// One for each texture of the material.
     pictures: Vec<Picture>,
     /// The files of its buffers: pictures, vertex colours and meshes.
@@ -48,7 +48,7 @@ impl Gltf {
     /// [`Error::NotAMaterial`] without a material, [`Error::NoSuchExemplar`].
     pub(in crate::read) fn locate(path: &Path, options: &ReadOptions) -> Result<Self, Error> {
         let bytes = NamedFile::by_user(path).bytes()?;
-        let mut file = Document::of(path, bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))?;
+        let mut file = GltfDocument::of(path, bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes))?;
         let index = match options.exemplar {
             Some(_) => options.exemplar_of(file.materials.len(), path)?,
             None => file.materials.iter().position(|one| !one.textures().is_empty()).unwrap_or(0),
@@ -171,7 +171,7 @@ struct Textures<'a> {
 
 impl Textures<'_> {
     /// Adds the maps of the surface to `maps`; returns whether their colours are linear.
-    fn add_to(&self, maps: &mut MapsByRole, material: &Material) -> bool {
+    fn add_to(&self, maps: &mut MapsByRole, material: &GltfMaterial) -> bool {
         let rgb = |factor: Option<[f32; 4]>| factor.map_or([1.0; 3], |[r, g, b, _]| [r, g, b]);
         if let Some(gloss) = &material.extensions.gloss {
             let specular = gloss.specular_factor.unwrap_or([1.0; 3]);
@@ -222,7 +222,7 @@ impl Textures<'_> {
 
     /// The reflectance of the dielectric at normal incidence: min(reflectance(ior) * colour, 1) * strength, by
     /// KHR_materials_ior and KHR_materials_specular.
-    fn dielectric(&self, material: &Material) -> Field {
+    fn dielectric(&self, material: &GltfMaterial) -> Field {
         let ior = material.extensions.ior.as_ref().and_then(|one| one.ior).unwrap_or(DEFAULT_IOR);
         let plain = Field::constant(&[reflectance(ior)]);
         let Some(specular) = &material.extensions.specular else { return plain };
