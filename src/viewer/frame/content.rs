@@ -12,7 +12,6 @@ use crate::pane::legend::LegendStrip;
 use crate::pane::viewport::{STRIP, Viewport};
 use crate::widgets::bare;
 use crate::widgets::numbers::digits;
-use crate::widgets::theme;
 
 /// Height of the caption of a picture that is saved, in points.
 pub const CAPTION: f32 = 20.0;
@@ -37,14 +36,15 @@ pub fn ui(
         panel.show(ui, |ui| caption(ui, shown.model, magnification));
     }
     let height = legend_height(shown);
-    if height > 0.0 {
-        let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(height).resizable(false);
-        panel.show(ui, |ui| LegendStrip::new(shown).ui(ui, next));
-    } else if let free @ 1.0.. = reserve(shown, ui.available_height()) {
-        // Its room stays, as a part of what surrounds the pictures: the panes do not move as it comes.
-        let surround = egui::Frame::NONE.fill(theme::surround(shown.model.settings.dark));
-        let panel = egui::Panel::bottom("no strip").frame(surround).exact_size(free).resizable(false);
-        panel.show_separator_line(false).show(ui, |_| ());
+    // Where there is none, its room stays: the panes do not move as it comes.
+    let room = if height > 0.0 { height } else { reserve(shown, ui.available_height()) };
+    if room >= 1.0 {
+        let panel = bare(egui::Panel::bottom("strip"), ui).exact_size(room).resizable(false);
+        panel.show(ui, |ui| {
+            if height > 0.0 {
+                LegendStrip::new(shown).ui(ui, next);
+            }
+        });
     }
     egui::CentralPanel::no_frame().show(ui, |ui| {
         viewport.ui(ui, shown, next, gpu);
