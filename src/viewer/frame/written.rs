@@ -1,4 +1,4 @@
-//! What is saved: pictures of the materials as `svbrdf render` and `svbrdf strip` write them, the view, the session, and scenes.
+//! Saved files: pictures of the materials as `svbrdf render` and `svbrdf strip` write them, the view, the session, and scenes.
 
 use std::io::Write as _;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! What the panes display: materials, their difference, a photograph. It is asked for once a frame, with what else a title tells.
+//! Contents of the panes: materials, their difference, a photograph. It is asked for once a frame, with what else a title tells.
 
 use std::sync::Arc;
 

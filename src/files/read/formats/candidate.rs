@@ -1,4 +1,4 @@
-//! What may be at a path: located by names, listings and documents alone, and read once its pixels are asked for.
+//! Candidates at a path: located by names, listings and documents alone, and read once its pixels are asked for.
 
 use svbrdf_core::progress::Progress;
 

@@ -1,4 +1,4 @@
-//! What questions are about: materials by their content, and pairs of them.
+//! Subjects of questions: materials by their content, and pairs of them.
 
 use std::sync::{Arc, Weak};
 

@@ -89,7 +89,7 @@ impl Answers {
         latest.state().ready()
     }
 
-    /// Whether a question like this one is being answered.
+    /// Whether a question of this kind is being answered.
     pub fn is_running<Q: Question>(&self) -> bool {
         self.asked.borrow_mut().of_kind::<Q>().any(|entry| entry.phase() == Phase::Running)
     }

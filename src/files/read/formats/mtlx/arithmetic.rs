@@ -1,4 +1,4 @@
-//! What an input of MaterialX is bound to, and the nodes that turn a component of normals around or put channels together: both stay affine
+//! Bindings of inputs of MaterialX, and the nodes that turn a component of normals around or put channels together: both stay affine
 //! in one picture.
 
 /// Most operands of a node.
