@@ -260,6 +260,7 @@ def test_the_kernel_compiles_for_a_card_without_one() -> None:
 
 
 @needs_card
+@pytest.mark.filterwarnings("ignore:Synchronization debug mode is a prototype:UserWarning")
 def test_no_call_waits_for_the_card() -> None:
     pair, loss = [moved(random_maps(seed), torch.float32) for seed in (0, 1)], sv.RenderingLoss()
     gradients(lambda p: loss(p, pair[1]), pair[0])
@@ -290,3 +291,14 @@ def test_a_cuda_graph_takes_new_scenes_from_points() -> None:
         points.copy_(sv.endpoints(svbrdf.sample_scenes(seed=seed)))
         graph.replay()
         assert value.item() == pytest.approx(loss(*pair, seed=seed).item(), rel=1e-6)
+
+
+@needs_card
+def test_a_cuda_graph_repeats_the_scenes_that_a_loss_is_given() -> None:
+    pair, loss = [moved(random_maps(seed), torch.float32) for seed in (0, 1)], sv.RenderingLoss(scenes=svbrdf.sample_scenes())
+    expected, graph = loss(*pair).item(), torch.cuda.CUDAGraph()
+    with torch.cuda.graph(graph):
+        value = loss(*pair)
+    graph.replay()
+    assert value.item() == expected
+    assert loss(*(sv.Maps(*(map.cpu() for map in maps)) for maps in pair)).item() == pytest.approx(expected, rel=1e-5)

@@ -7,12 +7,13 @@ import importlib.util
 import os
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
+from math import prod
 from typing import Any
 
 import torch
 from torch import Tensor
 
-from ._maps import Maps, check_shapes, working_type
+from ._maps import Maps, check_shapes, is_compiling, working_type
 from ._scenes import CONVENTIONS, Convention
 
 INTERPRETED = os.environ.get("TRITON_INTERPRET") == "1"
@@ -48,7 +49,9 @@ def fused_loss(points: Tensor, convention: Convention, prediction: Maps, ground_
     if points.device != device:
         points = points.to(device, non_blocking=True)
     wanted = torch.is_grad_enabled() and any(map.requires_grad for map in prediction)
-    loss: Tensor = _operator(points, convention.name, wanted, *prediction, *ground_truth)[0]
+    # The custom operator costs as much of the processor's time again, and is only needed in a graph.
+    compute = _operator if is_compiling() else _Function.apply
+    loss: Tensor = compute(points, convention.name, wanted, *prediction, *ground_truth)[0]
     return loss
 
 
@@ -76,9 +79,12 @@ class _Once(torch.autograd.Function):
 def _outputs(maps: Sequence[Tensor], wanted: bool) -> tuple[Tensor, Tensor]:
     """Memory for the loss and the gradient of a prediction and a ground truth."""
     dtype = working_type(Maps(*maps[:4]), Maps(*maps[4:]))
-    batch = next((map.shape[:-3] for map in maps if map.dim() > 3), ())
-    shape = (*batch, sum(_CHANNELS), *maps[0].shape[-2:]) if wanted else (0,)
-    return maps[0].new_empty((), dtype=dtype), maps[0].new_empty(shape, dtype=dtype)
+    values = sum(_CHANNELS) * prod(_batch(maps)) * prod(maps[0].shape[-2:]) if wanted else 0
+    return maps[0].new_empty((), dtype=dtype), maps[0].new_empty(values, dtype=dtype)
+
+
+def _batch(maps: Sequence[Tensor]) -> Sequence[int]:
+    return next((map.shape[:-3] for map in maps if map.dim() > 3), ())
 
 
 def _compute(
@@ -94,7 +100,7 @@ def _compute(
     s0: Tensor,
     r0: Tensor,
 ) -> tuple[Tensor, Tensor]:
-    """The loss, and its gradient for normal, diffuse, specular and roughness as one tensor of ten channels."""
+    """The loss, and its gradient for normal, diffuse, specular and roughness, one behind the other."""
     import triton
 
     from . import _kernel
@@ -112,10 +118,12 @@ def _compute(
     losses = loss.new_empty(programs)
     limits = torch.finfo(loss.dtype)
     # Triton launches on the current card.
-    with torch.cuda.device(n.device) if n.is_cuda else nullcontext():
+    is_elsewhere = n.is_cuda and n.device.index != torch.cuda.current_device()
+    with torch.cuda.device(n.device) if is_elsewhere else nullcontext():
         _kernel.loss_and_gradient[(programs,)](
             *(value for map, along in zip(flat, strides, strict=True) for value in (map, *along)),
-            *(points, losses, gradient, texels, height * width, width, height, max(width - 1, 1)),
+            # Converting float64 for each texel would cost more than doing it once.
+            *(points.to(loss.dtype), losses, gradient, texels, height * width, width, height, max(width - 1, 1)),
             SCENES=len(points),
             GRADIENT=wanted,
             BLOCK=BLOCK,
@@ -138,16 +146,20 @@ def _setup(ctx: Any, inputs: tuple[Any, ...], output: tuple[Tensor, Tensor]) -> 
     # The gradient of the second output, which nothing uses, is not made of zeros.
     ctx.set_materialize_grads(False)
     ctx.save_for_backward(output[1])
+    maps = inputs[3:]
+    ctx.shapes = [(*_batch(maps), channels, *maps[0].shape[-2:]) for channels in _CHANNELS]
 
 
 def _backward(ctx: Any, factor: Tensor, _: Any) -> tuple[Tensor | None, ...]:
     # Autograd sums them over the batch where a map has none, and converts them to the type of the map.
     (scaled,) = first_derivatives(factor, ctx.saved_tensors)
-    return (None, None, None, *scaled.split(_CHANNELS, dim=-3), None, None, None, None)
+    parts = scaled.split([prod(shape) for shape in ctx.shapes])
+    of_maps = (part.view(shape) for part, shape in zip(parts, ctx.shapes, strict=True))
+    return (None, None, None, *of_maps, None, None, None, None)
 
 
 class _Function(torch.autograd.Function):
-    """The operator in PyTorch 1.13, which has no custom ones."""
+    """The loss outside of a graph."""
 
     @staticmethod
     def forward(ctx: Any, *inputs: Any) -> Any:
@@ -173,7 +185,5 @@ def _fake(points: Tensor, convention: str, wanted: bool, *maps: Tensor) -> tuple
 
 
 _operator = operator("svbrdf::rendering_loss", _compute, _fake)
-if _custom_op is None:
-    _operator = _Function.apply
-else:
+if _custom_op is not None:
     _operator.register_autograd(_backward, setup_context=_setup)

@@ -93,10 +93,11 @@ def loss_and_gradient(
     TINY: tl.constexpr, MAX: tl.constexpr, EQUAL: tl.constexpr, INTENSITY: tl.constexpr, FLOOR: tl.constexpr,
     LIGHT_Z: tl.constexpr, CLAMP: tl.constexpr, D_FLOOR: tl.constexpr, G_FLOOR: tl.constexpr, EPSILON: tl.constexpr,
 ):  # fmt: skip
-    """Maps with their strides along batch, channels and texels; points: SCENES x 7; gradient: batch x 10 x texels."""
+    """Maps with their strides along batch, channels and texels; points: SCENES x 7; gradient: ten maps."""
     i = tl.program_id(0) * BLOCK + tl.arange(0, BLOCK)
     mask = i < texels
     batch, at = (i // size).to(tl.int64), i % size
+    materials = (texels // size).to(tl.int64)
     nx, ny, nz = three(n, batch * n_b + at * n_t, n_c, mask, T)
     dr, dg, db = three(d, batch * d_b + at * d_t, d_c, mask, T)
     sr, sg, sb = three(s, batch * s_b + at * s_t, s_c, mask, T)
@@ -175,18 +176,20 @@ def loss_and_gradient(
     scale = 1 / (number(3.0 * SCENES, x) * texels)
     tl.store(losses + tl.program_id(0), tl.sum(tl.where(mask, loss * scale, 0.0), 0))
     if GRADIENT:
-        out = gradient + batch * 10 * size + at
+        # Each map of all materials is whole, so that autograd copies none.
+        out_n, out_d = gradient + 3 * size * batch + at, gradient + 3 * size * (batch + materials) + at
+        out_s, out_r = out_d + 3 * size * materials, gradient + size * (9 * materials + batch) + at
         along = dot(d_nx, d_ny, d_nz, nx, ny, nz)
-        tl.store(out, n_inverse * (d_nx - nx * along) * scale, mask)
-        tl.store(out + size, n_inverse * (d_ny - ny * along) * scale, mask)
-        tl.store(out + 2 * size, n_inverse * (d_nz - nz * along) * scale, mask)
+        tl.store(out_n, n_inverse * (d_nx - nx * along) * scale, mask)
+        tl.store(out_n + size, n_inverse * (d_ny - ny * along) * scale, mask)
+        tl.store(out_n + 2 * size, n_inverse * (d_nz - nz * along) * scale, mask)
         share = number(0.3183098861837907, x) * scale
-        tl.store(out + 3 * size, e_r * (1 - sr) * share, mask)
-        tl.store(out + 4 * size, e_g * (1 - sg) * share, mask)
-        tl.store(out + 5 * size, e_b * (1 - sb) * share, mask)
-        tl.store(out + 6 * size, c_r * scale - e_r * dr * share, mask)
-        tl.store(out + 7 * size, c_g * scale - e_g * dg * share, mask)
-        tl.store(out + 8 * size, c_b * scale - e_b * db * share, mask)
+        tl.store(out_d, e_r * (1 - sr) * share, mask)
+        tl.store(out_d + size, e_g * (1 - sg) * share, mask)
+        tl.store(out_d + 2 * size, e_b * (1 - sb) * share, mask)
+        tl.store(out_s, c_r * scale - e_r * dr * share, mask)
+        tl.store(out_s + size, c_g * scale - e_g * dg * share, mask)
+        tl.store(out_s + 2 * size, c_b * scale - e_b * db * share, mask)
         d_a = d_root_a * number(0.28209479177387814, x) + 2 * a * d_a2 + 0.5 * d_k
         d_r = tl.where(stored < number(FLOOR, x), 0.0, 2 * rough * d_a)
-        tl.store(out + 9 * size, d_r * scale, mask)
+        tl.store(out_r, d_r * scale, mask)

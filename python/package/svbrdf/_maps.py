@@ -1,7 +1,8 @@
 """Maps of a batch of materials as tensors of PyTorch, and checks of them."""
 
+import functools
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
@@ -16,7 +17,17 @@ _F = TypeVar("_F", bound=Callable[..., Any])
 # PyTorch 1.13 has no compiler.
 _compiler: Any = getattr(torch, "compiler", None)
 is_compiling: Callable[[], bool] = getattr(_compiler, "is_compiling", lambda: False)
-outside_of_graph: Callable[[_F], _F] = getattr(_compiler, "disable", lambda function: function)
+
+
+def outside_of_graph(function: _F) -> _F:
+    """The function, of which `torch.compile` makes no graph. Without a compiler it is called as it is: that is faster."""
+    disabled = getattr(_compiler, "disable", lambda one: one)(function)
+
+    @functools.wraps(function)
+    def called(*args: Any, **kwargs: Any) -> Any:
+        return (disabled if is_compiling() else function)(*args, **kwargs)
+
+    return called  # type: ignore[return-value]
 
 
 class Maps(NamedTuple):
@@ -48,15 +59,20 @@ def check_shapes(**materials: Maps) -> None:
     height, width = named[0][1].shape[-2:]
     batch_of, batch = next(((name, map.shape[:-3]) for name, map in named if map.dim() > 3), ("", ()))
     for (name, map), channels in zip(named, (3, 3, 3, 1) * len(materials), strict=True):
-        found = " x ".join(str(length) for length in map.shape)
-        if tuple(map.shape[-3:]) != (channels, height, width):
-            raise ValueError(f"{name}: expected ... x {channels} x {height} x {width}, found {found}; reshape it")
-        if map.dim() > 3 and map.shape[:-3] != batch:
-            expected = " x ".join(str(length) for length in batch)
+        *dims, found_channels, found_height, found_width = map.shape if map.dim() > 2 else (0, 0, 0)
+        if (found_channels, found_height, found_width) != (channels, height, width):
             raise ValueError(
-                f"{name}: expected the batch dimensions of {batch_of}, {expected}, or none, found {found}; "
+                f"{name}: expected ... x {channels} x {height} x {width}, found {_by(map.shape)}; reshape it"
+            )
+        if dims and tuple(dims) != batch:
+            raise ValueError(
+                f"{name}: expected the batch dimensions of {batch_of}, {_by(batch)}, or none, found {_by(map.shape)}; "
                 "give one material for a whole batch without batch dimensions"
             )
+
+
+def _by(shape: Sequence[int]) -> str:
+    return " x ".join(str(length) for length in shape)
 
 
 def _items(which: str, maps: Maps) -> list[tuple[str, Tensor]]:

@@ -153,12 +153,15 @@ class RenderingLoss(torch.nn.Module):
     @outside_of_graph
     def _endpoints(self, seed: int | None) -> Tensor:
         if self._given is not None:
-            return self._given
+            return self._given.cpu()
         return _sampled(seed, self.near, self.distant, self.sampler, self.convention.name, False)
 
     def _points_for(self, map: Tensor, is_compiled: bool, seed: int | None) -> Tensor:
         """Endpoints of scenes in memory that the card of `map` copies without anybody waiting for it."""
-        if is_compiled and self._given is not None:
+        if self._given is not None:
+            if not is_compiled:
+                # On the card from the first call on.
+                self._given = self._given.to(map.device)
             return self._given
         if is_compiled:
             return _sampled_in_graph(seed, self.near, self.distant, self.sampler, self.convention.name, map.is_cuda)
@@ -167,8 +170,7 @@ class RenderingLoss(torch.nn.Module):
                 "a CUDA graph repeats the scenes of its capture; give points=, a tensor on the card, and copy "
                 "svbrdf.torch.endpoints(scenes) of new scenes into it before each replay"
             )
-        points = self._endpoints(seed)
-        return points.pin_memory() if map.is_cuda else points
+        return _sampled(seed, self.near, self.distant, self.sampler, self.convention.name, map.is_cuda)
 
 
 def scene_losses(prediction: Maps, ground_truth: Maps, scenes: Sequence[Scene], convention: Convention) -> Tensor:
