@@ -5,14 +5,15 @@ use rand::{RngExt as _, SeedableRng as _};
 
 use svbrdf_core::model::grammar::RendererTerms;
 use svbrdf_core::model::grammar::words::{
-    Alpha, Denominator, Distribution, Falloff, Fresnel, K, Maps, NormalY, Normals, Shadowing, Weight,
+    Alpha, Denominator, Distribution, Falloff, Fresnel, FresnelCosine, K, Maps, NormalY, Normals, Shadowing,
+    Weight,
 };
 use svbrdf_evaluate::conform::{TermGap, VerdictKind};
 
 use super::{judged, points, single};
 
 /// Terms that are right, or cannot be told: floors and factors are not among them.
-const STRUCTURE: [&str; 12] = [
+const STRUCTURE: [&str; 13] = [
     "material",
     "alpha",
     "normal_y",
@@ -20,6 +21,7 @@ const STRUCTURE: [&str; 12] = [
     "G",
     "k",
     "F",
+    "F_of",
     "diffuse",
     "falloff",
     "collocated",
@@ -96,13 +98,20 @@ fn random_members_are_found_in_float64_and_float32() {
 #[test]
 fn a_member_is_not_taken_for_another() {
     let points = points();
-    let terms = member(0);
-    let mut other = terms;
-    other.specular.f = if terms.specular.f == Fresnel::Fifth { Fresnel::Base2 } else { Fresnel::Fifth };
-    let exact = points.iter().map(|point| terms.radiance(point, true)).collect();
-    let metallic = terms.material.material == Maps::Metallic;
-    let verdict = judged(&points, exact, Some(metallic), &other);
-    assert_eq!(verdict.kind, VerdictKind::Differs);
-    let differing: Vec<_> = verdict.differences.iter().map(|one| one.term.as_str()).collect();
-    assert_eq!(differing, ["F"]);
+    let mut asked = member(0);
+    asked.specular.f = Fresnel::Fifth;
+    let metallic = asked.material.material == Maps::Metallic;
+    for (term, f, f_of) in [
+        ("F", Fresnel::Base2, FresnelCosine::Half),
+        ("F_of", Fresnel::Fifth, FresnelCosine::View),
+        ("F_of", Fresnel::Fifth, FresnelCosine::NormalHalf),
+    ] {
+        let mut terms = asked;
+        (terms.specular.f, terms.specular.f_of) = (f, f_of);
+        let exact = points.iter().map(|point| terms.radiance(point, true)).collect();
+        let verdict = judged(&points, exact, Some(metallic), &asked);
+        assert_eq!(verdict.kind, VerdictKind::Differs, "{:?}", terms.specular.f_of);
+        let differing: Vec<_> = verdict.differences.iter().map(|one| one.term.as_str()).collect();
+        assert_eq!(differing, [term]);
+    }
 }

@@ -2,7 +2,8 @@
 
 use svbrdf_core::model::grammar::RendererTerms;
 use svbrdf_core::model::grammar::words::{
-    Alpha, Denominator, Distribution, F90, Falloff, Fresnel, K, Maps, NormalY, Normals, Shadowing, Weight,
+    Alpha, Denominator, Distribution, F90, Falloff, Fresnel, FresnelCosine, K, Maps, NormalY, Normals,
+    Shadowing, Weight,
 };
 
 /// The values of a floor that are tried before it is refined.
@@ -77,7 +78,9 @@ pub fn of_words(terms: &RendererTerms) -> Vec<RendererTerms> {
     NormalY::ALL.iter().for_each(|x| add(&|t| t.material.normal_y = *x));
     Distribution::ALL.iter().for_each(|x| add(&|t| t.specular.d = *x));
     SHADOWINGS.iter().for_each(|(g, k)| add(&|t| (t.specular.g, t.specular.k) = (*g, *k)));
-    Fresnel::ALL.iter().for_each(|x| add(&|t| t.specular.f = *x));
+    for f in Fresnel::ALL {
+        FresnelCosine::ALL.iter().for_each(|of| add(&|t| (t.specular.f, t.specular.f_of) = (f, *of)));
+    }
     F90::ALL.iter().for_each(|x| add(&|t| t.specular.f90 = *x));
     weights(terms.material.material).iter().for_each(|x| add(&|t| t.diffuse.diffuse = *x));
     Falloff::ALL.iter().for_each(|x| add(&|t| t.light.falloff = *x));

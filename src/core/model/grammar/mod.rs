@@ -13,8 +13,8 @@ pub use description::{Description, TermDifference};
 pub use radiance::{Factors, Point};
 pub use scenes::SceneTerms;
 use words::{
-    Alpha, Denominator, Distribution, F90, Falloff, Fresnel, K, Maps, Norm, NormalY, Normals, Rows,
-    Shadowing, Sites, Transfer, Weight,
+    Alpha, Denominator, Distribution, F90, Falloff, Fresnel, FresnelCosine, K, Maps, Norm, NormalY, Normals,
+    Rows, Shadowing, Sites, Transfer, Weight,
 };
 
 /// The material: its maps, and what happens to them before the formulas.
@@ -85,6 +85,8 @@ pub struct SpecularTerms {
     pub den_add: f64,
     #[serde(rename = "F")]
     pub f: Fresnel,
+    #[serde(rename = "F_of")]
+    pub f_of: FresnelCosine,
     pub f90: F90,
     /// Whether the specular term is multiplied by the cosine.
     pub spec_cosine: bool,
@@ -219,6 +221,7 @@ impl RendererTerms {
             denominator: Denominator::Cancelled,
             den_add: 0.0,
             f: Fresnel::Base2,
+            f_of: FresnelCosine::Half,
             f90: F90::One,
             spec_cosine: true,
             front_min: None,

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::words::{
-    Alpha, Denominator, Distribution, F90, Falloff, Fresnel, K, Maps, NormalY, Normals, Rows, Shadowing,
-    Sites, Transfer, Weight,
+    Alpha, Denominator, Distribution, F90, Falloff, Fresnel, FresnelCosine, K, Maps, NormalY, Normals, Rows,
+    Shadowing, Sites, Transfer, Weight,
 };
 use super::{GridTerms, MapTerms, RendererTerms, SpecularTerms};
 
@@ -156,11 +156,16 @@ impl SpecularTerms {
         }
     }
 
-    /// Schlick's power for v.h.
-    fn fresnel_weight(&self, vh: f64) -> f64 {
+    /// Schlick's power for the cosine of the Fresnel term.
+    fn fresnel_weight(&self, [nv, nh, vh]: [f64; 3]) -> f64 {
+        let x = match self.f_of {
+            FresnelCosine::Half => self.limited(vh, self.vh_min),
+            FresnelCosine::View => nv,
+            FresnelCosine::NormalHalf => nh,
+        };
         match self.f {
-            Fresnel::Base2 => ((-5.55473 * vh - 6.98316) * vh).exp2(),
-            Fresnel::Fifth => (1.0 - vh).max(0.0).powi(5),
+            Fresnel::Base2 => ((-5.55473 * x - 6.98316) * x).exp2(),
+            Fresnel::Fifth => (1.0 - x).max(0.0).powi(5),
             Fresnel::Constant => 0.0,
         }
     }
@@ -216,7 +221,7 @@ impl RendererTerms {
         let (nl, nv) = (s.limited(x.nl, s.nl_min), s.limited(x.nv, s.nv_min));
         let nh = if s.nh_clamped { s.limited(x.nh, s.nh_min) } else { x.nh };
         let a = self.width(surface.roughness);
-        let weight = s.fresnel_weight(s.limited(x.vh, s.vh_min));
+        let weight = s.fresnel_weight([nv, nh, x.vh]);
         Factors {
             cosines: [x.nl, x.nv, x.nh, x.vh],
             d: s.distribution(nh, x.nh, a),
@@ -245,7 +250,7 @@ impl RendererTerms {
         let s = &self.specular;
         let (nl, nv) = (s.limited(x.nl, s.nl_min), s.limited(x.nv, s.nv_min));
         let nh = if s.nh_clamped { s.limited(x.nh, s.nh_min) } else { x.nh };
-        let weight = s.fresnel_weight(s.limited(x.vh, s.vh_min));
+        let weight = s.fresnel_weight([nv, nh, x.vh]);
         let r = surface.roughness;
         let a = self.width(r);
         let is_front = s.front_min.is_none_or(|least| x.nl > least && x.nv > least);

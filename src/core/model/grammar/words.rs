@@ -90,6 +90,14 @@ choices! {
 }
 
 choices! {
+    /// The cosine that the Fresnel term is taken of.
+    FresnelCosine, "cosine of the Fresnel term":
+    Half = "v.h",
+    View = "n.v",
+    NormalHalf = "n.h",
+}
+
+choices! {
     /// The Fresnel term at grazing angles.
     F90, "f90":
     One = "1",
