@@ -1,6 +1,5 @@
 //! The command line: one file per subcommand.
 
-mod adapters;
 mod analysis;
 mod args;
 mod conform;
@@ -12,6 +11,7 @@ mod generate;
 mod help;
 mod info;
 mod job;
+mod machine;
 mod output;
 mod photo;
 mod picture_file;
@@ -22,7 +22,6 @@ mod strip;
 mod strip_methods;
 mod study;
 mod verify;
-mod version;
 mod view;
 
 use std::process::ExitCode;
@@ -80,7 +79,7 @@ enum Subcommands {
     Conventions(conventions::ConventionsArgs),
     Info(info::InfoArgs),
     Convert(convert::ConvertArgs),
-    Adapters(adapters::AdaptersArgs),
+    Adapters(machine::AdaptersArgs),
     Completions(generate::CompletionsArgs),
     Man(generate::ManArgs),
 }
@@ -119,7 +118,7 @@ fn before_parsing() -> Option<Result<(), CommandError>> {
 /// The parser of the command line stops at `--version`, wherever `--verbose` stands.
 fn print_version() -> Result<(), CommandError> {
     let is_verbose = |argument: String| argument == "--verbose" || argument == "-v";
-    Ok(put(&version::text(std::env::args().any(is_verbose)))?)
+    Ok(put(&machine::version(std::env::args().any(is_verbose)))?)
 }
 
 /// The ranking of the words of a command line, where they are one.
@@ -143,7 +142,7 @@ impl Cli {
         }
         match command {
             Subcommands::Conventions(args) => conventions::run(&args),
-            Subcommands::Adapters(args) => adapters::run(args),
+            Subcommands::Adapters(args) => machine::list(args),
             Subcommands::Verify(args) => verify::run(&args, parsed),
             Subcommands::Completions(args) => generate::completions(&args, help::program(Self::command())),
             Subcommands::Man(args) => generate::man(&args, help::program(Self::command())),

@@ -6,8 +6,7 @@ use svbrdf_evaluate::registration::Registration;
 use svbrdf_files::convention::ChosenConvention;
 
 use super::scenes::{FixedNumber, SceneArgs};
-use super::specified::refuse;
-use super::{Specified, offered};
+use super::{Specified, offered, refuse};
 use crate::cli::output::CommandError;
 
 /// How the pairs of a comparison are compared.

@@ -14,9 +14,8 @@ use svbrdf_evaluate::analyses::RankReport;
 use svbrdf_evaluate::report::Analysis as _;
 use svbrdf_files::scene_file;
 
-use super::offered;
-use super::specified::refuse;
 use super::values::{degrees, duration, percent, stops, triple, whole};
+use super::{offered, refuse};
 use crate::cli::output::CommandError;
 
 /// All options that decide scenes, texels and precision; a command has some of them.

@@ -7,7 +7,6 @@
 mod bootstrap;
 mod doubts;
 mod evaluate;
-mod files;
 mod latex;
 mod list;
 mod mark_summary;
@@ -30,7 +29,6 @@ mod witness;
 pub use bootstrap::{FEWEST, interval_of_mean, interval_of_mean_within, interval_of_median};
 pub use doubts::{DoubtCount, ReadingSummary};
 pub use evaluate::{Evaluation, run};
-pub use files::digests;
 pub use list::{Shard, cases_of_folders, cases_of_table};
 pub use metric_summary::{MetricRow, best_by_metric};
 pub use pick::{Pick, counted_loss, counted_sample};
@@ -39,6 +37,7 @@ pub use record::{
     CandidateFile, Case, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, PredictionResult, Source,
 };
 pub use remark::Remark;
+pub use repetition::digests;
 pub use robust::robust;
 pub use scenes::DatasetScenes;
 pub use summary::{DatasetReport, MarkSummary, MethodSummary, MetricSummary};

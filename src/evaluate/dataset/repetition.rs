@@ -1,15 +1,19 @@
-//! The command that repeats a ranking of a data set.
+//! The command that repeats a ranking of a data set, and digests of its files, by which anyone can tell whether theirs are the same.
 
 use std::ffi::OsString;
 
 use svbrdf_core::text::{line, quoted};
 
-use svbrdf_files::read::ReadOptions;
+use svbrdf_files::read::{MaterialPath, ReadOptions};
 
 use super::pick::Pick;
 use super::reading::DatasetReading;
-use super::record::{DatasetSettings, Method, Source};
+use super::record::{Case, DatasetSettings, Method, Source};
+use crate::error::Error;
 use crate::protocols::Protocol;
+use std::collections::BTreeMap;
+use svbrdf_core::parallel;
+use svbrdf_core::progress::Progress;
 
 /// The command line that makes the same results, quoted for a shell. Options that have their defaults are left out.
 pub(super) fn command(settings: &DatasetSettings, reading: &DatasetReading, pick: Pick) -> String {
@@ -82,4 +86,32 @@ fn read_options(reading: &DatasetReading, protocol: Option<&Protocol>) -> Vec<St
     let read = read.flat_map(|(name, words)| ["--read".to_owned(), format!("{name}:{words}")]);
     let ways = reading.registrations.iter();
     read.chain(ways.flat_map(|(name, way)| ["--register".to_owned(), format!("{name}:{way}")])).collect()
+}
+
+/// Hexadecimal digits of a digest.
+const DIGITS: usize = 16;
+
+/// The beginning of the SHA-256 of the files of each material, by `ground truth, wood` and `ours, wood`. A material that cannot be located has
+/// none.
+///
+/// # Errors
+/// [`Cancelled`](Error::is_cancelled).
+pub fn digests(cases: &[Case], progress: &Progress) -> Result<BTreeMap<String, String>, Error> {
+    let of = |index: usize| {
+        if progress.is_cancelled() {
+            return Err(Error::from(svbrdf_core::error::Error::Cancelled));
+        }
+        let case = &cases[index];
+        let truth = ("ground truth".to_owned(), &case.ground_truth);
+        let predictions = case.candidates.iter().map(|one| match one.sample {
+            0 => (one.method.clone(), &one.path),
+            sample => (format!("{} {sample}", one.method), &one.path),
+        });
+        let digest = |(whose, path): (String, &std::path::PathBuf)| {
+            let found = MaterialPath::new(path, &ReadOptions::AUTO).dependencies().ok()?;
+            Some((format!("{whose}, {}", case.material), found.sha256.get(..DIGITS)?.to_owned()))
+        };
+        Ok::<_, Error>([truth].into_iter().chain(predictions).filter_map(digest).collect::<Vec<_>>())
+    };
+    Ok(parallel::try_map(cases.len(), of)?.into_iter().flatten().collect())
 }

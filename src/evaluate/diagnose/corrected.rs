@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::alignment::Interior;
-use super::pair::{Pair, SampledPair};
+use super::samples::{Pair, SampledPair};
 use svbrdf_core::error::Error;
 use svbrdf_core::material::Material;
 use svbrdf_files::changes::{Change, Placement, Reading, interpolated};

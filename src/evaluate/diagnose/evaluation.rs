@@ -3,13 +3,13 @@
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::finding::Finding;
-use super::holm::holm;
 use super::proposals::Proposal;
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;
 use svbrdf_core::loss::Estimate;
 use svbrdf_core::model::sampler::{REPLICATES, Sampler};
 use svbrdf_core::model::scene::Scene;
+use svbrdf_core::statistics::order;
 
 /// The finding of each proposal in the scenes of `evaluation`, not yet marked. `unchanged`: the losses without changes.
 pub(super) fn findings(
@@ -72,4 +72,30 @@ pub(super) fn one_sided(fall: &Estimate) -> f64 {
         return if fall.mean > 0.0 { 0.0 } else { 1.0 };
     }
     StudentsT::new(0.0, 1.0, (REPLICATES - 1) as f64).map_or(1.0, |t| t.sf(fall.mean / error))
+}
+
+/// The p-values adjusted for their number (Holm 1979): those below a level are rejected at this level for the whole family.
+pub fn holm(p: &[f64]) -> Vec<f64> {
+    let mut adjusted = vec![1.0; p.len()];
+    let mut largest: f64 = 0.0;
+    for (rank, index) in order(p).into_iter().enumerate() {
+        largest = largest.max((p.len() - rank) as f64 * p[index]).min(1.0);
+        adjusted[index] = largest;
+    }
+    adjusted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn adjusted_values_are_those_of_r() {
+        // p.adjust(c(0.01, 0.04, 0.03, 0.5), "holm")
+        let found = holm(&[0.01, 0.04, 0.03, 0.5]);
+        for (found, expected) in found.into_iter().zip([0.04, 0.09, 0.09, 0.5]) {
+            assert!((found - expected).abs() < 1e-15, "{found}");
+        }
+        assert!(holm(&[]).is_empty());
+    }
 }

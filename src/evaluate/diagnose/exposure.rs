@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::radiances::Radiances;
+use super::samples::Radiances;
 
 /// Most stops of an exposure.
 const MOST_STOPS: f64 = 16.0;

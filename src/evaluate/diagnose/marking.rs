@@ -1,9 +1,8 @@
 //! Marking: the findings of an explanation that hold in the scenes of the evaluation.
 
-use super::evaluation::one_sided;
+use super::evaluation::{holm, one_sided};
 use super::explanation::{LEAST_SHARE, TRUTH_SHARE, alternatives, fitted};
 use super::finding::{Alternative, Diagnosis, Hypothesis};
-use super::holm::holm;
 use super::proposals::Proposal;
 use super::trials::{Paired, Trials, mean};
 use svbrdf_core::error::Error;

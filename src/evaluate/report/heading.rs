@@ -1,7 +1,8 @@
-//! The settings that reports have in common: lines above a table, and the first keys of the JSON.
+//! What reports have in common: their settings, how to repeat them, and accuracies that are not reached.
 
 use serde::Serialize;
 
+use std::fmt;
 use svbrdf_core::loss::{Estimate, Sampling};
 use svbrdf_core::material::Material;
 use svbrdf_core::math::real::Real;
@@ -9,6 +10,8 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::text::percent;
+use svbrdf_files::disk::atomic::SOFTWARE;
 
 /// The ground truth of a report, and the convention of its losses.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -72,6 +75,53 @@ pub fn floor_line(floor: &Estimate) -> String {
 /// A position or direction as people read it.
 pub fn position([x, y, z]: [f64; 3]) -> String {
     format!("({x:.3}, {y:.3}, {z:.3})")
+}
+
+/// A sentence about a loss over `scenes` scenes whose 95% interval reaches further from it than `target`, a share of it.
+pub fn missed(target: f64, prediction: &str, loss: &Estimate, scenes: usize) -> Option<String> {
+    let reached = loss.relative_error95();
+    (reached > target).then(|| {
+        format!(
+            "{prediction} is known to +-{}, not to the target of +-{}: {scenes} scenes, the limit, are not enough; go by the \
+             interval, or set a larger target",
+            percent(reached),
+            percent(target)
+        )
+    })
+}
+
+/// As [`missed`], of that of the losses, each beside its prediction, which is known least.
+pub fn missed_by_any<'a>(
+    target: f64,
+    losses: impl Iterator<Item = (&'a str, Estimate)>,
+    scenes: usize,
+) -> Option<String> {
+    let error = |(_, loss): &(&str, Estimate)| loss.relative_error95();
+    let (prediction, loss) = losses.max_by(|a, b| error(a).total_cmp(&error(b)))?;
+    missed(target, prediction, &loss, scenes)
+}
+
+/// How to repeat a result.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct Repetition {
+    /// The program and its version.
+    pub software: &'static str,
+    /// The command line.
+    pub command: String,
+}
+
+impl Repetition {
+    /// By `command` and this version of the program.
+    pub fn new(command: String) -> Self {
+        Self { software: SOFTWARE, command }
+    }
+}
+
+impl fmt::Display for Repetition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "repeat with {}: {}", self.software, self.command)
+    }
 }
 
 #[cfg(test)]

@@ -26,19 +26,15 @@ mod conform;
 mod heading;
 mod info;
 mod latex;
-mod missed;
 mod names;
-mod repetition;
 mod table;
 
 pub use analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, Schematic};
 pub use conform::ConformReport;
-pub use heading::{Compared, floor_line, position, scenes_line};
+pub use heading::{Compared, Repetition, floor_line, missed, missed_by_any, position, scenes_line};
 pub use info::InfoReport;
 pub use latex::{bold, escaped, float, latex};
-pub use missed::{missed, missed_by_any};
 pub use names::distinct_names;
-pub use repetition::Repetition;
 pub use table::{Cell, Field, Reader, Table};
 
 use serde::{Deserialize, Serialize};

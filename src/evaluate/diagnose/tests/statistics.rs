@@ -1,6 +1,6 @@
 //! False marks, and the coverage of the intervals of fitted changes: they take minutes, so ignored unless asked for.
 
-use super::super::pair::Pair;
+use super::super::samples::Pair;
 use super::super::trials::{Trials, mean};
 use super::super::{Change, Finding, Reading, Storage, diagnose, shifted};
 use super::materials::{generated, unexplained, with};
