@@ -162,8 +162,8 @@ def measure(batch: int, side: int, rounds: int, compiles: bool) -> None:
         plain_compiled = torch.compile(plain_loss)
         losses["plain lines, compiled"] = lambda p, g: plain_compiled(p, g, scenes)
         losses["svbrdf.torch, fused=False, compiled"] = torch.compile(by_pytorch)
-    # The scenes in float32, the kernel, the sum over its programs, and the product with the factor of the loss; the kernel
-    # reads 20 values of a texel and writes 10, which the product reads and writes. New scenes are copied before.
+    # The scenes in float32, the kernel, the sum over its programs, and the product with the factor of the loss; the
+    # kernel reads 20 values of a texel and writes 10, which the product reads and writes. New scenes are copied before.
     for name, launches in ("svbrdf.torch, fused", 4), ("svbrdf.torch, fused, new scenes", 5):
         counts[name] = f"{launches:9} {batch * side**2 * 200 / 1e6:9.0f}"
     if CARD:
@@ -187,7 +187,7 @@ def measure(batch: int, side: int, rounds: int, compiles: bool) -> None:
         print(f"{name:40} {row} {counts.get(name, '')}")
     if CARD:
         wide = [Maps(*(map.double() for map in maps)) for maps in pair]
-        exact, smooth = step(by_pytorch, *wide), away_from_kinks(*wide, scenes)
+        exact, smooth = step(by_pytorch, *wide), away_from_kinks(wide, scenes)
         print(f"the kernel against float64: loss {relative(found['svbrdf.torch, fused'][0], exact[0]):.1e}")
         for where, weight in ("all texels", 1), (f"the {smooth.double().mean():.4%} away from kinks", smooth):
             apart = [
@@ -202,12 +202,12 @@ def relative(a: Any, b: Any) -> float:
     return float((a - b).norm() / b.norm())
 
 
-def away_from_kinks(prediction: Maps, ground_truth: Maps, scenes: Sequence[svbrdf.Scene]) -> Any:
+def away_from_kinks(pair: Sequence[Maps], scenes: Sequence[svbrdf.Scene]) -> Any:
     """The texels where no radiance is within 1e-5 of that of the ground truth and not the same: there signs change."""
     one = svbrdf.CONVENTIONS["printed"]
     far = []
     for scene in scenes:
-        logs = [torch.log(render(maps, scene, one) + one.epsilon) for maps in (prediction, ground_truth)]
+        logs = [torch.log(render(maps, scene, one) + one.epsilon) for maps in pair]
         apart = (logs[0] - logs[1]).abs()
         far.append(((apart == 0) | (apart > 1e-5)).all(dim=-3, keepdim=True))
     return torch.stack(far).all(dim=0)

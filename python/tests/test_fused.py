@@ -295,7 +295,8 @@ def test_a_cuda_graph_takes_new_scenes_from_points() -> None:
 
 @needs_card
 def test_a_cuda_graph_repeats_the_scenes_that_a_loss_is_given() -> None:
-    pair, loss = [moved(random_maps(seed), torch.float32) for seed in (0, 1)], sv.RenderingLoss(scenes=svbrdf.sample_scenes())
+    pair, scenes = [moved(random_maps(seed), torch.float32) for seed in (0, 1)], svbrdf.sample_scenes()
+    loss = sv.RenderingLoss(scenes=scenes)
     expected, graph = loss(*pair).item(), torch.cuda.CUDAGraph()
     with torch.cuda.graph(graph):
         value = loss(*pair)

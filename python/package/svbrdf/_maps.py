@@ -20,7 +20,7 @@ is_compiling: Callable[[], bool] = getattr(_compiler, "is_compiling", lambda: Fa
 
 
 def outside_of_graph(function: _F) -> _F:
-    """The function, of which `torch.compile` makes no graph. Without a compiler it is called as it is: that is faster."""
+    """The function, outside of each graph of `torch.compile`; without a compiler as it is, which is faster to call."""
     disabled = getattr(_compiler, "disable", lambda one: one)(function)
 
     @functools.wraps(function)
