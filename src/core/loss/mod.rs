@@ -6,18 +6,15 @@
 mod adaptive;
 mod batches;
 mod comparison;
-mod different_texels;
 mod fused;
 mod options;
 mod outcome;
 mod pilot;
 mod pilot_mean;
-mod pilot_texels;
 mod plain;
 mod request;
 mod run;
 mod settings;
-mod shared_texels;
 mod statistics;
 mod texels;
 
@@ -29,6 +26,5 @@ pub use outcome::{IntervalSource, Loss, Outcome};
 pub use plain::Plain;
 pub use request::{ALL_SCENES_TARGET, Precision, Request, Sampling, Texels};
 pub use settings::{Ask, FileScenes, LossSettings};
-pub use shared_texels::SharedTexels;
 pub use statistics::Estimate;
-pub use texels::scene_losses as losses_on_texels;
+pub use texels::{SharedTexels, scene_losses as losses_on_texels};

@@ -23,9 +23,8 @@
 
 use super::comparison::{Comparison, Compute};
 use super::pilot_mean::{Draws, SamplingDistribution};
-use super::pilot_texels::{Subsets, pilot_seed};
 use super::request::Sampling;
-use super::texels::scene_losses;
+use super::texels::{Candidates, scene_losses};
 use crate::error::Error;
 use crate::model::sampler::{REPLICATES, Sampler};
 use crate::model::scene::Kind;
@@ -41,6 +40,10 @@ const GROWTH: usize = 8;
 /// A request for more scenes, or for longer scramblings, is judged by its own: they are enough.
 const MOST_SCENES: usize = 4096;
 const LONGEST_SCRAMBLING: usize = 128;
+/// Texels of each of two subsets that all scenes share.
+const HALF: usize = 512;
+/// A request for more texels per scene than these is treated as one for all.
+const MOST_PER_SCENE: usize = 2048;
 /// A loss is a parameter of scale where the 2.5% quantile is more than this share of the mean.
 const LEAST_RATIO: f64 = 0.05;
 
@@ -230,4 +233,39 @@ fn joined(turns: impl Iterator<Item = Vec<Halves>>) -> Vec<Halves> {
         all
     };
     turns.reduce(join).unwrap_or_default()
+}
+
+/// Texels for the scenes of a pilot, as row * width + column.
+#[derive(Debug, PartialEq)]
+enum Subsets {
+    /// As the request: an independent subset per scene.
+    PerScene,
+    /// For all scenes the same: two independent random subsets, or twice the same texels, which are all or all that
+    /// differ.
+    Shared {
+        halves: [Vec<usize>; 2],
+        /// Of all texels: those that the halves are taken from.
+        share: f64,
+    },
+}
+
+impl Subsets {
+    fn new<T: Compute>(comparison: &Comparison<'_, T>, sampling: &Sampling) -> Self {
+        let size = comparison.ground_truth().size();
+        if sampling.texels.sampled(size).is_some_and(|count| count <= MOST_PER_SCENE) {
+            return Self::PerScene;
+        }
+        let candidates = Candidates::of(comparison);
+        let half = if candidates.count() <= 2 * HALF { candidates.count() } else { HALF };
+        let seed = pilot_seed(sampling.seed, 0);
+        let halves = [1, 2].map(|index| candidates.subset(Sampler::Random, seed, Kind::Near, index, half));
+        Self::Shared { halves, share: candidates.share }
+    }
+}
+
+/// The seed of the scenes and texels of a turn of a pilot, independent of those of the request.
+fn pilot_seed(seed: u64, turn: u64) -> u64 {
+    /// A step of a Weyl sequence, odd: the fractional part of the root of 2, times 2^64.
+    const STEP: u64 = 0x6a09_e667_f3bc_c909;
+    seed.wrapping_add(STEP.wrapping_mul(turn + 1))
 }

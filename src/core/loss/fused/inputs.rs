@@ -8,8 +8,8 @@ use super::rows::TexelRows;
 use crate::loss::comparison::Comparison;
 use crate::material::Material;
 use crate::model::convention::Convention;
+use crate::render::simd::TEXELS_PER_BLOCK;
 use crate::render::simd::shade::ShadingParams;
-use crate::render::simd::size::TEXELS_PER_BLOCK;
 use crate::render::simd::tile::{GridAxes, TexelSpan};
 
 /// Materials, texels and convention of a loss.

@@ -14,7 +14,6 @@ mod inputs;
 mod pass;
 mod rows;
 mod sums;
-mod texel_means;
 
 use rayon::prelude::*;
 

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::material::{Material, Planes};
-use crate::render::simd::size::TEXELS;
+use crate::render::simd::TEXELS;
 
 /// Values of a texel of a material.
 const VALUES: usize = 10;

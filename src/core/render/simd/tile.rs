@@ -3,8 +3,8 @@
 use fearless_simd::{Simd, prelude::*};
 use glam::Vec3;
 
+use super::TEXELS;
 use super::lanes::{Lanes, V, vec3};
-use super::size::TEXELS;
 use crate::material::{Grid, Planes};
 
 /// One number per texel of a tile, aligned so that no vector straddles two cache lines.
