@@ -2,32 +2,18 @@
 
 #[cfg(target_os = "linux")]
 mod claims;
-mod diagnose;
 mod links;
-mod loss;
-mod materials;
 mod memory;
-mod metrics;
 mod names;
-mod options;
-mod packages;
-mod photo;
 mod pictures;
-mod rank;
-mod rank_html;
-mod report;
 mod results;
-mod robust;
 mod stopped;
-mod study;
-mod why;
+mod version;
 
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::{Command, Output};
 
 use image::{Rgb, RgbImage};
-use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::support::surroundings::command;
@@ -61,21 +47,6 @@ fn is_progress(line: &str) -> bool {
     count.is_some_and(|(done, all)| [done, all].iter().all(|number| number.parse::<u64>().is_ok()))
 }
 
-/// The JSON of a run that must succeed.
-fn json_of(folder: &Path, args: &str) -> Value {
-    json(&succeed(folder, &format!("{args} --format json")))
-}
-
-/// The rows of the CSV of a run that must succeed, each cell by its title.
-fn rows_of(folder: &Path, args: &str) -> Vec<BTreeMap<String, String>> {
-    rows(&succeed(folder, &format!("{args} --format csv")))
-}
-
-fn rows(csv: &str) -> Vec<BTreeMap<String, String>> {
-    let rows = csv::Reader::from_reader(csv.as_bytes()).into_deserialize();
-    rows.map(Result::unwrap).collect()
-}
-
 #[track_caller]
 fn assert_has(text: &str, parts: &[&str]) {
     for part in parts {
@@ -92,14 +63,6 @@ fn assert_holds(folder: &Path, name: &str, parts: &[&str]) {
             bytes.windows(part.len()).any(|window| window == part.as_bytes()),
             "`{part}` is not in {name}"
         );
-    }
-}
-
-/// Runs each command, which must fail with its code and a message that has its words.
-fn assert_refused(folder: &Path, commands: &[(&str, i32, &str)]) {
-    for (args, code, words) in commands {
-        let stderr = fail(folder, args, *code);
-        assert!(stderr.contains(words), "{args}: `{words}` is missing in {stderr}");
     }
 }
 
@@ -163,11 +126,51 @@ pub fn folder_of_transcripts() -> TempDir {
     let folder = folder();
     write_data_set(folder.path(), &[("ours", 8), ("theirs", 40)], 3);
     std::fs::create_dir(folder.path().join("planted")).unwrap();
-    diagnose::write_planted(&folder.path().join("planted"));
+    write_planted(&folder.path().join("planted"));
     for (name, convention) in [("answer", "svbrdf-estimation-2022"), ("viewer", "gltf-viewer")] {
         crate::conform::write_answer(&folder.path().join(name).with_extension("npz"), convention);
     }
     folder
+}
+
+/// Writes a ground truth with bumps, and copies with a planted error each, on the stored texels of the tiles: 0 normals, 1 diffuse,
+/// 2 roughness, 3 specular.
+fn write_planted(folder: &Path) {
+    const SIDE: u32 = 32;
+    type Change = fn(u32, [u8; 3]) -> [u8; 3];
+    let copies: [(&str, Change); 9] = [
+        ("truth", |_, texel| texel),
+        ("directx", |tile, [r, g, b]| if tile == 0 { [r, 255 - g, b] } else { [r, g, b] }),
+        ("gloss", |tile, texel| if tile == 2 { texel.map(|v| 255 - v) } else { texel }),
+        ("encoded", |tile, texel| if tile % 2 == 1 { texel.map(encoded) } else { texel }),
+        ("swapped", |tile, [r, g, b]| if tile == 1 { [b, g, r] } else { [r, g, b] }),
+        // Rounding: an eighth of the values is one step away.
+        ("rounded", |_, [r, g, b]| [r, g + u8::from(r % 8 == 0), b]),
+        // Both far from the truth, and near each other; and one that is far from all.
+        ("rough", |tile, texel| if tile == 2 { texel.map(|v| v + 60) } else { texel }),
+        ("same", |tile, texel| if tile == 2 { texel.map(|v| v + 61) } else { texel }),
+        ("black", |tile, texel| if tile == 1 { [0; 3] } else { texel }),
+    ];
+    let wave = |x: u32, y: u32, by: f32| {
+        (0.5 + 0.5 * (0.9 * x as f32 + by).sin() * (0.7 * y as f32 + 2.0 * by).cos()) * 255.0
+    };
+    for (name, change) in copies {
+        write_tiles(&folder.join(name).with_extension("png"), SIDE, |x, y| {
+            let (tile, x) = (x / SIDE, x % SIDE);
+            let texel = match tile {
+                0 => [90.0 + 0.3 * wave(x, y, 0.0), 80.0 + 0.35 * wave(x, y, 1.0), 235.0].map(|v| v as u8),
+                1 => [60.0 + 0.5 * wave(x, y, 0.3), 50.0 + 0.3 * wave(x, y, 0.3), 30.0].map(|v| v as u8),
+                2 => [(60.0 + 0.2 * wave(x, y, 2.0)) as u8; 3],
+                _ => [12; 3],
+            };
+            change(tile, texel)
+        });
+    }
+}
+
+/// The gamma 2.2 of a stored value.
+fn encoded(value: u8) -> u8 {
+    (255.0 * (f32::from(value) / 255.0).powf(1.0 / 2.2)).round() as u8
 }
 
 /// Writes a packed material of four tiles.
@@ -196,19 +199,6 @@ fn folder() -> TempDir {
     }
     std::fs::write(of("text.png"), "not an image").unwrap();
     folder
-}
-
-fn json(text: &str) -> Value {
-    serde_json::from_str(text).unwrap()
-}
-
-fn losses_as_json(folder: &Path, args: &str) -> Value {
-    json_of(folder, &format!("loss {args}"))
-}
-
-/// The loss of the first prediction.
-fn loss_of(folder: &Path, args: &str) -> f64 {
-    losses_as_json(folder, args)["results"][0]["loss"].as_f64().unwrap()
 }
 
 /// A text file of the folder.

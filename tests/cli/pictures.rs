@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use image::imageops::{FilterType, crop_imm};
+use image::{Rgb, RgbImage};
+
 use svbrdf_core::image::Image;
 use svbrdf_core::loss::Compute as _;
 use svbrdf_core::model::convention::PRINTED;
@@ -13,7 +16,7 @@ use svbrdf_core::render::render_f32;
 use svbrdf_files::export::GAP;
 use svbrdf_files::samples;
 
-use super::{assert_has, assert_holds, data_set, folder, succeed, text_of};
+use super::{assert_has, assert_holds, folder, succeed, text_of};
 use crate::support::losses::losses;
 
 /// The built-in materials as `render` shows them: side by side.
@@ -123,6 +126,19 @@ fn the_mean_of_a_difference_is_the_loss_in_that_scene() {
 }
 
 #[test]
+fn the_mean_of_a_log_difference_from_a_photograph_is_the_one_that_is_printed() {
+    let folder = folder();
+    let scene = "--view 0,0,2 --light 0.5,0.5,1";
+    succeed(folder.path(), &format!("render gt.png -o photo.exr {scene}"));
+    let printed = succeed(folder.path(), &format!("photo photo.exr a.png {scene} -o log.exr --format json"));
+    let printed: serde_json::Value = serde_json::from_str(&printed).unwrap();
+    let expected = printed["results"][0]["log"].as_f64().unwrap();
+    let values = image_of_exr(&folder.path().join("log.exr")).pixels.concat();
+    let mean = values.iter().map(|value| f64::from(*value)).sum::<f64>() / values.len() as f64;
+    assert!((mean / expected - 1.0).abs() < 1e-6 && expected > 0.0, "{mean}, {expected}");
+}
+
+#[test]
 fn a_png_of_a_difference_has_the_colours_of_the_map_and_says_so() {
     let folder = folder();
     succeed(folder.path(), "render --difference -o out.exr");
@@ -141,99 +157,75 @@ fn a_png_of_a_difference_has_the_colours_of_the_map_and_says_so() {
     assert_holds(folder.path(), "out.png", &["|ln(prediction + 0.01) - ln(ground truth + 0.01)|"]);
 }
 
-/// The pixels of a cell of a picture.
-fn crop(picture: &image::RgbImage, [x, y]: [usize; 2], side: usize) -> Vec<[u8; 3]> {
-    let cell = image::imageops::crop_imm(picture, x as u32, y as u32, side as u32, side as u32).to_image();
-    cell.pixels().map(|pixel| pixel.0).collect()
+/// The first place where a part stands in a picture.
+fn place(picture: &RgbImage, part: &RgbImage) -> Option<[u32; 2]> {
+    let (width, height) = part.dimensions();
+    let is_at = |[x, y]: &[u32; 2]| {
+        let probes = [0, 1, 2].map(|i| [i * (width - 1) / 2, i * (height - 1) / 2]);
+        probes.into_iter().all(|[dx, dy]| picture.get_pixel(x + dx, y + dy) == part.get_pixel(dx, dy))
+            && crop_imm(picture, *x, *y, width, height).to_image() == *part
+    };
+    let (right, lower) = (picture.width() - width, picture.height() - height);
+    (0..=lower).flat_map(|y| (0..=right).map(move |x| [x, y])).find(is_at)
 }
 
 #[test]
 fn a_strip_has_the_pixels_that_render_writes() {
     let folder = folder();
-    let view = "--view 0.2,-0.3,2 --light -1,0.5,0.8 --exposure 0.5 --range auto";
+    let view = "--view 0.2,-0.3,2 --light -1,0.5,0.8";
+    let columns = "normal,diffuse,roughness,specular,rendering,rendering:,normal:";
     succeed(
         folder.path(),
-        &format!(
-            "strip -o strip.png --columns normal,diffuse,roughness,specular,rendering,rendering:,normal: {view}"
-        ),
+        &format!("strip -o strip.png --columns {columns} {view} --exposure 0.5 --range auto"),
     );
     let open = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgb8();
     let strip = open("strip.png");
     let side = 256;
-    let scene = "--view 0.2,-0.3,2 --light -1,0.5,0.8 --exposure 0.5";
-    let mut places = Vec::new();
+    let mut found = Vec::new();
     for (column, options, first) in [
         (0, "--show normal".to_owned(), 0),
         (1, "--show diffuse".to_owned(), 0),
         (2, "--show roughness".to_owned(), 0),
         (3, "--show specular".to_owned(), 0),
-        (4, scene.to_owned(), 0),
-        (5, "--view 0.2,-0.3,2 --light -1,0.5,0.8 --difference --range auto".to_owned(), 1),
+        (4, format!("{view} --exposure 0.5"), 0),
+        (5, format!("{view} --difference --range auto"), 1),
         (6, "--show normal --difference --range auto".to_owned(), 1),
     ] {
         succeed(folder.path(), &format!("render -o one.png {options}"));
         let one = open("one.png");
         for row in first..3 {
-            let pane = crop(&one, [(row - first) * (side + GAP), 0], side);
+            let pane = crop_imm(&one, (row - first) * (side + GAP as u32), 0, side, side).to_image();
             // The normals of the prediction with wrong roughness are right.
-            let is_empty = pane.iter().all(|pixel| *pixel == pane[0]);
+            let is_empty = pane.pixels().all(|pixel| pixel == pane.get_pixel(0, 0));
             assert_eq!(is_empty, (column, row) == (6, 2), "column {column}, row {row}");
-            // Equal ones, such as the diffuse maps, are found in their order.
-            let is_free = |place: &[usize; 2]| !places.contains(&(*place, (column, row)));
-            let found = placed(&strip, &pane, side).into_iter().filter(is_free);
-            let found: Vec<[usize; 2]> = found.collect();
-            assert!(!found.is_empty(), "column {column}, row {row}");
-            places.extend(found.into_iter().map(|place| (place, (column, row))));
+            let place = place(&strip, &pane).unwrap_or_else(|| panic!("column {column}, row {row}"));
+            found.push(((column, row), place));
         }
     }
     // A column is at one place, and so is a row.
-    let rendering = |row: usize| places.iter().find(|(_, cell)| *cell == (4, row)).unwrap().0;
-    let [first, second, third] = [0, 1, 2].map(rendering);
+    let at = |cell: (u32, u32)| found.iter().find(|(found, _)| *found == cell).unwrap().1;
+    let [first, second, third] = [0, 1, 2].map(|row| at((4, row)));
     assert!(first[0] == second[0] && second[0] == third[0] && first[1] + side < second[1]);
-    let difference = places.iter().find(|(_, cell)| *cell == (5, 1)).unwrap().0;
+    let difference = at((5, 1));
     assert!(difference[1] == second[1] && difference[0] > second[0] + side);
-    let label = image::imageops::crop_imm(&strip, 0, first[1] as u32, 60, side as u32).to_image();
+    let label = crop_imm(&strip, 0, first[1], 60, side).to_image();
     assert!(label.pixels().any(|pixel| pixel.0[0] < 100), "the rows have names");
-}
-
-/// The places of a square of pixels in a picture.
-fn placed(picture: &image::RgbImage, square: &[[u8; 3]], side: usize) -> Vec<[usize; 2]> {
-    let at = |x: usize, y: usize| picture.get_pixel(x as u32, y as u32).0;
-    let [right, lower] = [picture.width() as usize - side, picture.height() as usize - side];
-    let is_at = |[x, y]: &[usize; 2]| {
-        let probes = [0, side / 2, side - 1].into_iter().flat_map(|i| [[i, i], [i, side - 1 - i]]);
-        probes.into_iter().all(|[dx, dy]| at(x + dx, y + dy) == square[dy * side + dx])
-            && crop(picture, [*x, *y], side) == square
-    };
-    let all = (0..=lower).flat_map(|y| (0..=right).map(move |x| [x, y]));
-    all.filter(is_at).collect()
 }
 
 #[test]
 fn a_strip_frames_crops_and_shows_them_magnified_beside_their_cells() {
     let folder = folder();
-    succeed(
-        folder.path(),
-        "strip -o strip.png --columns diffuse,rendering: --crop 40,60,32,20 --crop 0,200,30,56",
-    );
+    let crops = "--crop 40,60,32,20 --crop 0,200,30,56";
+    succeed(folder.path(), &format!("strip -o strip.png --columns diffuse,rendering: {crops}"));
     succeed(folder.path(), "render -o one.png --show diffuse");
     let open = |name: &str| image::open(folder.path().join(name)).unwrap().into_rgb8();
     let [strip, one] = ["strip.png", "one.png"].map(open);
-    let (times, orange) = (6, image::Rgb([230, 159, 0]));
-    let inset = image::imageops::crop_imm(&one, 40, 60, 32, 20).to_image();
-    let [width, height] = [32 * times, 20 * times];
-    let inset = image::imageops::resize(&inset, width, height, image::imageops::FilterType::Nearest);
-    let is_at = |x: u32, y: u32| {
-        [[0, 0], [100, 50], [191, 119]]
-            .into_iter()
-            .all(|[dx, dy]| strip.get_pixel(x + dx, y + dy) == inset.get_pixel(dx, dy))
-            && *image::imageops::crop_imm(&strip, x, y, width, height).to_image() == *inset
-    };
-    let all = (0..strip.height() - height).flat_map(|y| (0..strip.width() - width).map(move |x| (x, y)));
-    let (x, y) = all.into_iter().find(|(x, y)| is_at(*x, *y)).expect("the inset of the ground truth");
+    let (times, orange) = (6, Rgb([230, 159, 0]));
+    let inset = crop_imm(&one, 40, 60, 32, 20).to_image();
+    let inset = image::imageops::resize(&inset, 32 * times, 20 * times, FilterType::Nearest);
+    let [x, y] = place(&strip, &inset).expect("the inset of the ground truth");
     assert_eq!(*strip.get_pixel(x - 1, y - 1), orange, "its frame");
-    let is_orange = |y: u32| (0..x - 10).any(|x| *strip.get_pixel(x, y) == orange);
-    assert!(is_orange(y + 60), "the frame in the cell to its left");
+    assert!((0..x - 10).any(|x| *strip.get_pixel(x, y + 60) == orange), "the frame in the cell to its left");
     assert_holds(folder.path(), "strip.png", &["40,60,32,20 | 0,200,30,56"]);
 }
 
@@ -271,44 +263,4 @@ fn a_figure_of_a_paper_has_its_width_and_its_text_in_points() {
             pdf.split("/MediaBox [0 0 ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
         assert!((width - points).abs() < 0.01, "{width}");
     }
-}
-
-#[test]
-fn a_strip_has_a_column_for_each_scene_and_says_what_it_shows() {
-    let folder = folder();
-    let scenes = r#"{"scenes": [
-        {"kind": "near", "view": [0, 0, 2.5], "light": [0.4, 0.5, 1.2]},
-        {"kind": "distant", "view": [0, 0, 1], "light": [0.5, 0.5, 0.7]}
-    ]}"#;
-    std::fs::write(folder.path().join("scenes.json"), scenes).unwrap();
-    succeed(folder.path(), "strip gt.png a.png -o two.png --columns normal,rendering --scenes scenes.json");
-    succeed(folder.path(), "strip gt.png a.png -o one.png --columns normal,rendering");
-    let height = |name: &str| image::open(folder.path().join(name)).unwrap().height();
-    // Scenes stand above their columns where they differ.
-    assert!(height("two.png") != height("one.png"));
-    assert_holds(folder.path(), "two.png", &["distant light 0.5, 0.5, 0.7", "svbrdf:columns"]);
-}
-
-#[test]
-fn a_figure_of_a_data_set_has_a_row_a_material_and_a_column_a_method_with_the_losses_of_rank() {
-    let folder = data_set(&[("ours", 3), ("theirs", 60)], 3);
-    let at = folder.path();
-    std::fs::remove_file(at.join("theirs/m1.png")).unwrap();
-    let reading = "--read albedo=linear,roughness=r,normal-y=up,order=ndrs";
-    succeed(at, &format!("strip --dataset gt ours theirs {reading} -o plain.png"));
-    let size = |name: &str| image::image_dimensions(at.join(name)).unwrap();
-    let plain = size("plain.png");
-    assert_eq!(plain.0, 1040, "88 mm at 300 pixels an inch");
-    succeed(at, &format!("strip --dataset gt ours theirs {reading} --results kept -o losses.png"));
-    let picture = |name: &str| image::open(at.join(name)).unwrap().to_rgb8();
-    assert!(size("losses.png").1 > plain.1 && picture("losses.png") != picture("plain.png"), "no losses");
-    // They are in the folder under the keys of rank: it computes none.
-    let files = || std::fs::read_dir(at.join("kept")).unwrap().count();
-    assert_eq!(files(), 5);
-    succeed(at, &format!("rank --dataset gt ours theirs {reading} --results kept"));
-    assert_eq!(files(), 5);
-    assert_holds(at, "losses.png", &["ground truth | ours | theirs", "m0 | m1 | m2"]);
-    // A planted fault: methods that changed places.
-    succeed(at, &format!("strip --dataset gt theirs ours {reading} -o swapped.png"));
-    assert!(picture("swapped.png") != picture("plain.png"));
 }
