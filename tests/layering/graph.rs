@@ -92,13 +92,11 @@ impl Source {
 
 /// The modules of the crates of [`CRATES`] below their names, of the program's library at the root and, below `main`,
 /// of its command line, each with its file.
-struct Tree<'a>(BTreeMap<Path, (&'a str, Source)>);
+struct Tree<'a>(BTreeMap<Path, (&'a str, &'a Source)>);
 
-/// All arrows between different files, each with its path below `src` and its text.
-pub fn arrows(files: &[(String, String)]) -> Vec<Arrow> {
-    let module = |(file, text): &'_ (String, String)| (module_of(file), Source::new(text));
-    let modules = files.iter().map(|file| (module(file), file.0.as_str()));
-    let tree = Tree(modules.map(|((path, source), file)| (path, (file, source))).collect());
+/// All arrows between different files, each with its path below `src`.
+pub fn arrows(files: &[(String, Source)]) -> Vec<Arrow> {
+    let tree = Tree(files.iter().map(|(file, source)| (module_of(file), (file.as_str(), source))).collect());
     let mut arrows = BTreeSet::new();
     for (module, (from, source)) in &tree.0 {
         let imports = source.imports.iter().map(|one| (tree.anchored(module, &one.path), one.public));
