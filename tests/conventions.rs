@@ -1,5 +1,5 @@
 //! Conventions against the numbers of their authors' code.
 
 mod losses;
-mod peers;
+pub mod peers;
 mod sampling;

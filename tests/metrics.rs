@@ -147,10 +147,24 @@ fn renderings_of_diffuse_materials_have_their_closed_form() {
     assert!((psnr + 20.0 * linear.log10()).abs() < 1e-12);
 }
 
-/// The material of the references below: 24 x 17 texels, or 8 x 8, of values that NumPy computes the same.
-fn pattern(size: [usize; 2], of: impl Fn(usize, usize, usize) -> f64) -> [Vec<f64>; 3] {
-    let [width, height] = size;
-    std::array::from_fn(|c| (0..width * height).map(|i| of(i % width, i / width, c)).collect())
+/// The materials of the references below, of `height` rows of 24 texels: diffuse maps that NumPy computes the same, their red channel as
+/// roughness, and as specular the diffuse map or a constant.
+fn patterns(height: usize, specular: Option<f64>) -> [Material<f64>; 2] {
+    let first = |x: usize, y: usize, c: usize| ((7 * x + 13 * y + 29 * c) % 64) as f64 / 63.0;
+    let second =
+        |x: usize, y: usize, c: usize| 0.8 * first(x, y, c) + 0.2 * ((x * x + 3 * y + c) % 50) as f64 / 49.0;
+    let material = |of: &dyn Fn(usize, usize, usize) -> f64| {
+        let map = |c: usize| (0..24 * height).map(|i| of(i % 24, i / 24, c)).collect::<Vec<_>>();
+        let flat = |value| vec![value; 24 * height];
+        let planes = Planes {
+            normal: [0.0, 0.0, 1.0].map(flat),
+            diffuse: [0, 1, 2].map(map),
+            specular: [0, 1, 2].map(|c| specular.map_or_else(|| map(c), flat)),
+            roughness: map(0),
+        };
+        Material::new("pattern", 24, height, planes).unwrap()
+    };
+    [material(&first), material(&second)]
 }
 
 /// scikit-image 0.26:
@@ -165,24 +179,11 @@ fn pattern(size: [usize; 2], of: impl Fn(usize, usize, usize) -> f64) -> [Vec<f6
 /// ```
 #[test]
 fn ssim_is_that_of_scikit_image() {
-    let size = [24, 17];
-    let a = pattern(size, |x, y, c| ((7 * x + 13 * y + 29 * c) % 64) as f64 / 63.0);
-    let b = pattern(size, |x, y, c| {
-        0.8 * (((7 * x + 13 * y + 29 * c) % 64) as f64 / 63.0)
-            + 0.2 * ((x * x + 3 * y + c) % 50) as f64 / 49.0
-    });
-    let material = |maps: &[Vec<f64>; 3], [width, height]: [usize; 2]| {
-        let count = width * height;
-        let cut = |plane: &Vec<f64>| plane[..count].to_vec();
-        let planes = Planes {
-            normal: [vec![0.0; count], vec![0.0; count], vec![1.0; count]],
-            diffuse: maps.each_ref().map(cut),
-            specular: maps.each_ref().map(cut),
-            roughness: cut(&maps[0]),
-        };
-        Material::new("pattern", width, height, planes).unwrap()
+    let of = |height| {
+        let [a, b] = patterns(height, None);
+        of_maps(&a, &b).unwrap()
     };
-    let got = of_maps(&material(&a, size), &material(&b, size)).unwrap();
+    let got = of(17);
     assert_is(&got, "ssim11_gaussian_diffuse_srgb", 0.909_353_940_148_961_8);
     assert_is(&got, "ssim11_gaussian_specular_srgb", 0.909_353_940_148_961_8);
     assert_is(&got, "ssim11_gaussian_roughness", 0.946_986_647_374_802_6);
@@ -191,13 +192,8 @@ fn ssim_is_that_of_scikit_image() {
     assert_is(&got, "ssim7_uniform_roughness", 0.949_632_108_006_939_6);
     assert_is(&got, "ssim7_uniform_normal_stored", 1.0);
     // Smaller than a window.
-    let names = |height| {
-        let small = of_maps(&material(&a, [24, height]), &material(&b, [24, height])).unwrap();
-        small
-            .iter()
-            .filter(|metric| metric.name.starts_with("ssim"))
-            .map(|metric| metric.name)
-            .collect::<Vec<_>>()
+    let names = |height| -> Vec<&str> {
+        of(height).iter().map(|metric| metric.name).filter(|name| name.starts_with("ssim")).collect()
     };
     assert!(names(10).iter().all(|name| name.starts_with("ssim7")) && names(10).len() == 6);
     assert!(names(6).is_empty());
@@ -221,21 +217,7 @@ fn ssim_is_that_of_scikit_image() {
 /// ```
 #[test]
 fn metrics_of_protocols_are_those_of_the_codes_that_they_follow() {
-    let size = [24, 17];
-    let first = |x: usize, y: usize, c: usize| ((7 * x + 13 * y + 29 * c) % 64) as f64 / 63.0;
-    let material = |maps: [Vec<f64>; 3]| {
-        let flat = |value| vec![value; size[0] * size[1]];
-        let planes = Planes {
-            normal: [flat(0.0), flat(0.0), flat(1.0)],
-            roughness: maps[0].clone(),
-            diffuse: maps,
-            specular: [flat(0.04), flat(0.04), flat(0.04)],
-        };
-        Material::new("pattern", size[0], size[1], planes).unwrap()
-    };
-    let a = material(pattern(size, first));
-    let b = pattern(size, |x, y, c| 0.8 * first(x, y, c) + 0.2 * ((x * x + 3 * y + c) % 50) as f64 / 49.0);
-    let b = material(b);
+    let [a, b] = patterns(17, Some(0.04));
     let got = of_maps(&a, &b).unwrap();
     assert_is(&got, "l1_maps_minus1_to_1", 0.054_146_547_507_892_044);
     assert_is(&got, "psnr_base_colour_linear_scaled_channels", 21.853_382_303_942_05);
@@ -244,7 +226,7 @@ fn metrics_of_protocols_are_those_of_the_codes_that_they_follow() {
     assert_is(&got, "ssim11_gaussian_roughness_metallic_0_srgb", 0.967_575_836_849_878_9);
     assert_is(&got, "ssim11_gaussian_base_colour_srgb", 0.909_353_940_148_961_8);
     assert_is(&got, "ssim11_gaussian_metallic", 1.0);
-    let texels: Vec<bool> = (0..size[0] * size[1]).map(|texel| texel % size[0] < 12).collect();
+    let texels: Vec<bool> = (0..24 * 17).map(|texel| texel % 24 < 12).collect();
     let masked = |count_all| of_masked_maps(&a, &b, Some(Kept { texels: &texels, count_all })).unwrap();
     assert_is(&masked(false), "psnr_base_colour_srgb", 21.056_218_790_379_585);
     assert_is(&masked(false), "ssim11_gaussian_base_colour_srgb", 0.960_389_212_278_678_8);

@@ -169,26 +169,4 @@ fn workflows_run_pinned_code_and_no_workflow_gives_write_access_to_all_its_jobs(
         }
     }
     assert!(count > 30, "{count} actions");
-    let commit = "0123456789abcdef0123456789abcdef01234567";
-    assert!(is_pinned(&format!("a/b@{commit} # v1.2.3")) && is_pinned("./.github/actions/a"));
-    for loose in
-        ["a/b@v6 # v6", "a/b@release/v1", &format!("a/b@{commit}"), &format!("a/b@{} # v1", &commit[1..])]
-    {
-        assert!(!is_pinned(loose), "{loose}");
-    }
-    assert_eq!(common_permissions("name: a\n\njobs:\n  permissions:\n"), "");
-}
-
-#[test]
-fn planted_dependencies_are_found() {
-    let manifest = "[dependencies]\na.workspace = true\nb = { version = \"1\" }\n\n[target.'cfg(unix)'.dependencies]\nc = \"1\"\n\
-                    [dev-dependencies]\nd = \"1\"\n[workspace.dependencies]\ne = \"1\"\n";
-    let of = |kind| names(manifest, kind).into_iter().collect::<Vec<_>>();
-    assert_eq!([of("dependencies"), of("dev-dependencies")], [vec!["a", "b", "c"], vec!["d"]]);
-    let lock = "[[package]]\nname = \"a\"\nversion = \"1.0.0\"\nsource = \"x\"\ndependencies = [\n \"b 2.0.0\",\n]\n\n\
-                [[package]]\nname = \"b\"\nversion = \"1.0.0\"\nsource = \"x\"\n\n\
-                [[package]]\nname = \"b\"\nversion = \"2.0.0\"\nsource = \"x\"\n";
-    let found = built_from(lock, BTreeSet::from(["a".to_owned()]));
-    assert_eq!(found.into_iter().collect::<Vec<_>>(), ["a 1.0.0", "b 2.0.0"]);
-    assert_eq!(listed("head\n\na 1.0.0: MIT\n\nb 2.0.0: MIT\n"), BTreeSet::from(["a 1.0.0".to_owned()]));
 }

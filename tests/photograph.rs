@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use exr::prelude::{AnyChannel, FlatSamples};
+use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image as Exr, WritableImage as _};
 use glam::DVec3;
 use image::{Rgb, RgbImage};
 use serde_json::{Value, json};
@@ -25,7 +25,6 @@ use svbrdf_files::read::{Photograph, Transfer, read_photograph};
 use svbrdf_files::samples;
 
 use crate::support::npy::npy;
-use crate::support::pictures::{SIDE as EXR_SIDE, exr as write_exr, gamma};
 use crate::support::png::{Png, RGB};
 
 const SIDE: usize = 64;
@@ -141,8 +140,9 @@ fn a_capture_of_materialgan_is_one_of_its_lights() {
     fs::create_dir(folder.path().join("target")).unwrap();
     for (k, light) in LIGHTS.into_iter().enumerate() {
         let radiance = physical(&truth, light);
-        let code =
-            |value: f64| (255.0 * gamma((power * value / (half_width * half_width)).min(1.0))).round() as u8;
+        let code = |value: f64| {
+            (255.0 * (power * value / (half_width * half_width)).min(1.0).powf(1.0 / 2.2)).round() as u8
+        };
         let picture = RgbImage::from_fn(SIDE as u32, SIDE as u32, |x, y| {
             Rgb(radiance[y as usize * SIDE + x as usize].map(code))
         });
@@ -308,11 +308,14 @@ fn what_is_no_photograph_is_refused_with_its_reason() {
     let folder = tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     fs::write(at("text.png"), "not an image").unwrap();
-    let channel = |name: &str| AnyChannel::new(name, FlatSamples::F32(vec![0.5; EXR_SIDE * EXR_SIDE]));
-    write_exr(&at("layers.exr"), vec![(None, vec![channel("beauty.Y"), channel("depth.Y")])]);
-    write_exr(&at("xy.exr"), vec![(None, vec![channel("X"), channel("Y")])]);
-    write_exr(&at("unnamed.exr"), vec![(None, vec![channel("Y"), channel("depth.Y")])]);
-    assert_eq!(read(&at("unnamed.exr"), None).unwrap().image.width, EXR_SIDE);
+    let channel = |name: &str| AnyChannel::new(name, FlatSamples::F32(vec![0.5; 4]));
+    for (name, channels) in
+        [("layers.exr", ["beauty.Y", "depth.Y"]), ("xy.exr", ["X", "Y"]), ("unnamed.exr", ["Y", "depth.Y"])]
+    {
+        let channels = AnyChannels::sort(channels.map(channel).into_iter().collect());
+        Exr::from_channels((2, 2), channels).write().to_file(at(name)).unwrap();
+    }
+    assert_eq!(read(&at("unnamed.exr"), None).unwrap().image.width, 2);
     for (name, words) in [
         ("text.png", "photograph: expected PNG"),
         ("absent.png", "cannot read"),

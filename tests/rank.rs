@@ -1,7 +1,5 @@
 //! Many predictions, many materials: places, groups, and intervals over materials.
 
-use std::collections::BTreeMap;
-
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt as _, SeedableRng as _};
 use rayon::prelude::*;
@@ -146,37 +144,22 @@ fn intervals_stay_in_the_range_of_their_values() {
     assert!(0.0 < low && low < high, "{low}, {high}");
 }
 
-fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
-    let mut predictions: Vec<PredictionResult> = Vec::new();
-    for (method, loss) in losses {
-        let sample = predictions.iter().filter(|p| p.method == *method).count();
-        let known = |loss| KnownLoss {
-            loss,
-            standard_error: 0.01,
-            interval95: [loss - 0.02, loss + 0.02],
-            scenes: 9,
-        };
-        let metrics: BTreeMap<String, f64> =
-            loss.map(|loss| ("rmse_roughness".to_owned(), loss)).into_iter().collect();
-        predictions.push(PredictionResult {
-            method: (*method).to_owned(),
-            sample,
-            path: String::new(),
-            known: loss.map(known),
-            error: loss.is_none().then(|| "broken".to_owned()),
-            reading: Vec::new(),
-            metrics: metrics.clone(),
-            marks: None,
-        });
-    }
-    MaterialResult {
-        index,
-        material: format!("m{index}"),
-        seed: 0,
+/// The losses of a material by method, each also as its RMSE of roughness. Those of one method again are its samples.
+pub fn result(index: usize, losses: &[(&str, Option<f64>)]) -> MaterialResult {
+    let known =
+        |loss| KnownLoss { loss, standard_error: 0.01, interval95: [loss - 0.02, loss + 0.02], scenes: 9 };
+    let prediction = |(place, (method, loss)): (usize, &(&str, Option<f64>))| PredictionResult {
+        method: (*method).to_owned(),
+        sample: losses[..place].iter().filter(|(earlier, _)| earlier == method).count(),
+        path: String::new(),
+        known: loss.map(known),
+        error: loss.is_none().then(|| "broken".to_owned()),
         reading: Vec::new(),
-        floor: None,
-        predictions,
-    }
+        metrics: loss.map(|loss| ("rmse_roughness".to_owned(), loss)).into_iter().collect(),
+        marks: None,
+    };
+    let (material, predictions) = (format!("m{index}"), losses.iter().enumerate().map(prediction).collect());
+    MaterialResult { index, material, seed: 0, reading: Vec::new(), floor: None, predictions }
 }
 
 fn ranked(methods: &[&str], results: &[MaterialResult], pick: Pick) -> DatasetReport {

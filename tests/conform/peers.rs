@@ -1,14 +1,11 @@
 //! The authors' own renderers at probe points.
 
-use std::path::Path;
-
 use svbrdf_core::model::grammar::{Description, Point};
 use svbrdf_core::model::named_conventions as named;
 use svbrdf_evaluate::conform::{RenderedPoints, VerdictKind, identify, verdict};
-use svbrdf_files::arrays::{self, Array, Arrays};
 use svbrdf_needs::needs;
 
-const PEERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/peers/renderers");
+use crate::conventions::peers::{PEERS, file, point, triple};
 
 /// The file, its array, and the convention; `None` for a renderer outside of the grammar.
 const ALL: [(&str, &str, Option<&str>); 17] = [
@@ -31,30 +28,15 @@ const ALL: [(&str, &str, Option<&str>); 17] = [
     ("mitsuba_metal", "roughplastic_ggx", None),
 ];
 
-fn file(name: &str) -> Arrays {
-    arrays::read(Path::new(&format!("{PEERS}/{name}.npz"))).unwrap()
-}
-
-fn triples(array: &Array) -> Vec<[f64; 3]> {
-    array.values.chunks(3).map(|rgb| [rgb[0], rgb[1], rgb[2]]).collect()
-}
-
 fn points() -> Vec<Point> {
     let of = file("probes");
-    let three = |name: &str| triples(&of[name]);
-    let (normal, light, view, diffuse, specular, base) =
-        (three("n"), three("L"), three("V"), three("d"), three("s"), three("base"));
-    let point = |i: usize| Point {
-        normal: normal[i],
-        light: light[i],
-        view: view[i],
-        diffuse: diffuse[i],
-        specular: specular[i],
-        base_color: base[i],
-        roughness: of["r"].values[i],
-        metallic: of["m"].values[i],
+    let point = |row: usize| Point {
+        light: triple(&of["L"], row),
+        view: triple(&of["V"], row),
+        base_color: triple(&of["base"], row),
+        ..point(&of, "", row)
     };
-    (0..normal.len()).map(point).collect()
+    (0..of["r"].values.len()).map(point).collect()
 }
 
 /// RendererTerms that the makers of the numbers set for the probes: intensities and frames.
@@ -64,7 +46,7 @@ const OF_THE_PROBES: [&str; 6] = ["intensity", "factor", "normal_y", "ambient", 
 fn every_peer_is_found_and_no_other_renderer_has_a_name() {
     let points = points();
     for (name, array, convention) in ALL {
-        let radiance = triples(&file(&format!("probes/{name}"))[array]);
+        let radiance = file(&format!("probes/{name}"))[array].values.as_chunks().0.to_vec();
         let found = identify(&RenderedPoints { points: points.clone(), radiance, metallic: None });
         let Some(convention) = convention else {
             let verdict = verdict(&found, &Description::default());

@@ -9,7 +9,7 @@ use svbrdf_core::model::named_conventions as named;
 use svbrdf_files::arrays::{self, Array, Arrays};
 use svbrdf_needs::needs;
 
-const PEERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/peers/renderers");
+pub const PEERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/peers/renderers");
 
 /// The convention of each, and its file.
 const ALL: [(&str, &str); 19] = [
@@ -56,7 +56,7 @@ pub fn convention(name: &str) -> Description {
     read
 }
 
-fn triple(array: &Array, row: usize) -> [f64; 3] {
+pub fn triple(array: &Array, row: usize) -> [f64; 3] {
     std::array::from_fn(|c| array.values[3 * row + c])
 }
 

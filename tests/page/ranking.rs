@@ -1,15 +1,10 @@
 //! The page of a ranking: names are data.
 
-use std::collections::BTreeMap;
-
 use serde_json::json;
 
 use svbrdf_core::loss::Request;
 use svbrdf_core::model::convention::PRINTED;
-use svbrdf_evaluate::dataset::{
-    DatasetReading, DatasetReport, DatasetSettings, KnownLoss, Mark, MaterialResult, Method, Pick,
-    PredictionResult, Remark, Source,
-};
+use svbrdf_evaluate::dataset::{DatasetReading, DatasetReport, DatasetSettings, Mark, Pick, Remark, Source};
 use svbrdf_evaluate::metrics::MetricSelection;
 use svbrdf_evaluate::report::Compared;
 use svbrdf_evaluate::robust::{RobustReport, Scores};
@@ -17,64 +12,40 @@ use svbrdf_files::convention::ChosenConvention;
 use svbrdf_page::ranking;
 
 use super::noise;
+use crate::rank::result;
 
 const HOSTILE: &str = "</td></script><img src=x onerror=window.hit=1><!--\"'>{{sections}}\u{202e}";
 /// When the page can be read.
 pub const READY: &str = "document.readyState === 'complete' && location.protocol === 'file:'";
 
-fn prediction(method: &str, loss: Result<f64, &str>) -> PredictionResult {
-    let known = |loss: f64| KnownLoss {
-        loss,
-        standard_error: 0.01,
-        interval95: [loss - 0.02, loss + 0.02],
-        scenes: 500,
-    };
-    let mark = Mark { hypothesis: HOSTILE.to_owned(), value: json!(1), share: 0.5, remedy: None };
-    let marks = Some(if method == "ours" { vec![mark] } else { Vec::new() });
-    let metrics = BTreeMap::from([("normal_angle_mean".to_owned(), 12.5)]);
-    PredictionResult {
-        method: method.to_owned(),
-        sample: 0,
-        path: HOSTILE.to_owned(),
-        known: loss.ok().map(known),
-        error: loss.err().map(str::to_owned),
-        reading: vec![Remark { doubt: Some(HOSTILE.to_owned()), text: HOSTILE.to_owned() }],
-        metrics,
-        marks,
-    }
-}
-
 /// A ranking of two methods over five materials.
 pub fn page() -> String {
-    let names = ["m10", "m9", HOSTILE, "a", "b"];
-    let ours = [0.1, 0.2, 0.3, 0.15, 0.12];
-    let theirs = [Ok(0.25), Ok(0.31), Err(HOSTILE), Ok(0.28), Ok(0.26)];
-    let results = (0..5).map(|index| MaterialResult {
-        index,
-        material: names[index].to_owned(),
-        seed: 0,
-        reading: Vec::new(),
-        floor: None,
-        predictions: vec![prediction("ours", Ok(ours[index])), prediction(HOSTILE, theirs[index])],
+    let losses = [("m10", 0.1, Some(0.25)), ("m9", 0.2, Some(0.31)), (HOSTILE, 0.3, None)];
+    let losses = losses.into_iter().chain([("a", 0.15, Some(0.28)), ("b", 0.12, Some(0.26))]);
+    let results = losses.clone().enumerate().map(|(index, (material, ours, theirs))| {
+        let mut result = result(index, &[("ours", Some(ours)), (HOSTILE, theirs)]);
+        result.material = material.to_owned();
+        for one in &mut result.predictions {
+            let mark = Mark { hypothesis: HOSTILE.to_owned(), value: json!(1), share: 0.5, remedy: None };
+            one.marks = Some(if one.method == "ours" { vec![mark] } else { Vec::new() });
+            one.path = HOSTILE.to_owned();
+            one.error = one.error.take().map(|_| HOSTILE.to_owned());
+            one.reading = vec![Remark { doubt: Some(HOSTILE.to_owned()), text: HOSTILE.to_owned() }];
+        }
+        result
     });
-    let method = |name: &str| Method { name: name.to_owned(), path: HOSTILE.into() };
+    let methods = ["ours", HOSTILE].map(|name| (Some(name.to_owned()), HOSTILE.into()));
+    let source = Source::folders(HOSTILE.into(), methods.to_vec());
+    let request = Request::Accuracy { target: 0.01, seed: 0 };
+    let settings = DatasetSettings::new(source, ChosenConvention::default(), request, &[]);
     let settings = DatasetSettings {
-        source: Source::Folders {
-            ground_truths: HOSTILE.into(),
-            methods: vec![method("ours"), method(HOSTILE)],
-        },
-        convention: ChosenConvention::default(),
-        scenes: Request::Accuracy { target: 0.01, seed: 0 }.into(),
-        seed: 0,
-        materials: names.map(str::to_owned).to_vec(),
-        methods: vec!["ours".to_owned(), HOSTILE.to_owned()],
-        common: false,
-        protocol: None,
+        materials: losses.map(|(material, ..)| material.to_owned()).collect(),
+        methods: ["ours", HOSTILE].map(str::to_owned).to_vec(),
         metrics: Some(MetricSelection::default()),
         diagnose: true,
+        ..settings
     };
-    let reading = DatasetReading::default();
-    let report = DatasetReport::new(settings, reading, results.collect(), Pick::Fixed);
+    let report = DatasetReport::new(settings, DatasetReading::default(), results.collect(), Pick::Fixed);
     ranking(&report, &[], Some(&robust()))
 }
 

@@ -1,13 +1,11 @@
 //! Support shared by the tests.
 
-pub mod compare;
 #[cfg(feature = "viewer")]
 pub mod desktop;
 #[cfg(feature = "viewer")]
 pub mod gpu;
 pub mod losses;
 pub mod npy;
-pub mod pictures;
 pub mod png;
 pub mod points;
 pub mod surroundings;

@@ -32,14 +32,3 @@ pub fn command(program: impl AsRef<OsStr>) -> Command {
     command.env_clear().envs(kept).envs(MADE).stdin(Stdio::null());
     command
 }
-
-#[cfg(unix)]
-#[test]
-fn a_program_has_no_variable_of_the_desktop_or_the_shell() {
-    let output = command("env").output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
-    let names: Vec<&str> = text.lines().filter_map(|line| Some(line.split_once('=')?.0)).collect();
-    assert!(names.contains(&"PATH") && text.contains("LANG=C.UTF-8"), "{text}");
-    let is_known = |name: &&str| KEPT.contains(name) || MADE.iter().any(|(made, _)| made == name);
-    assert_eq!(names.iter().find(|name| !is_known(name)), None, "{text}");
-}

@@ -16,6 +16,12 @@ use svbrdf_evaluate::why::{error_maps, mean, worst_first};
 use super::{built_in, printed};
 use crate::support::tolerance::ERROR_MAP_TEXEL;
 
+/// The largest difference of a map from what is expected.
+fn off(map: &Image<f32>, expected: &[[f64; 3]]) -> f64 {
+    let pairs = map.pixels.as_flattened().iter().zip(expected.as_flattened());
+    pairs.map(|(found, expected)| (f64::from(*found) - expected).abs()).fold(0.0, f64::max)
+}
+
 /// The error map by the definition: renderings of whole materials, and logarithms in f64.
 fn by_definition(comparison: &Comparison<'_, f32>, scenes: &[Scene]) -> Vec<[f64; 3]> {
     let epsilon = comparison.convention().epsilon;
@@ -54,10 +60,7 @@ fn every_texel_of_the_error_map_is_its_mean_log_difference() {
         let map = error_maps(&comparison, &scenes, &Progress::default()).unwrap().remove(1);
         let comparison = Comparison::new(&truth, &[prediction], printed()).unwrap();
         let expected = by_definition(&comparison, &scenes);
-        let off = |map: &Image<f32>| {
-            let pairs = map.pixels.as_flattened().iter().zip(expected.as_flattened());
-            pairs.map(|(found, expected)| (f64::from(*found) - expected).abs()).fold(0.0, f64::max)
-        };
+        let off = |map: &Image<f32>| off(map, &expected);
         let off_by = off(&map);
         println!("{}: off by {off_by:e}", prediction.name());
         assert!(off_by < ERROR_MAP_TEXEL, "{}: {off_by:e}", prediction.name());
@@ -77,10 +80,7 @@ fn the_error_map_of_other_renderers_is_theirs() {
         let scenes = Sampling { near: 6, distant: 3, ..Sampling::default() }.scenes(&convention).unwrap();
         let map = error_maps(&comparison, &scenes, &Progress::default()).unwrap().remove(0);
         let expected = by_definition(&comparison, &scenes);
-        let off = |map: &Image<f32>| {
-            let pairs = map.pixels.as_flattened().iter().zip(expected.as_flattened());
-            pairs.map(|(found, expected)| (f64::from(*found) - expected).abs()).fold(0.0, f64::max)
-        };
+        let off = |map: &Image<f32>| off(map, &expected);
         println!("{name}: off by {:e}", off(&map));
         assert!(off(&map) < ERROR_MAP_TEXEL, "{name}: {:e}", off(&map));
         let other = Comparison::new(&truth, &[&rough], printed()).unwrap();
