@@ -31,7 +31,7 @@ pub enum Message {
     /// A material could not be read, in the opening of this number.
     NotRead {
         source: Box<MaterialSource>,
-        error: Error,
+        error: Arc<Error>,
         opening: u64,
     },
     /// These predictions were not opened: their ground truth could not be read.
@@ -112,14 +112,18 @@ impl fmt::Display for Message {
             Self::NotOpened(names) => {
                 write!(f, "Not opened, because the ground truth could not be read: {}.", names.join(", "))
             }
-            Self::Failed(error) | Self::NotRead { error, .. } => {
-                error.fmt(f)?;
-                match error.files() {
-                    Some(FilesError::Memory { .. }) => f.write_str(" (start svbrdf with --max-memory)"),
-                    _ => Ok(()),
-                }
-            }
+            Self::Failed(error) => failed(error, f),
+            Self::NotRead { error, .. } => failed(error, f),
         }
+    }
+}
+
+/// The error, with the option of the window that helps.
+fn failed(error: &Error, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    write!(f, "{error}")?;
+    match error.files() {
+        Some(FilesError::Memory { .. }) => f.write_str(" (start svbrdf with --max-memory)"),
+        _ => Ok(()),
     }
 }
 
@@ -195,7 +199,8 @@ mod tests {
 
     fn not_read(path: &str) -> Message {
         let source = Box::new(MaterialSource::from(PathBuf::from(path)));
-        Message::NotRead { source, error: Error::internal(format!("{path} is broken")), opening: 1 }
+        let error = Arc::new(Error::internal(format!("{path} is broken")));
+        Message::NotRead { source, error, opening: 1 }
     }
 
     #[test]

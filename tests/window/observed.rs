@@ -141,7 +141,7 @@ pub trait Observed {
 
     /// Whether a material is being read.
     fn is_reading(&self) -> bool {
-        !self.jobs().openings.is_empty()
+        !self.model().materials.openings.is_empty()
     }
 
     /// The texts of the messages in the window: errors and results, the latest last.

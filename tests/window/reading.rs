@@ -25,7 +25,7 @@ fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_secon
     let mut window = built_in();
     // The loss of the built-in pair is computed while it is shown.
     wait(&mut window, "the loss", |app| app.losses().is_some());
-    open(&mut window, paths);
+    open(&mut window, paths.clone());
     window.run_steps(2);
     let (mut first_alone, mut longest) = (false, Duration::ZERO);
     while window.is_reading() {
@@ -38,6 +38,16 @@ fn the_window_rests_while_it_reads_and_shows_the_first_material_before_the_secon
     // Another frame is wanted when a material has been read, and otherwise for the progress bar.
     assert!(longest >= Duration::from_millis(100), "frames are wanted every {longest:?}");
     assert_eq!(window.names(), ["m0", "m1", "m2", "m3"]);
+    // What is cancelled brings nothing more, and what has been read stays.
+    edit(&mut window, |model| model.settings.tab = Tab::Files);
+    open(&mut window, paths);
+    wait(&mut window, "the first material", |app| app.names() == ["m0"]);
+    click(&mut window, "Cancel reading");
+    let kept = window.names();
+    assert!(!window.is_reading() && kept.len() < 4, "{kept:?}");
+    std::thread::sleep(Duration::from_secs(1));
+    window.run_steps(3);
+    assert_eq!((window.names(), window.messages()), (kept, Vec::new()));
 }
 
 /// A window on the files of a ground truth and one prediction.

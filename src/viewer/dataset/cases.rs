@@ -11,8 +11,9 @@ use crate::error::Error;
 use crate::jobs::Shown;
 use crate::jobs::answers::content::Given;
 use crate::jobs::answers::{Answered, Question, Work};
-use crate::jobs::reading::read::MaterialReader;
+use crate::jobs::reading;
 use crate::model::dataset::{Missing, OpenDataset};
+use crate::model::material::opening::Reading;
 use crate::model::material::read::{ReadMaterial, Rules};
 
 /// Bytes of a texel in the memory of the machine and of the adapter.
@@ -185,8 +186,9 @@ impl AskCase {
         if let Some(known) = known.iter().find(|one| one.source == source && one.is_of_now()) {
             return Ok(known.clone());
         }
-        let mut reader = MaterialReader { rules: self.rules, size, retries: false, gpu: gpu.clone() };
-        reader.read(&source, &progress.part()).map(Arc::new).map_err(|error| error.to_string())
+        let mut reading = Reading { rules: self.rules, size, retries: false };
+        let read = reading::read(&mut reading, &source, gpu.as_ref(), &progress.part());
+        read.map(Arc::new).map_err(|error| error.to_string())
     }
 
     /// The slot of a prediction: that of its method, or its place among the predictions of one ground truth.

@@ -36,11 +36,11 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
             opening::open_built_in(next);
         }
     });
-    for opening in shown.jobs.openings.iter() {
+    for opening in &shown.model.materials.openings {
         ui.add(egui::ProgressBar::new(opening.fraction()).text(opening.text()));
         let cancel = ui.small_button("Cancel reading");
         if cancel.on_hover_text("What is in the window stays").clicked() {
-            opening.cancel();
+            next.materials.openings.retain(|one| one.number != opening.number);
         }
     }
     if let Some(open) = &shown.model.dataset.open {

@@ -26,12 +26,6 @@ pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context) {
 fn one(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {
     let Parts { model, jobs, .. } = parts;
     match effect {
-        Effect::Read(request) => {
-            let opening = jobs.read(model, request);
-            if let Some(dialog) = model.dialogs.open.as_mut().filter(|dialog| dialog.submitted) {
-                dialog.opening = Some(opening);
-            }
-        }
         Effect::ReadScenes(paths) => {
             let read = Job::<Edit>::start(&jobs.waker, move |_| {
                 let file = scene_file::read_one(&paths)?;
@@ -68,15 +62,23 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
     follow_files(parts);
 }
 
+/// Asks for the materials that are being read, and takes over those that have been.
 fn take_materials(parts: &mut Parts) {
     let mut problems = Vec::new();
-    let (jobs, materials) = (&mut parts.jobs, &mut parts.model.materials);
-    let errors = jobs.openings.take(|place, arrival| materials.place(place, arrival, &mut problems));
+    let (jobs, materials) = (&parts.jobs, &mut parts.model.materials);
+    for mut opening in std::mem::take(&mut materials.openings) {
+        let (arrivals, goes_on) = jobs.read(&opening);
+        let are_wanted = arrivals.into_iter().all(|arrival| {
+            let is_wanted = materials.place(&opening, arrival, &mut problems);
+            opening.arrived += 1;
+            is_wanted
+        });
+        materials.openings.extend(Some(opening).filter(|_| goes_on && are_wanted));
+    }
     for path in std::mem::take(&mut parts.model.materials.read) {
         parts.model.messages.settle(&path);
     }
     report_problems(parts, problems);
-    parts.model.report(errors.into_iter().map(Message::Failed));
 }
 
 /// Reports problems with materials: those of the open dialog in the dialog, which stays open with its text.
@@ -95,7 +97,7 @@ fn report_problems(parts: &mut Parts, problems: Vec<Message>) {
             _ => parts.model.report([problem]),
         }
     }
-    if asked.is_some_and(|opening| !parts.jobs.openings.is_waiting(opening)) && !is_told {
+    if asked.is_some_and(|opening| !parts.model.materials.is_waiting(opening)) && !is_told {
         parts.model.dialogs.open = None;
     }
 }
@@ -112,8 +114,8 @@ fn follow_files(parts: &mut Parts) {
             parts.model.dataset.read_again(case);
             continue;
         }
-        for request in parts.model.materials.reload(Some(&[index])) {
-            parts.jobs.read(&parts.model, request);
+        for opening in parts.model.materials.reload(Some(&[index])) {
+            parts.model.read(opening);
         }
     }
 }

@@ -147,6 +147,11 @@ pub struct Parts {
 }
 
 impl Parts {
+    /// Asks for all that is being read, so that this frame does not cancel it, and begins with the rest.
+    pub fn begin_to_read(&self) {
+        self.model.materials.openings.iter().for_each(|opening| drop(self.jobs.read(opening)));
+    }
+
     /// What the panes display.
     pub fn displayed(&self) -> Displayed<'_> {
         Displayed::ask(Shown { model: &self.model, jobs: &self.jobs })

@@ -85,6 +85,9 @@ impl App {
         }
         parts.model.report(restarts.map(|restarts| Message::Warning(restarts.message())));
         effects::carry_out(&mut parts, &cc.egui_ctx);
+        // Before the first frame, which takes longer than others.
+        parts.begin_to_read();
+        parts.jobs.answers.end_frame();
         let unscaled = storage.is_new();
         let (crash, title) = (CrashGuard::default(), String::new());
         Self { parts, storage, crash, title, unscaled, hardware }
@@ -151,8 +154,9 @@ impl App {
         self.name_window(&ctx);
         let before = std::mem::replace(&mut self.parts.model, next).view;
         self.settle(&ctx, &before);
+        self.parts.begin_to_read();
         self.parts.jobs.answers.end_frame();
-        undo::remember(&mut self.parts.model, self.parts.jobs.openings.is_empty(), is_photograph_settled);
+        undo::remember(&mut self.parts.model, is_photograph_settled);
     }
 
     /// Gives the window the name of what is open.
@@ -170,8 +174,8 @@ impl App {
 
     /// Takes over the inspected texels of a session once its materials are there.
     fn inspect(&mut self) {
-        let Parts { model, jobs, .. } = &mut self.parts;
-        if jobs.openings.is_empty()
+        let model = &mut self.parts.model;
+        if model.materials.openings.is_empty()
             && let Some(inspection) = model.inspected_later.take()
         {
             model.inspection = inspection;
@@ -190,14 +194,16 @@ impl App {
     /// nothing was drawn for a while.
     fn is_to_use_hardware(&self, ctx: &egui::Context) -> bool {
         let (now, is_used) = ctx.input(|i| (i.time, !i.events.is_empty()));
-        let Parts { model, jobs, .. } = &self.parts;
-        let is_idle = now - model.time > IDLE && !is_used && !model.is_modal() && jobs.openings.is_empty();
+        let model = &self.parts.model;
+        let is_idle =
+            now - model.time > IDLE && !is_used && !model.is_modal() && model.materials.openings.is_empty();
         is_idle && self.hardware.load(Ordering::Relaxed)
     }
 
     /// Keeps what a restart goes on with.
     fn leave(&self, reason: Option<String>) {
-        let (model, is_read) = (&self.parts.model, self.parts.jobs.openings.is_empty());
+        let model = &self.parts.model;
+        let is_read = model.materials.openings.is_empty();
         let results = model.dataset.open.as_ref().and_then(|open| open.results.clone());
         self.crash.lose(DeviceLoss { reason, session: is_read.then(|| model.session()), results });
     }
@@ -231,7 +237,7 @@ impl eframe::App for App {
         if self.crash.has_crashed() {
             return;
         }
-        self.parts.model.remember_session(self.parts.jobs.openings.is_empty());
+        self.parts.model.remember_session();
         self.parts.model.settings.window = Some(self.parts.model.geometry.window);
         self.storage.store(&self.parts.model);
         // A file that is being written is completed, unless a signal ends the program.

@@ -1,9 +1,10 @@
-//! Work on other threads: questions with their answers, materials that are read, and work that ends in an edit of the model.
+//! Work on other threads: questions with their answers, the watch over files, and work that ends in an edit of the model.
 //!
 //! Workers wake the window; nothing here knows the window library.
 
 pub mod answers;
 pub mod reading;
+pub mod watch;
 pub mod work;
 
 use std::collections::HashMap;
@@ -11,12 +12,12 @@ use std::collections::HashMap;
 use svbrdf_gpu::Gpu;
 
 use crate::model::Model;
-use crate::model::material::request::{ReadRequest, Target};
+use crate::model::material::opening::{Arrival, Opening};
 
-use answers::Answers;
-use reading::opening::Openings;
-use reading::read::MaterialReader;
-use reading::watch::FileWatch;
+use answers::content::Given;
+use answers::{Answer, Answers};
+use reading::ReadMaterials;
+use watch::FileWatch;
 use work::job::Job;
 use work::waker::Waker;
 
@@ -33,7 +34,6 @@ pub struct Jobs {
     pub answers: Answers,
     /// `None` where there is no adapter.
     pub gpu: Option<Gpu>,
-    pub openings: Openings,
     pub watch: FileWatch,
     /// Work that ends in an edit of the model, one of a kind at a time.
     pub edits: HashMap<&'static str, Job<Edit>>,
@@ -44,13 +44,16 @@ impl Jobs {
         Self { answers: Answers::new(waker.clone()), waker, gpu, ..Self::default() }
     }
 
-    /// Starts to read materials; the number of the opening.
-    pub fn read(&mut self, model: &Model, request: ReadRequest) -> u64 {
-        // A file that is opened by hand and cannot be read is reported at once.
-        let retries = model.settings.watch && matches!(request.target, Target::Again(_));
-        let size = model.materials.size_for(&request.target);
-        let reader = MaterialReader { rules: model.materials.rules, size, retries, gpu: self.gpu.clone() };
-        self.openings.start(&self.waker, request, reader)
+    /// Asks for the materials of an opening: those that have arrived since the last time, and whether it goes on.
+    pub fn read(&self, opening: &Opening) -> (Vec<Arrival>, bool) {
+        let question = ReadMaterials { opening: opening.clone(), gpu: Given(self.gpu.clone()) };
+        let (all, goes_on) = match self.answers.get(&question) {
+            Answer::Ready(all) => (Some(all), false),
+            Answer::Partial(all, ..) => (Some(all), true),
+            Answer::Running(..) => (None, true),
+            Answer::Stopped(_) | Answer::Failed(_) => (None, false),
+        };
+        (all.iter().flat_map(|all| all.iter().skip(opening.arrived)).cloned().collect(), goes_on)
     }
 
     /// Takes over the edits whose work has ended.

@@ -97,7 +97,7 @@ impl DrawnLosses {
     /// Asks for the losses of the materials in the window, by its settings.
     pub fn ask(Shown { model, jobs }: Shown<'_>) -> Self {
         // A loss of materials that are not all there yet would be computed in vain; those of a data set are its own.
-        let has_own = model.dataset.open.is_some() || jobs.openings.expect_more();
+        let has_own = model.dataset.open.is_some() || model.materials.expect_more();
         if has_own || model.materials.predictions().is_empty() {
             return Self::default();
         }

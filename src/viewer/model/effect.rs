@@ -5,13 +5,10 @@ use std::path::PathBuf;
 use svbrdf_files::session::dataset::SessionDataset;
 
 use crate::model::dialogs::SaveRequest;
-use crate::model::material::request::ReadRequest;
 
 /// What happens outside of the model: files, dialogs of the system, the clipboard.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Reads materials; a dialog that has asked for them stays open until they are there.
-    Read(ReadRequest),
     /// Reads scene files.
     ReadScenes(Vec<PathBuf>),
     /// Matches the materials of folders: the first has the ground truths, each other one the predictions of a method; or reads one

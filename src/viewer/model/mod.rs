@@ -36,6 +36,7 @@ use crate::model::history::History;
 use crate::model::inspection::Inspection;
 use crate::model::material::list::MaterialList;
 use crate::model::material::loaded::LoadedMaterial;
+use crate::model::material::opening::Opening;
 use crate::model::material::photograph::PhotographState;
 use crate::model::material::read::MaterialId;
 use crate::model::settings::Settings;
@@ -118,6 +119,14 @@ impl Model {
         let photograph = self.photograph.source().map(|photograph| photograph.path.as_path());
         let scenes = self.settings.loss.file_scenes().map(|file| file.path.as_path());
         materials.map(PathBuf::as_path).chain(photograph).chain(scenes)
+    }
+
+    /// Begins to read materials; a dialog that has asked for them stays open until they are there.
+    pub fn read(&mut self, opening: Opening) {
+        if let Some(dialog) = self.dialogs.open.as_mut().filter(|dialog| dialog.submitted) {
+            dialog.opening = Some(opening.number);
+        }
+        self.materials.open(opening, self.settings.watch);
     }
 
     /// Adds messages.

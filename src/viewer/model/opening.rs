@@ -17,7 +17,7 @@ use crate::message::Retry;
 use crate::model::Model;
 use crate::model::dataset::OpenDataset;
 use crate::model::effect::Effect;
-use crate::model::material::request::{ReadRequest, Target};
+use crate::model::material::opening::{Opening, Target};
 
 /// Opens materials: the first as ground truth where there is none or where `replace` is set, the others as predictions. Scene files,
 /// conventions, sessions and data sets among them are what they are.
@@ -50,8 +50,7 @@ pub fn open(model: &mut Model, mut paths: Vec<PathBuf>, replace: bool, read: Rea
     }
     let target = if replace { Target::Everything } else { Target::Predictions };
     let material = |path: &PathBuf| MaterialSource::path(path.clone(), read);
-    let sources = paths.iter().map(material).collect();
-    model.effects.push(Effect::Read(ReadRequest::new(sources, target)));
+    model.read(Opening::of_sources(paths.iter().map(material), target));
 }
 
 /// Renders and compares by the convention of a file.
@@ -89,8 +88,7 @@ fn read_session(model: &mut Model, paths: &[PathBuf]) {
 /// Opens a session, as it was shown.
 fn restore(model: &mut Model, session: Session) {
     model.dialogs.open = None;
-    let request = model.open_session(&session);
-    model.effects.push(Effect::Read(request));
+    model.open_session(&session);
     let dataset = session.dataset.map(|dataset| Effect::RestoreDataset(Box::new(dataset), None));
     model.effects.extend(dataset);
 }
@@ -129,7 +127,7 @@ pub fn choose_photograph(model: &mut Model, index: usize) {
 /// Opens the built-in materials in the place of all others.
 pub fn open_built_in(model: &mut Model) {
     model.close_dataset();
-    model.effects.push(Effect::Read(ReadRequest::built_in()));
+    model.read(Opening::built_in());
 }
 
 /// Opens again what was refused.
@@ -137,7 +135,7 @@ pub fn retry(model: &mut Model, retry: Retry) {
     match retry {
         Retry::Fitted(source) => {
             let source = MaterialSource { fit: true, ..*source };
-            model.effects.push(Effect::Read(ReadRequest::new(vec![source], Target::Predictions)));
+            model.read(Opening::of_sources([source], Target::Predictions));
         }
         Retry::Outside(path, read) => {
             allow_outside();
@@ -151,13 +149,15 @@ pub fn reload(model: &mut Model) {
     if model.dataset.open.is_some() {
         model.dataset.read_again(model.dataset.wanted);
     } else {
-        model.effects.extend(model.materials.reload(None).into_iter().map(Effect::Read));
+        model.materials.reload(None).into_iter().for_each(|opening| model.read(opening));
     }
 }
 
 /// Reads the material at this index again under other assumptions.
 pub fn read_as(model: &mut Model, index: usize, read: ReadOptions) {
-    model.effects.extend(model.materials.read_as(index, read).map(Effect::Read));
+    if let Some(opening) = model.materials.read_as(index, read) {
+        model.read(opening);
+    }
 }
 
 /// Closes the prediction at `index`; the chosen prediction stays the same one where it can.

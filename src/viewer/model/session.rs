@@ -17,8 +17,8 @@ use crate::model::dataset::{DatasetState, OpenDataset};
 use crate::model::effect::Effect;
 use crate::model::history::History;
 use crate::model::inspection::Inspection;
+use crate::model::material::opening::{Opening, Target};
 use crate::model::material::read::Rules;
-use crate::model::material::request::{ReadRequest, Target};
 use crate::model::ranges::bring_into_range;
 use crate::model::view::{Exposed, ViewState};
 use crate::model::{Model, opening};
@@ -62,12 +62,12 @@ impl Model {
             OpenDataset::of_many(all, self.materials.rules)
         };
         let dataset = options.dataset.map(|open| *open).or_else(of_many);
-        let request = match (&options.session, all) {
-            (Some(session), _) => Some(self.open_session(session)),
-            (None, _) if dataset.is_some() => None,
-            (None, Some(all)) => Some(ReadRequest::new(all, Target::Everything)),
-            (None, None) => Some(ReadRequest::built_in()),
-        };
+        match (&options.session, all) {
+            (Some(session), _) => self.open_session(session),
+            (None, _) if dataset.is_some() => {}
+            (None, Some(all)) => self.read(Opening::of_sources(all, Target::Everything)),
+            (None, None) => self.read(Opening::built_in()),
+        }
         if let Some(dataset) = dataset {
             self.open_dataset(dataset.into());
         }
@@ -75,8 +75,7 @@ impl Model {
         options.convention.into_iter().for_each(|convention| self.use_convention(convention));
         options.scenes.into_iter().for_each(|file| self.use_scenes(file));
         let of_session = options.session.and_then(|session| session.dataset).map(Box::new);
-        let of_session = of_session.map(|session| Effect::RestoreDataset(session, options.results));
-        self.effects.extend(request.map(Effect::Read).into_iter().chain(of_session));
+        self.effects.extend(of_session.map(|session| Effect::RestoreDataset(session, options.results)));
         if let Some(path) = options.photograph {
             opening::open_photograph(self, path);
         }
@@ -126,8 +125,8 @@ impl Model {
         session
     }
 
-    /// Takes over light, view, display, loss settings and photograph of a session; the request that reads its materials.
-    pub fn open_session(&mut self, session: &Session) -> ReadRequest {
+    /// Takes over light, view, display, loss settings and photograph of a session, and begins to read its materials.
+    pub fn open_session(&mut self, session: &Session) {
         let convention = ChosenConvention::read(&session.convention);
         self.view = ViewState {
             scene: session.scene,
@@ -151,12 +150,12 @@ impl Model {
         self.report(out_of_range);
         self.photograph.set(session.photograph.clone());
         let sources: Vec<_> = session.materials.iter().map(MaterialSource::of_session).collect();
-        self.materials.restore(&sources)
+        self.read(self.materials.restore(&sources));
     }
 
     /// Remembers the comparison for the next start, unless there are only built-in materials, or some are still being read.
-    pub fn remember_session(&mut self, are_materials_settled: bool) {
-        let is_settled = are_materials_settled && !self.dataset.is_waiting();
+    pub fn remember_session(&mut self) {
+        let is_settled = self.materials.openings.is_empty() && !self.dataset.is_waiting();
         if is_settled && !self.materials.only_built_in() {
             let session = self.session();
             let files = compared_files(&session);

@@ -3,19 +3,18 @@
 use std::sync::Arc;
 
 use crate::model::Model;
-use crate::model::effect::Effect;
 use crate::model::history::Moment;
 use crate::model::view::Exposed;
 
-/// Takes note of the moment, once the first materials are there. `is_settled`: no material and no photograph is being read.
-pub fn remember(model: &mut Model, are_materials_settled: bool, is_photograph_settled: bool) {
+/// Takes note of the moment, once the first materials are there. `is_photograph_settled`: none is being read.
+pub fn remember(model: &mut Model, is_photograph_settled: bool) {
     let is_of_dataset = model.dataset.open.is_some();
     // Of a data set, going to another material is no step to undo.
-    if are_materials_settled && !is_of_dataset {
+    if model.materials.openings.is_empty() && !is_of_dataset {
         let materials = model.materials.sources();
         if materials != model.history.materials {
             model.history.materials = materials;
-            model.remember_session(true);
+            model.remember_session();
         }
     }
     if (is_of_dataset || !model.history.materials.is_empty()) && is_photograph_settled {
@@ -57,7 +56,7 @@ fn return_to(model: &mut Model, moment: Option<Arc<Moment>>) {
         model.photograph.set(photograph);
     }
     if materials != model.history.materials {
-        model.effects.push(Effect::Read(model.materials.restore(&materials)));
+        model.read(model.materials.restore(&materials));
         model.history.materials = materials;
     }
 }
@@ -66,8 +65,8 @@ fn return_to(model: &mut Model, moment: Option<Arc<Moment>>) {
 mod tests {
     use super::*;
     use crate::model::material::loaded::LoadedMaterial;
+    use crate::model::material::opening::Item;
     use crate::model::material::read::ReadMaterial;
-    use crate::model::material::request::Item;
     use crate::model::opening;
     use svbrdf_files::source::MaterialSource;
 
@@ -88,7 +87,7 @@ mod tests {
     fn pause(model: &mut Model, seconds: f64) {
         for _ in 0..2 {
             model.time += seconds / 2.0;
-            remember(model, true, true);
+            remember(model, true);
         }
     }
 
@@ -99,8 +98,8 @@ mod tests {
         opening::close(&mut model, 1);
         pause(&mut model, 2.0);
         undo(&mut model);
-        let [Effect::Read(request)] = &model.effects[..] else { panic!("{:?}", model.effects) };
-        let reads = request.items.iter().filter(|item| matches!(item, Item::Read(_))).count();
-        assert_eq!((request.items.len(), reads), (svbrdf_files::samples::COUNT, 1));
+        let [opening] = &model.materials.openings[..] else { panic!("{:?}", model.materials.openings) };
+        let reads = opening.items.iter().filter(|item| matches!(item, Item::Read(_))).count();
+        assert_eq!((opening.items.len(), reads), (svbrdf_files::samples::COUNT, 1));
     }
 }

@@ -53,7 +53,7 @@ impl Viewport {
             params,
             part,
             sharpens,
-            waits: !shown.jobs.openings.is_empty(),
+            waits: !shown.model.materials.openings.is_empty(),
             exact: is_exact,
         };
         gpu.keep_only(shown.materials(), contents.len());

@@ -275,7 +275,7 @@ fn hint(shown: &Displayed<'_>, content: PaneContent) -> Option<String> {
 /// Says why there is no material.
 fn empty(ui: &mut egui::Ui, area: Rect, shown: &Displayed<'_>) {
     let text = match shown.model.dataset.missing.first() {
-        _ if !shown.jobs.openings.is_empty() => "Reading...",
+        _ if !shown.model.materials.openings.is_empty() => "Reading...",
         Some(missing) => missing.problem.as_str(),
         None => "Open a material with Ctrl+O, or drop files or folders here.",
     };

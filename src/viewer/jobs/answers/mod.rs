@@ -150,13 +150,14 @@ impl Answers {
     }
 }
 
-/// Starts those that do not wait, one of a kind at a time, and the first of the others; what is before it in turn stops a running one.
+/// Starts those that do not wait, of moving ones one of a kind at a time, and the first of the others; what is before it in turn stops a
+/// running one.
 fn start_next(entries: &mut [Box<dyn AnyEntry>], waker: &Waker) {
     let is_in_turn = |entry: &dyn AnyEntry| entry.pace() == Pace::InTurn;
     let running = entries.iter().filter(|entry| !is_in_turn(&***entry) && entry.phase() == Phase::Running);
     let mut busy: Vec<TypeId> = running.map(|entry| entry.kind()).collect();
     for entry in entries.iter_mut().filter(|one| !is_in_turn(&***one) && one.phase() == Phase::Waiting) {
-        if !busy.contains(&entry.kind()) {
+        if entry.pace() == Pace::Beside || !busy.contains(&entry.kind()) {
             busy.push(entry.kind());
             entry.start(waker);
         }

@@ -7,8 +7,8 @@ use svbrdf_files::read::ReadOptions;
 
 use crate::message::Message;
 use crate::model::material::loaded::{LoadedMaterial, mismatch, rename};
+use crate::model::material::opening::{Arrival, Item, Opening, Reading, Target};
 use crate::model::material::read::{MaterialId, ReadMaterial, Rules};
-use crate::model::material::request::{Arrival, ArrivalPlace, Item, ReadRequest, Target};
 use svbrdf_files::source::{MaterialSource, Place};
 
 /// The materials in the window.
@@ -17,6 +17,8 @@ pub struct MaterialList {
     /// The ground truth first, then the predictions.
     pub all: Vec<LoadedMaterial>,
     pub rules: Rules,
+    /// The sets of materials that are being read, the latest last.
+    pub openings: Vec<Opening>,
     /// The paths that have been read, whether for the first time or again, since they were last taken.
     pub read: Vec<PathBuf>,
 }
@@ -68,19 +70,42 @@ impl MaterialList {
         self.all.iter().map(|one| one.read.reopened()).collect()
     }
 
-    /// The request that makes these the materials in the window. Those that are there already are not read again.
-    pub fn restore(&self, sources: &[MaterialSource]) -> ReadRequest {
+    /// The opening that makes these the materials in the window. Those that are there already are not read again.
+    pub fn restore(&self, sources: &[MaterialSource]) -> Opening {
         let mut there = self.all.clone();
         let item = |source: &MaterialSource| match there.iter().position(|one| one.read.reopened() == *source)
         {
             Some(index) => Item::Loaded(there.remove(index)),
             None => Item::Read(Box::new(source.clone())),
         };
-        ReadRequest { items: sources.iter().map(item).collect(), target: Target::Everything }
+        Opening::new(sources.iter().map(item), Target::Everything)
+    }
+
+    /// Begins to read materials. All of them cancel every other opening, and one that is read again the others of this one.
+    pub fn open(&mut self, mut opening: Opening, retries: bool) {
+        match &opening.target {
+            Target::Everything => self.openings.clear(),
+            Target::Predictions => {}
+            again @ Target::Again(_) => self.openings.retain(|one| one.target != *again),
+        }
+        // A file that is opened by hand and cannot be read is reported at once.
+        let retries = retries && matches!(opening.target, Target::Again(_));
+        opening.reading = Reading { rules: self.rules, size: self.size_for(&opening.target), retries };
+        self.openings.push(opening);
+    }
+
+    /// Whether materials are being read that are not in the window yet.
+    pub fn expect_more(&self) -> bool {
+        self.openings.iter().any(|one| !matches!(one.target, Target::Again(_)))
+    }
+
+    /// Whether the opening of this number is going on and none of its materials is there yet.
+    pub fn is_waiting(&self, number: u64) -> bool {
+        self.openings.iter().any(|one| one.number == number && one.arrived == 0)
     }
 
     /// The size of the ground truth that materials for `target` are compared with; `None` where they bring their own.
-    pub fn size_for(&self, target: &Target) -> Option<[usize; 2]> {
+    fn size_for(&self, target: &Target) -> Option<[usize; 2]> {
         let stays = |ground_truth: &&LoadedMaterial| match target {
             Target::Everything => false,
             Target::Predictions => true,
@@ -103,16 +128,17 @@ impl MaterialList {
     }
 
     /// Places a material; false where those after it are not wanted.
-    pub fn place(&mut self, place: &ArrivalPlace, arrival: Arrival, problems: &mut Vec<Message>) -> bool {
-        let replaces_all = place.target == Target::Everything && place.arrived == 0;
-        match (arrival, &place.target) {
+    pub fn place(&mut self, of: &Opening, arrival: Arrival, problems: &mut Vec<Message>) -> bool {
+        let replaces_all = of.target == Target::Everything && of.arrived == 0;
+        match (arrival, &of.target) {
             (Arrival::Failed(_, error), _) if error.is_cancelled() => return false,
             (Arrival::Failed(source, error), target) => {
                 self.mark(target, &error);
-                problems.push(Message::NotRead { source, error, opening: place.opening });
+                problems.push(Message::NotRead { source, error, opening: of.number });
                 // Predictions need their ground truth: the materials in the window stay.
-                if replaces_all && place.names.len() > 1 {
-                    problems.push(Message::NotOpened(place.names[1..].to_vec()));
+                if replaces_all && of.items.len() > 1 {
+                    let others = (1..of.items.len()).map(|place| of.name(place));
+                    problems.push(Message::NotOpened(others.collect()));
                 }
                 return !replaces_all;
             }
@@ -168,26 +194,26 @@ impl MaterialList {
         self.all[index] = new;
     }
 
-    /// The requests that read materials from files again: all of them, or those at the given indices.
-    pub fn reload(&self, only: Option<&[usize]>) -> Vec<ReadRequest> {
+    /// The openings that read materials from files again: all of them, or those at the given indices.
+    pub fn reload(&self, only: Option<&[usize]>) -> Vec<Opening> {
         let is_wanted = |index: &usize| only.is_none_or(|only| only.contains(index));
         (0..self.all.len()).filter(is_wanted).filter_map(|index| self.again(index, |_| {})).collect()
     }
 
-    /// The request that reads the material at `index` again with these options alone.
-    pub fn read_as(&self, index: usize, options: ReadOptions) -> Option<ReadRequest> {
+    /// The opening that reads the material at `index` again with these options alone.
+    pub fn read_as(&self, index: usize, options: ReadOptions) -> Option<Opening> {
         self.again(index, |source| source.options = options)
     }
 
-    /// The request that reads the material at `index` again, with changes of its source; `None` for a built-in one.
-    fn again(&self, index: usize, change: impl FnOnce(&mut MaterialSource)) -> Option<ReadRequest> {
+    /// The opening that reads the material at `index` again, with changes of its source; `None` for a built-in one.
+    fn again(&self, index: usize, change: impl FnOnce(&mut MaterialSource)) -> Option<Opening> {
         let material = self.all.get(index)?;
         if matches!(material.read.source.place, Place::BuiltIn(_)) {
             return None;
         }
         let (mut source, target) = (material.read.reopened(), Target::Again(material.id()));
         change(&mut source);
-        Some(ReadRequest::new(vec![source], target))
+        Some(Opening::of_sources([source], target))
     }
 
     /// Closes the prediction at `index`. Those after it move up, unless they are methods of a data set.

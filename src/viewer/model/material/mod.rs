@@ -2,7 +2,7 @@
 
 pub mod list;
 pub mod loaded;
+pub mod opening;
 pub mod photograph;
 pub mod read;
-pub mod request;
 pub mod textures;
