@@ -10,9 +10,6 @@ use svbrdf_core::error::Error;
 pub(super) const NO_ADAPTER_REMEDY: &str = "install a Vulkan driver (on Debian and Ubuntu \
     `apt-get install mesa-vulkan-drivers`, which has a software one), unset WGPU_BACKEND, or use the CPU";
 
-/// The word for an adapter that does not compute on the CPU.
-pub const HARDWARE: &str = "hardware";
-
 /// What is used, and why.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AdapterReport {
@@ -37,7 +34,7 @@ pub struct AdapterReport {
 impl fmt::Display for AdapterReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { name, backend, driver, reason, .. } = self;
-        let kind = if self.software { "software" } else { HARDWARE };
+        let kind = if self.software { "software" } else { "hardware" };
         write!(f, "{name} ({kind}, {backend}, driver {driver})")?;
         if !reason.is_empty() {
             write!(f, ": {reason}")?;

@@ -24,7 +24,7 @@ mod still;
 mod textures;
 pub mod uniforms;
 
-pub use adapter::{AdapterReport, HARDWARE};
+pub use adapter::AdapterReport;
 pub use context::Gpu;
 pub use display::{DisplayPass, Pane, PanePlace, texels_a_pixel};
 pub use params::{DisplayMode, DisplayParams, DisplayedDifference, Encoding, ShadeParams};

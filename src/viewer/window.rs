@@ -36,9 +36,6 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
     priority::yield_to_window();
     let result = Gpu::check_environment().map_err(Error::from).and_then(|()| open(options));
     panics::print(true);
-    if result.as_ref().is_err_and(|error| !error.is_cancelled()) {
-        restart::while_driver_is_gone();
-    }
     result
 }
 

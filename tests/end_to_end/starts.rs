@@ -4,25 +4,6 @@ use svbrdf_needs::needs;
 
 use super::*;
 
-/// As while it is updated.
-#[needs(f32_adapter, desktop)]
-fn after_a_loss_a_driver_that_is_gone_is_waited_for() {
-    let desktop = Desktop::start();
-    let (drivers, system) = (desktop.folder.path().join("drivers"), Path::new("/usr/share/vulkan/icd.d"));
-    let names = std::fs::read_dir(system).unwrap().map(|entry| drivers.join(entry.unwrap().file_name()));
-    let mut command = desktop.svbrdf();
-    command.env("WGPU_BACKEND", "vulkan").env("VK_DRIVER_FILES", std::env::join_paths(names).unwrap());
-    let now = std::time::SystemTime::UNIX_EPOCH.elapsed().unwrap().as_secs();
-    command.env("SVBRDF_RESTARTED", format!("1:{now}:planted"));
-    let back = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_secs(5));
-        std::os::unix::fs::symlink(system, drivers).unwrap();
-    });
-    let mut program = desktop.run(command, &[]);
-    back.join().unwrap();
-    assert!(program.0.try_wait().unwrap().is_none(), "the window is that of the program that was started");
-}
-
 #[needs(f32_adapter, desktop)]
 fn a_window_opens_with_damaged_settings() {
     for text in [

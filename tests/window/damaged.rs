@@ -90,25 +90,6 @@ fn nothing_is_drawn_where_the_device_is_lost_within_the_frame() {
 }
 
 #[needs(adapter)]
-fn hardware_that_is_there_again_is_used_once_the_window_is_idle() {
-    let guard = CrashGuard::default();
-    let mut window = guarded_window(ViewerOptions::default(), guard.clone(), 1.0);
-    window.state().hardware.store(true, std::sync::atomic::Ordering::Relaxed);
-    let moved = egui::Event::PointerMoved(egui::pos2(9.0, 9.0));
-    for (pause, event, is_left) in [(1.0, None, false), (100.0, Some(moved), false), (100.0, None, true)] {
-        let now = window.ctx.input(|i| i.time);
-        window.input_mut().time = Some(now + pause);
-        window.input_mut().events.extend(event);
-        window.step();
-        assert_eq!(guard.loss().is_some(), is_left, "after {pause} s");
-    }
-    let commands = &window.output().viewport_output[&egui::ViewportId::ROOT].commands;
-    assert!(commands.contains(&egui::ViewportCommand::Close), "{commands:?}");
-    let loss = guard.loss().unwrap();
-    assert!(loss.reason.is_none() && loss.session.unwrap().materials.len() == 3);
-}
-
-#[needs(adapter)]
 fn a_panic_or_a_lost_device_closes_the_window_with_its_reason_and_no_frame_is_drawn_after_it() {
     type End = fn(&mut Window<'_>);
     let ends: [(End, &str); 2] = [

@@ -21,11 +21,11 @@ pub struct CrashGuard {
     stopped: Arc<AtomicBool>,
 }
 
-/// A lost device, or one in software that hardware replaces.
+/// A lost device.
 #[derive(Clone, Debug)]
 pub struct DeviceLoss {
-    /// Why the device was lost; `None` where hardware is there again.
-    pub reason: Option<String>,
+    /// Why the device was lost.
+    pub reason: String,
     /// `None` where materials were still being read.
     pub session: Option<Session>,
     /// The results folder of its data set, which is none of the session.

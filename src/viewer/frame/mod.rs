@@ -20,8 +20,6 @@ pub mod storage;
 pub mod top;
 pub mod written;
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use eframe::egui;
@@ -29,7 +27,6 @@ use eframe::egui;
 use crate::dataset::{self, opening};
 use crate::frame::crash::{DeviceLoss, lost, told};
 use crate::frame::layout::Parts;
-use crate::frame::restart::{IDLE, Restarts, watch_for_hardware};
 use crate::frame::storage::{NAME, SettingsStorage};
 pub use crash::CrashGuard;
 
@@ -59,8 +56,6 @@ pub struct App {
     title: String,
     /// Whether the scale of text and controls is to be chosen by the monitor: at the first start.
     unscaled: bool,
-    /// Whether hardware is there again, which a restart uses once the window is idle.
-    pub hardware: Arc<AtomicBool>,
 }
 
 impl App {
@@ -76,21 +71,14 @@ impl App {
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
         let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu };
         parts.model.start(options);
-        let restarts = Restarts::of_environment();
-        let is_software = parts.gpu.as_ref().is_some_and(|gpu| gpu.gpu.report.software);
-        let hardware = Arc::new(AtomicBool::new(false));
-        if restarts.as_ref().is_some_and(|restarts| restarts.is_without_hardware(is_software)) {
-            let woken = cc.egui_ctx.clone();
-            watch_for_hardware(hardware.clone(), move || woken.request_repaint());
-        }
-        parts.model.report(restarts.map(|restarts| Message::Warning(restarts.message())));
+        parts.model.report(restart::message().map(Message::Warning));
         effects::carry_out(&mut parts, &cc.egui_ctx);
         // Before the first frame, which takes longer than others.
         parts.begin_to_read();
         parts.jobs.answers.end_frame();
         let unscaled = storage.is_new();
         let (crash, title) = (CrashGuard::default(), String::new());
-        Self { parts, storage, crash, title, unscaled, hardware }
+        Self { parts, storage, crash, title, unscaled }
     }
 
     /// Reports failures of the frames to this guard.
@@ -189,40 +177,19 @@ impl App {
     fn loss(&self) -> Option<String> {
         self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss()).map(told)
     }
-
-    /// Whether hardware is to take the place of software now: it is there again, and before this frame, which nobody has asked for,
-    /// nothing was drawn for a while.
-    fn is_to_use_hardware(&self, ctx: &egui::Context) -> bool {
-        let (now, is_used) = ctx.input(|i| (i.time, !i.events.is_empty()));
-        let model = &self.parts.model;
-        let is_idle =
-            now - model.time > IDLE && !is_used && !model.is_modal() && model.materials.openings.is_empty();
-        is_idle && self.hardware.load(Ordering::Relaxed)
-    }
-
-    /// Keeps what a restart goes on with.
-    fn leave(&self, reason: Option<String>) {
-        let model = &self.parts.model;
-        let is_read = model.materials.openings.is_empty();
-        let results = model.dataset.open.as_ref().and_then(|open| open.results.clone());
-        self.crash.lose(DeviceLoss { reason, session: is_read.then(|| model.session()), results });
-    }
 }
 
 impl eframe::App for App {
     /// The frame of a window, which closes where the device is lost or the frame panics.
     fn ui(&mut self, ui: &mut egui::Ui, _: &mut eframe::Frame) {
         let crash = self.crash.clone();
-        if self.is_to_use_hardware(ui.ctx()) {
-            self.leave(None);
-        }
         let is_drawn = self.loss().is_none() && crash.frame(|| self.frame(ui));
         if let Some(reason) = self.loss() {
             crash.fail(lost(&reason));
             // egui-wgpu 0.37 would panic.
             ui.ctx().graphics_mut(|graphics| *graphics = Default::default());
         }
-        if crash.has_crashed() || crash.is_stopped() || crash.loss().is_some() {
+        if crash.has_crashed() || crash.is_stopped() {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
         } else if is_drawn && !ui.input(|i| i.pointer.any_down()) {
             self.storage.store(&self.parts.model);
@@ -254,7 +221,10 @@ impl eframe::App for App {
 impl Drop for App {
     fn drop(&mut self) {
         if let Some(reason) = self.parts.gpu.as_ref().and_then(|gpu| gpu.gpu.loss_by_now()).map(told) {
-            self.leave(Some(reason));
+            let model = &self.parts.model;
+            let is_read = model.materials.openings.is_empty();
+            let results = model.dataset.open.as_ref().and_then(|open| open.results.clone());
+            self.crash.lose(DeviceLoss { reason, session: is_read.then(|| model.session()), results });
         }
     }
 }
