@@ -1,9 +1,13 @@
-//! Which of several adapters is taken: the one that is named, else hardware, by the interface of the platform.
+//! Which of several adapters is taken: the one that is named, else hardware, by the interface of the platform, among those that
+//! `WGPU_BACKEND` allows.
 
 use std::cmp::Reverse;
+use std::ffi::OsStr;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use wgpu::{Adapter, AdapterInfo, Backend, DeviceType, PowerPreference, Surface};
+
+use svbrdf_core::error::Error;
 
 use super::adapter::backend_name;
 
@@ -117,6 +121,34 @@ const USUAL: Backend = if cfg!(windows) {
     Backend::Vulkan
 };
 
+/// The variable of wgpu, in which several are separated by commas.
+const VARIABLE: &str = "WGPU_BACKEND";
+/// The names that wgpu knows.
+const KNOWN: [&str; 11] =
+    ["vulkan", "vk", "metal", "mtl", "dx12", "d3d12", "opengl", "gles", "gl", "webgpu", "noop"];
+
+/// Checks that `WGPU_BACKEND`, where it is set, names graphics interfaces: wgpu passes over what it does not know.
+///
+/// # Errors
+/// [`Error::NoAdapter`], which says what the variable holds.
+pub(super) fn check() -> Result<(), Error> {
+    match std::env::var_os(VARIABLE) {
+        Some(value) if !is_known(&value) => Err(Error::NoAdapter {
+            problem: format!(
+                "expected names of graphics interfaces in {VARIABLE}, found \"{}\"",
+                value.display()
+            ),
+            remedy: "set it to vulkan, metal, dx12 or gl, several separated by commas, or unset it",
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn is_known(value: &OsStr) -> bool {
+    let value = value.to_string_lossy().to_lowercase();
+    value.split(',').all(|name| KNOWN.contains(&name.trim()))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,5 +179,19 @@ mod tests {
         assert!(Preference::default().best(&[]).is_err());
         assert!(name("GeForce").best(&infos).unwrap().1.contains("GeForce"));
         assert_eq!(Preference::default().best(&infos[..1]).unwrap().1, "the only adapter");
+    }
+
+    #[test]
+    fn names_are_known_in_lists_and_in_any_case_and_what_wgpu_passes_over_is_not() {
+        for known in ["vulkan", "Vulkan", "gl, vulkan", "vk,dx12,metal"] {
+            assert!(is_known(OsStr::new(known)), "{known}");
+            assert!(!wgpu::Backends::from_comma_list(known).is_empty(), "{known}");
+        }
+        for name in KNOWN {
+            assert!(!wgpu::Backends::from_comma_list(name).is_empty(), "{name}");
+        }
+        for unknown in ["", " ", "vulcan", "vulkan,", "vulkan;gl", "gpu"] {
+            assert!(!is_known(OsStr::new(unknown)), "{unknown}");
+        }
     }
 }

@@ -5,8 +5,7 @@ use wgpu::{Adapter, Backends, Device, DeviceDescriptor, InstanceDescriptor, Queu
 use svbrdf_core::error::Error;
 
 use super::adapter::{AdapterReport, NO_ADAPTER_REMEDY};
-use super::backends;
-use super::choice::select;
+use super::choice::{self, select};
 use super::fault::Faults;
 
 /// A graphics device, its queue, and what is known about it. Clones share the device.
@@ -63,7 +62,7 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoAdapter`].
     pub fn check_environment() -> Result<(), Error> {
-        backends::check()
+        choice::check()
     }
 
     /// The device of a window.

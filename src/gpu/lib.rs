@@ -9,7 +9,6 @@
 //! panic: they are an [`Error::Gpu`](svbrdf_core::error::Error::Gpu) or wait in [`Gpu::take_fault`].
 
 mod adapter;
-mod backends;
 pub mod choice;
 mod codes;
 mod context;

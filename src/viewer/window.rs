@@ -10,10 +10,10 @@ use svbrdf_files::disk::signals;
 use svbrdf_gpu::Gpu;
 
 use crate::error::Error;
-use crate::frame::restart;
+use crate::frame::crash;
 use crate::frame::storage::{self, NAME, SettingsStorage};
 use crate::frame::{App, CrashGuard};
-use crate::jobs::work::{panics, priority};
+use crate::jobs::work::threads;
 use crate::model::session::ViewerOptions;
 
 /// Size of the first window, in points: with its title bar it fits a screen of 1366 x 768. Least and greatest size of a window.
@@ -32,10 +32,10 @@ const INTERRUPTED: i32 = 130;
 /// [`Gpu`](svbrdf_core::error::Error::Gpu) where its device was lost, an internal one after a panic.
 pub fn run(options: ViewerOptions) -> Result<(), Error> {
     // Panics become errors, which are printed at the end.
-    panics::print(false);
-    priority::yield_to_window();
+    threads::print_panics(false);
+    threads::yield_to_window();
     let result = Gpu::check_environment().map_err(Error::from).and_then(|()| open(options));
-    panics::print(true);
+    threads::print_panics(true);
     result
 }
 
@@ -47,15 +47,15 @@ fn open(options: ViewerOptions) -> Result<(), Error> {
         App::new(cc, options, storage).guarded(of_app)
     };
     let run = || eframe::run_native(NAME, native, Box::new(|cc| Ok(Box::new(create(cc)))));
-    let result = panics::caught(|| Ok(run()));
+    let result = threads::caught(|| Ok(run()));
     if matches!(result, Ok(Err(eframe::Error::Wgpu(_)))) {
-        restart::with_another_interface();
+        crash::with_another_interface();
     }
     if guard.is_stopped() {
         return Err(CoreError::Cancelled.into());
     }
     if let Some(loss) = guard.loss() {
-        restart::after_loss(&loss)?;
+        crash::after_loss(&loss)?;
     }
     guard.outcome(result)
 }

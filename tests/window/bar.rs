@@ -45,7 +45,7 @@ fn the_exposure_is_automatic_once_follows_and_stays_where_a_hand_puts_it() {
     assert_eq!(exposure(&window), start, "a drag leaves it");
     let mut grazing = window.scene();
     grazing.light = [-1.3, 0.0, 0.2];
-    edit(&mut window, |model| exposure::choose_scene(model, grazing));
+    edit(&mut window, |model| display::choose_scene(model, grazing));
     let chosen = exposure(&window);
     assert_ne!(chosen, start);
     click(&mut window, "Exposure follows");
@@ -54,7 +54,7 @@ fn the_exposure_is_automatic_once_follows_and_stays_where_a_hand_puts_it() {
     assert_ne!(exposure(&window), chosen, "it follows");
     click(&mut window, "Brighter");
     let by_hand = exposure(&window);
-    edit(&mut window, |model| exposure::choose_scene(model, grazing));
+    edit(&mut window, |model| display::choose_scene(model, grazing));
     move_light(&mut window);
     assert_eq!(exposure(&window), by_hand, "a hand has set it");
 }

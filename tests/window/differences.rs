@@ -105,7 +105,7 @@ fn a_pane_in_false_colours_has_a_scale_and_differences_have_that_of_the_legend()
     let mut window = with_differences();
     let scales = |window: &Window<'_>| {
         let displayed = window.displayed();
-        let has_scale = |one| svbrdf_viewer::pane::scale::has_scale(&displayed, one);
+        let has_scale = |one| svbrdf_viewer::pane::marks::has_scale(&displayed, one);
         displayed.contents().into_iter().map(has_scale).collect::<Vec<_>>()
     };
     assert_eq!(scales(&window), [false; 3], "the legend has the colours");

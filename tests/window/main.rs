@@ -74,13 +74,13 @@ use svbrdf_viewer::ViewerOptions;
 use svbrdf_viewer::frame::actions;
 use svbrdf_viewer::frame::storage::SettingsStorage;
 use svbrdf_viewer::frame::{App, CrashGuard};
+use svbrdf_viewer::model::Effect;
 use svbrdf_viewer::model::dialogs::{SaveKind, SaveRequest};
-use svbrdf_viewer::model::effect::Effect;
 use svbrdf_viewer::model::endpoint;
 use svbrdf_viewer::model::inspection::{Inspection, Region};
 use svbrdf_viewer::model::settings::Tab;
 use svbrdf_viewer::model::view::{AutoExposure, Layout, Projection, ViewState};
-use svbrdf_viewer::model::{Model, display, exposure, opening, undo as history};
+use svbrdf_viewer::model::{Model, display, opening, undo as history};
 
 type Window<'a> = Harness<'a, App>;
 

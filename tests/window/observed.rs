@@ -15,7 +15,7 @@ use svbrdf_viewer::message::Message;
 use svbrdf_viewer::model::Model;
 use svbrdf_viewer::model::material::loaded::LoadedMaterial;
 use svbrdf_viewer::model::view::ViewState;
-use svbrdf_viewer::pane::displayed::Displayed;
+use svbrdf_viewer::pane::Displayed;
 use svbrdf_viewer::why::SceneLosses;
 use svbrdf_viewer::why::diagnosis::known_diagnosis;
 use svbrdf_viewer::why::maps::Attribute;

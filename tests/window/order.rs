@@ -3,7 +3,7 @@
 use svbrdf_core::loss::Comparison;
 use svbrdf_evaluate::report::Report as _;
 use svbrdf_evaluate::robust::RobustReport;
-use svbrdf_viewer::loss::order::PredictionOrder;
+use svbrdf_viewer::loss::losses::PredictionOrder;
 
 use super::*;
 

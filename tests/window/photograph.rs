@@ -51,7 +51,7 @@ pub(super) fn opened<'a>() -> (Window<'a>, tempfile::TempDir) {
     let folder = tempfile::tempdir().unwrap();
     let path = photograph(folder.path(), 4.0);
     let mut window = built_in();
-    edit(&mut window, |model| exposure::choose_scene(model, SCENE));
+    edit(&mut window, |model| display::choose_scene(model, SCENE));
     edit(&mut window, |model| opening::open_photograph(model, path));
     wait_for_it(&mut window);
     (window, folder)

@@ -2,7 +2,7 @@
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf_viewer::dataset::cells::SheetCell;
+use svbrdf_viewer::dataset::pictures::SheetCell;
 use svbrdf_viewer::dataset::{losses, pictures, summary};
 
 use super::materials::{SIDE, sample};

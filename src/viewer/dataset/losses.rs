@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::jobs::Shown;
 use crate::jobs::answers::content::Given;
 use crate::jobs::answers::{Answer, Answered, Pace, Question, Work};
-use crate::jobs::work::priority;
+use crate::jobs::work::threads;
 use crate::model::dataset::list::CaseLosses;
 use crate::model::dataset::{InSight, OpenDataset};
 use crate::model::material::loaded::LoadedMaterial;
@@ -153,7 +153,7 @@ impl Question for EvaluateDataset {
             work.tell(found.clone());
         }
         // Threads of its own: in those of the window, a flip would wait for the end of a loss.
-        let pool = priority::background_pool().map_err(|error| Error::internal(error.to_string()))?;
+        let pool = threads::background_pool().map_err(|error| Error::internal(error.to_string()))?;
         let found = Mutex::new(found);
         while !left.is_empty() {
             let next = next(&in_sight.get(), &mut left, pool.current_num_threads());

@@ -1,7 +1,6 @@
 //! Data set: the list of its materials, the contact sheet and the summary of its methods.
 
 pub mod cases;
-pub mod cells;
 pub mod list;
 pub mod losses;
 pub mod opening;

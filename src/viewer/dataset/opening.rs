@@ -9,7 +9,7 @@ use svbrdf_files::session::dataset::SessionDataset;
 use svbrdf_files::session::window::Framing;
 
 use crate::dataset::cases::{self, ReadCase};
-use crate::jobs::work::job::Job;
+use crate::jobs::work::Job;
 use crate::jobs::{Edit, Jobs, Shown};
 use crate::model::Model;
 use crate::model::dataset::{DatasetState, OpenDataset};

@@ -1,20 +1,23 @@
-//! Contact sheet: the small materials in sight, rendered under the light and view of the window.
+//! Contact sheet: the small materials in sight, read a row at a time and rendered under the light and view of the window.
 
 use std::sync::Arc;
 
+use eframe::egui::{Color32, ColorImage};
 use rayon::prelude::*;
 
+use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Scene;
 use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures};
 use svbrdf_core::progress::Progress;
+use svbrdf_files::read::Read;
 
-use crate::dataset::cells::{Reduced, SheetCell};
 use crate::error::Error;
 use crate::jobs::Shown;
 use crate::jobs::answers::{Answered, Pace, Question, Work};
-use crate::jobs::work::picture::{Atlas, PanelPicture};
+use crate::model::dataset::OpenDataset;
 use crate::model::view::ViewState;
+use crate::widgets::paint::Atlas;
 
 /// A material in sight, and what was read of it.
 pub type SheetRow = (usize, Arc<Answered<Vec<Reduced>>>);
@@ -99,9 +102,11 @@ impl Question for DrawSheet {
             let difference = pictures.content.difference.map(|one| ColouredDifference { range, ..one });
             let (content, image) =
                 (PictureContent { difference, ..pictures.content }, pictures.images.first()?);
-            let pixels =
-                image.pixels.iter().map(|rgb| PanelPicture::opaque(content.colour(*rgb, self.exposure_ev)));
-            Some((*cell, PanelPicture { size: [image.width, image.height], pixels: pixels.collect() }))
+            let pixels = image.pixels.iter().map(|rgb| {
+                let [r, g, b] = content.colour(*rgb, self.exposure_ev);
+                Color32::from_rgb(r, g, b)
+            });
+            Some((*cell, ColorImage::new([image.width, image.height], pixels.collect())))
         };
         let (cells, pictures): (Vec<_>, Vec<_>) = all.par_iter().filter_map(colours).unzip();
         Ok(SheetPicture { atlas: Atlas::new(&pictures), cells, range })
@@ -127,5 +132,63 @@ impl DrawSheet {
             all.push((SheetCell { case: *case, column }, pictures));
         }
         Ok(all)
+    }
+}
+
+/// Longest sides of small materials, in texels.
+const SIDES: [usize; 4] = [48, 96, 192, 384];
+
+/// A material of a data set: in column 0 the ground truth, from column 1 on the prediction of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SheetCell {
+    pub case: usize,
+    pub column: usize,
+}
+
+/// A small material, or why there is none.
+pub type Reduced = Result<Arc<Material<f32>>, String>;
+
+/// The small ground truth of a material, and the predictions of all methods.
+#[derive(Clone, Debug)]
+pub struct ReadRow {
+    open: Arc<OpenDataset>,
+    case: usize,
+    /// Longest side, in texels.
+    side: usize,
+    version: u64,
+}
+
+impl PartialEq for ReadRow {
+    fn eq(&self, other: &Self) -> bool {
+        let of = |one: &Self| (Arc::as_ptr(&one.open).addr(), one.case, one.side, one.version);
+        of(self) == of(other)
+    }
+}
+
+impl ReadRow {
+    /// The row of a material that is drawn with this longest side in pixels, after its files were read again so often.
+    pub fn of(open: &Arc<OpenDataset>, case: usize, pixels: usize, version: u64) -> Self {
+        let side = SIDES.into_iter().find(|side| *side >= pixels).unwrap_or(SIDES[SIDES.len() - 1]);
+        Self { open: open.clone(), case, side, version }
+    }
+
+    fn read(&self, column: usize, progress: &Progress) -> Reduced {
+        let source = self.open.source(self.case, column)?;
+        let read: Read<f32> = source.read(&progress.part()).map_err(|error| error.to_string())?;
+        let size = read.material.size();
+        let (longest, side) = (size[0].max(size[1]), self.side);
+        let small = size.map(|length| if longest > side { (length * side / longest).max(1) } else { length });
+        read.material.resized(small).map(Arc::new).map_err(|error| error.to_string())
+    }
+}
+
+impl Question for ReadRow {
+    type Answer = Vec<Reduced>;
+    const PACE: Pace = Pace::AtOnce;
+    const KEPT: usize = 32;
+
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<Self::Answer, Error> {
+        let columns = 0..=self.open.methods().len();
+        Ok(columns.into_par_iter().map(|column| self.read(column, work.progress())).collect())
     }
 }

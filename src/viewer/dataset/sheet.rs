@@ -12,10 +12,10 @@ use svbrdf_core::material::Grid;
 use svbrdf_core::model::scene::Endpoint;
 use svbrdf_core::text::line;
 
-use crate::dataset::cells::{ReadRow, Reduced, SheetCell};
 use crate::dataset::list::MARK;
 use crate::dataset::losses::DatasetLosses;
 use crate::dataset::pictures::{self, DrawSheet, SheetPicture, SheetRow};
+use crate::dataset::pictures::{ReadRow, Reduced, SheetCell};
 use crate::dataset::rows::{Rows, chosen_method, texts};
 use crate::dataset::summary;
 use crate::jobs::Shown;

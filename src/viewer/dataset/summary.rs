@@ -12,8 +12,8 @@ use crate::dataset::losses::{self, DatasetLosses, PICK};
 use crate::error::Error;
 use crate::jobs::Shown;
 use crate::jobs::answers::{Answered, Pace, Question, Work};
-use crate::jobs::work::priority;
-use crate::loss::order;
+use crate::jobs::work::threads;
+use crate::loss::losses::fold;
 use crate::model::Model;
 use crate::model::dataset::OpenDataset;
 use crate::model::material::loaded::drawable;
@@ -82,7 +82,7 @@ impl Question for MethodOrder {
 
     fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<RobustReport, Error> {
         // Threads of its own, as for the losses.
-        let pool = priority::background_pool().map_err(|error| Error::internal(error.to_string()))?;
+        let pool = threads::background_pool().map_err(|error| Error::internal(error.to_string()))?;
         let (cases, reading, progress) = (&self.open.cases, &self.open.reading, work.progress());
         pool.install(|| Ok(dataset::robust(cases, &self.settings, reading, |_| (), progress)?))
     }
@@ -124,6 +124,6 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
     }
     if open.methods().len() > 1 {
         let (open, versions) = (open.clone(), shown.model.dataset.versions.clone());
-        order::fold(ui, &mut next.asks_order, || answers.get(&MethodOrder { open, settings, versions }));
+        fold(ui, &mut next.asks_order, || answers.get(&MethodOrder { open, settings, versions }));
     }
 }

@@ -1,8 +1,7 @@
 //! The materials in the window, and the assumptions in reading each.
 
-pub mod browse;
+pub mod dialog;
 pub mod open;
-pub mod path_field;
 pub mod read_options;
 pub mod save;
 

@@ -7,10 +7,10 @@ use eframe::egui::{self, RichText};
 use svbrdf_files::read::ReadOptions;
 use svbrdf_files::session::Session;
 
-use crate::files::path_field::{dialog, path_field, problem};
+use crate::files::dialog::{dialog, path_field, problem};
 use crate::model::dialogs::{OpenDialog, Opens};
-use crate::model::effect::{BrowseFor, Effect};
 use crate::model::material::read::file_name;
+use crate::model::{BrowseFor, Effect};
 use crate::model::{Model, opening};
 
 /// Height below the list of recent materials, and least height of the list.

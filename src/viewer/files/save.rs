@@ -4,12 +4,12 @@ use std::path::Path;
 
 use eframe::egui::{self, RichText};
 
-use crate::files::path_field::{dialog, path_field, problem};
+use crate::files::dialog::{dialog, path_field, problem};
 use crate::jobs::Edit;
-use crate::jobs::work::job::Job;
+use crate::jobs::work::Job;
 use crate::model::Model;
 use crate::model::dialogs::{PathField, SaveDialog, SaveKind, SaveRequest};
-use crate::model::effect::{BrowseFor, Effect};
+use crate::model::{BrowseFor, Effect};
 use crate::widgets::{progress, theme};
 
 /// Draws the dialog, where it is open; `saving` is the file that is being written.

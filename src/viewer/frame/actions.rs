@@ -2,12 +2,12 @@
 
 use eframe::egui::{Key, Modifiers};
 
+use crate::model::Effect;
 use crate::model::dataset::DatasetState;
 use crate::model::dialogs::{OpenDialog, SaveDialog, SaveKind};
-use crate::model::effect::Effect;
 use crate::model::ranges::UI_SCALE;
 use crate::model::view::AutoExposure;
-use crate::model::{Model, display, exposure, opening, undo};
+use crate::model::{Model, display, opening, undo};
 
 /// A key, and what it does.
 pub type Action = (Modifiers, Key, fn(&mut Model));
@@ -134,8 +134,8 @@ pub const HELP: &[(&str, &[Line])] = &[
                 "N / Shift + N",
                 "automatic exposure, once / following light and view: the brightest 1% of the ground truth clips",
                 &[
-                    (NONE, Key::N, |m| exposure::choose(m, AutoExposure::Once)),
-                    (SHIFT, Key::N, |m| exposure::choose(m, AutoExposure::Follow)),
+                    (NONE, Key::N, |m| display::choose_exposure(m, AutoExposure::Once)),
+                    (SHIFT, Key::N, |m| display::choose_exposure(m, AutoExposure::Follow)),
                 ],
             ),
             line(

@@ -6,7 +6,7 @@ use svbrdf_core::model::scene::Kind;
 
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
-use crate::pane::displayed::Displayed;
+use crate::pane::Displayed;
 use crate::pane::gpu_view::GpuView;
 use crate::pane::legend::LegendStrip;
 use crate::pane::viewport::{STRIP, Viewport};

@@ -1,19 +1,29 @@
-//! Effects of edits, carried out, and results of work on other threads, taken over.
+//! Effects of edits, carried out, and results of work on other threads, taken over; saving and copying of the view.
 
 use std::path::Path;
 
 use eframe::egui;
 
+use svbrdf_core::image::Image;
+use svbrdf_files::disk::inputs::check_output_of;
+use svbrdf_files::export::Provenance;
 use svbrdf_files::scene_file;
+use svbrdf_files::session::window::Framing;
 
 use crate::dataset::opening;
-use crate::files::browse;
+use crate::error::Error;
+use crate::files::dialog;
 use crate::frame::layout::Parts;
-use crate::frame::saving;
-use crate::jobs::Edit;
-use crate::jobs::work::job::Job;
+use crate::frame::written::{self, Writing};
+use crate::jobs::work::Job;
+use crate::jobs::{Edit, SAVING, Shown};
 use crate::message::Message;
-use crate::model::effect::Effect;
+use crate::model::Effect;
+use crate::model::Model;
+use crate::model::dialogs::{SaveKind, SaveRequest};
+use crate::model::material::opening::Arrival;
+use crate::model::view::ViewState;
+use crate::pane::Displayed;
 
 /// Carries out what edits of the model need outside of it: the only place that does.
 pub(super) fn carry_out(parts: &mut Parts, ctx: &egui::Context) {
@@ -43,10 +53,10 @@ fn one(parts: &mut Parts, ctx: &egui::Context, effect: Effect) {
         Effect::Browse(what) => {
             // Where what is open came from.
             let from = model.files().next().and_then(Path::parent);
-            jobs.edits.insert("dialog", browse::start(&jobs.waker, what, from));
+            jobs.edits.insert("dialog", dialog::start(&jobs.waker, what, from));
         }
-        Effect::Save(request) => saving::save_file(parts, ctx, request),
-        Effect::CopyPicture => saving::copy_picture(parts, ctx),
+        Effect::Save(request) => save_file(parts, ctx, request),
+        Effect::CopyPicture => copy_picture(parts, ctx),
     }
 }
 
@@ -65,18 +75,18 @@ pub(super) fn take_results(parts: &mut Parts, ctx: &egui::Context) {
 /// Asks for the materials that are being read, and takes over those that have been.
 fn take_materials(parts: &mut Parts) {
     let mut problems = Vec::new();
-    let (jobs, materials) = (&parts.jobs, &mut parts.model.materials);
+    let (jobs, messages, materials) = (&parts.jobs, &mut parts.model.messages, &mut parts.model.materials);
     for mut opening in std::mem::take(&mut materials.openings) {
         let (arrivals, goes_on) = jobs.read(&opening);
         let are_wanted = arrivals.into_iter().all(|arrival| {
+            if let Arrival::Read(read) = &arrival {
+                messages.settle(read.path());
+            }
             let is_wanted = materials.place(&opening, arrival, &mut problems);
             opening.arrived += 1;
             is_wanted
         });
         materials.openings.extend(Some(opening).filter(|_| goes_on && are_wanted));
-    }
-    for path in std::mem::take(&mut parts.model.materials.read) {
-        parts.model.messages.settle(&path);
     }
     report_problems(parts, problems);
 }
@@ -118,4 +128,80 @@ fn follow_files(parts: &mut Parts) {
             parts.model.read(opening);
         }
     }
+}
+
+/// Starts to save.
+pub(super) fn save_file(parts: &mut Parts, ctx: &egui::Context, SaveRequest { kind, path }: SaveRequest) {
+    if let Err(error) = check_output_of(&path, parts.model.files()) {
+        parts.model.report([Message::Failed(error.into())]);
+        return;
+    }
+    let picture = (kind == SaveKind::View).then(|| picture(parts, ctx)).transpose();
+    let writing = picture.map(|picture| writing(parts, kind, picture));
+    let job = Job::<Edit>::start(&parts.jobs.waker, move |progress| {
+        let result = writing.and_then(|write| write(&path, progress)).map(|()| path);
+        Ok(Box::new(|model: &mut Model| model.saved(result)))
+    });
+    parts.jobs.edits.insert(SAVING, job);
+}
+
+/// What is written; `picture` is of the view.
+fn writing(parts: &Parts, kind: SaveKind, picture: Option<egui::ColorImage>) -> Writing {
+    let (displayed, view) = (&parts.displayed(), &parts.model.view);
+    match (kind, picture) {
+        (_, Some(picture)) => save_view(displayed, picture),
+        (SaveKind::View | SaveKind::Renderings, _) if view.display.difference && view.is_error_map() => {
+            written::error_maps(displayed)
+        }
+        (SaveKind::View | SaveKind::Renderings, _) if displayed.photograph().is_some() => {
+            written::against_photograph(displayed)
+        }
+        (SaveKind::View | SaveKind::Renderings, _) => written::renderings(displayed),
+        (SaveKind::Strip, _) => written::strip(displayed),
+        (SaveKind::Session, _) => written::session(displayed),
+        (SaveKind::Scenes, _) => written::scenes(displayed),
+        (SaveKind::Materials, _) => written::materials_csv(displayed),
+    }
+}
+
+fn save_view(displayed: &Displayed<'_>, picture: egui::ColorImage) -> Writing {
+    let mut entries = written::provenance(displayed, written::content(displayed)).entries();
+    entries.extend(view_entries(displayed.view()));
+    if let Some(text) = written::error_map_text(displayed).or_else(|| written::photograph_text(displayed)) {
+        Provenance::describe(&mut entries, text);
+    }
+    let pixels = picture.pixels.iter().map(|pixel| [pixel.r(), pixel.g(), pixel.b()]).collect();
+    let [width, height] = picture.size;
+    written::view(Image::<u8> { width, height, pixels }, entries)
+}
+
+/// Puts the view on the clipboard as a picture.
+pub(super) fn copy_picture(parts: &mut Parts, ctx: &egui::Context) {
+    match picture(parts, ctx) {
+        Ok(picture) => {
+            ctx.copy_image(picture);
+            parts.model.report([Message::Done("Copied the view as a picture".to_owned())]);
+        }
+        Err(error) => parts.model.report([Message::Failed(error)]),
+    }
+}
+
+fn picture(parts: &mut Parts, ctx: &egui::Context) -> Result<egui::ColorImage, Error> {
+    let Parts { model, jobs, ui, gpu } = parts;
+    ui.picture(ctx, Displayed::ask(Shown { model, jobs }), gpu.as_mut())
+}
+
+/// How the view is displayed, as (keyword, text).
+fn view_entries(view: &ViewState) -> [(&'static str, String); 3] {
+    let framing = view.display.framing.map_or_else(
+        || "fitted".to_owned(),
+        |Framing { pixels_per_texel, centre: [x, y] }| {
+            format!("{pixels_per_texel} pixels per texel, texel {x}, {y} in the centre")
+        },
+    );
+    [
+        ("svbrdf:layout", view.display.layout.name().to_owned()),
+        ("svbrdf:projection", format!("{:?}", view.display.projection).to_lowercase()),
+        ("svbrdf:zoom", framing),
+    ]
 }

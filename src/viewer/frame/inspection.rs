@@ -5,7 +5,7 @@ use eframe::egui::{self, Rect, RichText};
 use crate::model::Model;
 use crate::model::inspection::{self, HEADS, Inspection};
 use crate::model::material::loaded::LoadedMaterial;
-use crate::pane::displayed::Displayed;
+use crate::pane::Displayed;
 use crate::widgets::numbers::in_width;
 use crate::widgets::theme;
 

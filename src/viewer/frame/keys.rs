@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
-use eframe::egui::{self, Key, Modifiers};
+use eframe::egui::{self, Key, Modifiers, RichText};
 
 use svbrdf_files::read::ReadOptions;
 
-use crate::frame::actions::{Action, HELP};
+use crate::frame::actions::{Action, HELP, Line};
+use crate::frame::light_and_view;
 use crate::jobs::answers::Answers;
 use crate::loss::losses::ComputeLosses;
-use crate::model::{Model, clipboard, display, opening};
+use crate::model::{Model, display, opening};
 use crate::widgets::copy;
 
 /// The keys that choose a prediction.
@@ -43,8 +44,10 @@ fn press(ctx: &egui::Context, model: &mut Model, answers: &Answers) {
     // Copy and paste arrive as events, and `?` is on another key of every keyboard.
     for event in ctx.input(|input| input.events.clone()) {
         match event {
-            egui::Event::Copy => copy(ctx, model, clipboard::text(model.view.scene), "the scene as JSON"),
-            egui::Event::Paste(text) => clipboard::paste(model, &text),
+            egui::Event::Copy => {
+                copy(ctx, model, light_and_view::scene_text(model.view.scene), "the scene as JSON")
+            }
+            egui::Event::Paste(text) => light_and_view::paste(model, &text),
             egui::Event::Text(text) if text == "?" => model.help = true,
             _ => {}
         }
@@ -78,4 +81,39 @@ fn escape(model: &mut Model, answers: &Answers) {
         () if dataset.sheet.is_behind => dataset.show_sheet(true),
         () => answers.stop::<ComputeLosses>(),
     }
+}
+
+/// Width of the keys and of the list, in points.
+const KEYS: f32 = 190.0;
+const WIDTH: f32 = 560.0;
+
+/// The help window, while it is `open`.
+pub fn help(ctx: &egui::Context, open: &mut bool) {
+    let room = ctx.content_rect().size();
+    egui::Window::new("Keys and mouse")
+        .open(open)
+        .collapsible(false)
+        .resizable(false)
+        .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
+        .show(ctx, |ui| {
+            ui.set_width(WIDTH.min((room.x - 40.0).max(0.0)));
+            egui::ScrollArea::vertical().max_height((room.y - 100.0).max(0.0)).show(ui, |ui| {
+                for (name, lines) in HELP {
+                    ui.strong(*name);
+                    lines.iter().for_each(|one| help_line(ui, one));
+                    ui.add_space(8.0);
+                }
+            });
+        });
+}
+
+/// A line laid out by itself: a grid measures its rows for a frame, in which keys stand beside effects of others.
+fn help_line(ui: &mut egui::Ui, line: &Line) {
+    ui.horizontal_top(|ui| {
+        ui.allocate_ui(egui::vec2(KEYS, 0.0), |ui| {
+            ui.set_width(KEYS);
+            ui.add(egui::Label::new(RichText::new(line.keys).monospace().size(11.5)).wrap());
+        });
+        ui.add(egui::Label::new(line.effect).wrap());
+    });
 }

@@ -9,11 +9,11 @@ use crate::dataset::{self, DatasetUi};
 use crate::error::Error;
 use crate::files;
 use crate::frame::content::{self, CAPTION};
-use crate::frame::{help, inspection, keys, messages, side, status, top};
+use crate::frame::{inspection, keys, messages, side, status, top};
 use crate::jobs::{Jobs, SAVING, Shown};
 use crate::model::Model;
 use crate::model::view::WindowGeometry;
-use crate::pane::displayed::Displayed;
+use crate::pane::Displayed;
 use crate::pane::gpu_view::GpuView;
 use crate::pane::snapshot::snapshot;
 use crate::pane::viewport::Viewport;
@@ -101,7 +101,7 @@ impl WindowUi {
         };
         messages::ui(ui.ctx(), panes, &model.messages, next);
         if model.help {
-            help::ui(ui.ctx(), &mut next.help);
+            keys::help(ui.ctx(), &mut next.help);
         }
         files::open::ui(ui.ctx(), next);
         files::save::ui(ui.ctx(), shown.jobs.edits.get(SAVING), next);

@@ -1,17 +1,18 @@
-//! Light, view and convention.
+//! Light, view and convention, and scenes on the clipboard.
 
 use eframe::egui::{self, Sense, vec2};
 
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::named_conventions as conventions;
-use svbrdf_core::model::scene::{Kind, Scene};
+use svbrdf_core::model::scene::{Kind, Scene, SceneFile};
 use svbrdf_files::convention::ChosenConvention;
 
+use crate::message::Message;
 use crate::model::dialogs::OpenDialog;
 use crate::model::endpoint::{Endpoint, FARTHEST, LOWEST, endpoint, set_endpoint, set_kind};
 use crate::model::material::loaded::drawable;
 use crate::model::view::ViewState;
-use crate::model::{Model, clipboard};
+use crate::model::{Model, display};
 use crate::widgets::{copy, named, number};
 
 /// Widths of a number and of the name of an endpoint, in points.
@@ -31,7 +32,7 @@ pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
         );
         let hover = "Copy the scene as JSON, the format of scene files (Ctrl+C)";
         if ui.button("Copy scene").on_hover_text(hover).clicked() {
-            copy(ui.ctx(), next, clipboard::text(model.view.scene), "the scene as JSON");
+            copy(ui.ctx(), next, scene_text(model.view.scene), "the scene as JSON");
         }
     });
 }
@@ -110,5 +111,46 @@ fn coordinates(ui: &mut egui::Ui, name: &str, scene: &mut Scene, which: Endpoint
     });
     if p != endpoint(scene, which) {
         set_endpoint(scene, which, p);
+    }
+}
+
+/// Takes the scene of this text of the clipboard.
+pub fn paste(model: &mut Model, text: &str) {
+    match pasted(text) {
+        Ok(scene) => display::choose_scene(model, scene),
+        Err(problem) => model.report([Message::Warning(problem)]),
+    }
+}
+
+/// The first scene of a scene file, or a scene alone.
+fn pasted(text: &str) -> Result<Scene, String> {
+    let of_file = serde_json::from_str::<SceneFile>(text).ok().and_then(|file| file.scenes.first().copied());
+    let Some(scene) = of_file.or_else(|| serde_json::from_str(text).ok()) else {
+        let remedy = "Copy one from this window or from a scene file.";
+        return Err(format!("Not pasted: the clipboard holds no scene. {remedy}"));
+    };
+    scene.check().map_err(|problem| format!("Not pasted: the scene cannot be rendered, {problem}."))?;
+    Ok(scene)
+}
+
+/// The scene as a scene file of one scene.
+pub fn scene_text(scene: Scene) -> String {
+    serde_json::to_string_pretty(&SceneFile { scenes: vec![scene] }).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copied_scene_can_be_pasted() {
+        let scene = ViewState::default().scene;
+        assert_eq!(pasted(&scene_text(scene)), Ok(scene));
+        let below = scene_text(Scene { light: [0.0, 0.0, -1.0], ..scene });
+        for (copied, problem) in
+            [("{\"scenes\": []}", "no scene"), ("brown fox", "no scene"), (&below, "above the plane")]
+        {
+            assert!(pasted(copied).unwrap_err().contains(problem), "{copied}");
+        }
     }
 }

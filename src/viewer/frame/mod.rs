@@ -4,16 +4,12 @@ pub mod actions;
 pub mod content;
 pub mod crash;
 pub mod effects;
-pub mod help;
 pub mod inspection;
 pub mod keys;
 pub mod layout;
 pub mod light_and_view;
 pub mod menu;
 pub mod messages;
-pub mod monitor;
-pub mod restart;
-pub mod saving;
 pub mod side;
 pub mod status;
 pub mod storage;
@@ -33,14 +29,14 @@ pub use crash::CrashGuard;
 use crate::frame::layout::WindowUi;
 use crate::jobs::answers::Answer;
 use crate::jobs::answers::content::ComparedPair;
-use crate::jobs::work::waker::Waker;
+use crate::jobs::work::Waker;
 use crate::jobs::{Jobs, SAVING, Shown};
 use crate::message::Message;
 use crate::model::Model;
 use crate::model::session::ViewerOptions;
 use crate::model::view::ViewState;
-use crate::model::{exposure, undo};
-use crate::pane::displayed::Displayed;
+use crate::model::{display, undo};
+use crate::pane::Displayed;
 use crate::pane::gpu_view::GpuView;
 use crate::pane::scenery::peeks;
 use crate::why::scenes::FindWorst;
@@ -71,7 +67,7 @@ impl App {
         let jobs = Jobs::new(waker, gpu.as_ref().map(|gpu| gpu.gpu.clone()));
         let mut parts = Parts { model, jobs, ui: WindowUi::default(), gpu };
         parts.model.start(options);
-        parts.model.report(restart::message().map(Message::Warning));
+        parts.model.report(crash::message().map(Message::Warning));
         effects::carry_out(&mut parts, &cc.egui_ctx);
         // Before the first frame, which takes longer than others.
         parts.begin_to_read();
@@ -106,7 +102,7 @@ impl App {
         if self.parts.model.view != *before {
             self.parts.model.keep_visible();
         }
-        exposure::follow(&mut self.parts.model);
+        display::follow_exposure(&mut self.parts.model);
     }
 
     /// One frame: input, model, picture. What a gesture changes is in the frame that read it; what is edited in a panel is in the next
@@ -114,7 +110,7 @@ impl App {
     fn frame(&mut self, ui: &mut egui::Ui) {
         let ctx = ui.ctx().clone();
         theme::choose(&ctx, self.parts.model.settings.dark);
-        monitor::suit(&ctx, &mut self.unscaled);
+        menu::suit(&ctx, &mut self.unscaled);
         self.parts.model.settings.ui_scale = ctx.zoom_factor();
         self.parts.model.time = ctx.input(|i| i.time);
         self.parts.model.geometry = self.parts.ui.geometry(&ctx);
@@ -126,7 +122,7 @@ impl App {
         ctx.set_zoom_factor(self.parts.model.settings.ui_scale);
         self.settle(&ctx, &before);
         opening::show(&mut self.parts.model, &self.parts.jobs);
-        exposure::follow(&mut self.parts.model);
+        display::follow_exposure(&mut self.parts.model);
         self.inspect();
         let Parts { model, jobs, ui: window, gpu } = &mut self.parts;
         let mut next = model.clone();
@@ -240,7 +236,7 @@ fn search(ctx: &egui::Context, Shown { model, jobs }: Shown<'_>, next: &mut Mode
     }
     next.searched = None;
     if let Some(Answer::Ready(worst)) = found {
-        exposure::choose_scene(next, worst.scene);
+        display::choose_scene(next, worst.scene);
     }
     ctx.request_repaint();
 }

@@ -6,10 +6,10 @@ use svbrdf_files::read::Certainty;
 
 use crate::frame::light_and_view;
 use crate::jobs::Shown;
-use crate::loss::order::PredictionOrder;
+use crate::loss::losses::PredictionOrder;
 use crate::model::Model;
 use crate::model::settings::Tab;
-use crate::pane::displayed::Displayed;
+use crate::pane::Displayed;
 use crate::widgets::bare;
 use crate::widgets::paint::PanelTextures;
 use crate::{dataset, files, loss, photograph, why};
@@ -38,7 +38,7 @@ pub fn ui(ui: &mut egui::Ui, displayed: &Displayed<'_>, next: &mut Model, textur
             loss::ui(ui, shown, next);
             if model.materials.predictions().len() > 1 {
                 let ask = || jobs.answers.get(&PredictionOrder::of(model));
-                loss::order::fold(ui, &mut next.asks_order, ask);
+                loss::losses::fold(ui, &mut next.asks_order, ask);
             }
             unsure_reading(ui, model, &mut next.settings.tab);
         }

@@ -5,8 +5,8 @@ use eframe::egui::{self, RichText};
 use crate::frame::actions::pin_here;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, display};
-use crate::pane::displayed::Displayed;
-use crate::pane::readout;
+use crate::pane;
+use crate::pane::Displayed;
 use crate::pane::viewport::Viewport;
 use crate::photograph::compared::Photographs;
 use crate::widgets::numbers::{WIDTH, fixed};
@@ -84,7 +84,7 @@ impl StatusBar<'_> {
     fn photograph(&self, ui: &mut egui::Ui, photographs: &Photographs, mono: impl Fn(String) -> RichText) {
         let chosen = self.shown.chosen();
         let numbers: Vec<String> = match self.texel {
-            Some(texel) => readout::photograph(photographs, chosen, texel).into_iter().map(fixed).collect(),
+            Some(texel) => pane::photograph(photographs, chosen, texel).into_iter().map(fixed).collect(),
             None => vec![format!("{:>1$}", "-", WIDTH); 3],
         };
         ui.separator();
@@ -111,10 +111,10 @@ impl StatusBar<'_> {
     fn numbers(&self, index: usize) -> String {
         let (shown, difference) = (self.shown, self.shown.view().display.difference);
         let numbers: Vec<String> = match self.texel {
-            Some(texel) => readout::numbers(shown, index, difference, texel).into_iter().map(fixed).collect(),
-            None => vec![format!("{:>1$}", "-", WIDTH); readout::count(shown, index)],
+            Some(texel) => pane::numbers(shown, index, difference, texel).into_iter().map(fixed).collect(),
+            None => vec![format!("{:>1$}", "-", WIDTH); pane::count(shown, index)],
         };
-        format!("{}{}", numbers.join(" "), readout::unit(shown.view(), index))
+        format!("{}{}", numbers.join(" "), pane::unit(shown.view(), index))
     }
 }
 

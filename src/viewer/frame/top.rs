@@ -9,7 +9,7 @@ use svbrdf_files::session::window::SessionDisplay;
 
 use crate::frame::{actions, menu};
 use crate::model::view::{AutoExposure, Layout, Projection};
-use crate::model::{Model, display, exposure, undo};
+use crate::model::{Model, display, undo};
 use crate::widgets::number;
 
 /// Height of every control, gap between two of them, and width of the exposure, in points.
@@ -194,7 +194,7 @@ fn exposure_controls(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
         ] {
             let button = button(ui, text, name, true, Some(now == auto));
             if button.on_hover_text(hover).clicked() {
-                exposure::choose(next, auto);
+                display::choose_exposure(next, auto);
             }
         }
     });

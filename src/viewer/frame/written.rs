@@ -26,7 +26,7 @@ use crate::jobs::answers::content::ComparedPair;
 use crate::model::inspection::Region;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::ReadMaterial;
-use crate::pane::displayed::Displayed;
+use crate::pane::Displayed;
 
 /// What writes a file, on a thread of its own.
 pub type Writing = Box<dyn FnOnce(&Path, &Progress) -> Result<(), Error> + Send>;

@@ -18,8 +18,7 @@ use answers::content::Given;
 use answers::{Answer, Answers};
 use reading::ReadMaterials;
 use watch::FileWatch;
-use work::job::Job;
-use work::waker::Waker;
+use work::{Job, Waker};
 
 /// An edit of the model.
 pub type Edit = Box<dyn FnOnce(&mut Model) + Send>;

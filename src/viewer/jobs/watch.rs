@@ -9,9 +9,9 @@ use std::time::{Duration, SystemTime};
 
 use svbrdf_files::disk::stamp::Stamp;
 
-use crate::jobs::work::job::Job;
-use crate::jobs::work::waker::Waker;
-use crate::model::material::list::MaterialList;
+use crate::jobs::work::Job;
+use crate::jobs::work::Waker;
+use crate::model::material::MaterialList;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::read::MaterialId;
 

@@ -1,7 +1,6 @@
 //! Sampled rendering loss: its settings, its progress, its result.
 
 pub mod losses;
-pub mod order;
 pub mod results;
 
 use std::path::PathBuf;

@@ -1,11 +1,14 @@
-//! Edits of what the panes show that need more of the model than the view.
+//! Edits of what the panes show that need more of the model than the view, and the automatic exposure.
 
+use svbrdf_core::model::scene::Scene;
+use svbrdf_core::picture::exposure;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session::window::Framing;
+use svbrdf_files::source::Place;
 
 use crate::model::Model;
 use crate::model::framing::Framed;
-use crate::model::view::{Exposed, Layout};
+use crate::model::view::{AutoExposure, Exposed, Layout, STOPS};
 
 /// Shows the quantity `by` places after this one.
 pub fn cycle_quantity(model: &mut Model, by: isize) {
@@ -76,4 +79,42 @@ fn frame(model: &mut Model, change: impl FnOnce(&Framed<'_>) -> Framing) {
 fn cycled<T: Copy + PartialEq>(all: &[T], value: T, by: isize) -> T {
     let index = all.iter().position(|x| *x == value).unwrap_or(0) as isize;
     all[(index + by).rem_euclid(all.len() as isize) as usize]
+}
+
+/// Computes the exposure where its state asks for it. Called in every frame.
+pub fn follow_exposure(model: &mut Model) {
+    let Some(ground_truth) = model.materials.ground_truth() else { return };
+    let is_here = |place: &Place| model.materials.all.iter().any(|one| one.read.source.place == *place);
+    let now = Exposed::For {
+        ground_truth: ground_truth.read.source.place.clone(),
+        scene: model.view.scene,
+        convention: model.view.convention(),
+    };
+    let is_due = match (model.view.display.auto_exposure, &model.exposed) {
+        (AutoExposure::Off, _) | (AutoExposure::Once, Exposed::Restored) => false,
+        (AutoExposure::Once, Exposed::For { ground_truth, .. }) => !is_here(ground_truth),
+        (AutoExposure::Follow, exposed) => *exposed != now,
+        (AutoExposure::Once, Exposed::Pending) => true,
+    };
+    if is_due {
+        let convention = model.view.convention().drawn();
+        let ev = exposure::automatic(ground_truth.material(), &model.view.scene, &convention);
+        model.view.exposure_ev = ev.clamp(-STOPS, STOPS);
+    }
+    if is_due || model.exposed == Exposed::Restored {
+        model.exposed = now;
+    }
+}
+
+/// Chooses how the exposure is automatic; it is computed at once.
+pub fn choose_exposure(model: &mut Model, auto: AutoExposure) {
+    (model.view.display.auto_exposure, model.exposed) = (auto, Exposed::Pending);
+}
+
+/// Shows a scene that was picked from a list, and exposes for it where the exposure is automatic.
+pub fn choose_scene(model: &mut Model, scene: Scene) {
+    model.view.scene = scene;
+    if model.view.display.auto_exposure == AutoExposure::Once {
+        model.exposed = Exposed::Pending;
+    }
 }

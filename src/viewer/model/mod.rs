@@ -2,15 +2,11 @@
 //!
 //! What an edit needs outside of it, as a file to be read, it adds to [`Model::effects`].
 
-pub mod clipboard;
 pub mod dataset;
 pub mod dialogs;
 pub mod display;
-pub mod effect;
 pub mod endpoint;
-pub mod exposure;
 pub mod framing;
-pub mod history;
 pub mod inspection;
 pub mod material;
 pub mod opening;
@@ -23,18 +19,21 @@ pub mod view;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use eframe::egui::util::undoer::{Settings as Undoing, Undoer};
+
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::convention::ChosenConvention;
+use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::session::Session;
+use svbrdf_files::session::dataset::SessionDataset;
+use svbrdf_files::source::MaterialSource;
 
 use crate::error::Error;
 use crate::message::{Message, MessageList};
 use crate::model::dataset::DatasetState;
-use crate::model::dialogs::Dialogs;
-use crate::model::effect::Effect;
-use crate::model::history::History;
+use crate::model::dialogs::{Dialogs, SaveRequest};
 use crate::model::inspection::Inspection;
-use crate::model::material::list::MaterialList;
+use crate::model::material::MaterialList;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::material::opening::Opening;
 use crate::model::material::photograph::PhotographState;
@@ -178,6 +177,62 @@ impl Model {
         if let Some(ground_truth) = self.materials.ground_truth() {
             self.view.keep_visible(ground_truth.grid());
         }
+    }
+}
+
+/// What happens outside of the model: files, dialogs of the system, the clipboard. One place of the application carries it out.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// Reads scene files.
+    ReadScenes(Vec<PathBuf>),
+    /// Matches the materials of folders: the first has the ground truths, each other one the predictions of a method; or reads one
+    /// table of pairs.
+    OpenDataset(Vec<PathBuf>),
+    /// Opens the data set of a session, with the losses of a results folder.
+    RestoreDataset(Box<SessionDataset>, Option<PathBuf>),
+    /// Asks with the system's dialog; the choice goes into the path field of the dialog that is open.
+    Browse(BrowseFor),
+    /// Writes a file.
+    Save(SaveRequest),
+    /// Puts the view on the clipboard as a picture.
+    CopyPicture,
+}
+
+/// What the file dialog of the system is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BrowseFor {
+    Files,
+    Folders,
+    /// A file to save.
+    Saving,
+}
+
+/// How long nothing changes, in seconds, before it becomes a moment to return to: all of a drag is one step.
+const STABLE: f32 = 0.4;
+
+/// A moment to return to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    pub view: ViewState,
+    pub materials: Vec<MaterialSource>,
+    /// The scenes of a file, where the loss is over them.
+    pub scenes: Option<FileScenes>,
+    /// The photograph that renderings are compared with.
+    pub photograph: Option<SessionPhotograph>,
+}
+
+/// The earlier and the later moments.
+#[derive(Clone, Debug)]
+pub struct History {
+    pub moments: Undoer<Arc<Moment>>,
+    /// The set of materials in the window, or the one that is being opened.
+    pub materials: Vec<MaterialSource>,
+}
+
+impl Default for History {
+    fn default() -> Self {
+        let drags = Undoing { stable_time: STABLE, auto_save_interval: f32::INFINITY, max_undos: 100 };
+        Self { moments: Undoer::with_settings(drags), materials: Vec::new() }
     }
 }
 

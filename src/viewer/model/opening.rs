@@ -14,9 +14,9 @@ use svbrdf_files::source::MaterialSource;
 use svbrdf_files::{Error as FilesError, scene_file};
 
 use crate::message::Retry;
+use crate::model::Effect;
 use crate::model::Model;
 use crate::model::dataset::OpenDataset;
-use crate::model::effect::Effect;
 use crate::model::material::opening::{Opening, Target};
 
 /// Opens materials: the first as ground truth where there is none or where `replace` is set, the others as predictions. Scene files,

@@ -12,10 +12,10 @@ use svbrdf_files::session::{Session, SessionMaterial};
 use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::message::Message;
+use crate::model::Effect;
+use crate::model::History;
 use crate::model::dataset::session::absolute;
 use crate::model::dataset::{DatasetState, OpenDataset};
-use crate::model::effect::Effect;
-use crate::model::history::History;
 use crate::model::inspection::Inspection;
 use crate::model::material::opening::{Opening, Target};
 use crate::model::material::read::Rules;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::model::Model;
-use crate::model::history::Moment;
+use crate::model::Moment;
 use crate::model::view::Exposed;
 
 /// Takes note of the moment, once the first materials are there. `is_photograph_settled`: none is being read.

@@ -7,7 +7,7 @@ use svbrdf_core::picture::camera::Camera;
 
 use crate::model::endpoint::{self, Endpoint};
 use crate::model::view::{Projection, ViewState};
-use crate::widgets::bounds::{inset, nearest};
+use crate::widgets::paint::{inset, nearest};
 use crate::widgets::theme;
 
 /// Distance, in points, within which a press grabs a handle or the wipe line.

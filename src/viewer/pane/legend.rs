@@ -11,10 +11,10 @@ use svbrdf_core::picture::statistics::{Distributions, Histogram};
 
 use crate::model::Model;
 use crate::model::material::loaded::LoadedMaterial;
-use crate::pane::displayed::Displayed;
-use crate::widgets::bounds::inset;
+use crate::pane::Displayed;
 use crate::widgets::numbers::digits;
 use crate::widgets::paint::colour_bar;
+use crate::widgets::paint::inset;
 use crate::widgets::{named, number, theme};
 
 /// The error map in the drop-down of differences.

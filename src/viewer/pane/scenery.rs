@@ -7,7 +7,7 @@ use svbrdf_gpu::DisplayMode;
 use crate::model::dataset::Missing;
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::view::Layout;
-use crate::pane::displayed::Displayed;
+use crate::pane::Displayed;
 use crate::pane::gpu_view::PaneTexels;
 use crate::pane::handles::ndc_from_pos;
 use crate::pane::placed::Placed;

@@ -6,13 +6,13 @@ use eframe::egui;
 
 use svbrdf_gpu::ShadeParams;
 
-use crate::pane::displayed::Displayed;
-use crate::pane::draft_policy::{LARGE, PAUSE, PaneView};
+use crate::pane::Displayed;
+use crate::pane::draft::shaded_part;
+use crate::pane::draft::{LARGE, PAUSE, PaneView};
 use crate::pane::gpu_view::GpuView;
 use crate::pane::scenery::PaneContent;
 use crate::pane::shaded::{ShadedPart, ShadingRequest};
 use crate::pane::viewport::Viewport;
-use crate::pane::visible::shaded_part;
 
 impl Viewport {
     /// Shades every material in a pane; on a slow adapter only what the screen needs while something moves, and the rest bit by

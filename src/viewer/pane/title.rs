@@ -8,12 +8,12 @@ use crate::model::dataset::Missing;
 use crate::model::material::loaded::drawable;
 use crate::model::view::Layout;
 use crate::model::{Model, display};
-use crate::pane::cells::TITLE;
-use crate::pane::displayed::Displayed;
+use crate::pane::Displayed;
+use crate::pane::placed::TITLE;
 use crate::pane::scenery::{PaneContent, PhotographUse};
-use crate::widgets::bounds::inset;
 use crate::widgets::names::{FEWEST, fitted};
 use crate::widgets::numbers::significant;
+use crate::widgets::paint::inset;
 use crate::widgets::theme;
 
 /// Width of the button that shows the prediction itself again, in points.

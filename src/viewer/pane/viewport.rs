@@ -9,16 +9,16 @@ use svbrdf_gpu::{DisplayMode, DisplayParams, DisplayedDifference};
 use crate::model::Model;
 use crate::model::material::loaded::drawable;
 use crate::model::view::{Projection, ViewState};
-use crate::pane::cells::{TITLE, cells, columns, picture_rect};
-use crate::pane::displayed::Displayed;
-use crate::pane::draft_policy::DraftPolicy;
+use crate::pane;
+use crate::pane::Displayed;
+use crate::pane::draft::DraftPolicy;
 use crate::pane::gestures::{self, Gesture};
 use crate::pane::gpu_view::GpuView;
 use crate::pane::placed::Placed;
-use crate::pane::readout;
+use crate::pane::placed::{TITLE, cells, columns, picture_rect};
 use crate::pane::scenery::{Hovered, PaneContent, PhotographUse, texels};
 use crate::pane::title::{empty_pane, title_bar};
-use crate::pane::{handles, scale};
+use crate::pane::{handles, marks};
 use crate::widgets::paint::{note, paint_hint};
 use crate::widgets::theme;
 
@@ -184,8 +184,8 @@ impl Viewport {
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
         }
-        if scale::has_scale(shown, content) {
-            scale::paint(&painter, rect);
+        if marks::has_scale(shown, content) {
+            marks::paint(&painter, rect);
         }
         if let (2.., Some(one)) = (gpu.reduction(), shown.materials().first()) {
             let grid = one.grid();
@@ -211,10 +211,8 @@ impl Viewport {
         if state.display.projection == Projection::Flat && content.mode == DisplayMode::Value {
             let (index, difference) = (content.index, content.difference);
             placed.paint_numbers(painter, |texel| match (content.photograph, shown.photographs()) {
-                (PhotographUse::Displayed, Some(photographs)) => {
-                    readout::photograph(photographs, index, texel)
-                }
-                _ => readout::numbers(shown, index, difference, texel),
+                (PhotographUse::Displayed, Some(photographs)) => pane::photograph(photographs, index, texel),
+                _ => pane::numbers(shown, index, difference, texel),
             });
         }
         placed.paint_inspected(painter, &shown.model.inspection);

@@ -12,7 +12,7 @@ use crate::jobs::answers::content::ComparedPair;
 use crate::jobs::answers::{Question, Work};
 use crate::model::dialogs::{SaveDialog, SaveKind};
 use crate::model::material::loaded::LoadedMaterial;
-use crate::model::{Model, exposure};
+use crate::model::{Model, display};
 use crate::why::thumbnails::{self, Thumbnails};
 use crate::widgets::numbers::digits;
 use crate::widgets::paint::PanelTextures;
@@ -80,7 +80,7 @@ fn listed_scenes(
                 Some((texture, Rect::from_min_max(least.into(), greatest.into())))
             });
             if thumbnail(ui, ranked, rank, part, ranked.scene == shown.model.view.scene).clicked() {
-                exposure::choose_scene(next, ranked.scene);
+                display::choose_scene(next, ranked.scene);
             }
         }
     });
@@ -125,7 +125,7 @@ fn search(ui: &mut egui::Ui, shown: Shown<'_>, pair: &ComparedPair, next: &mut M
             let chosen = worst.scene == shown.model.view.scene;
             let label = ui.selectable_label(chosen, times(worst));
             if label.on_hover_text(found(worst)).clicked() {
-                exposure::choose_scene(next, worst.scene);
+                display::choose_scene(next, worst.scene);
             }
         }
     });

@@ -1,5 +1,7 @@
 //! Thumbnails: small pictures of the log difference in the worst scenes, all in one picture.
 
+use eframe::egui::{Color32, ColorImage};
+
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_core::material::{Material, Planes};
 use svbrdf_core::model::convention::Convention;
@@ -11,7 +13,7 @@ use svbrdf_core::render;
 use svbrdf_core::statistics::quantile;
 
 use crate::error::Error;
-use crate::jobs::work::picture::{Atlas, PanelPicture};
+use crate::widgets::paint::Atlas;
 
 /// Side of a thumbnail, in pixels.
 pub const SIDE: usize = 48;
@@ -52,9 +54,11 @@ pub fn make(
     }
     let mut all: Vec<f32> = pixels.iter().flatten().copied().collect();
     let range = quantile(&mut all, RANGE).filter(|range| *range > 0.0).unwrap_or(1.0) as f32;
-    let colour = |value: &f32| PanelPicture::opaque(difference_to_display(*value, range, false));
-    let picture =
-        |values: &Vec<f32>| PanelPicture { size: [SIDE; 2], pixels: values.iter().map(colour).collect() };
+    let colour = |value: &f32| {
+        let [r, g, b] = difference_to_display(*value, range, false);
+        Color32::from_rgb(r, g, b)
+    };
+    let picture = |values: &Vec<f32>| ColorImage::new([SIDE; 2], values.iter().map(colour).collect());
     let atlas = Atlas::new(&pixels.iter().map(picture).collect::<Vec<_>>());
     Ok(Thumbnails { atlas, range: f64::from(range), pixels })
 }

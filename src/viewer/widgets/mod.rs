@@ -1,6 +1,5 @@
 //! Widgets and formats that several parts of the window share.
 
-pub mod bounds;
 pub mod names;
 pub mod numbers;
 pub mod paint;

@@ -79,6 +79,8 @@ pub fn install(ctx: &egui::Context) {
         style.spacing.button_padding = egui::vec2(7.0, 3.0);
         // Scroll bars beside the numbers, not over them.
         style.spacing.scroll.floating_allocated_width = style.spacing.scroll.bar_width;
+        // What goes on beyond an edge is seen without the pointer, too.
+        style.spacing.scroll.dormant_handle_opacity = 0.6;
         style.interaction.selectable_labels = true;
         // A cursor that blinks draws the whole window twice a second.
         style.visuals.text_cursor.blink = false;

@@ -1,6 +1,6 @@
 //! The contact sheet of a data set.
 
-use svbrdf_viewer::dataset::cells::SheetCell;
+use svbrdf_viewer::dataset::pictures::SheetCell;
 use svbrdf_viewer::dataset::pictures::{self, SheetPicture};
 use svbrdf_viewer::dataset::rows::Rows;
 use svbrdf_viewer::dataset::summary;

@@ -4,7 +4,6 @@
 //! on the screen. What a frame does not ask for is cancelled; its answer stays for a while.
 
 pub mod content;
-mod entry;
 pub mod question;
 #[cfg(test)]
 mod tests;
@@ -15,10 +14,10 @@ use std::fmt;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::work::waker::Waker;
+use super::work::Waker;
 use crate::error::Error;
-use entry::{AnyEntry, Entry, Phase};
 pub use question::{Answer, Answered, Pace, Question, Work};
+use question::{AnyEntry, Entry, Phase};
 
 /// The questions of the window with their answers.
 #[derive(Default)]

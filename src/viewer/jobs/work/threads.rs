@@ -1,4 +1,5 @@
-//! Panics as errors: the message and the location of a panic become an internal [`Error`].
+//! Threads of the work: panics in them as errors, with message and location, and their priorities: they yield to those of the window and
+//! of its driver.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, PanicHookInfo};
@@ -14,7 +15,7 @@ static LATEST: Mutex<Option<String>> = Mutex::new(None);
 static ARE_PRINTED: AtomicBool = AtomicBool::new(true);
 
 /// Whether panics from now on are written to standard error, too. The window reports them itself.
-pub fn print(on: bool) {
+pub fn print_panics(on: bool) {
     record();
     ARE_PRINTED.store(on, Ordering::Relaxed);
 }
@@ -71,11 +72,66 @@ fn short(file: &str) -> String {
     parts[source.saturating_sub(1)..].join("/")
 }
 
+/// Their priority on the scale of `nice`: they get a tenth of a processor that others want, and all of an idle one.
+#[cfg(target_os = "linux")]
+const NICE: i32 = 10;
+
+/// The lowest priority.
+#[cfg(target_os = "linux")]
+const NICEST: i32 = 19;
+
+/// Whether slow work yields: in the window of a person. Tests drive many windows at once, and wait for its results.
+static YIELDS: AtomicBool = AtomicBool::new(false);
+
+/// Lowers the priority of tasks from now on, and of the threads that compute in parallel, unless they run already.
+pub fn yield_to_window() {
+    YIELDS.store(true, Ordering::Relaxed);
+    let _ = rayon::ThreadPoolBuilder::new().start_handler(|_| lower()).build_global();
+}
+
+/// Threads for what nobody waits for: they get what other slow work leaves.
+///
+/// # Errors
+/// Where the system has no more threads.
+pub fn background_pool() -> Result<rayon::ThreadPool, rayon::ThreadPoolBuildError> {
+    let lower = || {
+        #[cfg(target_os = "linux")]
+        if YIELDS.load(Ordering::Relaxed) {
+            let _ = rustix::process::setpriority_process(None, NICEST);
+        }
+    };
+    rayon::ThreadPoolBuilder::new().start_handler(move |_| lower()).build()
+}
+
+/// Lowers the priority of the thread that calls it, where slow work yields.
+pub fn lower_this_thread() {
+    if YIELDS.load(Ordering::Relaxed) {
+        lower();
+    }
+}
+
+/// Lowers the priority of this thread. Elsewhere than on Linux it does nothing: there priorities are those of whole processes, or
+/// adapters are not software.
+fn lower() {
+    #[cfg(target_os = "linux")]
+    let _ = rustix::process::setpriority_process(None, NICE);
+}
+
+/// The priority of the thread that calls it, as `nice` counts.
+#[cfg(all(test, target_os = "linux"))]
+pub fn nice_of_this_thread() -> i32 {
+    #[expect(clippy::disallowed_methods, reason = "a file of the system, which nobody names")]
+    let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap_or_default();
+    // The 19th field; the second is a name in parentheses.
+    let after_name = stat.rsplit_once(") ").map_or("", |(_, rest)| rest);
+    after_name.split(' ').nth(16).and_then(|field| field.parse().ok()).unwrap_or(i32::MAX)
+}
+
 #[cfg(test)]
 mod tests {
-    use svbrdf_core::error::Error as CoreError;
-
     use super::*;
+
+    use svbrdf_core::error::Error as CoreError;
 
     fn caught_text(work: impl FnOnce() -> Result<(), Error>) -> String {
         caught(work).unwrap_err().to_string()
@@ -84,7 +140,7 @@ mod tests {
     #[test]
     fn a_panic_is_an_error_with_its_message_and_location() {
         let text = caught_text(|| panic!("planted {}", 7));
-        assert!(text.contains("planted 7 (") && text.contains("panics.rs:"), "{text}");
+        assert!(text.contains("planted 7 (") && text.contains("threads.rs:"), "{text}");
         assert_eq!(caught(|| Ok(3)).unwrap(), 3);
         assert!(
             caught(|| Err::<(), _>(CoreError::Cancelled.into())).is_err_and(|error| error.is_cancelled())
@@ -108,5 +164,21 @@ mod tests {
             "egui-0.37.0/src/context.rs"
         );
         assert_eq!(short("src/viewer/app/mod.rs"), "src/viewer/app/mod.rs");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn only_in_the_window_of_a_person_does_work_yield_and_the_window_never() {
+        let before = nice_of_this_thread();
+        let worker = || {
+            lower_this_thread();
+            nice_of_this_thread()
+        };
+        let run = || std::thread::spawn(worker).join().unwrap();
+        assert_eq!(run(), before);
+        YIELDS.store(true, Ordering::Relaxed);
+        let lowered = run();
+        YIELDS.store(false, Ordering::Relaxed);
+        assert_eq!((lowered, nice_of_this_thread()), (before.max(NICE), before));
     }
 }
