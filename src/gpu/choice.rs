@@ -17,11 +17,17 @@ const NAME: &str = "WGPU_ADAPTER_NAME";
 pub const FAILED: &str = "SVBRDF_FAILED_BACKENDS";
 
 static NAMED: OnceLock<String> = OnceLock::new();
+static PREFERRED: OnceLock<String> = OnceLock::new();
 static TAKEN: Mutex<Option<Backend>> = Mutex::new(None);
 
 /// Names the adapter that this process takes: any part of its name, in any case.
 pub fn name(part: String) {
     let _ = NAMED.set(part);
+}
+
+/// Names the adapter that this process takes where it is there and no other one is named.
+pub fn prefer(name: String) {
+    let _ = PREFERRED.set(name);
 }
 
 /// The list for [`FAILED`] with the interface that was taken last; `None` where it has failed before, or none was taken.
@@ -54,6 +60,8 @@ pub(super) fn select(
 #[derive(Clone, Debug, Default)]
 struct Preference {
     name: Option<String>,
+    /// One that may be missing.
+    preferred: Option<String>,
     low_power: bool,
     failed: Vec<String>,
     /// Whether `WGPU_BACKEND` leaves some out.
@@ -64,6 +72,7 @@ impl Preference {
     fn of_environment() -> Self {
         Self {
             name: NAMED.get().cloned().or_else(|| std::env::var(NAME).ok()).filter(|name| !name.is_empty()),
+            preferred: PREFERRED.get().cloned(),
             low_power: PowerPreference::from_env() == Some(PowerPreference::LowPower),
             failed: std::env::var(FAILED).unwrap_or_default().split(',').map(str::to_owned).collect(),
             narrowed: std::env::var_os("WGPU_BACKEND").is_some(),
@@ -72,14 +81,13 @@ impl Preference {
 
     /// The index of the best, and why it is the best.
     fn best(&self, adapters: &[&AdapterInfo]) -> Result<(usize, String), String> {
-        let of_name = |info: &AdapterInfo| {
-            let part = self.name.as_deref().unwrap_or_default().to_lowercase();
-            info.name.to_lowercase().contains(&part)
-        };
+        let is_there = |part: &&String| adapters.iter().any(|one| has_name(one, part));
+        let name = self.name.as_ref().or(self.preferred.as_ref().filter(is_there));
+        let of_name = |info: &AdapterInfo| name.is_none_or(|part| has_name(info, part));
         let among = if self.narrowed { " that WGPU_BACKEND allows" } else { "" };
         let named: Vec<usize> = (0..adapters.len()).filter(|&one| of_name(adapters[one])).collect();
         let best = named.iter().copied().min_by_key(|&one| self.rank(adapters[one]));
-        match (best, &self.name) {
+        match (best, name) {
             (Some(best), Some(name)) => Ok((best, format!("the best whose name has \"{name}\""))),
             (Some(best), None) if adapters.len() == 1 => Ok((best, format!("the only adapter{among}"))),
             (Some(best), None) => {
@@ -110,6 +118,11 @@ impl Preference {
         let has_failed = self.failed.iter().any(|one| one == backend_name(info.backend));
         (info.device_type == DeviceType::Cpu, has_failed, interface, Reverse(power))
     }
+}
+
+/// Whether the name of an adapter has this part, in any case.
+fn has_name(info: &AdapterInfo, part: &str) -> bool {
+    info.name.to_lowercase().contains(&part.to_lowercase())
 }
 
 /// The interface of the platform.
@@ -169,9 +182,11 @@ mod tests {
         let name = |name: &str| Preference { name: Some(name.into()), ..usual.clone() };
         let failed = Preference { failed: vec![backend_name(USUAL).to_owned()], ..usual.clone() };
         let low_power = Preference { low_power: true, ..usual.clone() };
+        let prefer = |name: &str| Preference { preferred: Some(name.into()), ..usual.clone() };
         let table =
             [(usual.clone(), 3), (low_power, 2), (failed, 1), (name("LLVM"), 0), (name("geforce"), 3)];
-        for (preference, expected) in table {
+        let kept = [(prefer("iris"), 2), (prefer("Radeon"), 3)];
+        for (preference, expected) in table.into_iter().chain(kept) {
             assert_eq!(preference.best(&infos).unwrap().0, expected, "{preference:?}");
         }
         let error = name("Radeon").best(&infos).unwrap_err();

@@ -7,7 +7,7 @@ use eframe::egui_wgpu::{WgpuSetup, WgpuSetupCreateNew};
 
 use svbrdf_core::error::Error as CoreError;
 use svbrdf_files::disk::signals;
-use svbrdf_gpu::Gpu;
+use svbrdf_gpu::{Gpu, choice};
 
 use crate::error::Error;
 use crate::frame::crash;
@@ -41,7 +41,9 @@ pub fn run(options: ViewerOptions) -> Result<(), Error> {
 
 fn open(options: ViewerOptions) -> Result<(), Error> {
     let (storage, guard) = (SettingsStorage::read(storage::folder()), CrashGuard::default());
-    let (native, of_app) = (native_options(storage.window()), guard.clone());
+    let settings = storage.settings();
+    settings.and_then(|last| last.adapter.clone()).into_iter().for_each(choice::prefer);
+    let (native, of_app) = (native_options(settings.and_then(|last| last.window)), guard.clone());
     let create = move |cc: &eframe::CreationContext<'_>| {
         stop_at_signals(&of_app, &cc.egui_ctx);
         App::new(cc, options, storage).guarded(of_app)

@@ -126,4 +126,9 @@ fn dialogs_menu_and_small_windows_have_the_words_of_the_snapshots() {
     }
     click(&mut window, "Menu");
     assert_snapshot(&window, "menu");
+    let name = window.state().parts.gpu.as_ref().unwrap().gpu.report.name.clone();
+    click(&mut window, "Graphics adapter");
+    see(&mut window, &name);
+    click(&mut window, &name);
+    assert_eq!(window.model().settings.adapter, Some(name), "of the next start");
 }

@@ -68,7 +68,7 @@ impl WindowUi {
         gpu: Option<&mut GpuView>,
     ) {
         let model = shown.model;
-        bare(egui::Panel::top("top"), ui).show(ui, |ui| top::ui(ui, model, next));
+        bare(egui::Panel::top("top"), ui).show(ui, |ui| top::ui(ui, shown.shown(), next));
         bare(egui::Panel::bottom("status"), ui).show(ui, |ui| status::ui(ui, shown, &self.viewport, next));
         let was_open = model.side_panel();
         let mut is_open = was_open;

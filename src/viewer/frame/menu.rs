@@ -1,13 +1,21 @@
 //! The menu of the bar: what is seldom used; and the scale of text and controls, which the monitor chooses at the first start.
 
+use std::collections::BTreeSet;
+
 use eframe::egui;
 
+use svbrdf_gpu::Gpu;
+
+use crate::error::Error;
+use crate::jobs::Shown;
+use crate::jobs::answers::{Pace, Question, Work};
 use crate::model::Model;
+use crate::widgets::answered;
 
 /// The scales of text and controls that the menu offers, in percent.
 const SCALES: [u16; 8] = [75, 100, 125, 150, 175, 200, 250, 300];
 
-pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+pub fn ui(ui: &mut egui::Ui, Shown { model, jobs }: Shown<'_>, next: &mut Model) {
     if let Some(open) = &model.dataset.open {
         of_dataset(ui, open.noun(), next);
         ui.separator();
@@ -29,6 +37,31 @@ pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
     });
     let hover = "Size of text and controls (Ctrl with plus, minus)";
     scales.response.on_hover_text(hover);
+    let adapters = ui.menu_button("Graphics adapter", |ui| {
+        ui.set_max_width(260.0);
+        let chosen = &mut next.settings.adapter;
+        ui.selectable_value(chosen, None, "Automatic");
+        answered(ui, jobs.answers.get(&ListAdapters), |ui, names| {
+            for name in names {
+                ui.selectable_value(chosen, Some(name.clone()), name);
+            }
+        });
+    });
+    adapters.response.on_hover_text("That of the next start; `--adapter` counts before it");
+}
+
+/// The names of the graphics adapters.
+#[derive(Clone, Debug, PartialEq)]
+struct ListAdapters;
+
+impl Question for ListAdapters {
+    type Answer = BTreeSet<String>;
+    const PACE: Pace = Pace::Beside;
+    const HAS_MESSAGE: bool = false;
+
+    fn answer(&self, _: &Work<'_, Self::Answer>) -> Result<BTreeSet<String>, Error> {
+        Ok(Gpu::adapters()?.into_iter().map(|one| one.name).collect())
+    }
 }
 
 /// The parts of the window that only a data set has; `noun` is what it lists.

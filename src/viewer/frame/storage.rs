@@ -56,9 +56,9 @@ impl SettingsStorage {
         Self { folder, stored, is_damaged }
     }
 
-    /// The size of the last window, in points.
-    pub fn window(&self) -> Option<[f32; 2]> {
-        self.stored.as_ref()?.settings.window
+    /// The settings of the last window.
+    pub fn settings(&self) -> Option<&Settings> {
+        self.stored.as_ref().map(|stored| &stored.settings)
     }
 
     /// Whether nothing has been stored yet.

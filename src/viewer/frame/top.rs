@@ -8,6 +8,7 @@ use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::session::window::SessionDisplay;
 
 use crate::frame::{actions, menu};
+use crate::jobs::Shown;
 use crate::model::view::{AutoExposure, Layout, Projection};
 use crate::model::{Model, display, undo};
 use crate::widgets::number;
@@ -18,7 +19,7 @@ const GAP: f32 = 3.0;
 const EXPOSURE: f32 = 62.0;
 
 /// Draws the bar for the model.
-pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+pub fn ui(ui: &mut egui::Ui, shown @ Shown { model, .. }: Shown<'_>, next: &mut Model) {
     ui.spacing_mut().item_spacing.x = GAP;
     // Text does not break within a button.
     ui.style_mut().wrap_mode = Some(egui::TextWrapMode::Extend);
@@ -38,7 +39,7 @@ pub fn ui(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
             ui.separator();
             view(ui, model, next);
             ui.separator();
-            window(ui, model, next);
+            window(ui, shown, next);
         });
     });
 }
@@ -200,14 +201,14 @@ fn exposure_controls(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
     });
 }
 
-fn window(ui: &mut egui::Ui, model: &Model, next: &mut Model) {
+fn window(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
     // Several of its controls may be used in a row.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
     let face = shaped(icons::ICON_MENU.codepoint, false);
-    let (menu, _) = MenuButton::from_button(face).config(config).ui(ui, |ui| menu::ui(ui, model, next));
+    let (menu, _) = MenuButton::from_button(face).config(config).ui(ui, |ui| menu::ui(ui, shown, next));
     menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, "Menu"));
-    menu.on_hover_text("Photograph, theme, size of the window's text");
-    let panel = button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(model.side_panel()));
+    menu.on_hover_text("Theme, size of text and controls, graphics adapter");
+    let panel = button(ui, icons::ICON_DOCK_TO_LEFT.codepoint, "Panel", true, Some(shown.model.side_panel()));
     if panel.on_hover_text("Side panel (B)").clicked() {
         next.toggle_side_panel();
     }

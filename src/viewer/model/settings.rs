@@ -49,6 +49,8 @@ pub struct Settings {
     /// The unfolded sections of the tab *Why*.
     pub sections: WhySections,
     pub loss: LossSettings,
+    /// The name of the graphics adapter that is taken where it is there.
+    pub adapter: Option<String>,
     /// Whether files that change on disk are read again.
     pub watch: bool,
 }
@@ -66,6 +68,7 @@ impl Default for Settings {
             tab: Tab::Loss,
             sections: WhySections::default(),
             loss: LossSettings::default(),
+            adapter: None,
             watch: false,
         }
     }
