@@ -4,7 +4,6 @@
 mod claims;
 mod links;
 mod memory;
-mod names;
 mod pictures;
 mod results;
 mod stopped;
