@@ -23,6 +23,7 @@ mod result;
 mod storage;
 mod stored;
 
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -46,7 +47,6 @@ use crate::disk::open::{NamedFile, hexadecimal};
 use crate::disk::{inputs, memory};
 use crate::error::Error;
 
-use decode::reader::ByteReader;
 use formats::WholePicture;
 use stored::StoredMaterial;
 
@@ -166,7 +166,8 @@ pub struct Dependencies {
 /// As [`read`].
 pub fn read_bytes<T: Real>(name: &str, bytes: &[u8], options: &ReadOptions) -> Result<Read<T>, Error> {
     let options = &options.with_preset();
-    let decoded = decode::from_reader(ByteReader::of_bytes(bytes), Path::new(name), Subject::Material)?;
+    let decoded =
+        decode::from_reader(decode::reader(Cursor::new(bytes)), Path::new(name), Subject::Material)?;
     let stored = WholePicture::by_user(Path::new(name)).recognized(decoded, options)?;
     let read = finish(StoredMaterial { name: name.to_owned(), ..stored }, options)?;
     Ok(Read { files: Vec::new(), ..read })

@@ -5,8 +5,7 @@ use std::io::{BufRead as _, ErrorKind, Read as _, Seek as _, SeekFrom};
 use dds::header::{AlphaMode, Header};
 use dds::{Channels, ColorFormat, DecodingError, Format, ImageViewMut, Precision};
 
-use super::place::{Decoded, DecodedFile, alone, ratio};
-use super::reader::ByteReader;
+use super::place::{ByteReader, Decoded, DecodedFile, alone, ratio};
 use crate::disk::caught;
 use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};

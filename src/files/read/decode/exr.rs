@@ -11,8 +11,7 @@ use exr::meta::attribute::{Chromaticities, IntegerBounds, Text};
 use exr::meta::header::Header;
 use exr::prelude::{AnyChannel, FlatImage, ReadChannels, ReadLayers, read};
 
-use super::place::{Decoded, DecodedFile, Layer, MAX_SIDE, ratio};
-use super::reader::ByteReader;
+use super::place::{ByteReader, Decoded, DecodedFile, Layer, MAX_SIDE, ratio};
 use crate::disk::caught;
 use crate::error::Error;
 use crate::read::names::Label;

@@ -5,8 +5,7 @@ use std::io::Read as _;
 
 use libjpeg_turbo_rs::{ColorSpace, DecodeLimits, Decoder, JpegError, PixelFormat};
 
-use super::place::{Decoded, DecodedFile, alone, ratio};
-use super::reader::ByteReader;
+use super::place::{ByteReader, Decoded, DecodedFile, alone, ratio};
 use crate::disk::caught;
 use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
@@ -126,12 +125,14 @@ fn is_whole(bytes: &[u8]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
     use std::path::Path;
 
     use base64::Engine as _;
     use base64::engine::general_purpose::STANDARD;
 
     use super::*;
+    use crate::read::decode::reader;
     use crate::read::record::Subject;
 
     /// A picture of 10 x 7 pixels, 4:2:0, that Pillow 13.0 has written and read with libjpeg-turbo 3.2: the file, and its values.
@@ -142,7 +143,7 @@ mod tests {
 
     fn decoded(bytes: &[u8]) -> Result<Decoded, Error> {
         let place = DecodedFile::of(Path::new("m.jpg"), Subject::Material);
-        decode(ByteReader::of_bytes(bytes), DecodedFile { length: bytes.len() as u64, ..place })
+        decode(reader(Cursor::new(bytes)), DecodedFile { length: bytes.len() as u64, ..place })
     }
 
     #[test]

@@ -12,11 +12,10 @@ mod numpy;
 mod pfm;
 mod picture;
 mod place;
-pub(super) mod reader;
 mod tiff;
 mod tiff_jpeg;
 
-use std::io::BufRead as _;
+use std::io::{BufRead as _, Seek as _, SeekFrom};
 use std::path::Path;
 
 use crate::disk::open::NamedFile;
@@ -25,17 +24,16 @@ use crate::error::Error;
 use crate::read::names::Label;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject, Unused};
-pub(super) use place::{Decoded, Layer};
+pub(super) use place::{ByteReader, Decoded, Layer, reader};
 
 use place::{DecodedFile, alone};
-use reader::ByteReader;
 
 /// Decodes `file`, which is expected to be `what`.
 ///
 /// # Errors
 /// [`Error::Unreadable`] without such a file, [`Error::BadImage`] where it is no image, broken or too large.
 pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
-    let mut decoded = from_reader(ByteReader::File(file.reader()?), file.path(), what)?;
+    let mut decoded = from_reader(reader(file.open()?), file.path(), what)?;
     let by = file.outside().map(Path::to_owned);
     decoded.notes.extend(by.map(|by| Note::OutsideFolder { file: file.path().to_owned(), by }));
     Ok(decoded)
@@ -43,13 +41,15 @@ pub(super) fn whole(file: &NamedFile, what: Subject) -> Result<Decoded, Error> {
 
 /// The number of materials of an npz file of batches; `None` of others.
 pub(super) fn batch(file: &NamedFile) -> Option<usize> {
-    numpy::batch(ByteReader::File(file.reader().ok()?))
+    numpy::batch(reader(file.open().ok()?))
 }
 
 /// As [`whole`], from what `reader` gives; `path` is the name for messages.
 pub(super) fn from_reader(mut reader: ByteReader<'_>, path: &Path, what: Subject) -> Result<Decoded, Error> {
     let unreadable = |source| Error::unreadable(path, source);
-    let place = DecodedFile { length: reader.length().map_err(unreadable)?, ..DecodedFile::of(path, what) };
+    let length = reader.seek(SeekFrom::End(0)).map_err(unreadable)?;
+    reader.rewind().map_err(unreadable)?;
+    let place = DecodedFile { length, ..DecodedFile::of(path, what) };
     let head = reader.fill_buf().map_err(unreadable)?;
     refuse_pointer(path, head)?;
     let begins = |magic: &[u8]| head.starts_with(magic);

@@ -5,8 +5,7 @@ use std::io::{self, ErrorKind, Read, Seek as _};
 use exr::prelude::f16;
 
 use super::layout::{self, ArrayAxes};
-use super::place::{Decoded, DecodedFile, Layer, MAX_BYTES, alone, ratio};
-use super::reader::ByteReader;
+use super::place::{ByteReader, Decoded, DecodedFile, Layer, MAX_BYTES, alone, ratio};
 use crate::error::Error;
 use crate::npy::Header;
 use crate::read::names::Label;

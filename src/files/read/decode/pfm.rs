@@ -2,8 +2,7 @@
 
 use std::io::{BufRead as _, Read as _};
 
-use super::place::{DecodedFile, MAX_BYTES, ratio};
-use super::reader::ByteReader;
+use super::place::{ByteReader, DecodedFile, MAX_BYTES, ratio};
 use crate::error::Error;
 use crate::read::raster::{Raster, Samples};
 

@@ -4,9 +4,9 @@ use std::io;
 use std::io::{BufRead as _, ErrorKind, Read as _, Seek as _};
 
 use image::codecs::bmp::BmpDecoder;
-use image::codecs::hdr::{HdrDecoder, HdrMetadata};
+use image::codecs::hdr::HdrDecoder;
 use image::codecs::png::PngDecoder;
-use image::codecs::pnm::{PnmDecoder, PnmSubtype};
+use image::codecs::pnm::PnmDecoder;
 use image::codecs::qoi::QoiDecoder;
 use image::codecs::tga::TgaDecoder;
 use image::codecs::webp::WebPDecoder;
@@ -14,8 +14,7 @@ use image::error::{ImageError, LimitErrorKind};
 use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder, ImageFormat, Limits};
 
-use super::place::{Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone, ratio};
-use super::reader::ByteReader;
+use super::place::{ByteReader, Decoded, DecodedFile, FORMATS, MAX_BYTES, MAX_WIDTH, alone, ratio};
 use super::{jpeg, known};
 use crate::disk::caught;
 use crate::error::Error;
@@ -31,17 +30,7 @@ pub(crate) fn decode(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Resu
     match image::guess_format(head) {
         Ok(ImageFormat::Png) => png(reader, place),
         Ok(ImageFormat::Jpeg) if known::name(head).is_none() => jpeg::decode(reader, place),
-        Ok(ImageFormat::Hdr) => {
-            if !is_hdr_head_short(&mut reader).map_err(unreadable)? {
-                let problem = format!("expected an HDR whose header ends within {} KiB", LONGEST_HDR >> 10);
-                return Err(place.bad(problem, "write it again"));
-            }
-            reader.rewind().map_err(unreadable)?;
-            let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
-            let metadata = decoder.metadata();
-            let decoded = decode_with(Box::new(decoder), "HDR", ratio::HDR, place)?;
-            Ok(radiance(decoded, &metadata, place))
-        }
+        Ok(ImageFormat::Hdr) => hdr(reader, place),
         Ok(ImageFormat::Bmp) => {
             // Compression 1 and 2.
             let is_in_runs = matches!(head.get(30), Some(1 | 2));
@@ -49,7 +38,16 @@ pub(crate) fn decode(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Resu
             let decoder = BmpDecoder::new(reader).map_err(|error| explain(&error, "BMP", place))?;
             decode_with(Box::new(decoder), "BMP", most, place)
         }
-        Ok(ImageFormat::Pnm) => pnm(reader, place),
+        Ok(ImageFormat::Pnm) => {
+            // Without it, the library takes every sample for one byte.
+            if head.starts_with(b"P7") && !head.windows(8).any(|word| word == b"TUPLTYPE") {
+                return Err(
+                    place.bad("expected a PAM with its TUPLTYPE, found none", "save it as PPM or PGM")
+                );
+            }
+            let decoder = PnmDecoder::new(reader).map_err(|error| explain(&error, "PNM", place))?;
+            decode_with(Box::new(decoder), "PNM", ratio::PNM, place)
+        }
         Ok(ImageFormat::Qoi) => {
             // All channels are linear by its header.
             let is_linear = head.get(13) == Some(&1) && !place.is_data();
@@ -75,7 +73,7 @@ pub(crate) fn decode(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Resu
             Err(match known::name(head).map(|(name, remedy)| (name.to_owned(), remedy)).or(other) {
                 Some((found, remedy)) => place.bad(format!("expected {FORMATS}, found {found}"), remedy),
                 None if head.is_empty() => {
-                    place.bad("expected an image, found an empty file", "copy or write it again")
+                    place.bad("expected an image, found an empty file", "copy or save it again")
                 }
                 None => {
                     place.bad(format!("expected {FORMATS}, found no known image format"), "give a PNG file")
@@ -103,21 +101,6 @@ fn png(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Er
     }
     decoded.layers.iter_mut().for_each(|layer| layer.meaning.clone_from(&meaning));
     Ok(decoded)
-}
-
-fn pnm(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
-    let unreadable = |e| Error::unreadable(place.path, e);
-    let header = PnmDecoder::new(&mut reader).map_err(|e| explain(&e, "PNM", place))?.into_inner().1;
-    // The library does not scale samples by their maximum.
-    let top = header.maximal_sample();
-    let is_bitmap = matches!(header.subtype(), PnmSubtype::Bitmap(_));
-    if !is_bitmap && !matches!(top, 255 | 65_535) {
-        let problem = format!("expected samples of at most 255 or 65535, found a PNM of at most {top}");
-        return Err(place.bad(problem, "save it with 8 or 16 bits"));
-    }
-    reader.rewind().map_err(unreadable)?;
-    let decoder = PnmDecoder::new(reader).map_err(|error| explain(&error, "PNM", place))?;
-    decode_with(Box::new(decoder), "PNM", ratio::PNM, place)
 }
 
 /// By its name: a TGA begins with nothing of its own.
@@ -167,7 +150,7 @@ fn of_metadata(error: &ImageError, is_too_wide: bool, place: DecodedFile<'_>) ->
         ImageError::Limits(_) if !is_too_wide => {
             let problem =
                 format!("expected at most {} MiB of profiles and texts, found more", MAX_METADATA >> 20);
-            place.bad(problem, "write it again without them")
+            place.bad(problem, "save it without them")
         }
         other => explain(other, "PNG", place),
     }
@@ -203,7 +186,16 @@ fn raster(image: DynamicImage, place: DecodedFile<'_>) -> Option<Raster> {
 }
 
 /// The radiance of an HDR, by whose exposures and corrections its pixels are multiplied, with the primaries that it declares.
-fn radiance(mut decoded: Decoded, metadata: &HdrMetadata, place: DecodedFile<'_>) -> Decoded {
+fn hdr(mut reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<Decoded, Error> {
+    let unreadable = |e| Error::unreadable(place.path, e);
+    if !is_hdr_head_short(&mut reader).map_err(unreadable)? {
+        let problem = format!("expected an HDR whose header ends within {} KiB", LONGEST_HDR >> 10);
+        return Err(place.bad(problem, "save it with another program"));
+    }
+    reader.rewind().map_err(unreadable)?;
+    let decoder = HdrDecoder::new(reader).map_err(|error| explain(&error, "HDR", place))?;
+    let metadata = decoder.metadata();
+    let mut decoded = decode_with(Box::new(decoder), "HDR", ratio::HDR, place)?;
     let (red, green, blue) = metadata.color_correction.unwrap_or((1.0, 1.0, 1.0));
     let factors = [red, green, blue].map(|factor| (factor * metadata.exposure.unwrap_or(1.0)).recip());
     let is_usable = factors.iter().all(|factor| factor.is_finite() && *factor > 0.0);
@@ -220,7 +212,7 @@ fn radiance(mut decoded: Decoded, metadata: &HdrMetadata, place: DecodedFile<'_>
             layer.raster = layer.raster.clone().scaled(&factors);
         }
     }
-    decoded
+    Ok(decoded)
 }
 
 /// Most bytes of the header of an HDR.

@@ -1,8 +1,10 @@
 //! Parts that all decoders share: their results, their refusals, and the limits of pictures.
 
+use std::io::{BufReader, Read, Seek};
 use std::path::Path;
 
 use glam::DMat3;
+use svbrdf_core::text::quoted;
 
 use crate::disk::memory::{self, Reserved};
 use crate::error::Error;
@@ -48,6 +50,20 @@ pub(crate) mod ratio {
     pub(crate) const NUMPY: u64 = 8 * DEFLATE;
     /// A plane of one colour takes nothing in WebP without loss and in arithmetic coding, and BMP with runs may end before its picture.
     pub(crate) const NONE: u64 = u64::MAX;
+}
+
+/// Bytes that decoders go back in.
+pub(crate) trait Bytes: Read + Seek + Send {}
+
+impl<T: Read + Seek + Send> Bytes for T {}
+
+/// The source of every decoder: a file, or a picture within another file that is in memory. One type for both: the libraries
+/// are compiled for each type that they read from.
+pub(crate) type ByteReader<'a> = BufReader<Box<dyn Bytes + 'a>>;
+
+/// The source of these bytes, from their beginning.
+pub(crate) fn reader<'a>(bytes: impl Bytes + 'a) -> ByteReader<'a> {
+    BufReader::new(Box::new(bytes))
 }
 
 /// The formats that open, for messages.
@@ -100,7 +116,14 @@ impl<'a> DecodedFile<'a> {
 
     /// An error of a library that decodes `format`.
     pub(super) fn invalid(self, format: &str, found: impl std::fmt::Display) -> Error {
-        self.bad(format!("expected a valid {format}, found: {found}"), "write the file again")
+        let remedy = "copy it again, or save it with a program that opens it";
+        self.bad(format!("expected a valid {format}, found: {found}"), remedy)
+    }
+
+    /// The remedy for a file that other programs read: the command that makes a PNG of it.
+    pub(super) fn to_png(self) -> String {
+        let [file, png] = [self.path, &self.path.with_extension("png")].map(quoted);
+        format!("convert it, and use the PNG in its place: magick {file} {png}")
     }
 
     /// The picture of 1 to 4 channels: the last of 2 or 4 is alpha, but of 2 in a map of normals y.
@@ -154,7 +177,7 @@ impl<'a> DecodedFile<'a> {
     ) -> Result<Reserved, Error> {
         if width == 0 || height == 0 {
             return Err(
-                self.bad(format!("expected at least one pixel, found {width} x {height}"), "write it again")
+                self.bad(format!("expected at least one pixel, found {width} x {height}"), "save it again")
             );
         }
         let (long, short) = (width.max(height), width.min(height));

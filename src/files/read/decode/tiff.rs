@@ -2,12 +2,12 @@
 
 use tiff::ColorType;
 use tiff::TiffUnsupportedError as Unsupported;
-use tiff::decoder::{Decoder, DecodingResult, Limits};
-use tiff::tags::Tag;
+use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
+use tiff::tags::{PhotometricInterpretation, Tag};
 
-use super::place::{Decoded, DecodedFile, MAX_BYTES, alone, ratio};
-use super::reader::ByteReader;
+use super::place::{ByteReader, Decoded, DecodedFile, MAX_BYTES, alone, ratio};
 use super::tiff_jpeg;
+use crate::disk::caught;
 use crate::error::Error;
 use crate::read::raster::{Buffer, Raster, Samples};
 use crate::read::record::Note;
@@ -21,42 +21,32 @@ pub(crate) fn decode(reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<D
     skip_thumbnails(&mut decoder).map_err(invalid)?;
     let (width, height) = decoder.dimensions().map_err(invalid)?;
     let colour = decoder.colortype().map_err(invalid)?;
-    let bits = colour.bit_depth();
-    let is_read = matches!(bits, 8 | 16 | 32 | 64) || matches!(colour, ColorType::Gray(1 | 2 | 4));
-    if !is_read {
-        let problem =
-            format!("expected 8, 16 or 32 bits a sample, or gray of 1, 2 or 4, found a TIFF of {bits} bits");
-        return Err(place.bad(problem, "save it with 8 or 16 bits"));
-    }
-    let count = channels_of(colour)
-        .ok_or_else(|| place.bad(format!("expected gray or RGB, found {colour:?}"), "convert it to RGB"))?;
-    let bytes =
-        u64::from(width) * u64::from(height) * count as u64 * u64::from(colour.bit_depth()).div_ceil(8);
+    let (bits, count) = (colour.bit_depth(), channels(&mut decoder, colour, place)?);
+    let bytes = u64::from(width) * u64::from(height) * count as u64 * u64::from(bits).div_ceil(8);
     let _reserved = place.check_size([width.into(), height.into()], bytes, ratio::TIFF)?;
-    let planar = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(invalid)? == Some(2);
+    let planar = is_planar(&mut decoder).map_err(invalid)?;
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(invalid)?.unwrap_or(1);
     let mut result = DecodingResult::U8(Vec::new());
-    let of_jpeg = tiff_jpeg::pixels(&mut decoder, colour, count, place)?;
-    let is_ycbcr = colour == ColorType::YCbCr(8) && of_jpeg.is_none();
-    if let Some(pixels) = of_jpeg {
-        result = DecodingResult::U8(pixels);
-    } else {
-        decoder.read_image_to_buffer(&mut result).map_err(invalid)?;
+    match tiff_jpeg::pixels(&mut decoder, colour, count, place)? {
+        Some(pixels) => result = DecodingResult::U8(pixels),
+        None if matches!(colour, ColorType::YCbCr(_)) => {
+            return Err(refused("in YCbCr without JPEG", place));
+        }
+        None => {
+            caught(|| decoder.read_image_to_buffer(&mut result))
+                .map_err(|_| place.invalid("TIFF", "a contradiction in it"))?
+                .map_err(invalid)?;
+        }
     }
     let (width, height) = (width as usize, height as usize);
     let layout = Interleaving { count, planar, texels: width * height };
-    if let DecodingResult::U8(samples) = &mut result {
-        if is_ycbcr {
-            layout.to_rgb(samples);
-        } else if bits < 8 {
-            *samples = unpacked(samples, width, bits.into());
-        }
+    if let DecodingResult::U8(samples) = &mut result
+        && bits < 8
+    {
+        *samples = unpacked(samples, width, bits.into());
     }
     let kind = kind(&result);
-    let (channels, depth) = layout.samples(result).ok_or_else(|| {
-        let problem = format!("expected unsigned integers of 8, 16 or 32 bits, or floats, found {kind}");
-        place.bad(problem, "convert it")
-    })?;
+    let (channels, depth) = layout.samples(result).ok_or_else(|| refused(&format!("of {kind}"), place))?;
     let raster = place.raster([width, height], depth, channels).oriented(orientation);
     with_metadata(raster, &mut decoder, place).map_err(invalid)
 }
@@ -84,20 +74,24 @@ fn explained(error: tiff::TiffError, place: DecodedFile<'_>) -> Error {
         tiff::TiffError::IoError(io) if io.kind() == std::io::ErrorKind::UnexpectedEof => place.truncated(),
         tiff::TiffError::UnsupportedError(Unsupported::UnsupportedCompressionMethod(method)) => {
             let name = compression(method.to_u16()).map_or_else(|| format!("{method:?}"), str::to_owned);
-            place.bad(
-                format!("expected a compression that is read, found a TIFF in {name}"),
-                "save it with LZW or Deflate",
-            )
+            refused(&format!("in {name}"), place)
         }
-        tiff::TiffError::UnsupportedError(Unsupported::InterpretationWithBits(kind, bits)) => place.bad(
-            format!("expected gray or RGB, found a TIFF of {kind:?} in {} bits", bits.first().unwrap_or(&0)),
-            "save it as gray or RGB of 8 or 16 bits",
-        ),
-        tiff::TiffError::UnsupportedError(what) => {
-            place.bad(format!("expected gray or RGB, found a TIFF in which {what}"), "convert it to RGB")
+        tiff::TiffError::UnsupportedError(Unsupported::InterpretationWithBits(kind, bits)) => {
+            let kind = match kind {
+                PhotometricInterpretation::RGBPalette => "with a palette".to_owned(),
+                other => format!("in {other:?}"),
+            };
+            refused(&format!("{kind} of {} bits", bits.first().unwrap_or(&0)), place)
         }
+        tiff::TiffError::UnsupportedError(what) => refused(&format!("in which {what}"), place),
         other => place.invalid("TIFF", other),
     }
+}
+
+/// The refusal of a TIFF that is not read; `found` tells what is unusual about it.
+fn refused(found: &str, place: DecodedFile<'_>) -> Error {
+    let expected = "expected gray or RGB of 8, 16 or 32 bits or of floats, or gray of 1, 2 or 4 bits";
+    place.bad(format!("{expected}, found a TIFF {found}"), &place.to_png())
 }
 
 /// Codes of 8 bits of samples of fewer, of which several are in a byte and rows begin with one.
@@ -163,17 +157,38 @@ fn has_pages(decoder: &mut Decoder<ByteReader<'_>>) -> bool {
         .any(|is_reduced| !is_reduced)
 }
 
-fn channels_of(colour: ColorType) -> Option<usize> {
-    match colour {
-        ColorType::Gray(_) => Some(1),
-        ColorType::GrayA(_) => Some(2),
-        ColorType::RGB(_) | ColorType::YCbCr(8) => Some(3),
-        ColorType::RGBA(_) => Some(4),
-        ColorType::Multiband { num_samples, .. } => {
-            Some(usize::from(num_samples)).filter(|n| (1..=4).contains(n))
-        }
-        _ => None,
+fn is_planar(decoder: &mut Decoder<ByteReader<'_>>) -> tiff::TiffResult<bool> {
+    Ok(decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration)? == Some(2))
+}
+
+/// The number of channels of a picture of these colours.
+///
+/// # Errors
+/// [`Error::BadImage`] where it is not read.
+fn channels(
+    decoder: &mut Decoder<ByteReader<'_>>,
+    colour: ColorType,
+    place: DecodedFile<'_>,
+) -> Result<usize, Error> {
+    let bits = colour.bit_depth();
+    let count = match colour {
+        ColorType::Gray(1 | 2 | 4) => 1,
+        _ if !matches!(bits, 8 | 16 | 32 | 64) => return Err(refused(&format!("of {bits} bits"), place)),
+        ColorType::Gray(_) => 1,
+        ColorType::GrayA(_) => 2,
+        ColorType::RGB(_) | ColorType::YCbCr(8) => 3,
+        ColorType::RGBA(_) => 4,
+        ColorType::Multiband { num_samples: count @ 1..=4, .. } => count.into(),
+        other => return Err(refused(&format!("of {other:?}"), place)),
+    };
+    let (height, tile) = (decoder.dimensions().map_or(0, |size| size.1), decoder.chunk_dimensions().1.max(1));
+    let is_planar = count > 1 && is_planar(decoder).map_err(|error| explained(error, place))?;
+    // tiff 0.11.3 puts the last of their rows at the wrong place.
+    if is_planar && decoder.get_chunk_type() == ChunkType::Tile && !height.is_multiple_of(tile) {
+        let found = format!("of planes in tiles of {tile} rows, of which {height} is no multiple");
+        return Err(refused(&found, place));
     }
+    Ok(count)
 }
 
 /// How the samples of a picture lie in memory.
@@ -201,27 +216,6 @@ impl Interleaving {
         })
     }
 
-    /// Y, Cb and Cr of ITU-R BT.601, all of 0 to 255, as R, G and B: in the integers of libjpeg.
-    fn to_rgb(&self, samples: &mut [u8]) {
-        let (step, stride) = if self.planar { (1, self.texels) } else { (3, 1) };
-        for texel in 0..self.texels {
-            let [y, cb, cr] = [0, 1, 2].map(|channel| {
-                samples.get(texel * step + channel * stride).map_or(0, |sample| i32::from(*sample))
-            });
-            let (cb, cr) = (cb - 128, cr - 128);
-            let rgb = [
-                y + ((91_881 * cr + 32_768) >> 16),
-                y + ((-22_554 * cb - 46_802 * cr + 32_768) >> 16),
-                y + ((116_130 * cb + 32_768) >> 16),
-            ];
-            for (channel, value) in rgb.into_iter().enumerate() {
-                if let Some(sample) = samples.get_mut(texel * step + channel * stride) {
-                    *sample = value.clamp(0, 255) as u8;
-                }
-            }
-        }
-    }
-
     fn floats<S>(&self, samples: Vec<S>, of: impl Fn(S) -> f32) -> Option<Vec<Samples>> {
         self.channels(samples.into_iter().map(of).collect::<Vec<f32>>())
     }
@@ -235,66 +229,76 @@ impl Interleaving {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
     use std::path::Path;
 
     use super::*;
+    use crate::read::decode::reader;
     use crate::read::record::Subject;
 
-    /// A TIFF of a row of `bits` a sample, whose bytes these are.
-    fn file(width: u32, bits: u32, photometric: u32, row: &[u8]) -> Vec<u8> {
-        let length = row.len() as u32;
-        let fields = [
-            (256, width),
-            (257, 1),
-            (258, bits),
-            (259, 1),
-            (262, photometric),
-            (273, 8),
-            (277, 1),
-            (278, 1),
-            (279, length),
-        ];
-        let mut file = [b"II*\0", &(8 + length.next_multiple_of(4)).to_le_bytes()[..], row].concat();
-        file.resize(8 + row.len().next_multiple_of(4), 0);
+    /// A TIFF of these fields, the numbers of all but those of one behind them, with `data` from byte 8 on.
+    fn file(fields: &[(u16, &[u32])], data: &[u8]) -> Vec<u8> {
+        let start = 8 + data.len().next_multiple_of(4);
+        let mut file = [b"II*\0", &(start as u32).to_le_bytes()[..], data].concat();
+        file.resize(start, 0);
         file.extend([fields.len() as u8, 0]);
-        for (tag, value) in fields {
-            file.extend([u16::to_le_bytes(tag), 4_u16.to_le_bytes()].as_flattened());
-            file.extend([1_u32.to_le_bytes(), value.to_le_bytes()].as_flattened());
+        let mut numbers = Vec::new();
+        for (tag, values) in fields {
+            let place = (start + 12 * fields.len() + 6 + numbers.len()) as u32;
+            let value = if let [value] = values { *value } else { place };
+            file.extend([u16::to_le_bytes(*tag), 4_u16.to_le_bytes()].as_flattened());
+            file.extend([(values.len() as u32).to_le_bytes(), value.to_le_bytes()].as_flattened());
+            numbers.extend(values.iter().filter(|_| values.len() > 1).flat_map(|value| value.to_le_bytes()));
         }
-        file.extend([0; 4]);
-        file
+        [file, vec![0; 4], numbers].concat()
+    }
+
+    fn read(file: &[u8]) -> Result<Vec<f64>, String> {
+        let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
+        let decoded = decode(reader(Cursor::new(file)), place).map_err(|error| error.to_string())?;
+        let plane = &decoded.layers[0].raster.channels[0];
+        Ok((0..plane.len()).map(|at| plane.stored(at)).collect())
     }
 
     #[test]
-    fn gray_of_few_bits_is_read_and_other_bits_are_named() {
-        let read = |file: &[u8]| {
-            let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
-            let decoded = decode(ByteReader::of_bytes(file), place).map_err(|error| error.to_string())?;
-            let plane = &decoded.layers[0].raster.channels[0];
-            Ok::<_, String>((0..plane.len()).map(|at| plane.stored(at)).collect::<Vec<_>>())
+    fn gray_of_few_bits_is_read_and_what_is_unusual_is_named_with_what_to_type() {
+        let row = |width: u32, bits: u32, photometric: u32, row: &[u8]| {
+            let tags = [256, 257, 258, 259, 262, 273, 277, 278, 279];
+            let values = [width, 1, bits, 1, photometric, 8, 1, 1, row.len() as u32];
+            let fields: Vec<(u16, &[u32])> = tags.into_iter().zip(values.chunks(1)).collect();
+            read(&file(&fields, row))
         };
         // From black or from white.
-        assert_eq!(read(&file(3, 1, 1, &[0b1010_0000])), Ok(vec![255.0, 0.0, 255.0]));
-        assert_eq!(read(&file(3, 1, 0, &[0b1010_0000])), Ok(vec![0.0, 255.0, 0.0]));
-        assert_eq!(read(&file(3, 4, 1, &[0xf0, 0x80])), Ok(vec![255.0, 0.0, 136.0]));
-        let refused = read(&file(2, 12, 1, &[0; 3])).unwrap_err();
-        assert!(refused.contains("found a TIFF of 12 bits"), "{refused}");
-    }
-
-    #[test]
-    fn ycbcr_is_the_rgb_of_libjpeg_in_pixels_and_in_planes() {
-        // Y, Cb and Cr, and what libjpeg-turbo makes of them.
-        let texels =
-            [([76, 85, 255], [254, 0, 0]), ([150, 44, 21], [0, 255, 1]), ([128, 128, 128], [128; 3])];
-        let mut pixels: Vec<u8> = texels.iter().flat_map(|(ycbcr, _)| *ycbcr).collect();
-        let mut planes: Vec<u8> = (0..3).flat_map(|c| texels.map(|(ycbcr, _)| ycbcr[c])).collect();
-        let layout = |planar| Interleaving { count: 3, planar, texels: texels.len() };
-        layout(false).to_rgb(&mut pixels);
-        layout(true).to_rgb(&mut planes);
-        for (texel, (_, rgb)) in texels.iter().enumerate() {
-            let [of_pixels, of_planes] =
-                [[0, 1, 2].map(|c| pixels[3 * texel + c]), [0, 1, 2].map(|c| planes[3 * c + texel])];
-            assert_eq!((of_pixels, of_planes), (*rgb, *rgb));
+        assert_eq!(row(3, 1, 1, &[0b1010_0000]), Ok(vec![255.0, 0.0, 255.0]));
+        assert_eq!(row(3, 1, 0, &[0b1010_0000]), Ok(vec![0.0, 255.0, 0.0]));
+        assert_eq!(row(3, 4, 1, &[0xf0, 0x80]), Ok(vec![255.0, 0.0, 136.0]));
+        // Three planes of 2 x 2 texels, in tiles of 16 x 16.
+        let offsets = [8, 8, 8];
+        let tiles = |height: u32| {
+            let fields: [(u16, &[u32]); 11] = [
+                (256, &[16]),
+                (257, &[height]),
+                (258, &[8, 8, 8]),
+                (259, &[1]),
+                (262, &[2]),
+                (277, &[3]),
+                (284, &[2]),
+                (322, &[16]),
+                (323, &[16]),
+                (324, &offsets),
+                (325, &[256, 256, 256]),
+            ];
+            read(&file(&fields, &[7; 256]))
+        };
+        assert_eq!(tiles(16), Ok(vec![7.0; 256]));
+        for (refused, found) in [
+            (row(2, 12, 1, &[0; 3]), "a TIFF of 12 bits"),
+            (row(2, 8, 3, &[0; 2]), "a TIFF with a palette of 8 bits"),
+            (row(2, 8, 6, &[0; 2]), "a TIFF in YCbCr"),
+            (tiles(9), "planes in tiles of 16 rows, of which 9 is no multiple"),
+        ] {
+            let refused = refused.unwrap_err();
+            assert!(refused.contains(found) && refused.contains("magick m.tif m.png"), "{refused}");
         }
     }
 }

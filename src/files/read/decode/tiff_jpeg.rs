@@ -8,8 +8,7 @@ use tiff::tags::Tag;
 use tiff::{ColorType, TiffResult};
 
 use super::jpeg::{self, Pixels};
-use super::place::DecodedFile;
-use super::reader::ByteReader;
+use super::place::{ByteReader, DecodedFile};
 use crate::error::Error;
 
 /// The compression of JPEG in the way of today.
@@ -96,14 +95,14 @@ pub(super) fn pixels(
 
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
     use std::path::Path;
 
     use base64::Engine as _;
     use base64::engine::general_purpose::STANDARD;
 
     use crate::read::decode::place::DecodedFile;
-    use crate::read::decode::reader::ByteReader;
-    use crate::read::decode::tiff;
+    use crate::read::decode::{reader, tiff};
     use crate::read::record::Subject;
 
     /// A picture of 18 x 20 pixels in tiles of JPEG with halved chroma and common tables, and its red, green and blue as Pillow 13.0 reads
@@ -117,7 +116,7 @@ mod tests {
     fn tiles_of_jpeg_have_the_values_of_libtiff() {
         let [file, values] = OF_LIBTIFF.map(|text| STANDARD.decode(text).unwrap());
         let place = DecodedFile::of(Path::new("m.tif"), Subject::Material);
-        let raster = tiff::decode(ByteReader::of_bytes(&file), place).unwrap().layers.remove(0).raster;
+        let raster = tiff::decode(reader(Cursor::new(file)), place).unwrap().layers.remove(0).raster;
         assert_eq!(raster.size(), [18, 20]);
         let rgb = |index| raster.rgb(index).map(|value| (255.0 * value).round() as u8);
         let read: Vec<u8> = (0..18 * 20).flat_map(rgb).collect();

@@ -1,6 +1,7 @@
 //! Pictures of a material: where their bytes are and what they are expected to be, decoded when they are asked for.
 
 use std::fmt;
+use std::io::Cursor;
 use std::path::PathBuf;
 
 use rayon::prelude::*;
@@ -11,8 +12,7 @@ use super::material::StoredMap;
 use super::material::StoredMaterial;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
-use crate::read::decode::reader::ByteReader;
-use crate::read::decode::{Decoded, Layer, from_reader, one};
+use crate::read::decode::{Decoded, Layer, from_reader, one, reader};
 use crate::read::options::Role;
 use crate::read::raster::Raster;
 use crate::read::record::{Note, Subject};
@@ -74,7 +74,7 @@ impl Picture {
             }
             PictureSource::Embedded { within, bytes } => {
                 let Decoded { layers, notes, .. } =
-                    from_reader(ByteReader::of_bytes(bytes), within, self.subject)?;
+                    from_reader(reader(Cursor::new(bytes)), within, self.subject)?;
                 let raster = layers.into_iter().next().map(|layer| layer.raster);
                 let raster = raster.ok_or_else(|| Error::BadImage {
                     path: within.clone(),
