@@ -4,6 +4,7 @@
 mod claims;
 mod links;
 mod memory;
+mod names;
 mod pictures;
 mod results;
 mod stopped;

@@ -3,7 +3,6 @@
 pub mod atomic;
 pub mod inputs;
 pub mod memory;
-pub(crate) mod new_folder;
 pub mod open;
 pub mod own;
 pub mod paths;

@@ -10,7 +10,7 @@ use svbrdf_core::material::{Material, Planes, base_and_metallic};
 use svbrdf_core::progress::Progress;
 
 use crate::disk::atomic::SOFTWARE;
-use crate::disk::{atomic, new_folder};
+use crate::disk::{atomic, own};
 use crate::read::Albedo;
 use crate::read::options::transfer::{PACKED, encoded, written};
 
@@ -51,9 +51,9 @@ pub(super) fn folder(
     sixteen: bool,
     progress: &Progress,
 ) -> io::Result<()> {
-    new_folder::new_folder(path, progress, |folder| {
+    own::new_folder(path, progress, |folder| {
         FILES.par_iter().try_for_each(|(name, map)| {
-            new_folder::new_file(&folder.join(format!("{name}.png")), progress, |file| {
+            own::new_file(&folder.join(format!("{name}.png")), progress, |file| {
                 one(file, material, *map, sixteen, progress)
             })
         })

@@ -1,10 +1,8 @@
 //! Figures of texts and pictures, laid out once in points: as PDF and SVG with real text, and as PNG.
 
-mod font;
+mod document;
 mod layout;
-mod pdf;
 mod raster;
-mod svg;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -68,14 +66,14 @@ impl FigureDestination {
     pub fn write(&self, figure: &Figure, entries: &Entries, progress: &Progress) -> Result<(), Error> {
         let millimetres = figure.size.map(|side| side / MILLIMETRE);
         match self.0.format {
-            FigureFormat::Pdf if figure.size.iter().any(|side| *side > pdf::LARGEST) => {
-                Err(Error::PageTooLarge { millimetres, most: pdf::LARGEST / MILLIMETRE })
+            FigureFormat::Pdf if figure.size.iter().any(|side| *side > document::LARGEST) => {
+                Err(Error::PageTooLarge { millimetres, most: document::LARGEST / MILLIMETRE })
             }
             FigureFormat::Pdf => {
-                self.0.replace(progress, |file| file.write_all(&pdf::bytes(figure, entries)?))
+                self.0.replace(progress, |file| file.write_all(&document::pdf(figure, entries)?))
             }
             FigureFormat::Svg => {
-                self.0.replace(progress, |file| file.write_all(svg::text(figure, entries)?.as_bytes()))
+                self.0.replace(progress, |file| file.write_all(document::svg(figure, entries)?.as_bytes()))
             }
             FigureFormat::Png => {
                 let image = figure.image()?;
@@ -111,7 +109,7 @@ mod tests {
 
     #[test]
     fn an_svg_has_its_texts_as_texts_and_its_pixels() {
-        let svg = svg::text(&figure(), &[("svbrdf:shows", "a < b".to_owned())]).unwrap();
+        let svg = document::svg(&figure(), &[("svbrdf:shows", "a < b".to_owned())]).unwrap();
         let document = roxmltree::Document::parse(&svg).unwrap();
         let of = |name: &'static str| document.descendants().filter(move |node| node.has_tag_name(name));
         assert_eq!(of("text").filter_map(|node| node.text()).collect::<Vec<_>>(), TEXTS);
@@ -173,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_pdf_has_its_texts_as_texts_and_its_pixels() {
-        let bytes = pdf::bytes(&figure(), &[]).unwrap();
+        let bytes = document::pdf(&figure(), &[]).unwrap();
         let pdf: String = bytes.iter().copied().map(char::from).collect();
         assert_eq!(texts_of(&pdf), TEXTS);
         assert!(pdf.contains("/MediaBox [0 0 100 50]") && pdf.contains("/FontFile2"), "{}", pdf.len());

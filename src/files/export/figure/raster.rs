@@ -3,8 +3,7 @@
 use ab_glyph::{Font as _, PxScale, point};
 use svbrdf_core::image::Image;
 
-use super::font::{self, FONT};
-use super::layout::{Figure, FigurePicture, Text};
+use super::layout::{FONT, Figure, FigurePicture, Text, glyphs};
 
 const WHITE: [u8; 3] = [255; 3];
 
@@ -44,7 +43,7 @@ fn write(image: &mut Image<u8>, text: &Text, scale: f64) {
     // The size of `ab_glyph` is that from the ascent to the descent.
     let size = PxScale::from(em * font.height_unscaled() / font.units_per_em().unwrap_or(1000.0));
     let [left, baseline] = [text.left(), text.at[1]].map(|place| (place * scale) as f32);
-    for glyph in font::glyphs(&text.text) {
+    for glyph in glyphs(&text.text) {
         let place = point(left + glyph.x * em, baseline);
         let Some(outline) = font.outline_glyph(glyph.id.with_scale_and_position(size, place)) else {
             continue;

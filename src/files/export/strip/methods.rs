@@ -11,9 +11,8 @@ use svbrdf_core::picture::exposure;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::progress::Progress;
 
-use super::column::{content_name, scene_text, stops};
 use super::crop::Crop;
-use super::legend;
+use super::legend::{self, content_name, scene_text, stops};
 use super::sheet::{Division, GAP, Paper, SMALL, Sheet, style};
 use crate::disk::memory;
 use crate::error::Error;

@@ -1,6 +1,5 @@
 //! A figure: materials in rows; maps, renderings and differences in columns; crops magnified beside them.
 
-mod column;
 mod crop;
 mod legend;
 mod methods;
@@ -12,14 +11,14 @@ use svbrdf_core::model::convention::Convention;
 use svbrdf_core::picture::content::ColouredDifference;
 use svbrdf_core::progress::Progress;
 
-pub use column::Column;
 pub use crop::Crop;
+pub use legend::Column;
 pub use methods::{MethodRow, MethodStrip};
 pub use sheet::Paper;
 
 use super::figure::Figure;
 use crate::error::Error;
-use column::{scene_text, stops};
+use legend::{scene_text, stops};
 use sheet::{Division, GAP, SMALL, Sheet};
 
 /// The columns of a figure, and how they are rendered and coloured.

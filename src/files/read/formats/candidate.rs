@@ -2,12 +2,12 @@
 
 use svbrdf_core::progress::Progress;
 
-use super::binding::Binding;
 use super::gltf::Gltf;
 use super::mtl::Mtl;
 use super::mtlx::Mtlx;
 use super::picture::WholePicture;
 use super::set::Set;
+use super::sidecar::Binding;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
 use crate::read::options::{ReadOptions, Role};

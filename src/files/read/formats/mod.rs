@@ -1,7 +1,6 @@
 //! Formats of materials, a file or folder each: which files and pictures hold the maps, by names, listings and documents, and the maps
 //! as they are stored.
 
-mod binding;
 mod candidate;
 mod folder;
 mod gltf;
@@ -21,10 +20,9 @@ use crate::error::Error;
 use crate::read::names::{LISTING, Label, extension, list};
 use crate::read::options::{ReadOptions, Role};
 
-pub use binding::Binding;
 pub(super) use candidate::Located;
 pub(super) use picture::WholePicture;
-pub use sidecar::Sidecar;
+pub use sidecar::{Binding, Sidecar};
 
 use candidate::Candidate;
 use gltf::Gltf;

@@ -1,6 +1,5 @@
 //! The record of a reading: assumptions, as values that a user can inspect and change, and notes, with their words.
 
-mod evidence;
 mod note;
 mod reason;
 
@@ -8,9 +7,8 @@ use std::fmt;
 
 use serde::Serialize;
 
-pub use evidence::Evidence;
 pub use note::{Note, Subject, Unused};
-pub use reason::{Ground, Reason};
+pub use reason::{Evidence, Ground, Reason};
 
 /// The subject of an assumption.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]

@@ -4,9 +4,8 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node};
 
-use super::arithmetic::{Bound, BoundPicture, Obstacle};
-use super::connection::{input, is_input};
-use super::graph::bound;
+use super::graph::{Bound, BoundPicture, Obstacle, bound};
+use super::placement::{input, is_input};
 use super::surface_model::{MODELS, SurfaceModel, USD_SPECULAR, USE_SPECULAR};
 use crate::disk::open::NamedFile;
 use crate::disk::refuse_pointer;

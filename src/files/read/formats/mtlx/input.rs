@@ -1,7 +1,7 @@
 //! Inputs of a surface of MaterialX: their pictures and values, brought to an encoding that is known here.
 
-use super::arithmetic::{Affine, Bound, BoundPicture, Obstacle};
 use super::document::Mtlx;
+use super::graph::{Affine, Bound, BoundPicture, Obstacle};
 use super::surface_model::SurfaceInput;
 use crate::error::Error;
 use crate::read::options::transfer::ColourSpace;

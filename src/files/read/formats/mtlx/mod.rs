@@ -1,8 +1,6 @@
 //! Surfaces of MaterialX (`standard_surface`, `gltf_pbr`, `open_pbr_surface` and `UsdPreviewSurface`): maps out of the pictures and
 //! values of their inputs.
 
-mod arithmetic;
-mod connection;
 mod document;
 mod graph;
 mod input;
@@ -18,8 +16,8 @@ use crate::read::stored::{
     Field, Inferred, MapsByRole, StoredMap, StoredMaterial, decoded, notice, reflectance, separated,
 };
 
-use arithmetic::Bound;
 pub(in crate::read) use document::Mtlx;
+use graph::Bound;
 use input::MtlxSurface;
 use surface_model::{SurfaceModel, USD_SPECULAR, USE_SPECULAR};
 

@@ -1,16 +1,18 @@
-//! A figure as PDF of one page: text is text in an embedded subset of the font, pictures are lossless.
+//! A figure as a document, PDF or SVG, in which text is text.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::io;
 
 use ab_glyph::Font as _;
+use base64::Engine as _;
+use base64::prelude::BASE64_STANDARD;
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Str, TextStr};
 use subsetter::GlyphRemapper;
 use svbrdf_core::image::Image;
 
-use super::font::{self, FILE, FONT, PlacedText};
-use super::layout::Figure;
+use super::layout::{Anchor, FILE, FONT, Figure, FigurePicture, MILLIMETRE, PlacedText, Text, glyphs};
 use crate::export::encode::{self, Entries, Provenance};
 
 /// Largest side of a page, in points: other programs open no larger one.
@@ -34,8 +36,9 @@ const FONT_NAME: Name<'_> = Name(b"SVBRDF+Ubuntu-Light");
 const SYSTEM: SystemInfo<'_> =
     SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
-/// The file, with the metadata as keywords.
-pub(super) fn bytes(figure: &Figure, entries: &Entries) -> io::Result<Vec<u8>> {
+/// The figure as PDF of one page, in which text is text in an embedded subset of the font and pictures are lossless, with the metadata as
+/// keywords.
+pub(super) fn pdf(figure: &Figure, entries: &Entries) -> io::Result<Vec<u8>> {
     let [width, height] = figure.size.map(|side| side as f32);
     let mut pdf = Pdf::new();
     pdf.catalog(CATALOG).pages(PAGES);
@@ -87,7 +90,7 @@ fn content(figure: &Figure, used: &mut Used) -> Vec<u8> {
         let mut shown = content.show_positioned();
         let mut items = shown.items();
         let (mut run, mut end) = (Vec::new(), 0.0);
-        for glyph in font::glyphs(&text.text) {
+        for glyph in glyphs(&text.text) {
             let kern = 1000.0 * (end - glyph.x);
             if kern.abs() > 0.5 {
                 items.show(Str(&run)).adjust(kern);
@@ -168,4 +171,49 @@ fn write_picture(pdf: &mut Pdf, reference: Ref, image: &Image<u8>) -> io::Result
     object.color_space().device_rgb();
     object.decode_parms().predictor(pdf_writer::types::Predictor::PngOptimum).colors(3).columns(width);
     Ok(())
+}
+
+/// The figure as SVG, in which text is text, in the font of the reader where it has not that of the program, but as wide; with its metadata
+/// as a description.
+pub(super) fn svg(figure: &Figure, entries: &Entries) -> io::Result<String> {
+    let [width, height] = figure.size;
+    let [wide, high] = figure.size.map(|side| side / MILLIMETRE);
+    let about: String = entries.iter().map(|(key, text)| format!("{key}: {}\n", escaped(text))).collect();
+    let mut svg = format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{wide:.3}mm" height="{high:.3}mm" viewBox="0 0 {width:.3} {height:.3}" font-family="Ubuntu, Helvetica, Arial, sans-serif" font-weight="300">
+<desc>{about}</desc>
+<rect width="100%" height="100%" fill="#fff"/>
+"##
+    );
+    for picture in &figure.pictures {
+        let FigurePicture { at: [x, y], size: [width, height], .. } = picture;
+        let mut file = Vec::new();
+        encode::png(&mut file, &picture.printed(), &[])?;
+        let data = BASE64_STANDARD.encode(file);
+        let _ = writeln!(
+            svg,
+            r#"<image x="{x:.3}" y="{y:.3}" width="{width:.3}" height="{height:.3}" preserveAspectRatio="none" href="data:image/png;base64,{data}"/>"#
+        );
+    }
+    for text in figure.texts.iter().filter(|text| !text.text.is_empty()) {
+        let Text { at: [x, y], text: words, style } = text;
+        let anchor = match style.anchor {
+            Anchor::Left => "start",
+            Anchor::Middle => "middle",
+            Anchor::Right => "end",
+        };
+        let [r, g, b] = style.ink;
+        let _ = writeln!(
+            svg,
+            r##"<text x="{x:.3}" y="{y:.3}" font-size="{:.3}" text-anchor="{anchor}" textLength="{:.3}" lengthAdjust="spacingAndGlyphs" fill="#{r:02x}{g:02x}{b:02x}">{}</text>"##,
+            style.size,
+            text.width(),
+            escaped(words)
+        );
+    }
+    Ok(svg + "</svg>\n")
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
