@@ -1,6 +1,6 @@
 //! `svbrdf conform`: whether a renderer is that of a convention.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use svbrdf_core::model::grammar::Description;
 use svbrdf_evaluate::conform::{RenderedPoints, probes};
@@ -55,12 +55,12 @@ enum Workflow {
 impl ConformArgs {
     pub fn job(self) -> NewJob {
         if let Some(path) = self.points {
-            destination(&path, "npz", "name of a file of points", "NAME.npz")?;
+            Destination::new(&path, &["npz"], "name of a file of points", "NAME.npz")?;
             return Ok(Box::new(PointsJob(path)));
         }
         let answer = self.answer.ok_or_else(|| CommandError::usage("expected the points with `radiance`"))?;
         if let Some(path) = &self.write_convention {
-            destination(path, "toml", "name of a convention file", "NAME.toml")?;
+            Destination::new(path, &["toml"], "name of a convention file", "NAME.toml")?;
         }
         Ok(Box::new(ConformJob {
             answer,
@@ -70,16 +70,6 @@ impl ConformArgs {
             format: self.format,
         }))
     }
-}
-
-/// Checks the place and the extension of an output file.
-fn destination(
-    path: &Path,
-    extension: &str,
-    what: &'static str,
-    known: &'static str,
-) -> Result<Destination<()>, Error> {
-    Destination::among(path, |found| (found == extension).then_some(()), what, known)
 }
 
 /// Writes the points.

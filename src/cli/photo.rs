@@ -7,7 +7,7 @@ use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_evaluate::photograph::PhotoReport;
 use svbrdf_evaluate::report::position;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::export::{Destination, PictureFormat, Provenance};
+use svbrdf_files::export::{Destination, Provenance};
 use svbrdf_files::photograph::{Capture, SessionPhotograph};
 use svbrdf_files::read::Transfer;
 
@@ -97,7 +97,7 @@ impl PhotoArgs {
 impl Job for PhotoJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
         let Self { capture, comparison, output, format } = *self;
-        let destination = output.as_deref().map(Destination::<PictureFormat>::new).transpose()?;
+        let destination = output.as_deref().map(Destination::of_picture).transpose()?;
         let materials = comparison.materials.open::<f32>()?.into_all();
         output.as_deref().map_or(Ok(()), check_output)?;
         if destination.is_some() {

@@ -8,7 +8,7 @@ use svbrdf_core::picture::statistics::Distributions;
 use svbrdf_evaluate::report::Report;
 use svbrdf_files::Error;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::export::{Destination, PictureFormat, Provenance, check_place, write_text};
+use svbrdf_files::export::{Destination, Provenance, check_place, write_text};
 
 use super::args::values::Range;
 use super::args::{offered, refuse};
@@ -33,7 +33,7 @@ pub struct PictureFile {
     path: PathBuf,
     range: Option<Range>,
     /// `None`: a table.
-    picture: Option<Destination<PictureFormat>>,
+    picture: Option<Destination>,
 }
 
 impl PictureFile {
@@ -42,7 +42,7 @@ impl PictureFile {
         let is_table = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         let picture = match is_table {
             true => check_place(&path).map(|()| None)?,
-            false => Some(Destination::new(&path).map_err(or_table)?),
+            false => Some(Destination::of_picture(&path).map_err(or_table)?),
         };
         let file = Self { path, range, picture };
         refuse(range.is_some() && !file.is_png(), "range", "only the colours of a .png have a range")?;
@@ -50,7 +50,7 @@ impl PictureFile {
     }
 
     fn is_png(&self) -> bool {
-        self.picture.as_ref().is_some_and(|picture| picture.format() == PictureFormat::Png)
+        self.picture.as_ref().is_some_and(|picture| picture.is("png"))
     }
 
     /// Checks that it replaces no file that was read.

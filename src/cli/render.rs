@@ -8,7 +8,7 @@ use svbrdf_core::picture::content::{ColouredDifference, PictureContent, Pictures
 use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::export::{Destination, PictureFormat, Provenance};
+use svbrdf_files::export::{Destination, Provenance};
 
 use super::args::scenes::RenderingArgs;
 use super::args::values::Range;
@@ -56,7 +56,7 @@ pub struct RenderArgs {
 struct RenderJob {
     comparison: ComparisonJob,
     output: PathBuf,
-    destination: Destination<PictureFormat>,
+    destination: Destination,
     scene: Scene,
     content: PictureContent,
     exposure_ev: f32,
@@ -64,7 +64,7 @@ struct RenderJob {
 
 impl RenderArgs {
     pub fn job(self, given: &Specified) -> NewJob {
-        let destination = Destination::new(&self.output)?;
+        let destination = Destination::of_picture(&self.output)?;
         let comparison = ComparisonJob::new(&self.comparison, given)?;
         let session = comparison.session.as_ref();
         let content = content(&self, session)?;
@@ -78,8 +78,7 @@ impl RenderArgs {
         }
         let Self { output, rendering: RenderingArgs { scene, exposure }, range, .. } = self;
         if let Some(difference) = content.difference {
-            let (is_exposed, is_exr) =
-                (difference.kind == Difference::Flip, destination.format() == PictureFormat::Exr);
+            let (is_exposed, is_exr) = (difference.kind == Difference::Flip, destination.is("exr"));
             let reason = "only --difference=flip compares exposed renderings";
             refuse(exposure.is_some() && !is_exposed, "exposure", reason)?;
             let reason = "an EXR holds differences as numbers, without colours";
@@ -123,7 +122,7 @@ impl Job for RenderJob {
         let sources = materials.iter().map(|m| m.name().to_owned()).collect();
         let renderer = "CPU, f32".to_owned();
         let provenance = Provenance { content, scene, convention, exposure_ev, sources, renderer };
-        Ok(stoppable(|progress| destination.write(&images, &provenance, progress))?)
+        Ok(stoppable(|progress| destination.write_picture(&images, &provenance, None, progress))?)
     }
 }
 

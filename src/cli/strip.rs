@@ -7,7 +7,7 @@ use svbrdf_core::material::Material;
 use svbrdf_core::picture::content::PictureContent;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_files::disk::inputs::check_output;
-use svbrdf_files::export::figure::FigureDestination;
+use svbrdf_files::export::Destination;
 use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 
 use crate::cli::args::scenes::{Lights, ListArgs, RenderingArgs};
@@ -91,13 +91,13 @@ const OF_MATERIALS: [&str; 6] = ["normal", "diffuse", "roughness", "specular", "
 struct StripJob {
     materials: MaterialJob,
     output: PathBuf,
-    destination: FigureDestination,
+    destination: Destination,
     strip: Strip,
 }
 
 impl StripArgs {
     pub fn job(mut self, given: &Specified) -> NewJob {
-        let destination = FigureDestination::new(&self.output)?;
+        let destination = Destination::of_figure(&self.output)?;
         let paper = Paper { width_mm: self.width_mm, text_pt: self.text_pt };
         let is_data_set = self.dataset || self.pairs;
         if self.columns.is_empty() {
@@ -161,7 +161,7 @@ impl Job for StripJob {
         let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
         let all: Vec<&Material<f32>> = materials.iter().collect();
         let figure = watched("rendering", |progress| strip.figure(&all, &names, progress))?;
-        Ok(stoppable(|progress| destination.write(&figure, &strip.entries(&names), progress))?)
+        Ok(stoppable(|progress| destination.write_figure(&figure, &strip.entries(&names), progress))?)
     }
 }
 

@@ -11,7 +11,7 @@ use svbrdf_evaluate::dataset::{
     self, Case, DatasetReading, DatasetSettings, MaterialResult, Pick, counted_loss,
 };
 use svbrdf_files::disk::inputs::check_output_of;
-use svbrdf_files::export::figure::FigureDestination;
+use svbrdf_files::export::Destination;
 use svbrdf_files::export::strip::{Column, Crop, MethodRow, MethodStrip, Paper};
 use svbrdf_files::read::{self, ReadOptions};
 
@@ -30,7 +30,7 @@ pub struct MethodsJob {
     cases: Vec<Case>,
     results: Option<PathBuf>,
     output: PathBuf,
-    destination: FigureDestination,
+    destination: Destination,
     strip: MethodStrip,
 }
 
@@ -51,7 +51,7 @@ pub fn job(
     results: Option<PathBuf>,
     output: PathBuf,
 ) -> NewJob {
-    let destination = FigureDestination::new(&output)?;
+    let destination = Destination::of_figure(&output)?;
     let given = &comparison.materials.reading;
     let reason =
         "a figure tells what cannot be read, and `svbrdf rank --dataset --verbose` all that is noticed";
@@ -135,7 +135,7 @@ impl MethodsJob {
                 materials.len()
             ));
         }
-        destination.write(&figure, &strip.entries(methods, materials), progress)?;
+        destination.write_figure(&figure, &strip.entries(methods, materials), progress)?;
         unkept.map_or(Ok(()), |problem| Err(CommandError::Failed(problem)))
     }
 

@@ -45,10 +45,8 @@ impl StudyArgs {
 impl Job for StudyJob {
     fn run(self: Box<Self>) -> Result<(), CommandError> {
         let Self { comparison: ComparisonJob { materials, convention, .. }, output } = *self;
-        let format = |extension: &str| (extension == "csv").then_some(());
-        let table =
-            output.as_deref().map(|path| Destination::among(path, format, "extension of a table", ".csv"));
-        let table = table.transpose()?;
+        let table = |path: &PathBuf| Destination::new(path, &["csv"], "extension of a table", ".csv");
+        let table = output.as_ref().map(table).transpose()?;
         let OpenedMaterials { ground_truth, predictions, .. } = &materials.open::<f32>()?;
         output.iter().try_for_each(|output| check_output(output))?;
         let predictions: Vec<_> = predictions.iter().take(1).collect();

@@ -38,9 +38,9 @@ pub fn is_named(path: &Path) -> bool {
 /// # Errors
 /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) where it is not named like a scene file, [`Error::Unwritable`] where
 /// its folder is missing or it is itself a folder.
-pub fn destination(path: &Path) -> Result<Destination<()>, Error> {
-    let format = |_: &str| is_named(path).then_some(());
-    Destination::among(path, format, "name of a scene file", "NAME.json, other than a session file")
+pub fn destination(path: &Path) -> Result<Destination, Error> {
+    let extensions: &[&str] = if is_named(path) { &["json"] } else { &[] };
+    Destination::new(path, extensions, "name of a scene file", "NAME.json, other than a session file")
 }
 
 /// Reads the scenes of a file, with its name.

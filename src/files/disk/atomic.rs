@@ -15,32 +15,43 @@ pub const SOFTWARE: &str = concat!("svbrdf ", env!("CARGO_PKG_VERSION"));
 /// A chain of links that is longer has no end.
 const MOST_LINKS: usize = 40;
 
-/// A file to be written in one of the formats `F`, in a folder that is there.
+/// A file to be written, in a folder that is there.
 #[derive(Clone, Debug)]
-pub struct Destination<F> {
+pub struct Destination {
     path: PathBuf,
-    pub format: F,
+    /// In small letters.
+    extension: String,
 }
 
-impl<F> Destination<F> {
-    /// Checks `path` before there is anything to write. `format` belongs to an extension in
-    /// small letters, `what` names the extension in messages, and `known` lists all.
-    pub fn among(
+impl Destination {
+    /// Checks `path` before there is anything to write: it has one of the `extensions`. `what` names the extension in messages, and
+    /// `known` lists all.
+    ///
+    /// # Errors
+    /// [`CoreError::UnknownName`] for another extension; those of [`check_place`].
+    pub fn new(
         path: &Path,
-        format: impl FnOnce(&str) -> Option<F>,
+        extensions: &[&str],
         what: &'static str,
-        known: &str,
+        known: impl Into<String>,
     ) -> Result<Self, Error> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        let Some(format) = format(&extension) else {
-            let (found, known) = (path.display().to_string(), known.to_owned());
-            return Err(CoreError::unknown_name(what, found, known).into());
-        };
+        if !extensions.contains(&extension.as_str()) {
+            return Err(CoreError::unknown_name(what, path.display().to_string(), known.into()).into());
+        }
         check_place(path)?;
-        Ok(Self { path: path.to_owned(), format })
+        Ok(Self { path: path.to_owned(), extension })
+    }
+
+    /// Whether it has this extension.
+    pub fn is(&self, extension: &str) -> bool {
+        self.extension == extension
     }
 
     /// [`replace`] for this file.
+    ///
+    /// # Errors
+    /// As [`replace`].
     pub fn replace(
         &self,
         progress: &Progress,

@@ -22,55 +22,22 @@ const WIDEST: usize = 16_384;
 /// The colour of the gap of a PNG.
 const MID_GRAY: [u8; 3] = [128; 3];
 
-/// The kinds of files that pictures are written into.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PictureFormat {
-    /// Linear radiance as 32-bit floats.
-    Exr,
-    /// Exposed and sRGB-encoded, 8 bits.
-    Png,
-}
-
-impl Destination<PictureFormat> {
-    /// Checks `path` before there is anything to write.
+impl Destination {
+    /// The file of a picture: `.exr` for linear radiance as 32-bit floats, `.png` for 8 bits, exposed and sRGB-encoded.
     ///
     /// # Errors
-    /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an extension other than exr and png, [`Error::Unwritable`]
-    /// where its folder is missing or it is itself a folder.
-    pub fn new(path: &Path) -> Result<Self, Error> {
-        let format = |extension: &str| match extension {
-            "exr" => Some(PictureFormat::Exr),
-            "png" => Some(PictureFormat::Png),
-            _ => None,
-        };
+    /// As [`Destination::new`].
+    pub fn of_picture(path: &Path) -> Result<Self, Error> {
         let known = ".exr (linear floats), .png (8 bits for a screen)";
-        Self::among(path, format, "extension of an output file", known)
+        Self::new(path, &["exr", "png"], "extension of an output file", known)
     }
 
-    /// The format that its extension selects.
-    pub fn format(&self) -> PictureFormat {
-        self.format
-    }
-
-    /// Writes `panes`, which are equally high, side by side, or in rows where one would be wider than 16,384 texels. The file
-    /// appears when it is complete, or not at all.
+    /// Writes `panes`, which are equally high, side by side, or in rows where one would be wider than 16,384 texels, with a text about
+    /// the content that takes the place of the one of `provenance`. The file appears when it is complete, or not at all.
     ///
     /// # Errors
     /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
-    pub fn write(
-        &self,
-        panes: &[Image<f32>],
-        provenance: &Provenance,
-        progress: &Progress,
-    ) -> Result<(), Error> {
-        self.write_described(panes, provenance, None, progress)
-    }
-
-    /// As [`Self::write`], with this text about the content in place of the one of `provenance`.
-    ///
-    /// # Errors
-    /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
-    pub fn write_described(
+    pub fn write_picture(
         &self,
         panes: &[Image<f32>],
         provenance: &Provenance,
@@ -111,42 +78,26 @@ impl Destination<PictureFormat> {
         entries: &Entries,
         progress: &Progress,
     ) -> Result<(), Error> {
-        match self.format {
-            PictureFormat::Exr => {
-                let picture = arranged(panes, [0.0; 3]);
-                self.replace(progress, |file| encode::exr(file, picture, entries))
-            }
-            PictureFormat::Png => {
-                let pictures: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
-                let picture = arranged(&pictures, MID_GRAY);
-                self.replace(progress, |file| encode::png(file, &picture, entries))
-            }
+        if self.is("exr") {
+            let picture = arranged(panes, [0.0; 3]);
+            return self.replace(progress, |file| encode::exr(file, picture, entries));
         }
-    }
-}
-
-/// A PNG of a whole picture.
-#[derive(Clone, Debug)]
-pub struct PngDestination(Destination<()>);
-
-impl PngDestination {
-    /// Checks `path` before there is anything to write.
-    ///
-    /// # Errors
-    /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an extension other than png, [`Error::Unwritable`] where its
-    /// folder is missing or it is itself a folder.
-    pub fn new(path: &Path) -> Result<Self, Error> {
-        let format = |extension: &str| (extension == "png").then_some(());
-        Destination::among(path, format, "extension of a figure", ".png").map(Self)
+        let pictures: Vec<_> = panes.iter().map(|p| displayed(p, &colour)).collect();
+        self.write_png(&arranged(&pictures, MID_GRAY), entries, progress)
     }
 
-    /// Writes a picture with these (keyword, text) entries of metadata. The file appears when it is complete, or not at
+    /// Writes a PNG of a whole picture with these (keyword, text) entries of metadata. The file appears when it is complete, or not at
     /// all.
     ///
     /// # Errors
     /// [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
-    pub fn write(&self, picture: &Image<u8>, entries: &Entries, progress: &Progress) -> Result<(), Error> {
-        self.0.replace(progress, |file| encode::png(file, picture, entries))
+    pub fn write_png(
+        &self,
+        picture: &Image<u8>,
+        entries: &Entries,
+        progress: &Progress,
+    ) -> Result<(), Error> {
+        self.replace(progress, |file| encode::png(file, picture, entries))
     }
 }
 

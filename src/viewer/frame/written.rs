@@ -15,9 +15,8 @@ use svbrdf_evaluate::Error as EvaluateError;
 use svbrdf_evaluate::analyses::ScenesReport;
 use svbrdf_evaluate::report::{Compared, Json as _};
 use svbrdf_files::disk::atomic::{self, Destination};
-use svbrdf_files::export::figure::FigureDestination;
+use svbrdf_files::export::Provenance;
 use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
-use svbrdf_files::export::{PngDestination, Provenance};
 use svbrdf_files::scene_file;
 
 use crate::dataset::rows;
@@ -65,13 +64,13 @@ pub fn renderings(displayed: &Displayed<'_>) -> Writing {
     let content = content(displayed);
     let (all, mut provenance) = (materials(displayed.materials()), provenance(displayed, content));
     Box::new(move |path, progress| {
-        let destination = Destination::new(path)?;
+        let destination = Destination::of_picture(path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
         let Provenance { scene, convention, exposure_ev, .. } = &provenance;
         let Pictures { images, content } =
             content.pictures(&all, scene, convention, *exposure_ev, progress)?;
         provenance.content = content;
-        Ok(destination.write(&images, &provenance, progress)?)
+        Ok(destination.write_picture(&images, &provenance, None, progress)?)
     })
 }
 
@@ -105,18 +104,18 @@ pub fn strip(displayed: &Displayed<'_>) -> Writing {
     let (convention, exposure_ev) = (state.convention(), state.exposure_ev);
     let strip = Strip { columns, convention, exposure_ev, crops, paper: Paper::default() };
     Box::new(move |path, progress| {
-        let destination = FigureDestination::new(path)?;
+        let destination = Destination::of_figure(path)?;
         let all: Vec<&Material<f32>> = all.iter().map(|loaded| loaded.material()).collect();
         let figure = strip.figure(&all, &names, progress)?;
-        Ok(destination.write(&figure, &strip.entries(&names), progress)?)
+        Ok(destination.write_figure(&figure, &strip.entries(&names), progress)?)
     })
 }
 
 /// A picture of the window, its pixels row by row.
 pub fn view(picture: Image<u8>, entries: Vec<(&'static str, String)>) -> Writing {
     Box::new(move |path, progress| {
-        let destination = PngDestination::new(path)?;
-        Ok(destination.write(&picture, &entries, progress)?)
+        let destination = Destination::new(path, &["png"], "extension of a figure", ".png")?;
+        Ok(destination.write_png(&picture, &entries, progress)?)
     })
 }
 
@@ -164,7 +163,7 @@ pub fn against_photograph(displayed: &Displayed<'_>) -> Writing {
     }
     let text = photograph_text(displayed);
     Box::new(move |path, progress| {
-        let destination = Destination::new(path)?;
+        let destination = Destination::of_picture(path)?;
         let all = all.ok_or(Error::Incomplete("the comparison with the photograph"))?;
         let images: Vec<_> = if difference {
             all.comparisons.iter().map(|one| one.difference(kind)).collect()
@@ -173,7 +172,7 @@ pub fn against_photograph(displayed: &Displayed<'_>) -> Writing {
             let renderings = all.comparisons.iter().map(|one| one.rendering.clone());
             photograph.into_iter().chain(renderings).collect()
         };
-        Ok(destination.write_described(&images, &provenance, text, progress)?)
+        Ok(destination.write_picture(&images, &provenance, text, progress)?)
     })
 }
 
@@ -188,7 +187,7 @@ pub fn error_maps(displayed: &Displayed<'_>) -> Writing {
     ];
     let range = displayed.range() as f32;
     Box::new(move |path, progress| {
-        let destination = Destination::new(path)?;
+        let destination = Destination::of_picture(path)?;
         let maps = maps.ok_or(Error::Incomplete("the error map"))?;
         Ok(destination.write_maps(&maps.images, range, &entries, progress)?)
     })

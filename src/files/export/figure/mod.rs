@@ -13,7 +13,7 @@ use svbrdf_core::progress::Progress;
 pub(super) use layout::MILLIMETRE;
 pub use layout::{Anchor, Figure, TextStyle};
 
-use super::encode::{self, Entries};
+use super::encode::Entries;
 use crate::disk::atomic::Destination;
 use crate::disk::memory;
 use crate::error::Error;
@@ -31,55 +31,31 @@ impl Figure {
     }
 }
 
-/// The kinds of files that figures are written into.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FigureFormat {
-    Pdf,
-    Png,
-    Svg,
-}
-
-/// A file of a figure.
-#[derive(Clone, Debug)]
-pub struct FigureDestination(Destination<FigureFormat>);
-
-impl FigureDestination {
-    /// Checks `path` before there is anything to write.
+impl Destination {
+    /// The file of a figure: `.pdf`, `.svg` or `.png`.
     ///
     /// # Errors
-    /// [`UnknownName`](svbrdf_core::error::Error::UnknownName) for an extension other than pdf, png and svg,
-    /// [`Error::Unwritable`] where its folder is missing or it is itself a folder.
-    pub fn new(path: &Path) -> Result<Self, Error> {
-        let format = |extension: &str| match extension {
-            "pdf" => Some(FigureFormat::Pdf),
-            "png" => Some(FigureFormat::Png),
-            "svg" => Some(FigureFormat::Svg),
-            _ => None,
-        };
-        Destination::among(path, format, "extension of a figure", ".pdf, .svg, .png").map(Self)
+    /// As [`Destination::new`].
+    pub fn of_figure(path: &Path) -> Result<Self, Error> {
+        Self::new(path, &["pdf", "svg", "png"], "extension of a figure", ".pdf, .svg, .png")
     }
 
     /// Writes a figure with these (keyword, text) entries of metadata. The file appears when it is complete, or not at all.
     ///
     /// # Errors
     /// [`Error::PageTooLarge`], [`Error::Memory`], [`Error::Unwritable`], [`Cancelled`](Error::is_cancelled).
-    pub fn write(&self, figure: &Figure, entries: &Entries, progress: &Progress) -> Result<(), Error> {
-        let millimetres = figure.size.map(|side| side / MILLIMETRE);
-        match self.0.format {
-            FigureFormat::Pdf if figure.size.iter().any(|side| *side > document::LARGEST) => {
-                Err(Error::PageTooLarge { millimetres, most: document::LARGEST / MILLIMETRE })
-            }
-            FigureFormat::Pdf => {
-                self.0.replace(progress, |file| file.write_all(&document::pdf(figure, entries)?))
-            }
-            FigureFormat::Svg => {
-                self.0.replace(progress, |file| file.write_all(document::svg(figure, entries)?.as_bytes()))
-            }
-            FigureFormat::Png => {
-                let image = figure.image()?;
-                self.0.replace(progress, |file| encode::png(file, &image, entries))
-            }
+    pub fn write_figure(&self, figure: &Figure, entries: &Entries, progress: &Progress) -> Result<(), Error> {
+        if self.is("png") {
+            return self.write_png(&figure.image()?, entries, progress);
         }
+        if self.is("svg") {
+            return self.replace(progress, |file| file.write_all(document::svg(figure, entries)?.as_bytes()));
+        }
+        if figure.size.iter().any(|side| *side > document::LARGEST) {
+            let millimetres = figure.size.map(|side| side / MILLIMETRE);
+            return Err(Error::PageTooLarge { millimetres, most: document::LARGEST / MILLIMETRE });
+        }
+        self.replace(progress, |file| file.write_all(&document::pdf(figure, entries)?))
     }
 }
 
@@ -89,6 +65,7 @@ mod tests {
     use base64::prelude::BASE64_STANDARD;
 
     use super::*;
+    use crate::export::encode;
 
     const TEXTS: [&str; 3] = ["deschaintre18 & <co>", "AV roughness (\u{2212}0.5)", "x"];
 
@@ -190,11 +167,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let write = |name: &str, height: f64| {
             let path = folder.path().join(name);
-            FigureDestination::new(&path).unwrap().write(
-                &Figure::new([10.0, height], 0.1),
-                &[],
-                &Progress::default(),
-            )
+            let figure = Figure::new([10.0, height], 0.1);
+            Destination::of_figure(&path).unwrap().write_figure(&figure, &[], &Progress::default())
         };
         assert!(write("a.pdf", 14_400.0).is_ok() && write("a.svg", 14_500.0).is_ok());
         let problem = write("b.pdf", 14_500.0).unwrap_err().to_string();

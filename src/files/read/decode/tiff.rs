@@ -21,10 +21,10 @@ pub(crate) fn decode(reader: ByteReader<'_>, place: DecodedFile<'_>) -> Result<D
     skip_thumbnails(&mut decoder).map_err(invalid)?;
     let (width, height) = decoder.dimensions().map_err(invalid)?;
     let colour = decoder.colortype().map_err(invalid)?;
-    let (bits, count) = (colour.bit_depth(), channels(&mut decoder, colour, place)?);
+    let bits = colour.bit_depth();
+    let (count, planar) = channels(&mut decoder, colour, place)?;
     let bytes = u64::from(width) * u64::from(height) * count as u64 * u64::from(bits).div_ceil(8);
     let _reserved = place.check_size([width.into(), height.into()], bytes, ratio::TIFF)?;
-    let planar = is_planar(&mut decoder).map_err(invalid)?;
     let orientation = decoder.find_tag_unsigned::<u16>(Tag::Orientation).map_err(invalid)?.unwrap_or(1);
     let mut result = DecodingResult::U8(Vec::new());
     match tiff_jpeg::pixels(&mut decoder, colour, count, place)? {
@@ -157,11 +157,7 @@ fn has_pages(decoder: &mut Decoder<ByteReader<'_>>) -> bool {
         .any(|is_reduced| !is_reduced)
 }
 
-fn is_planar(decoder: &mut Decoder<ByteReader<'_>>) -> tiff::TiffResult<bool> {
-    Ok(decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration)? == Some(2))
-}
-
-/// The number of channels of a picture of these colours.
+/// The number of channels of a picture of these colours, and whether each is a plane.
 ///
 /// # Errors
 /// [`Error::BadImage`] where it is not read.
@@ -169,7 +165,7 @@ fn channels(
     decoder: &mut Decoder<ByteReader<'_>>,
     colour: ColorType,
     place: DecodedFile<'_>,
-) -> Result<usize, Error> {
+) -> Result<(usize, bool), Error> {
     let bits = colour.bit_depth();
     let count = match colour {
         ColorType::Gray(1 | 2 | 4) => 1,
@@ -182,13 +178,14 @@ fn channels(
         other => return Err(refused(&format!("of {other:?}"), place)),
     };
     let (height, tile) = (decoder.dimensions().map_or(0, |size| size.1), decoder.chunk_dimensions().1.max(1));
-    let is_planar = count > 1 && is_planar(decoder).map_err(|error| explained(error, place))?;
+    let planes = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration);
+    let is_planar = planes.map_err(|error| explained(error, place))? == Some(2) && count > 1;
     // tiff 0.11.3 puts the last of their rows at the wrong place.
     if is_planar && decoder.get_chunk_type() == ChunkType::Tile && !height.is_multiple_of(tile) {
         let found = format!("of planes in tiles of {tile} rows, of which {height} is no multiple");
         return Err(refused(&found, place));
     }
-    Ok(count)
+    Ok((count, is_planar))
 }
 
 /// How the samples of a picture lie in memory.
@@ -272,8 +269,7 @@ mod tests {
         assert_eq!(row(3, 1, 1, &[0b1010_0000]), Ok(vec![255.0, 0.0, 255.0]));
         assert_eq!(row(3, 1, 0, &[0b1010_0000]), Ok(vec![0.0, 255.0, 0.0]));
         assert_eq!(row(3, 4, 1, &[0xf0, 0x80]), Ok(vec![255.0, 0.0, 136.0]));
-        // Three planes of 2 x 2 texels, in tiles of 16 x 16.
-        let offsets = [8, 8, 8];
+        // Three planes in tiles of 16 x 16 texels.
         let tiles = |height: u32| {
             let fields: [(u16, &[u32]); 11] = [
                 (256, &[16]),
@@ -285,7 +281,7 @@ mod tests {
                 (284, &[2]),
                 (322, &[16]),
                 (323, &[16]),
-                (324, &offsets),
+                (324, &[8, 8, 8]),
                 (325, &[256, 256, 256]),
             ];
             read(&file(&fields, &[7; 256]))

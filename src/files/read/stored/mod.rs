@@ -11,7 +11,6 @@ pub(super) use material::{Inferences, Inferred, StoredHeight, StoredMap, StoredM
 pub(super) use picture::{DecodedPicture, Picture, PictureSource, decoded, notice};
 
 use crate::error::Error;
-use crate::read::names::{Label, word_beside};
 use crate::read::options::transfer::written;
 use crate::read::options::{Albedo, NormalY, Preset, ReadOptions, Role, Roughness, Workflow};
 use crate::read::record::{Assumption, Certainty, Reason, What};
@@ -75,11 +74,6 @@ impl MapsByRole {
         self.take(Role::Metallic).or_else(|| self.packed(1))
     }
 
-    fn words(&self) -> Vec<String> {
-        let label = |source: &StoredMap| Label::of(&source.file.file_stem()?.to_string_lossy());
-        self.all.iter().filter_map(|(_, source)| label(source)).map(|label| label.word).collect()
-    }
-
     /// Assumptions about pictures whose channels their names do not define for sure.
     fn doubts_of_packing(&self) -> Vec<Assumption> {
         let mut assumptions = Vec::new();
@@ -116,11 +110,10 @@ impl MapsByRole {
         listed: &str,
         options: &ReadOptions,
     ) -> Result<StoredMaterial, Error> {
-        let words = self.words();
         let missing = |role: Role| Error::MissingMap {
             path: path.to_owned(),
             map: role.name(),
-            examples: examples(role, &words),
+            examples: role.examples(),
             found: if listed.is_empty() { "none".to_owned() } else { listed.to_owned() },
         };
         let mut assumptions = self.doubts_of_packing();
@@ -176,14 +169,6 @@ impl MapsByRole {
             notes,
             files,
         })
-    }
-}
-
-/// Names of a map that is missing, for messages; `words` are those of the files that are there.
-fn examples(role: Role, words: &[String]) -> String {
-    match word_beside(role, words) {
-        Some(own) => format!("{own} (as the other files), {}", role.examples()),
-        None => role.examples(),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Materials of a Wavefront `.mtl`: maps out of its pictures and numbers, with the extension for roughness (`Pr`) and metallic (`Pm`).
 
+mod statement;
+
 use std::path::{Path, PathBuf};
 
 use svbrdf_core::progress::Progress;
@@ -14,25 +16,10 @@ use crate::read::raster::measure::{NORMAL_AT_LEAST, normal_score};
 use crate::read::record::{Assumption, Certainty, Ground, Note, Reason, Unused, What};
 use crate::read::stored::{Inferred, MapsByRole, Picture, StoredMap, StoredMaterial, decoded, notice};
 
+use statement::{MtlEntry, bytes_of, entries, file_and_options, named_file};
+
 /// Statements of pictures of normals, the plainest first; those of `bump` may also hold heights.
 const NORMALS: [&str; 4] = ["norm", "map_kn", "map_bump", "bump"];
-/// Options before the name of a picture, each with the most values that it has, and those that change nothing. Without such, it is about
-/// how a picture is sampled where it is magnified, or repeated; a channel always changes something.
-const OPTIONS: [(&str, usize, &[f32]); 13] = [
-    ("-o", 3, &[0.0; 3]),
-    ("-s", 3, &[1.0; 3]),
-    ("-t", 3, &[0.0; 3]),
-    ("-mm", 2, &[0.0, 1.0]),
-    ("-bm", 1, &[1.0]),
-    ("-imfchan", 1, &[f32::NAN]),
-    ("-blendu", 1, &[]),
-    ("-blendv", 1, &[]),
-    ("-boost", 1, &[]),
-    ("-texres", 1, &[]),
-    ("-clamp", 1, &[]),
-    ("-cc", 1, &[]),
-    ("-type", 1, &[]),
-];
 /// Channels of a gray picture differ by no more: compression and rounding.
 const GRAY: f64 = 12.0 / 255.0;
 
@@ -46,13 +33,6 @@ pub(in crate::read) struct Mtl {
     textures: Vec<MtlTexture>,
     /// The names of all materials of the file, and which of them this is.
     materials: (Vec<String>, usize),
-}
-
-/// A material: its statements, each a keyword in lower case and the rest of its line.
-#[derive(Debug)]
-struct MtlEntry {
-    name: String,
-    lines: Vec<(String, String)>,
 }
 
 /// A picture that a statement names.
@@ -207,10 +187,6 @@ impl Mtl {
 }
 
 impl MtlEntry {
-    fn line(&self, key: &str) -> Option<&str> {
-        self.lines.iter().find(|(k, _)| k == key).map(|(_, rest)| rest.as_str())
-    }
-
     /// Whether `map_Ks` holds roughness and metallic: by the name of its file, or by the `bsdf` of nvdiffrec.
     fn is_packed(&self) -> bool {
         let has = |key: &str| self.line(key).is_some();
@@ -264,62 +240,6 @@ impl MtlTexture {
         let is_gray = channel_spread(&map.raster.channels) <= GRAY;
         Some(if is_gray { Unused::Heights } else { Unused::NotNormals })
     }
-}
-
-/// The memory that the statements of a file take at most.
-fn bytes_of(text: &[u8]) -> u64 {
-    /// Keyword and rest of a line, with room to grow, in bytes.
-    const LINE: u64 = 192;
-    let lines = text.iter().filter(|byte| **byte == b'\n').count() as u64 + 1;
-    4 * text.len() as u64 + LINE * lines
-}
-
-fn entries(text: &str) -> Vec<MtlEntry> {
-    let mut all: Vec<MtlEntry> = Vec::new();
-    for line in text.lines().map(str::trim) {
-        let (key, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        let (key, rest) = (key.to_lowercase(), rest.trim().to_owned());
-        match all.last_mut() {
-            _ if key.is_empty() || key.starts_with('#') => {}
-            _ if key == "newmtl" => all.push(MtlEntry { name: rest, lines: Vec::new() }),
-            Some(entry) => entry.lines.push((key, rest)),
-            None => {}
-        }
-    }
-    all
-}
-
-/// The file that a statement names, which may have spaces, and the options before it which change the look.
-fn file_and_options(rest: &str) -> (&str, Vec<String>) {
-    fn first(text: &str) -> (&str, &str) {
-        text.split_at(text.find(char::is_whitespace).unwrap_or(text.len()))
-    }
-    let (mut rest, mut options) = (rest.trim(), Vec::new());
-    let known = |rest: &str| OPTIONS.iter().find(|(name, ..)| first(rest).0.eq_ignore_ascii_case(name));
-    while let Some((name, most, neutral)) = known(rest) {
-        let (mut values, mut after) = (Vec::new(), first(rest).1.trim_start());
-        // Of three numbers the last two may be left out.
-        let is_value = |text: &str| !text.is_empty() && (*most < 3 || first(text).0.parse::<f32>().is_ok());
-        while values.len() < *most && is_value(after) {
-            let (value, following) = first(after);
-            values.push(value);
-            after = following.trim_start();
-        }
-        if !values.iter().zip(*neutral).all(|(value, one)| value.parse() == Ok(*one)) {
-            options.push(format!("{name} {}", values.join(" ")));
-        }
-        rest = after;
-    }
-    (rest, options)
-}
-
-/// The file beside that of the material, or of a path of its own; of a path of another machine the file of the same name, if that is there.
-fn named_file(name: &str, mtl: &Path) -> NamedFile {
-    let slashed = name.replace('\\', "/");
-    let last = slashed.rsplit('/').next().unwrap_or_default();
-    let named = NamedFile::within(name, mtl);
-    let others = [&*slashed, last].map(|name| NamedFile::within(name, mtl));
-    if named.exists() { named } else { others.into_iter().find(NamedFile::exists).unwrap_or(named) }
 }
 
 /// The direction of y in the name of a normal map.
