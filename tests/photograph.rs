@@ -21,7 +21,7 @@ use svbrdf_evaluate::photograph::{PhotoReport, compare, on_texels};
 use svbrdf_evaluate::report::{Json as _, Report as _};
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::photograph::Capture;
-use svbrdf_files::read::{Photograph, Transfer, read_photograph};
+use svbrdf_files::read::{Albedo, Photograph, read_photograph};
 use svbrdf_files::samples;
 
 use crate::support::npy::npy;
@@ -173,7 +173,7 @@ fn a_capture_of_materialgan_is_one_of_its_lights() {
     assert!(found.text().contains("gamma 2.2 as specified, falloff of the light divided out"));
     // Planted faults: another curve, photographs in another order.
     let mut wrong = capture.clone();
-    wrong.photographs.iter_mut().for_each(|one| one.transfer = Some(Transfer::Linear));
+    wrong.photographs.iter_mut().for_each(|one| one.transfer = Some(Albedo::Linear));
     assert!(report(&wrong, &[&truth]).unwrap().results[0].log.unwrap() > 0.1);
     let mut wrong = calibration.clone();
     wrong["idx"] = json!([0, 1, 2, 3, 4]);
@@ -222,7 +222,7 @@ fn captures_that_cannot_be_used_are_refused_with_their_reason() {
 fn photograph(width: usize, height: usize, at: impl Fn(usize, usize) -> [f32; 3]) -> Photograph {
     let pixels = (0..width * height).map(|i| at(i % width, i / width)).collect();
     let image = Image { width, height, pixels };
-    Photograph { image, transfer: Transfer::Linear, transfer_from: "as specified", notes: Vec::new() }
+    Photograph { image, transfer: Albedo::Linear, transfer_from: "as specified", notes: Vec::new() }
 }
 
 #[test]
@@ -253,30 +253,30 @@ fn three_by_two(depth: u8, chunks: &[([u8; 4], Vec<u8>)]) -> Vec<u8> {
         .bytes(|x, y, c| (10 * (x + 3 * y) + c) as u16)
 }
 
-fn read(path: &Path, transfer: Option<Transfer>) -> Result<Photograph, svbrdf_files::Error> {
+fn read(path: &Path, transfer: Option<Albedo>) -> Result<Photograph, svbrdf_files::Error> {
     read_photograph(&NamedFile::by_user(path), transfer)
 }
 
 #[test]
 fn the_curve_is_that_of_the_option_of_the_file_or_of_the_kind_of_samples() {
     let folder = tempdir().unwrap();
-    let of = |name: &str, bytes: &[u8], transfer: Option<Transfer>| {
+    let of = |name: &str, bytes: &[u8], transfer: Option<Albedo>| {
         fs::write(folder.path().join(name), bytes).unwrap();
         let found = read(&folder.path().join(name), transfer).unwrap();
         (found.transfer, found.transfer_from, found.notes.len())
     };
     let gamma = [(*b"gAMA", 100_000_u32.to_be_bytes().to_vec())];
-    let (srgb, integers, specified) = (Some(Transfer::Srgb), "since it stores integers", "as specified");
+    let (srgb, integers, specified) = (Some(Albedo::Srgb), "since it stores integers", "as specified");
     let (plain, declared) = (three_by_two(16, &[]), three_by_two(16, &gamma));
     let floats = npy([2, 3, 3], &[0.25; 18]);
-    assert_eq!(of("16.png", &plain, None), (Transfer::Srgb, integers, 0));
-    assert_eq!(of("g.png", &declared, None), (Transfer::Linear, "declared by its gAMA chunk", 0));
+    assert_eq!(of("16.png", &plain, None), (Albedo::Srgb, integers, 0));
+    assert_eq!(of("g.png", &declared, None), (Albedo::Linear, "declared by its gAMA chunk", 0));
     let declared_by_cicp = three_by_two(16, &[(*b"cICP", vec![1, 8, 0, 1])]);
-    assert_eq!(of("c.png", &declared_by_cicp, None), (Transfer::Linear, "declared by its cICP chunk", 0));
+    assert_eq!(of("c.png", &declared_by_cicp, None), (Albedo::Linear, "declared by its cICP chunk", 0));
     // What the option overrides is said.
-    assert_eq!(of("g.png", &declared, srgb), (Transfer::Srgb, specified, 1));
-    assert_eq!(of("f.npy", &floats, None), (Transfer::Linear, "since it stores floats", 0));
-    assert_eq!(of("f.npy", &floats, srgb), (Transfer::Srgb, specified, 0));
+    assert_eq!(of("g.png", &declared, srgb), (Albedo::Srgb, specified, 1));
+    assert_eq!(of("f.npy", &floats, None), (Albedo::Linear, "since it stores floats", 0));
+    assert_eq!(of("f.npy", &floats, srgb), (Albedo::Srgb, specified, 0));
 }
 
 #[test]
@@ -286,7 +286,7 @@ fn a_photograph_is_turned_by_its_orientation_and_nan_where_it_is_clipped() {
     let exif = b"MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0\0\0\0\0".to_vec();
     let path = folder.path().join("turned.png");
     fs::write(&path, three_by_two(8, &[(*b"eXIf", exif)])).unwrap();
-    let turned = read(&path, Some(Transfer::Linear)).unwrap();
+    let turned = read(&path, Some(Albedo::Linear)).unwrap();
     assert_eq!((turned.image.width, turned.image.height, turned.notes.len()), (2, 3, 0));
     let red: Vec<u32> = turned.image.pixels.iter().map(|rgb| (255.0 * rgb[0]).round() as u32).collect();
     assert_eq!(red, [30, 0, 40, 10, 50, 20]);

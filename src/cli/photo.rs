@@ -9,7 +9,7 @@ use svbrdf_evaluate::report::position;
 use svbrdf_files::disk::inputs::check_output;
 use svbrdf_files::export::{Destination, Provenance};
 use svbrdf_files::photograph::{Capture, SessionPhotograph};
-use svbrdf_files::read::Transfer;
+use svbrdf_files::read::Albedo;
 
 use super::args::scenes::OneSceneArgs;
 use super::args::{ComparisonArgs, Specified, offered, refuse};
@@ -40,8 +40,8 @@ pub struct PhotoArgs {
 
     /// Transfer curve of the photograph [default: linear for floats and PNG files that declare it, srgb for other integers]
     #[arg(long, value_name = "linear|srgb|gamma2.2")]
-    #[arg(value_parser = offered(str::parse::<Transfer>, ["linear", "srgb", "gamma2.2"]), hide_possible_values = true)]
-    transfer: Option<Transfer>,
+    #[arg(value_parser = offered(str::parse::<Albedo>, ["linear", "srgb", "gamma2.2"]), hide_possible_values = true)]
+    transfer: Option<Albedo>,
 
     /// Divides out the falloff of a point light, which Algorithm 3 does not model: for a flash or lamp near the material
     #[arg(long)]

@@ -14,7 +14,7 @@ use svbrdf_core::text::{line, of_json};
 use crate::disk::inputs;
 use crate::disk::open::NamedFile;
 use crate::error::Error;
-use crate::read::Transfer;
+use crate::read::Albedo;
 
 /// The files that list the photographs of a folder: the project's own, and that of MaterialGAN.
 const LISTS: [&str; 2] = ["capture.json", "render.json"];
@@ -41,7 +41,7 @@ pub struct CapturedPhotograph {
     pub file: NamedFile,
     pub scene: Scene,
     /// `None`: by the file.
-    pub transfer: Option<Transfer>,
+    pub transfer: Option<Albedo>,
 }
 
 /// A photograph and how it is used, as a session stores it. It is taken in the scene of the session.
@@ -52,7 +52,7 @@ pub struct SessionPhotograph {
     pub path: PathBuf,
     /// `None`: by the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub transfer: Option<Transfer>,
+    pub transfer: Option<Albedo>,
     /// Whether the falloff of the light is divided out.
     #[serde(default)]
     pub falloff: bool,
@@ -135,7 +135,7 @@ impl Capture {
 #[serde(deny_unknown_fields)]
 struct ListedCapture {
     photographs: Vec<ListedPhotograph>,
-    transfer: Option<Transfer>,
+    transfer: Option<Albedo>,
     #[serde(default)]
     falloff: bool,
 }
@@ -218,7 +218,7 @@ impl Calibration {
         let photograph = |(number, scene): (usize, Scene)| {
             let name = format!("{number:02}.png");
             let file = NamedFile::within(folder.join(&name), list);
-            CapturedPhotograph { name, file, scene, transfer: Some(Transfer::Gamma22) }
+            CapturedPhotograph { name, file, scene, transfer: Some(Albedo::Gamma22) }
         };
         Ok(self.numbers().into_iter().zip(self.scenes()?).map(photograph).collect())
     }

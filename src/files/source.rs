@@ -14,16 +14,18 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
+
 use svbrdf_core::math::real::Real;
 use svbrdf_core::progress::Progress;
 
 use crate::error::Error;
 use crate::read::{MaterialPath, Read, ReadOptions};
 use crate::samples;
-use crate::session::SessionMaterial;
 
 /// Where a material is.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Place {
     /// A file, a folder or a prefix of files.
     Path(PathBuf),
@@ -31,15 +33,29 @@ pub enum Place {
     BuiltIn(usize),
 }
 
-/// Where a material comes from and how it is read.
-#[derive(Clone, Debug, PartialEq)]
+impl Place {
+    /// The path; `None` of a built-in material.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Path(path) => Some(path),
+            Self::BuiltIn(_) => None,
+        }
+    }
+}
+
+/// Where a material comes from and how it is read. In a session file, paths are relative to its folder.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MaterialSource {
     /// The name that it is given; `None` for that of its files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
+    #[serde(flatten)]
     pub place: Place,
     /// What is specified, which a sidecar file completes; a built-in material is read in its own way.
+    #[serde(rename = "read", default)]
     pub options: ReadOptions,
     /// Whether the material is resized to the ground truth.
+    #[serde(default)]
     pub fit: bool,
 }
 
@@ -58,19 +74,9 @@ impl MaterialSource {
         Self { name: None, place, options: ReadOptions::AUTO, fit: false }
     }
 
-    /// An entry of a session.
-    pub fn of_session(entry: &SessionMaterial) -> Self {
-        let SessionMaterial { name, path, built_in, read: options, fit } = entry.clone();
-        let Some(path) = path else { return Self { name, fit, ..Self::built_in(built_in.unwrap_or(0)) } };
-        Self { name, place: Place::Path(path), options, fit }
-    }
-
     /// Its path; empty for a built-in material.
     pub fn location(&self) -> &Path {
-        match &self.place {
-            Place::Path(path) => path,
-            Place::BuiltIn(_) => Path::new(""),
-        }
+        self.place.path().unwrap_or(Path::new(""))
     }
 
     /// Reads the material, in its own size; each file is one step of `progress`.

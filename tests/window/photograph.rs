@@ -4,7 +4,7 @@ use svbrdf_core::model::scene::Kind;
 use svbrdf_evaluate::photograph::{PhotographComparison, compare, on_texels};
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::photograph::SessionPhotograph;
-use svbrdf_files::read::{Transfer, read_photograph};
+use svbrdf_files::read::{Albedo, read_photograph};
 
 use super::*;
 
@@ -86,7 +86,7 @@ fn renderings_are_compared_with_the_photograph_as_the_core_does() {
         app.against_photograph().is_some_and(|all| all[0].factor != core[0].factor)
     });
     assert!(agrees(&window, &expected(&path, true)) && !agrees(&window, &core));
-    edit(&mut window, |model| model.photograph.change(|source| source.transfer = Some(Transfer::Srgb)));
+    edit(&mut window, |model| model.photograph.change(|source| source.transfer = Some(Albedo::Srgb)));
     wait(&mut window, "the other curve", |app| app.against_photograph().is_some());
     // Opened again, a file that was replaced is another photograph.
     photograph(folder.path(), 2.0);
@@ -165,7 +165,7 @@ fn the_open_dialog_takes_photographs_and_a_list_of_them_has_its_own_lights() {
     assert_eq!(window.scene(), SCENE);
     let factor = |app: &App| app.against_photograph().map(|all| all[0].factor);
     let before = factor(window.state());
-    edit(&mut window, |model| model.photograph.change(|source| source.transfer = Some(Transfer::Srgb)));
+    edit(&mut window, |model| model.photograph.change(|source| source.transfer = Some(Albedo::Srgb)));
     wait_for_it(&mut window);
     choose(&mut window, "Photographs", "second.npy");
     wait(&mut window, "the second", |app| factor(app).is_some() && factor(app) != before);

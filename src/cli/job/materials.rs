@@ -59,7 +59,7 @@ impl MaterialJob {
         let sources = match (session, &args.ground_truth) {
             (Some(session), _) => {
                 args.refuse_of_session(given)?;
-                session.materials.iter().map(MaterialSource::of_session).collect()
+                session.materials.clone()
             }
             (None, Some(_)) => {
                 args.paths().try_for_each(|path| check_kind(path))?;

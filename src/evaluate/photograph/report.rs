@@ -10,7 +10,7 @@ use svbrdf_core::progress::Progress;
 use svbrdf_core::statistics::sort_by_number;
 use svbrdf_files::disk::memory;
 use svbrdf_files::photograph::Capture;
-use svbrdf_files::read::{Photograph, Transfer, read_photograph};
+use svbrdf_files::read::{Albedo, Photograph, read_photograph};
 
 use super::{PhotographComparison, compare, on_texels};
 use crate::error::Error;
@@ -49,7 +49,7 @@ pub struct ReadPhotograph {
     photograph: String,
     /// Width and height in pixels.
     size: [usize; 2],
-    transfer: Transfer,
+    transfer: Albedo,
     /// The source of the transfer curve.
     #[serde(skip)]
     transfer_from: &'static str,

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use svbrdf_core::choices;
 use svbrdf_core::error::Error;
 use svbrdf_core::material::{Material, Planes};
 
@@ -91,72 +92,62 @@ pub fn interpolated(
     Material::new(material.name(), width, height, planes)
 }
 
-/// A symmetry of a square other than the identity: maps mirrored and turned, their normals with them. Only those that transpose need a square map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
-pub struct Symmetry {
-    /// Rows become columns; before the mirrorings.
-    transposed: bool,
-    mirrored_x: bool,
-    mirrored_y: bool,
+choices! {
+    /// A symmetry of a square other than the identity: maps mirrored and turned, their normals with them. Only those that transpose need a
+    /// square map.
+    Symmetry, "symmetry":
+    /// Left to right.
+    MirrorX = "mirror_x",
+    /// Top to bottom.
+    MirrorY = "mirror_y",
+    Rotate180 = "rotate_180",
+    /// Rows become columns.
+    Transpose = "transpose",
+    Rotate90Clockwise = "rotate_90_clockwise",
+    Rotate90Counterclockwise = "rotate_90_counterclockwise",
+    /// About the other diagonal.
+    AntiTranspose = "anti_transpose",
 }
 
 impl Symmetry {
-    /// All seven.
-    pub const ALL: [Self; 7] = [
-        Self::new(false, true, false),
-        Self::new(false, false, true),
-        Self::new(false, true, true),
-        Self::new(true, false, false),
-        Self::new(true, true, false),
-        Self::new(true, false, true),
-        Self::new(true, true, true),
-    ];
-
-    const fn new(transposed: bool, mirrored_x: bool, mirrored_y: bool) -> Self {
-        Self { transposed, mirrored_x, mirrored_y }
-    }
-
-    /// The change that it makes, for reports.
-    pub fn name(self) -> &'static str {
-        match (self.transposed, self.mirrored_x, self.mirrored_y) {
-            (false, true, false) => "mirror_x",
-            (false, false, true) => "mirror_y",
-            (false, true, true) => "rotate_180",
-            (true, false, false) => "transpose",
-            (true, true, false) => "rotate_90_clockwise",
-            (true, false, true) => "rotate_90_counterclockwise",
-            (true, true, true) => "anti_transpose",
-            (false, false, false) => "none",
+    /// Whether rows become columns, and whether columns and rows are mirrored after that.
+    fn parts(self) -> [bool; 3] {
+        match self {
+            Self::MirrorX => [false, true, false],
+            Self::MirrorY => [false, false, true],
+            Self::Rotate180 => [false, true, true],
+            Self::Transpose => [true, false, false],
+            Self::Rotate90Clockwise => [true, true, false],
+            Self::Rotate90Counterclockwise => [true, false, true],
+            Self::AntiTranspose => [true, true, true],
         }
     }
 
     /// What it does, for titles.
     pub fn words(self) -> &'static str {
-        match (self.transposed, self.mirrored_x, self.mirrored_y) {
-            (false, true, false) => "mirrored left to right",
-            (false, false, true) => "mirrored top to bottom",
-            (false, true, true) => "rotated by 180 degrees",
-            (true, false, false) => "transposed",
-            (true, true, false) => "rotated by 90 degrees clockwise",
-            (true, false, true) => "rotated by 90 degrees counterclockwise",
-            (true, true, true) => "transposed about the other diagonal",
-            (false, false, false) => "unchanged",
+        match self {
+            Self::MirrorX => "mirrored left to right",
+            Self::MirrorY => "mirrored top to bottom",
+            Self::Rotate180 => "rotated by 180 degrees",
+            Self::Transpose => "transposed",
+            Self::Rotate90Clockwise => "rotated by 90 degrees clockwise",
+            Self::Rotate90Counterclockwise => "rotated by 90 degrees counterclockwise",
+            Self::AntiTranspose => "transposed about the other diagonal",
         }
     }
 
     /// The symmetries of maps of a size (width, height).
     pub fn of([width, height]: [usize; 2]) -> impl Iterator<Item = Self> {
-        Self::ALL.into_iter().filter(move |symmetry| !symmetry.transposed || width == height)
+        Self::ALL.into_iter().filter(move |symmetry| !symmetry.parts()[0] || width == height)
     }
 
     /// The symmetry that undoes this one.
     #[must_use]
     pub fn inverse(self) -> Self {
-        if self.transposed {
-            Self { mirrored_x: self.mirrored_y, mirrored_y: self.mirrored_x, ..self }
-        } else {
-            self
+        match self {
+            Self::Rotate90Clockwise => Self::Rotate90Counterclockwise,
+            Self::Rotate90Counterclockwise => Self::Rotate90Clockwise,
+            other => other,
         }
     }
 
@@ -173,10 +164,11 @@ impl Symmetry {
 
     /// Where the texel was that is at `texel` of a map of this size (width, height) after the symmetry, as row * width + column.
     pub fn before(self, texel: usize, [width, height]: [usize; 2]) -> usize {
-        let (column, row) = (texel % width, texel / width);
-        let column = if self.mirrored_x { width - 1 - column } else { column };
-        let row = if self.mirrored_y { height - 1 - row } else { row };
-        if self.transposed { column * width + row } else { row * width + column }
+        let ([transposed, mirrored_x, mirrored_y], column, row) =
+            (self.parts(), texel % width, texel / width);
+        let column = if mirrored_x { width - 1 - column } else { column };
+        let row = if mirrored_y { height - 1 - row } else { row };
+        if transposed { column * width + row } else { row * width + column }
     }
 
     /// The material with its normals turned as the symmetry turns them; its texels stay where they are.
@@ -184,35 +176,19 @@ impl Symmetry {
     /// # Errors
     /// As [`Self::applied`].
     pub fn turned(self, material: &Material<f32>) -> Result<Material<f32>, Error> {
-        let mut planes = material.planes().clone();
+        let ([transposed, mirrored_x, mirrored_y], mut planes) = (self.parts(), material.planes().clone());
         let [x, y, _] = &mut planes.normal;
         // Transposed rows and columns exchange x with -y, which points up.
-        if self.transposed {
+        if transposed {
             std::mem::swap(x, y);
         }
-        let negated = [self.transposed != self.mirrored_x, self.transposed != self.mirrored_y];
+        let negated = [transposed != mirrored_x, transposed != mirrored_y];
         for (plane, negated) in [x, y].into_iter().zip(negated) {
             if negated {
                 plane.iter_mut().for_each(|value| *value = -*value);
             }
         }
         Material::new(material.name(), material.width(), material.height(), planes)
-    }
-}
-
-impl From<Symmetry> for String {
-    fn from(symmetry: Symmetry) -> Self {
-        symmetry.name().to_owned()
-    }
-}
-
-impl TryFrom<String> for Symmetry {
-    type Error = Error;
-
-    fn try_from(name: String) -> Result<Self, Error> {
-        let known = || Self::ALL.map(Self::name).join(", ");
-        let found = Self::ALL.into_iter().find(|symmetry| symmetry.name() == name);
-        found.ok_or_else(|| Error::unknown_name("symmetry", name, known()))
     }
 }
 

@@ -33,7 +33,7 @@ pub use options::{
     Albedo, Energy, NonFinite, NormalEncoding, NormalY, Order, Preset, ReadOptions, Reflectance, Role,
     Roughness, TileGrid, Workflow,
 };
-pub use photograph::{Photograph, Transfer, read_photograph};
+pub use photograph::{Photograph, read_photograph};
 pub use record::{Assumption, Certainty, Evidence, Ground, Note, Reason, Subject, Unused, What};
 pub use result::{MapContent, Read};
 pub use storage::Storage;

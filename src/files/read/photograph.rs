@@ -3,7 +3,6 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use svbrdf_core::choices;
 use svbrdf_core::image::Image;
 
 use super::decode;
@@ -14,47 +13,17 @@ use crate::read::options::{Albedo, transfer};
 use crate::read::raster::{Raster, Samples};
 use crate::read::record::{Note, Subject};
 
-choices! {
-    /// How the samples of a photograph encode radiance.
-    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-    Transfer, "transfer curve":
-    /// Samples are proportional to radiance.
-    Linear = "linear",
-    /// The curve of IEC 61966-2-1.
-    Srgb = "srgb",
-    /// A power of 2.2.
-    Gamma22 = "gamma2.2",
-}
-
 /// A photograph, turned upright by its EXIF orientation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Photograph {
     /// Linear radiance in a unit of its own; NaN where a channel of a pixel is clipped or not finite.
     pub image: Image<f32>,
-    pub transfer: Transfer,
+    /// How the samples encode radiance.
+    pub transfer: Albedo,
     /// The source of the transfer curve.
     pub transfer_from: &'static str,
     /// Other things that were noticed.
     pub notes: Vec<Note>,
-}
-
-impl Transfer {
-    /// The name in texts.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Srgb => "sRGB",
-            Self::Gamma22 => "gamma 2.2",
-        }
-    }
-
-    fn curve(self) -> Albedo {
-        match self {
-            Self::Linear => Albedo::Linear,
-            Self::Srgb => Albedo::Srgb,
-            Self::Gamma22 => Albedo::Gamma22,
-        }
-    }
 }
 
 /// Reads the photograph `file`: any picture format that opens as a map, gray or RGB. Of an EXR with several layers, the one without a
@@ -63,20 +32,20 @@ impl Transfer {
 ///
 /// # Errors
 /// [`Error::Unreadable`], [`Error::BadImage`].
-pub fn read_photograph(file: &NamedFile, transfer: Option<Transfer>) -> Result<Photograph, Error> {
+pub fn read_photograph(file: &NamedFile, transfer: Option<Albedo>) -> Result<Photograph, Error> {
     let (raster, mut notes) = decode::photograph(file)?;
     inputs::protect(file.path());
     let chunk = |note: &Note| if let Note::LinearChunk(_, chunk) = note { Some(*chunk) } else { None };
     let declared = notes.iter().find_map(chunk);
     let (transfer, transfer_from) = match (transfer, declared) {
         (Some(transfer), _) => (transfer, "as specified"),
-        (None, Some("cICP chunk")) => (Transfer::Linear, "declared by its cICP chunk"),
-        (None, Some("QOI header")) => (Transfer::Linear, "declared by its header"),
-        (None, Some(_)) => (Transfer::Linear, "declared by its gAMA chunk"),
-        (None, None) if raster.is_float() => (Transfer::Linear, "since it stores floats"),
-        (None, None) => (Transfer::Srgb, "since it stores integers"),
+        (None, Some("cICP chunk")) => (Albedo::Linear, "declared by its cICP chunk"),
+        (None, Some("QOI header")) => (Albedo::Linear, "declared by its header"),
+        (None, Some(_)) => (Albedo::Linear, "declared by its gAMA chunk"),
+        (None, None) if raster.is_float() => (Albedo::Linear, "since it stores floats"),
+        (None, None) => (Albedo::Srgb, "since it stores integers"),
     };
-    if transfer == Transfer::Linear {
+    if transfer == Albedo::Linear {
         notes.retain(|note| chunk(note).is_none());
     }
     let mut image = linear(&raster, transfer);
@@ -89,8 +58,7 @@ pub fn read_photograph(file: &NamedFile, transfer: Option<Transfer>) -> Result<P
     Ok(Photograph { image, transfer, transfer_from, notes })
 }
 
-fn linear(raster: &Raster, transfer: Transfer) -> Image<f32> {
-    let curve = transfer.curve();
+fn linear(raster: &Raster, curve: Albedo) -> Image<f32> {
     // A power of a number below 0, which is noise, is NaN.
     let least = if curve == Albedo::Gamma22 { 0.0 } else { f64::NEG_INFINITY };
     let channels = [0, 1, 2].map(|c| &raster.channels[c.min(raster.channels.len() - 1)]);

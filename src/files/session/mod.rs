@@ -18,7 +18,7 @@ use crate::disk::open::NamedFile;
 use crate::disk::paths::{absolute, is_outside, relative};
 use crate::error::Error;
 use crate::photograph::SessionPhotograph;
-use crate::read::ReadOptions;
+use crate::source::{MaterialSource, Place};
 use dataset::SessionDataset;
 use window::SessionWindow;
 
@@ -34,7 +34,7 @@ pub struct Session {
     #[serde(rename = "svbrdf-session")]
     version: u32,
     /// The ground truth first, then the predictions.
-    pub materials: Vec<SessionMaterial>,
+    pub materials: Vec<MaterialSource>,
     pub scene: Scene,
     /// The name of the convention, or the text of one of the user's own. A file may also have the path of such a text.
     pub convention: String,
@@ -52,27 +52,6 @@ pub struct Session {
     pub window: SessionWindow,
 }
 
-/// A material of a session.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct SessionMaterial {
-    /// The name that it is given; `None` for that of its files.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub name: Option<String>,
-    /// Its file, folder or prefix. In a file, it is relative to the folder of the file. `None` for a built-in material.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub path: Option<PathBuf>,
-    /// The number of a built-in material.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub built_in: Option<usize>,
-    /// How it is read; what is not specified is inferred.
-    #[serde(default)]
-    pub read: ReadOptions,
-    /// Whether it is resized to the ground truth.
-    #[serde(default)]
-    pub fit: bool,
-}
-
 impl Session {
     /// Whether `path` is named like a session file.
     pub fn is_named(path: &Path) -> bool {
@@ -80,7 +59,7 @@ impl Session {
     }
 
     /// A session without anything of a window.
-    pub fn new(materials: Vec<SessionMaterial>, scene: Scene, convention: String, exposure: f32) -> Self {
+    pub fn new(materials: Vec<MaterialSource>, scene: Scene, convention: String, exposure: f32) -> Self {
         let (photograph, window) = (None, SessionWindow::default());
         Self { version: VERSION, materials, scene, convention, exposure, photograph, dataset: None, window }
     }
@@ -101,13 +80,15 @@ impl Session {
                 "expected version {VERSION}, found version {version} of a newer program: update this one"
             )));
         }
+        let materials = value.get("materials").and_then(Value::as_array);
+        let is_placed = |one: &Value| one.get("path").is_some() != one.get("built-in").is_some();
+        if !materials.is_none_or(|all| all.iter().all(is_placed)) {
+            return Err(bad("expected a path or the number of a built-in material".to_owned()));
+        }
         let mut session: Self = serde_json::from_str(&text).map_err(|e| bad(of_json(&e)))?;
         session.scene.check().map_err(|problem| bad(format!("the scene cannot be rendered, {problem}")))?;
         if session.materials.is_empty() {
             return Err(bad("expected at least one material, found none".to_owned()));
-        }
-        if session.materials.iter().any(|material| material.path.is_some() == material.built_in.is_some()) {
-            return Err(bad("expected a path or the number of a built-in material".to_owned()));
         }
         for name in session.paths_mut() {
             *name = named(name, path)?;
@@ -120,7 +101,10 @@ impl Session {
 
     /// Every path but that of a convention.
     fn paths_mut(&mut self) -> impl Iterator<Item = &mut PathBuf> {
-        let materials = self.materials.iter_mut().filter_map(|material| material.path.as_mut());
+        let materials = self.materials.iter_mut().filter_map(|material| match &mut material.place {
+            Place::Path(path) => Some(path),
+            Place::BuiltIn(_) => None,
+        });
         let photograph = self.photograph.iter_mut().map(|photograph| &mut photograph.path);
         materials.chain(photograph).chain(self.dataset.iter_mut().flat_map(SessionDataset::paths_mut))
     }
@@ -172,25 +156,20 @@ fn named(name: &Path, session: &Path) -> Result<PathBuf, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::read::{Albedo, Transfer};
+    use crate::read::{Albedo, ReadOptions};
     use std::fs;
     use svbrdf_core::model::scene::Kind;
 
     fn session(paths: &[PathBuf]) -> Session {
         let read = ReadOptions { albedo: Some(Albedo::Srgb), ..ReadOptions::AUTO };
-        let material = |path: &PathBuf| SessionMaterial {
-            name: None,
-            path: Some(path.clone()),
-            built_in: None,
-            read,
-            fit: true,
-        };
+        let material =
+            |path: &PathBuf| MaterialSource { fit: true, ..MaterialSource::path(path.clone(), read) };
         let scene = Scene { kind: Kind::Distant, view: [0.1, 0.2, 1.0], light: [0.3, 0.1, 0.7] };
         Session::new(paths.iter().map(material).collect(), scene, "guided-2020".to_owned(), -0.5)
     }
 
     fn photograph(path: PathBuf) -> SessionPhotograph {
-        SessionPhotograph { path, transfer: Some(Transfer::Srgb), falloff: true }
+        SessionPhotograph { path, transfer: Some(Albedo::Srgb), falloff: true }
     }
 
     #[test]
@@ -210,7 +189,7 @@ mod tests {
         fs::write(&file, text).unwrap();
         fs::rename(&here, &there).unwrap();
         let read = Session::read(&there.join("runs/a.svbrdf-session.json")).unwrap();
-        let found: Vec<_> = read.materials.iter().map(|m| absolute(m.path.as_ref().unwrap())).collect();
+        let found: Vec<_> = read.materials.iter().map(|m| absolute(m.location())).collect();
         assert_eq!(found, [there.join("maps/gt.png"), there.join("p.png")]);
         let moved = [there.join("runs/../maps/gt.png"), there.join("runs/../p.png")];
         let photographed =

@@ -134,7 +134,7 @@ fn paths(session: &Session) -> Vec<&Path> {
         Some(dataset) => dataset.paths().map(PathBuf::as_path).collect(),
         None => {
             let built_in = Path::new("built-in material");
-            session.materials.iter().map(|one| one.path.as_deref().unwrap_or(built_in)).collect()
+            session.materials.iter().map(|one| one.place.path().unwrap_or(built_in)).collect()
         }
     }
 }

@@ -1,14 +1,14 @@
 //! Session of the window: what it starts with, and the comparison that is saved, opened, and remembered for the next start.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use svbrdf_core::loss::FileScenes;
 use svbrdf_files::convention::ChosenConvention;
 use svbrdf_files::photograph::SessionPhotograph;
 use svbrdf_files::read::ReadOptions;
+use svbrdf_files::session::Session;
 use svbrdf_files::session::window::{SessionInspection, SessionWindow};
-use svbrdf_files::session::{Session, SessionMaterial};
 use svbrdf_files::source::{MaterialSource, Place};
 
 use crate::message::Message;
@@ -97,18 +97,12 @@ impl Model {
     /// The current session.
     pub fn session(&self) -> Session {
         let materials = self.materials.all.iter().map(|one| {
-            let (path, built_in) = match &one.read.source.place {
-                Place::Path(path) => (Some(absolute(path)), None),
-                Place::BuiltIn(number) => (None, Some(*number)),
+            let source = &one.read.source;
+            let (place, options) = match &source.place {
+                Place::Path(path) => (Place::Path(absolute(path)), one.read.record.options),
+                Place::BuiltIn(number) => (Place::BuiltIn(*number), ReadOptions::AUTO),
             };
-            let read = if built_in.is_some() { ReadOptions::AUTO } else { one.read.record.options };
-            SessionMaterial {
-                name: one.read.source.name.clone(),
-                path,
-                built_in,
-                read,
-                fit: one.read.source.fit,
-            }
+            MaterialSource { place, options, ..source.clone() }
         });
         let view = &self.view;
         let convention = view.convention.content();
@@ -149,8 +143,7 @@ impl Model {
         let out_of_range = bring_into_range(self).map(Message::Warning);
         self.report(out_of_range);
         self.photograph.set(session.photograph.clone());
-        let sources: Vec<_> = session.materials.iter().map(MaterialSource::of_session).collect();
-        self.read(self.materials.restore(&sources));
+        self.read(self.materials.restore(&session.materials));
     }
 
     /// Remembers the comparison for the next start, unless there are only built-in materials, or some are still being read.
@@ -173,5 +166,5 @@ fn compared_files(session: &Session) -> Vec<PathBuf> {
     if let Some(dataset) = &session.dataset {
         return dataset.paths().cloned().collect();
     }
-    session.materials.iter().filter_map(|material| material.path.clone()).collect()
+    session.materials.iter().filter_map(|material| material.place.path()).map(Path::to_owned).collect()
 }

@@ -13,7 +13,7 @@ use svbrdf_evaluate::photograph::{PhotographComparison, compare, on_texels};
 use svbrdf_files::disk::open::NamedFile;
 use svbrdf_files::disk::stamp::Stamp;
 use svbrdf_files::photograph::SessionPhotograph;
-use svbrdf_files::read::{Photograph, Transfer, read_photograph};
+use svbrdf_files::read::{Albedo, Photograph, read_photograph};
 use svbrdf_gpu::{Gpu, Shaded};
 
 use crate::error::Error;
@@ -29,7 +29,7 @@ struct OpenPhotograph {
     path: PathBuf,
     /// Of the file when it was opened.
     stamp: Option<Stamp>,
-    transfer: Option<Transfer>,
+    transfer: Option<Albedo>,
 }
 
 impl Question for OpenPhotograph {

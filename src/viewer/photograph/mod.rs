@@ -4,7 +4,7 @@ pub mod compared;
 
 use eframe::egui::{self, RichText};
 
-use svbrdf_files::read::Transfer;
+use svbrdf_files::read::Albedo;
 
 use crate::model::material::loaded::LoadedMaterial;
 use crate::model::{Model, opening};
@@ -58,7 +58,7 @@ fn card(
         let combo = egui::ComboBox::from_id_salt("photograph transfer").selected_text(text);
         let response = combo.show_ui(ui, |ui| {
             ui.selectable_value(&mut transfer, None, "auto: by the file");
-            for one in Transfer::ALL {
+            for one in [Albedo::Linear, Albedo::Srgb, Albedo::Gamma22] {
                 ui.selectable_value(&mut transfer, Some(one), one.label());
             }
         });

@@ -11,7 +11,8 @@ use svbrdf_core::error::Error;
 use super::tiles::Order;
 
 choices! {
-    /// Colour space of diffuse, specular and base colour as stored.
+    /// Colour space of diffuse, specular and base colour as stored; also the transfer curve of a photograph, of radiance.
+    #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
     Albedo, "albedo":
     /// The stored value is the reflectance.
     Linear = "linear",
@@ -21,6 +22,18 @@ choices! {
     Gamma22 = "gamma2.2",
     /// (ln(x + 0.01) - ln 0.01) / (ln 1.01 - ln 0.01): the `logOutputAlbedos` of Deschaintre et al. 2018.
     Log = "log0.01",
+}
+
+impl Albedo {
+    /// The name in texts.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Srgb => "sRGB",
+            Self::Gamma22 => "gamma 2.2",
+            Self::Log => "logarithmic",
+        }
+    }
 }
 
 choices! {
