@@ -47,6 +47,11 @@ def test_unnamed_materials_are_numbered_and_alike_names_are_told_apart(tmp_path:
         svbrdf.write(tiles, tmp_path / folder / "m.exr", depth="float")
     report = svbrdf.loss(tiles, [tmp_path / "x" / "m.exr", tmp_path / "y" / "m.exr"])
     assert [result.prediction for result in report.results] == ["x", "y"]
+    # A folder, as on the command line.
+    (tmp_path / "run").mkdir()
+    svbrdf.write(tiles, tmp_path / "run" / "wood.exr", depth="float")
+    report = svbrdf.loss(tiles, f"{tmp_path}/run/", near=2)
+    assert [(result.prediction, result.path) for result in report.results] == [("wood", f"{tmp_path}/run/")]
 
 
 SMALL = svbrdf.Material(**maps(4, 4))
