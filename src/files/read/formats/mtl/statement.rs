@@ -82,7 +82,8 @@ pub(super) fn file_and_options(rest: &str) -> (&str, Vec<String>) {
     (rest, options)
 }
 
-/// The file beside that of the material, or of a path of its own; of a path of another machine the file of the same name, if that is there.
+/// Finds a file that an MTL names: by its path, relative to the MTL or absolute. If nothing is there, as with a path of another machine,
+/// the file of the same name beside the MTL is taken.
 pub(super) fn named_file(name: &str, mtl: &Path) -> NamedFile {
     let slashed = name.replace('\\', "/");
     let last = slashed.rsplit('/').next().unwrap_or_default();

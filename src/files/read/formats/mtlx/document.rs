@@ -130,7 +130,7 @@ impl Mtlx {
         matches!(declared, Some(Ok(Bound::Values { values, .. })) if values.first().is_some_and(|v| *v != 0.0))
     }
 
-    /// The path of a file beside the document, or of a path of its own.
+    /// The path of a file that the document names, relative to the document or absolute.
     pub(super) fn path_of(&self, file: &str) -> PathBuf {
         self.path.parent().unwrap_or(Path::new("")).join(file)
     }

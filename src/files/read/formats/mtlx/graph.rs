@@ -83,7 +83,7 @@ pub(super) enum Obstacle {
     Space(String),
 }
 
-/// The value of a node of this `kind`, each of whose inputs is the `operand` of its name; `None` where it is no affine function of one picture.
+/// The value of a node of this `kind`; `operand` gives each input by its name. `None` unless the value is an affine function of one picture.
 fn affine_value(
     kind: &str,
     operand: impl Fn(&str) -> Result<Option<Bound>, Obstacle>,

@@ -36,8 +36,10 @@ pub(crate) enum Wanted<'a> {
     SetOf(&'a str),
 }
 
-/// The set of the one material among the files `names` of `folder` that is `wanted`: of all of them the only one that is complete with
-/// what is `bound` already. Its name is that of `path`, which the user gave, or of the words that its files have in common.
+/// Chooses the files of one material among the files `names` of `folder`.
+///
+/// Where all materials are `wanted`, exactly one of them must be complete, counting the roles that are `bound` already. The set is named
+/// after `path`, which the user gave, or after the words that its files share.
 ///
 /// # Errors
 /// [`Error::NotAMaterial`] where there are several materials, or two files for a map.
