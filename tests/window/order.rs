@@ -33,6 +33,8 @@ fn the_fold_of_predictions_has_the_answer_of_the_command_line_in_the_convention_
         let chosen = ChosenConvention::read(convention).unwrap();
         edit(&mut window, |model| model.use_convention(chosen));
         if convention == "printed" {
+            // The rows of losses that arrive move what is below them, under the pointer.
+            wait(&mut window, "the losses", |app| app.losses().is_some());
             click(&mut window, TITLE);
         }
         wait(&mut window, "the answer", |app| report(app).is_some());
