@@ -1,4 +1,4 @@
-//! What reports have in common: their settings, how to repeat them, and accuracies that are not reached.
+//! Settings of reports, the command that repeats them, and accuracies that are not reached.
 
 use serde::Serialize;
 
