@@ -46,6 +46,10 @@ pub fn ui(ui: &mut egui::Ui, Shown { model, jobs }: Shown<'_>, next: &mut Model)
                 ui.selectable_value(chosen, Some(name.clone()), name);
             }
         });
+        if cfg!(target_os = "macos") {
+            ui.separator();
+            ui.label("A wide screen may display colours as Display P3: too saturated. Saved PNG files are right.");
+        }
     });
     adapters.response.on_hover_text("That of the next start; `--adapter` counts before it");
 }
