@@ -8,7 +8,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value};
 use svbrdf_evaluate::analyses::{ANALYSES as DECLARED, AnyAnalysis};
-use svbrdf_evaluate::report::OptionValue;
+use svbrdf_evaluate::report::{OptionValue, SCENE_OPTIONS};
 use svbrdf_evaluate::schema;
 
 const TYPES: &str = r#""""The types of reports: the keys of their JSON."""
@@ -34,35 +34,6 @@ from ._progress import Report as Progress
 const OF_COMMAND_LINE: [&str; 3] = ["info", "photo", "conform"];
 /// The package has a class with arrays for this.
 const OF_PACKAGE: &str = "MapReport";
-/// The options of scenes and precision: name, type and description.
-const SCENES: [(&str, &str, &str); 9] = [
-    (
-        "near",
-        "int",
-        "The number of sampled near-field scenes; two for each distant one where only those are given.",
-    ),
-    ("distant", "int", "The number of sampled distant scenes; one for two near-field ones."),
-    (
-        "sampler",
-        r#"Literal["random", "sobol"]"#,
-        r#"Of the scenes: "random", or "sobol", which gives less error with as many scenes."#,
-    ),
-    ("seed", "int", "Names the sampled scenes; None: 0."),
-    ("scenes", "Scenes", "These scenes, or those of a file."),
-    (
-        "texels",
-        r#"int | Literal["all"]"#,
-        r#""all", or the number of random texels that are compared in each scene."#,
-    ),
-    (
-        "target_error",
-        "float",
-        "As many scenes as this relative error needs at 95% confidence, as a share of at most 0.1: 0.01 is 1%.",
-    ),
-    ("time_budget", "float", "As many scenes as fit into this time, in seconds."),
-    ("precision", "Precision", r#""f32", or "f64" for reference, which is many times slower."#),
-];
-
 type Parts = Map<String, Value>;
 
 #[allow(clippy::disallowed_methods, reason = "a build script writes into its own package")]
@@ -186,15 +157,26 @@ fn arguments(analysis: &AnyAnalysis) -> Vec<[String; 3]> {
         };
         [option.name.to_owned(), kind, format!("{}.", option.about)]
     });
-    let scenes = SCENES.iter().filter(|(name, ..)| analysis.scenes.contains(name));
-    let scenes = scenes.map(|(name, kind, about)| {
-        let kind = match *name {
-            "precision" => format!(r#"{kind} = "f32""#),
-            _ => format!("{kind} | None = None"),
-        };
-        [(*name).to_owned(), kind, (*about).to_owned()]
-    });
-    own.chain(scenes).collect()
+    own.chain(analysis.scenes.iter().map(|name| of_scenes(name))).collect()
+}
+
+/// The same of an option of scenes or precision.
+fn of_scenes(name: &str) -> [String; 3] {
+    let (kind, unit) = match name {
+        "near" | "distant" | "seed" => ("int", ""),
+        "sampler" => (r#"Literal["random", "sobol"]"#, ""),
+        "scenes" => ("Scenes", ""),
+        "texels" => (r#"int | Literal["all"]"#, ""),
+        "target_error" => ("float", ", as a share of at most 0.1: 0.01 is 1%"),
+        "time_budget" => ("float", ", in seconds"),
+        _ => ("Precision", ""),
+    };
+    let declared = SCENE_OPTIONS.iter().find(|option| option[0] == name);
+    let [_, about, open] = declared.unwrap_or(&["", "These scenes, or those of a file", ""]);
+    let open = if open.is_empty() { String::new() } else { format!("; None: {open}") };
+    let default = if name == "precision" { r#" = "f32""# } else { " | None = None" };
+    let about = format!("{about}{unit}{open}.").replace(['{', '}'], "");
+    [name.to_owned(), format!("{kind}{default}"), about]
 }
 
 /// The function of an analysis.

@@ -2,8 +2,8 @@
 
 use std::marker::PhantomData;
 use std::path::PathBuf;
-use std::time::Duration;
 
+use clap::builder::ValueParser;
 use clap::{Arg, ArgMatches, Args as _, Command, FromArgMatches};
 
 use svbrdf_core::loss::{FileScenes, LossOptions, Precision, Texels};
@@ -11,67 +11,49 @@ use svbrdf_core::model::named_scenes::NamedScenes;
 use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_evaluate::analyses::RankReport;
-use svbrdf_evaluate::report::Analysis as _;
+use svbrdf_evaluate::report::{Analysis as _, SCENE_OPTIONS};
 use svbrdf_files::scene_file;
 
 use super::values::{degrees, duration, percent, stops, triple, whole};
 use super::{offered, refuse};
 use crate::cli::output::CommandError;
 
-/// All options that decide scenes, texels and precision; a command has some of them.
-#[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Scenes")]
-struct AllSceneArgs {
-    /// Samples as many scenes as this relative error of every loss needs at 95% confidence [default: 1%]
-    #[arg(long, value_name = "PERCENT", value_parser = percent, allow_hyphen_values = true)]
-    target_error: Option<f64>,
-
-    /// Number of near-field scenes [default: 128; with --distant two for each distant one]
-    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
-    near: Option<usize>,
-
-    /// Number of distant scenes [default: 64; with --near one for two near-field ones]
-    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
-    distant: Option<usize>,
-
-    /// Sampler of scenes: random, or sobol, which gives less error with as many scenes [default: sobol]
-    #[arg(long, value_name = "random|sobol")]
-    #[arg(value_parser = offered(str::parse::<Sampler>, ["random", "sobol"]), hide_possible_values = true)]
-    sampler: Option<Sampler>,
-
-    /// Seed of the sampled scenes [default: 0]
-    #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
-    seed: Option<u64>,
-
-    #[command(flatten)]
-    list: ListArgs,
-
-    /// Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size
-    /// [default: 32; with --near or --distant all]
-    #[arg(long, value_name = "all|N", allow_negative_numbers = true)]
-    #[arg(value_parser = offered(str::parse::<Texels>, ["all"]), hide_possible_values = true)]
-    texels: Option<Texels>,
-
-    /// Samples as many scenes as fit into this time, such as 500ms or 2s
-    #[arg(long, value_name = "TIME", value_parser = duration, allow_hyphen_values = true)]
-    time_budget: Option<Duration>,
-
-    /// Floating-point precision
-    #[arg(help_heading = None::<&str>, long, value_name = "f32|f64", default_value = "f32")]
-    #[arg(value_parser = offered(str::parse::<Precision>, ["f32", "f64"]), hide_possible_values = true)]
-    precision: Precision,
-}
-
 /// The arguments of options by name, in this order; `scenes` has those of named scenes, too.
 pub fn arguments(options: &[&str]) -> Vec<Arg> {
-    fn option(arg: &Arg) -> &str {
-        let id = arg.get_id().as_str();
-        if ["lights", "fov"].contains(&id) { "scenes" } else { id }
-    }
-    let all = AllSceneArgs::augment_args(Command::new("all"));
-    let named = |name| all.get_arguments().filter(move |arg| option(arg) == name).cloned();
-    let all = options.iter().flat_map(|name| named(*name)).enumerate();
+    let list = ListArgs::augment_args(Command::new("list"));
+    let of = |name: &&str| match SCENE_OPTIONS.iter().find(|option| option[0] == *name) {
+        Some(option) => vec![argument(*option)],
+        None => list.get_arguments().cloned().collect(),
+    };
+    let all = options.iter().flat_map(of).enumerate();
     all.map(|(order, arg)| arg.display_order(order)).collect()
+}
+
+fn argument([name, about, open]: [&'static str; 3]) -> Arg {
+    let default = if open.is_empty() { String::new() } else { format!(" [default: {open}]") };
+    let help = |example: &str| format!("{about}{example}{default}").replace('{', "--").replace('}', "");
+    let arg = Arg::new(name).long(name.replace('_', "-")).help_heading("Scenes").help(help(""));
+    let arg = arg.hide_possible_values(true).allow_negative_numbers(true);
+    match name {
+        "target_error" => {
+            arg.value_name("PERCENT").value_parser(ValueParser::new(percent)).allow_hyphen_values(true)
+        }
+        "time_budget" => {
+            let arg = arg.value_name("TIME").value_parser(ValueParser::new(duration));
+            arg.allow_hyphen_values(true).help(help(", such as 500ms or 2s"))
+        }
+        "sampler" => {
+            let sampler = offered(str::parse::<Sampler>, ["random", "sobol"]);
+            arg.value_name("random|sobol").value_parser(sampler)
+        }
+        "texels" => arg.value_name("all|N").value_parser(offered(str::parse::<Texels>, ["all"])),
+        "precision" => {
+            let precision = offered(str::parse::<Precision>, ["f32", "f64"]);
+            arg.value_name("f32|f64").value_parser(precision).default_value("f32").help_heading(None::<&str>)
+        }
+        "seed" => arg.value_name("N").value_parser(ValueParser::new(whole::<u64>)),
+        _ => arg.value_name("N").value_parser(ValueParser::new(whole::<usize>)),
+    }
 }
 
 /// The options of `matches`, which may lack some arguments.

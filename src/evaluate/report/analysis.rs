@@ -129,6 +129,28 @@ pub enum OptionValue {
     Words(fn() -> Vec<&'static str>),
 }
 
+/// The options that decide scenes, texels and precision, but for a list of scenes: a field of
+/// [`LossOptions`](svbrdf_core::loss::LossOptions) or `precision`, what it is, and what counts where it is left open. Other options stand in
+/// braces.
+pub const SCENE_OPTIONS: [[&str; 3]; 8] = [
+    [
+        "target_error",
+        "Samples as many scenes as this relative error of every loss needs at 95% confidence",
+        "1%",
+    ],
+    ["near", "Number of near-field scenes", "128; with {distant} two for each distant one"],
+    ["distant", "Number of distant scenes", "64; with {near} one for two near-field ones"],
+    ["sampler", "Sampler of scenes: random, or sobol, which gives less error with as many scenes", "sobol"],
+    ["seed", "Seed of the sampled scenes", "0"],
+    [
+        "texels",
+        "Compares all texels, or an independent random subset of N texels per scene, which is fast on maps of any size",
+        "32; with {near} or {distant} all",
+    ],
+    ["time_budget", "Samples as many scenes as fit into this time", ""],
+    ["precision", "Floating-point precision: f32, or f64 for reference, which is many times slower", ""],
+];
+
 /// What has a JSON Schema where the feature `schema` is on: all reports.
 #[cfg(feature = "schema")]
 pub use schemars::JsonSchema as Schematic;

@@ -29,7 +29,9 @@ mod latex;
 mod names;
 mod table;
 
-pub use analysis::{Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, Schematic};
+pub use analysis::{
+    Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, SCENE_OPTIONS, Schematic,
+};
 pub use conform::ConformReport;
 pub use heading::{Compared, Repetition, floor_line, missed, missed_by_any, position, scenes_line};
 pub use info::InfoReport;

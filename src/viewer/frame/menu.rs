@@ -48,7 +48,9 @@ pub fn ui(ui: &mut egui::Ui, Shown { model, jobs }: Shown<'_>, next: &mut Model)
         });
         if cfg!(target_os = "macos") {
             ui.separator();
-            ui.label("A wide screen may display colours as Display P3: too saturated. Saved PNG files are right.");
+            ui.label(
+                "A wide screen may display colours as Display P3: too saturated. Saved PNG files are right.",
+            );
         }
     });
     adapters.response.on_hover_text("That of the next start; `--adapter` counts before it");
