@@ -203,3 +203,19 @@ fn copy_puts_on_the_clipboard_what_the_command_line_prints() {
     assert_eq!(copied, String::from_utf8(output.stdout).unwrap());
     assert!(copied.contains("wrong roughness - blurred normals"), "{copied}");
 }
+
+/// Lengths that the code of a convention renders, and this program does not.
+#[needs(adapter)]
+fn losses_of_stored_normals_of_another_length_have_a_note() {
+    let folder = tempfile::tempdir().unwrap();
+    let paths = ["gt.png", "a.png"].map(|name| folder.path().join(name));
+    write_packed(&paths[0], 8, |_, _, _| [150, 140, 180]);
+    write_packed(&paths[1], 8, |_, _, _| [150, 150, 180]);
+    let mut window = on_files(paths);
+    let has_note =
+        |window: &Window<'_>| window.query_all_by_label_contains("normals as stored").next().is_some();
+    wait(&mut window, "the loss", |app| app.losses().is_some());
+    assert!(!has_note(&window));
+    choose(&mut window, "Convention", "svbrdf-estimation-2022");
+    see(&mut window, "normals as stored");
+}

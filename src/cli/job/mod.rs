@@ -9,10 +9,10 @@ use std::path::PathBuf;
 use svbrdf_core::loss::Request;
 use svbrdf_core::math::real::Real;
 use svbrdf_core::model::convention::Convention;
-use svbrdf_evaluate::report::AnalysisInput;
+use svbrdf_evaluate::report::{AnalysisInput, stored_normals_note};
 
 use super::args::{ComparisonArgs, Specified};
-use super::output::CommandError;
+use super::output::{CommandError, exit};
 pub use materials::{MaterialJob, OpenedMaterials, check_heights};
 pub use session::SessionSettings;
 
@@ -61,13 +61,16 @@ impl ComparisonJob {
     }
 }
 
-/// What an analysis of the `opened` materials takes.
+/// What an analysis of the `opened` materials takes. Tells where losses leave out the lengths of stored normals.
 pub fn input<'a, T: Real>(
     opened: &'a OpenedMaterials<T>,
     materials: &MaterialJob,
     convention: Convention,
     request: Request,
 ) -> AnalysisInput<'a, T> {
+    if let Some(note) = stored_normals_note(&convention, &opened.storages) {
+        exit::tell(&format!("note: {note}"));
+    }
     AnalysisInput {
         ground_truth: &opened.ground_truth,
         predictions: opened.predictions.iter().collect(),

@@ -5,7 +5,7 @@
 use serde::Serialize;
 
 use super::grammar::RendererTerms;
-use super::grammar::words::Norm;
+use super::grammar::words::{Norm, Normals};
 
 /// The numbers and switches in which the published variants of the rendering loss differ.
 ///
@@ -118,6 +118,12 @@ impl Convention {
     /// What adapters and pages draw: the convention itself, or the nearest one of a member.
     pub fn drawn(&self) -> Self {
         self.member.map_or(*self, |member| *member.nearest)
+    }
+
+    /// Whether the authors' code renders normals as stored. Those of a [`Material`](crate::material::Material) have length 1.
+    pub fn has_stored_normals(&self) -> bool {
+        let is_stored = |member: &Member| member.terms.material.normal == Normals::Stored;
+        self.member.map_or(self.name == SINGLE_IMAGE_2018.name, is_stored)
     }
 
     /// How renderings are compared.

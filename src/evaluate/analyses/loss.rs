@@ -26,6 +26,9 @@ pub struct LossReport {
     /// How many texels the mask keeps; `None` without one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) masked: Option<usize>,
+    /// Where the convention renders normals as stored, and their lengths differ from 1: that losses are of normalized ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
     #[serde(flatten)]
     pub sampled: SampledScenes,
     /// The source of all intervals.
@@ -148,6 +151,7 @@ impl LossReport {
             precision: T::NAME,
             size,
             masked: None,
+            note: None,
             sampled: SampledScenes::of(&outcome, size),
             interval95_from: outcome.interval_source(),
             target_error,

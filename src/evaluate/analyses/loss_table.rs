@@ -4,6 +4,7 @@ use super::loss::{FewScenes, LossDifference, LossReport, PredictionLoss};
 use crate::error::Error;
 use crate::report::{
     Analysis, AnalysisInput, Cell, Field, NoOptions, Reader, Report, Table, missed_by_any, scenes_line,
+    stored_normals_note,
 };
 use svbrdf_core::loss::{Comparison, Compute, check_same_size};
 use svbrdf_core::material::Material;
@@ -172,10 +173,12 @@ impl Analysis for LossReport {
 impl LossReport {
     fn asked<T: Compute>(
         comparison: &Comparison<'_, T>,
-        AnalysisInput { request, few_scenes, paths, .. }: &AnalysisInput<'_, T>,
+        AnalysisInput { request, few_scenes, paths, storages, convention, .. }: &AnalysisInput<'_, T>,
         progress: &Progress,
     ) -> Result<Self, Error> {
-        Ok(Self::answer(comparison, request, *few_scenes, progress)?.read_from(paths))
+        let mut report = Self::answer(comparison, request, *few_scenes, progress)?.read_from(paths);
+        report.note = stored_normals_note(convention, storages.iter().copied());
+        Ok(report)
     }
 
     fn of<T: Compute>(input: &AnalysisInput<'_, T>, progress: &Progress) -> Result<Self, Error> {

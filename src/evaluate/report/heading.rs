@@ -12,6 +12,7 @@ use svbrdf_core::model::sampler::Sampler;
 use svbrdf_core::model::scene::{Kind, Scene};
 use svbrdf_core::text::percent;
 use svbrdf_files::disk::atomic::SOFTWARE;
+use svbrdf_files::read::Storage;
 
 /// The ground truth of a report, and the convention of its losses.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -70,6 +71,21 @@ pub fn floor_line(floor: &Estimate) -> String {
         "floor of the ground truth {:.6}: smaller losses and differences are not resolvable\n",
         floor.mean
     )
+}
+
+/// What the losses of a convention that renders normals as stored leave out: a sentence, where stored lengths are not 1.
+pub fn stored_normals_note<'a>(
+    convention: &Convention,
+    storages: impl IntoIterator<Item = &'a Storage>,
+) -> Option<String> {
+    let off = storages.into_iter().map(|storage| storage.off_unit).fold(0.0, f64::max);
+    (off > 0.0 && convention.has_stored_normals()).then(|| {
+        format!(
+            "{} renders normals as stored. Their lengths differ from 1 by {off:.3} on average, and are made 1 here: losses differ from \
+             those of the authors' code",
+            convention.name
+        )
+    })
 }
 
 /// A position or direction as people read it.

@@ -33,7 +33,9 @@ pub use analysis::{
     Analysis, AnalysisInput, AnalysisOption, NoOptions, OptionValue, SCENE_OPTIONS, Schematic,
 };
 pub use conform::ConformReport;
-pub use heading::{Compared, Repetition, floor_line, missed, missed_by_any, position, scenes_line};
+pub use heading::{
+    Compared, Repetition, floor_line, missed, missed_by_any, position, scenes_line, stored_normals_note,
+};
 pub use info::InfoReport;
 pub use latex::{bold, escaped, float, latex};
 pub use names::distinct_names;

@@ -11,7 +11,7 @@ use svbrdf_core::material::Material;
 use crate::disk::memory::Reserved;
 use crate::error::{Error, Guess};
 use crate::read::options::{NormalY, ReadOptions, Role, Roughness};
-use crate::read::raster::{Raster, Samples, measure};
+use crate::read::raster::{Raster, Samples, measure, step};
 use crate::read::record::{Assumption, Certainty, Note, What};
 use crate::read::storage::Storage;
 use crate::read::stored::{StoredMap, StoredMaterial};
@@ -84,11 +84,13 @@ impl<T> Read<T> {
         };
         let colours = encoding(What::Albedo);
         let has_specular = self.maps.iter().any(|map| map.map == Role::Specular);
+        let off_unit = |note: &Note| if let Note::NormalLengths(off) = note { Some(*off) } else { None };
         let is_colour = |role| matches!(role, Role::Diffuse | Role::Base | Role::Metallic);
         Storage {
             colours,
             specular: if has_specular { encoding(What::Specular) } else { colours },
             base_colour: !has_specular,
+            off_unit: self.notes.iter().find_map(off_unit).unwrap_or(0.0),
             normal_down: chosen(What::NormalY) == Some(NormalY::Down.name()),
             roughness: chosen(What::Roughness).and_then(|name| name.parse().ok()).unwrap_or(Roughness::R),
             // Assumed only where diffuse is not scaled.
@@ -100,16 +102,6 @@ impl<T> Read<T> {
                 step(&|role| role == Role::Roughness),
             ],
         }
-    }
-}
-
-/// The distance between two stored values; halves have 11 bits at 1, floats count as exact.
-fn step(depth: &str) -> f64 {
-    match depth {
-        "8-bit" => 1.0 / 255.0,
-        "16-bit" => 1.0 / 65_535.0,
-        "half" => 1.0 / 2048.0,
-        _ => 0.0,
     }
 }
 

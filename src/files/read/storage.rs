@@ -14,6 +14,8 @@ pub struct Storage {
     pub base_colour: bool,
     /// Whether y of normals was read as pointing down.
     pub normal_down: bool,
+    /// How far the lengths of the stored normals are from 1 on average, where more than rounding explains; else 0.
+    pub off_unit: f64,
     /// The reading of roughness values; r where it is not known.
     pub roughness: Roughness,
     /// Whether diffuse was read as not scaled by (1 - specular).
@@ -66,6 +68,7 @@ impl Default for Storage {
             specular: None,
             base_colour: false,
             normal_down: false,
+            off_unit: 0.0,
             roughness: Roughness::R,
             unscaled: false,
             steps: [1.0 / 255.0; 4],

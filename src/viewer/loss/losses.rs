@@ -9,7 +9,7 @@ use svbrdf_core::loss::{Comparison, Estimate, Loss, Outcome, Request};
 use svbrdf_core::material::Material;
 use svbrdf_core::model::convention::Convention;
 use svbrdf_evaluate::analyses::LossReport;
-use svbrdf_evaluate::report::{Reader, Report as _};
+use svbrdf_evaluate::report::{Reader, Report as _, stored_normals_note};
 use svbrdf_evaluate::robust::RobustReport;
 
 use crate::error::Error;
@@ -66,13 +66,16 @@ impl Question for ComputeLosses {
 
     /// Tells of the losses on the way.
     fn answer(&self, work: &Work<'_, ComputedLosses>) -> Result<ComputedLosses, Error> {
-        let named = self.names.0.iter().zip(read_all(&self.materials)?);
+        let read = read_all(&self.materials)?;
+        let note = stored_normals_note(&self.convention, read.iter().map(|one| &one.storage));
+        let named = self.names.0.iter().zip(&read);
         let materials: Vec<Material<f32>> =
             named.map(|(name, read)| read.material().clone().renamed(name.clone())).collect();
         let materials: Vec<&Material<f32>> = materials.iter().collect();
         let comparison = Comparison::new(materials[0], &materials[1..], self.convention)?;
         let report = |outcome: Outcome| {
-            let report = LossReport::new(&comparison, &self.request, outcome);
+            let mut report = LossReport::new(&comparison, &self.request, outcome);
+            report.note.clone_from(&note);
             ComputedLosses { request: self.request.clone(), differences: differences(&report), report }
         };
         let mut last = None;

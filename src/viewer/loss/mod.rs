@@ -58,6 +58,9 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
             let slots = materials.predictions().iter().map(|one| one.slot).collect();
             let results = Results { latest, chosen, slots, stale: materials.stale_predictions() };
             results.ui(ui, next);
+            if let Some(note) = &latest.report.note {
+                ui.label(RichText::new(format!("Note: {note}.")).small().weak());
+            }
         });
     }
 }

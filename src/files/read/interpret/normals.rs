@@ -10,8 +10,8 @@ use super::values::decide;
 use crate::error::Error;
 use crate::read::options::{NormalEncoding, NormalY, ReadOptions};
 use crate::read::raster::measure::{self, NORMAL_AT_LEAST};
-use crate::read::raster::{Raster, Samples};
-use crate::read::record::{Assumption, Certainty, Reason, What};
+use crate::read::raster::{self, Raster, Samples};
+use crate::read::record::{Assumption, Certainty, Note, Reason, What};
 use crate::read::stored::{Inferred, StoredMaterial};
 
 /// Shorter vectors have no direction: the gray of 127 or 128 is one of length 0.007.
@@ -28,6 +28,9 @@ const UP: f64 = 0.1;
 
 /// Share of the texels of an unsigned map that filters may have made negative.
 const OVERSHOOT: f64 = 0.1;
+
+/// From this mean distance of the lengths from 1 it is noted: beside it, losses of renderers that do not normalize are right.
+const OFF_UNIT: f64 = 1e-3;
 
 /// Squared sine of the slope above which z is visibly below 1.
 const STEEP: f64 = 0.05;
@@ -65,6 +68,10 @@ pub(super) fn planes<T: Real>(
         decide(&mut found.assumptions, What::NormalEncoding, options.normal_encoding, defined, || {
             (encoding, why, certainty)
         });
+    let off = off_unit(raster, encoding);
+    if off > OFF_UNIT {
+        found.notes.push(Note::NormalLengths(off));
+    }
     let y = normal_y(raster, encoding, found, heights, options);
     let (mut planes, missing) = decoded::<T>(raster, encoding, y);
     if missing > 0 {
@@ -199,6 +206,20 @@ fn vector_of([x, y, z]: [f64; 3], encoding: NormalEncoding, two: bool) -> [f64; 
         NormalEncoding::Signed => [x, y, z],
         NormalEncoding::Xy | NormalEncoding::Ag => with_z(signed(x), signed(y)),
     }
+}
+
+/// How far the lengths of the stored vectors are from 1 on average, beyond the rounding of their codes; 0 where z is not stored.
+fn off_unit(raster: &Raster, encoding: NormalEncoding) -> f64 {
+    if raster.channels.len() < 3 || matches!(encoding, NormalEncoding::Xy | NormalEncoding::Ag) {
+        return 0.0;
+    }
+    // Of a code half a step is unknown, of a component between -1 and 1 twice as much.
+    let rounding = 3.0_f64.sqrt() * raster::step(raster.depth);
+    let off = |i: usize| {
+        let length = vector(raster, encoding, i).iter().map(|c| c * c).sum::<f64>().sqrt();
+        if length.is_finite() { ((length - 1.0).abs() - rounding).max(0.0) } else { 1.0 }
+    };
+    raster.sampled().map(off).sum::<f64>() / raster.sampled().count().max(1) as f64
 }
 
 fn normal_y(

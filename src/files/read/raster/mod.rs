@@ -25,6 +25,16 @@ pub(crate) struct Raster {
     pub to_rec709: Option<DMat3>,
 }
 
+/// The distance between two stored values; halves have 11 bits at 1, floats count as exact.
+pub(super) fn step(depth: &str) -> f64 {
+    match depth {
+        "8-bit" => 1.0 / 255.0,
+        "16-bit" => 1.0 / 65_535.0,
+        "half" => 1.0 / 2048.0,
+        _ => 0.0,
+    }
+}
+
 impl Raster {
     /// The part of `size` (width, height) whose top left corner is at `corner` (column, row).
     pub(crate) fn crop(&self, corner: [usize; 2], size: [usize; 2]) -> Self {

@@ -119,15 +119,18 @@ pub enum Note {
         layer_name(layer), data[0], data[1], display[0], display[1]
     )]
     PartialData { layer: String, data: [usize; 2], display: [usize; 2] },
+    /// How far the lengths of stored normals are from 1 on average, beyond the rounding of their codes.
+    #[display("The lengths of the stored normals differ from 1 by {_0:.4} on average; they are normalized.")]
+    NormalLengths(f64),
     /// The material was resized to the size of the ground truth.
     #[display("Resized from {} x {} to the {} x {} of the ground truth.", from[0], from[1], to[0], to[1])]
     Resized { from: [usize; 2], to: [usize; 2] },
 }
 
 impl Note {
-    /// Whether a user need not be told unless they ask: a file is the map that its name or the user specifies.
+    /// Whether a user need not be told unless they ask: a file is the map that its name or the user specifies, or normals are normalized.
     pub fn is_routine(&self) -> bool {
-        matches!(self, Self::MapFile { .. } | Self::MapSpecified { .. })
+        matches!(self, Self::MapFile { .. } | Self::MapSpecified { .. } | Self::NormalLengths(_))
     }
 
     /// Whether it reports that something is ignored or changed that may alter the look of the material.
