@@ -100,23 +100,6 @@ fn the_readout_has_the_value_of_every_material_in_whichever_pane_the_pointer_is(
     assert_eq!(window.view().display.prediction, 0, "the pointer chooses none");
 }
 
-#[needs(adapter)]
-fn a_pane_in_false_colours_has_a_scale_and_differences_have_that_of_the_legend() {
-    let mut window = with_differences();
-    let scales = |window: &Window<'_>| {
-        let displayed = window.displayed();
-        let has_scale = |one| svbrdf_viewer::pane::marks::has_scale(&displayed, one);
-        displayed.contents().into_iter().map(has_scale).collect::<Vec<_>>()
-    };
-    assert_eq!(scales(&window), [false; 3], "the legend has the colours");
-    press(&mut window, egui::Key::D);
-    for key in [egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::M, egui::Key::V] {
-        assert_eq!(scales(&window), [false; 3], "values have their own colours");
-        press(&mut window, key);
-    }
-    assert_eq!(scales(&window), [true; 3]);
-}
-
 /// The FLIP of both predictions in the scene and at the exposure of the window, as the mean of three equal channels.
 fn flips(window: &Window<'_>) -> [Vec<f32>; 2] {
     let view = window.view();

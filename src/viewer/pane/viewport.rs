@@ -14,11 +14,11 @@ use crate::pane::Displayed;
 use crate::pane::draft::DraftPolicy;
 use crate::pane::gestures::{self, Gesture};
 use crate::pane::gpu_view::GpuView;
+use crate::pane::handles;
 use crate::pane::placed::Placed;
 use crate::pane::placed::{TITLE, cells, columns, picture_rect};
 use crate::pane::scenery::{Hovered, PaneContent, PhotographUse, texels};
 use crate::pane::title::{empty_pane, title_bar};
-use crate::pane::{handles, marks};
 use crate::widgets::paint::{note, paint_hint};
 use crate::widgets::theme;
 
@@ -183,9 +183,6 @@ impl Viewport {
         }
         if content.mode == DisplayMode::Wipe(state.display.wipe * 2.0 - 1.0) {
             handles::paint_wipe(&painter, rect, state.display.wipe);
-        }
-        if marks::has_scale(shown, content) {
-            marks::paint(&painter, rect);
         }
         if let (2.., Some(one)) = (gpu.reduction(), shown.materials().first()) {
             let grid = one.grid();
