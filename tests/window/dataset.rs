@@ -1,7 +1,7 @@
 //! A data set in the window.
 
 mod files;
-mod sheet;
+mod table;
 
 use svbrdf_core::model::convention::Convention;
 use svbrdf_core::model::scene::Endpoint;
@@ -50,10 +50,18 @@ fn dataset([gt, ours, theirs]: [PathBuf; 3], results: Option<PathBuf>) -> OpenDa
         .unwrap()
 }
 
-/// The window on a data set, once its losses are there.
+/// The window on a data set, once its losses are there: the panes, and the table beside them.
 fn on_dataset<'a>(dataset: &OpenDataset) -> Window<'a> {
-    let mut window =
-        window(ViewerOptions { dataset: Some(Box::new(dataset.clone())), ..ViewerOptions::default() });
+    let mut window = on_table(dataset);
+    edit(&mut window, |model| model.dataset.show_table(false));
+    window
+}
+
+/// The window on the table of a data set, once its losses are there.
+fn on_table<'a>(dataset: &OpenDataset) -> Window<'a> {
+    let dataset = Some(Box::new(dataset.clone()));
+    let mut window = window(ViewerOptions { dataset, ..ViewerOptions::default() });
+    assert!(window.model().dataset.table.has_pictures);
     wait_for_losses(&mut window);
     window
 }

@@ -2,7 +2,7 @@
 
 use image::codecs::jpeg::JpegEncoder;
 
-use svbrdf_viewer::dataset::pictures::SheetCell;
+use svbrdf_viewer::dataset::pictures::MatrixCell;
 use svbrdf_viewer::dataset::{losses, pictures, summary};
 
 use super::materials::{SIDE, sample};
@@ -109,11 +109,9 @@ fn the_picture_of_a_data_set() {
     wait(&mut window, "all losses", |app| losses::ask(app.shown()).count() == 9);
     tab(&mut window, "Methods");
     click(&mut window, "Light and view");
-    window.key_press(egui::Key::S);
-    window.run_steps(4);
-    edit(&mut window, |model| model.dataset.set_cell(142.0));
+    edit(&mut window, |model| model.dataset.table.cell = Some(142.0));
     wait(&mut window, "the summary", |app| summary::drawn(app.shown()).is_some());
-    let cell = SheetCell { case: 4, column: 2 };
+    let cell = MatrixCell { case: 4, column: 2 };
     wait(&mut window, "the cells", |app| {
         pictures::latest(app.shown()).is_some_and(|sheet| sheet.part(cell).is_some())
     });

@@ -5,7 +5,6 @@ use std::time::Duration;
 
 use rayon::prelude::*;
 
-use svbrdf_core::loss::Estimate;
 use svbrdf_evaluate::dataset::{
     DatasetSettings, Evaluation, MaterialResult, Pick, PredictionResult, counted_loss,
 };
@@ -18,7 +17,6 @@ use crate::jobs::answers::{Answer, Answered, Pace, Question, Work};
 use crate::jobs::work::threads;
 use crate::model::dataset::list::CaseLosses;
 use crate::model::dataset::{InSight, OpenDataset};
-use crate::model::material::loaded::LoadedMaterial;
 
 /// Of several predictions of a material, the first is the one that counts and that the window shows.
 pub const PICK: Pick = Pick::Fixed;
@@ -47,6 +45,24 @@ impl DatasetLosses {
     /// The number of materials whose losses are known.
     pub fn count(&self) -> usize {
         self.results().count()
+    }
+
+    /// The causes that the diagnosis of a prediction found, the largest share first.
+    pub fn causes(&self, case: usize, method: &str) -> impl Iterator<Item = &str> {
+        let all = self.result(case).into_iter().flat_map(|result| &result.predictions);
+        let marks = all.filter(move |one| one.method == method).flat_map(|one| one.marks.iter().flatten());
+        marks.map(|mark| mark.hypothesis.as_str())
+    }
+
+    /// The cause that explains most of the loss of any prediction of a material.
+    pub fn cause(&self, case: usize) -> Option<String> {
+        let marks = self.result(case)?.predictions.iter().flat_map(|one| one.marks.iter().flatten());
+        let most = marks.max_by(|a, b| a.share.total_cmp(&b.share))?;
+        Some(format!("{} {:.0}%", most.hypothesis, 100.0 * most.share))
+    }
+
+    fn result(&self, case: usize) -> Option<&MaterialResult> {
+        self.all.get(case)?.as_deref().map(|(result, _)| result)
     }
 
     pub fn results(&self) -> impl Iterator<Item = &MaterialResult> {
@@ -104,16 +120,6 @@ pub fn ask(shown: Shown<'_>) -> Arc<Answered<DatasetLosses>> {
         }
     });
     found.unwrap_or_else(|| Arc::new(Answered { answer: DatasetLosses::default(), elapsed: Duration::ZERO }))
-}
-
-/// The loss of each prediction in the window, where it is known: the same as in the list and the table.
-pub fn of_window(shown: Shown<'_>) -> Vec<Option<Estimate>> {
-    let losses = ask(shown);
-    let known = |one: &LoadedMaterial| {
-        let (case, method) = shown.model.dataset.place(one.slot)?;
-        (*losses.row(case)?.by_method.get(method)?).map(|known| known.estimate())
-    };
-    shown.model.materials.predictions().iter().map(known).collect()
 }
 
 /// The settings of the losses, in the convention of the window.

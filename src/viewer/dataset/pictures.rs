@@ -20,22 +20,22 @@ use crate::model::view::ViewState;
 use crate::widgets::paint::Atlas;
 
 /// A material in sight, and what was read of it.
-pub type SheetRow = (usize, Arc<Answered<Vec<Reduced>>>);
+pub type ReadCells = (usize, Arc<Answered<Vec<Reduced>>>);
 
 /// The pictures of cells under a light and view.
 #[derive(Clone, Debug)]
-pub struct DrawSheet {
-    rows: Vec<SheetRow>,
+pub struct DrawCells {
+    rows: Vec<ReadCells>,
     scene: Scene,
     convention: Convention,
     exposure_ev: f32,
     content: PictureContent,
 }
 
-impl PartialEq for DrawSheet {
+impl PartialEq for DrawCells {
     fn eq(&self, other: &Self) -> bool {
         let of = |one: &Self| (one.scene, one.convention, one.exposure_ev, one.content);
-        let are_same = |(a, b): (&SheetRow, &SheetRow)| a.0 == b.0 && Arc::ptr_eq(&a.1, &b.1);
+        let are_same = |(a, b): (&ReadCells, &ReadCells)| a.0 == b.0 && Arc::ptr_eq(&a.1, &b.1);
         let is_long = self.rows.len() == other.rows.len();
         is_long && self.rows.iter().zip(&other.rows).all(are_same) && of(self) == of(other)
     }
@@ -43,24 +43,24 @@ impl PartialEq for DrawSheet {
 
 /// The pictures of all cells, in one.
 #[derive(Debug)]
-pub struct SheetPicture {
+pub struct CellPictures {
     pub atlas: Atlas,
     /// In their order.
-    cells: Vec<SheetCell>,
+    cells: Vec<MatrixCell>,
     /// The difference that has the last colour in all cells, where they show differences.
     pub range: Option<f64>,
 }
 
-impl SheetPicture {
+impl CellPictures {
     /// As [`Atlas::part`], of a cell.
-    pub fn part(&self, cell: SheetCell) -> Option<([[f32; 2]; 2], [usize; 2])> {
+    pub fn part(&self, cell: MatrixCell) -> Option<([[f32; 2]; 2], [usize; 2])> {
         self.atlas.part(self.cells.iter().position(|one| *one == cell)?)
     }
 }
 
-impl DrawSheet {
+impl DrawCells {
     /// These rows in the view of the window. Differences have the range that is set, or the automatic one of all cells.
-    pub fn of(rows: Vec<SheetRow>, view: &ViewState) -> Self {
+    pub fn of(rows: Vec<ReadCells>, view: &ViewState) -> Self {
         let quantity = view.display.quantity;
         let (kind, _) = view.display.differences.pointwise(quantity);
         let range = view.display.differences.range(quantity);
@@ -76,12 +76,12 @@ impl DrawSheet {
 }
 
 /// The latest pictures.
-pub fn latest(Shown { model, jobs }: Shown<'_>) -> Option<Arc<Answered<SheetPicture>>> {
-    jobs.answers.latest(&DrawSheet::of(Vec::new(), &model.view))
+pub fn latest(Shown { model, jobs }: Shown<'_>) -> Option<Arc<Answered<CellPictures>>> {
+    jobs.answers.latest(&DrawCells::of(Vec::new(), &model.view))
 }
 
-impl Question for DrawSheet {
-    type Answer = SheetPicture;
+impl Question for DrawCells {
+    type Answer = CellPictures;
     const PACE: Pace = Pace::AtOnce;
     const KEPT: usize = 1;
 
@@ -89,16 +89,16 @@ impl Question for DrawSheet {
         true
     }
 
-    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<SheetPicture, Error> {
-        let row = |row: &SheetRow| self.row(row, work.progress());
-        let rows: Vec<Vec<(SheetCell, Pictures)>> =
+    fn answer(&self, work: &Work<'_, Self::Answer>) -> Result<CellPictures, Error> {
+        let row = |row: &ReadCells| self.row(row, work.progress());
+        let rows: Vec<Vec<(MatrixCell, Pictures)>> =
             self.rows.par_iter().map(row).collect::<Result<_, _>>()?;
-        let all: Vec<(SheetCell, Pictures)> = rows.into_iter().flatten().collect();
+        let all: Vec<(MatrixCell, Pictures)> = rows.into_iter().flatten().collect();
         // All cells share one legend.
         let ranges = all.iter().filter_map(|(_, pictures)| pictures.content.difference?.range);
         let range =
             ranges.fold(None, |most: Option<f64>, range| Some(most.map_or(range, |most| most.max(range))));
-        let colours = |(cell, pictures): &(SheetCell, Pictures)| {
+        let colours = |(cell, pictures): &(MatrixCell, Pictures)| {
             let difference = pictures.content.difference.map(|one| ColouredDifference { range, ..one });
             let (content, image) =
                 (PictureContent { difference, ..pictures.content }, pictures.images.first()?);
@@ -109,13 +109,17 @@ impl Question for DrawSheet {
             Some((*cell, ColorImage::new([image.width, image.height], pixels.collect())))
         };
         let (cells, pictures): (Vec<_>, Vec<_>) = all.par_iter().filter_map(colours).unzip();
-        Ok(SheetPicture { atlas: Atlas::new(&pictures), cells, range })
+        Ok(CellPictures { atlas: Atlas::new(&pictures), cells, range })
     }
 }
 
-impl DrawSheet {
+impl DrawCells {
     /// The value of the ground truth of a row, and the value or the difference of each prediction, where both have one size.
-    fn row(&self, (case, row): &SheetRow, progress: &Progress) -> Result<Vec<(SheetCell, Pictures)>, Error> {
+    fn row(
+        &self,
+        (case, row): &ReadCells,
+        progress: &Progress,
+    ) -> Result<Vec<(MatrixCell, Pictures)>, Error> {
         let Some(Ok(truth)) = row.first() else { return Ok(Vec::new()) };
         let value = PictureContent { difference: None, ..self.content };
         let mut all = Vec::new();
@@ -129,7 +133,7 @@ impl DrawSheet {
             };
             let (scene, ev) = (&self.scene, self.exposure_ev);
             let pictures = content.pictures(&materials, scene, &self.convention, ev, &progress.part())?;
-            all.push((SheetCell { case: *case, column }, pictures));
+            all.push((MatrixCell { case: *case, column }, pictures));
         }
         Ok(all)
     }
@@ -140,7 +144,7 @@ const SIDES: [usize; 4] = [48, 96, 192, 384];
 
 /// A material of a data set: in column 0 the ground truth, from column 1 on the prediction of a method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct SheetCell {
+pub struct MatrixCell {
     pub case: usize,
     pub column: usize,
 }

@@ -17,7 +17,6 @@ use crate::loss::losses::fold;
 use crate::model::Model;
 use crate::model::dataset::OpenDataset;
 use crate::model::material::loaded::drawable;
-use crate::widgets::numbers::significant;
 use crate::widgets::{copy_table, report_table};
 
 /// The table of the methods over the materials whose losses are known.
@@ -91,14 +90,9 @@ impl Question for MethodOrder {
 /// Draws the section.
 pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
     let Some(open) = &shown.model.dataset.open else { return };
-    let (answers, losses) = (&shown.jobs.answers, losses::ask(shown));
+    let answers = &shown.jobs.answers;
     let settings = losses::settings(open, &shown.model.view.convention);
     if open.is_of_predictions() {
-        let known = losses::of_window(shown);
-        for (one, loss) in shown.model.materials.predictions().iter().zip(known) {
-            let loss = loss.map_or_else(|| "...".to_owned(), |loss| significant(&loss).join("  "));
-            ui.label(format!("{}  {}  {loss}", one.slot, one.name()));
-        }
         let accuracy = open.settings.scenes.description(open.settings.seed);
         ui.label(RichText::new(accuracy).small().weak());
         return;
@@ -107,11 +101,6 @@ pub fn ui(ui: &mut egui::Ui, shown: Shown<'_>, next: &mut Model) {
         ui.weak("No loss is known yet.");
         return;
     };
-    let (known, all) = (losses.count(), open.cases.len());
-    if known < all {
-        let bar = egui::ProgressBar::new(known as f32 / all as f32);
-        ui.add(bar.text(format!("losses of {known} of {all} materials")));
-    }
     ui.horizontal(|ui| {
         copy_table(ui, || report.text());
         if ui.small_button("LaTeX").on_hover_text("Copies the table for a paper").clicked() {

@@ -171,10 +171,12 @@ pub const HELP: &[(&str, &[Line])] = &[
             line("Ctrl + F", "find a material by its name; Esc shows all", &[(COMMAND, Key::F, find)]),
             line(
                 "A / S",
-                "list of materials / contact sheet, on / off",
+                "list of materials beside the panes / table with pictures, on / off",
                 &[
                     (NONE, Key::A, |m| of_dataset(m, |dataset| dataset.list.is_open ^= true)),
-                    (NONE, Key::S, |m| of_dataset(m, |dataset| dataset.show_sheet(!dataset.sheet.is_open))),
+                    (NONE, Key::S, |m| {
+                        of_dataset(m, |dataset| dataset.show_table(!dataset.table.has_pictures))
+                    }),
                 ],
             ),
             line(
@@ -182,7 +184,12 @@ pub const HELP: &[(&str, &[Line])] = &[
                 "mark the material, or remove its mark",
                 &[(NONE, Key::K, |m| of_dataset(m, DatasetState::toggle_mark))],
             ),
-            line("wheel over the sheet", "size of its cells; over the names it scrolls", &[]),
+            line("Enter, double-click", "a row of the table becomes the panes; Esc returns", &[]),
+            line(
+                "wheel over the table",
+                "size of its pictures, at last the panes; over the names it scrolls",
+                &[],
+            ),
         ],
     ),
     (

@@ -73,12 +73,11 @@ fn escape(model: &mut Model, answers: &Answers) {
         () if dialogs.open.is_some() => dialogs.open = None,
         () if dialogs.save.is_some() => dialogs.save = None,
         () if !dataset.list.search.is_empty() => dataset.list.search.clear(),
-        () if dataset.sheet.is_open => dataset.show_sheet(false),
         () if inspection.is_armed => inspection.is_armed = false,
         () if inspection.region.is_some() => inspection.region = None,
         () if searched.is_some() => *searched = None,
         () if view.display.is_replaced() => view.isolate(None),
-        () if dataset.sheet.is_behind => dataset.show_sheet(true),
+        () if dataset.open.is_some() => dataset.show_table(true),
         () => answers.stop::<ComputeLosses>(),
     }
 }

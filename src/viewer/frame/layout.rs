@@ -54,7 +54,7 @@ impl WindowUi {
             return;
         }
         dataset::turn_pages(ctx, model, jobs);
-        if !model.dataset.sheet.is_open {
+        if !model.dataset.table.has_pictures {
             self.viewport.gestures(ctx, model);
         }
     }
@@ -69,7 +69,8 @@ impl WindowUi {
     ) {
         let model = shown.model;
         bare(egui::Panel::top("top"), ui).show(ui, |ui| top::ui(ui, shown.shown(), next));
-        bare(egui::Panel::bottom("status"), ui).show(ui, |ui| status::ui(ui, shown, &self.viewport, next));
+        bare(egui::Panel::bottom("status"), ui)
+            .show(ui, |ui| status::ui(ui, shown, &self.viewport, self.dataset.told(shown.shown()), next));
         let was_open = model.side_panel();
         let mut is_open = was_open;
         let panel = bare(egui::Panel::right("side"), ui).resizable(true).size_range(SIDE);
@@ -85,11 +86,11 @@ impl WindowUi {
         if is_open != was_open {
             next.toggle_side_panel();
         }
-        self.dataset.drawer(ui, shown.shown(), next);
+        let is_table = self.dataset.ui(ui, shown.shown(), next, &mut self.textures);
         let area = ui.available_rect_before_wrap();
         let height = area.height() - content::reserve(shown, area.height());
         self.picture_size = [area.width(), height].map(|side| (side * ui.pixels_per_point()) as u32);
-        let panes = if dataset::sheet(ui, shown.shown(), next, &mut self.textures) {
+        let panes = if is_table {
             area
         } else {
             content::ui(ui, shown, next, &mut self.viewport, gpu);

@@ -19,10 +19,21 @@ const FIELD: f32 = 56.0;
 /// Characters of the texel's (column, row).
 const PLACE: usize = 9;
 
-/// Draws the line.
-pub fn ui(ui: &mut egui::Ui, shown: &Displayed<'_>, viewport: &Viewport, next: &mut Model) {
+/// Draws the line: that of the table, where it is in the place of the panes, or the numbers of texels.
+pub fn ui(
+    ui: &mut egui::Ui,
+    shown: &Displayed<'_>,
+    viewport: &Viewport,
+    of_table: Option<String>,
+    next: &mut Model,
+) {
+    if let Some(text) = of_table {
+        // As high as with the buttons.
+        ui.set_height(ui.spacing().interact_size.y);
+        return drop(ui.add(egui::Label::new(text).truncate()));
+    }
     let (view, materials) = (&shown.model.view, shown.materials());
-    let hovered = viewport.hovered.filter(|_| !shown.model.dataset.sheet.is_open);
+    let hovered = viewport.hovered;
     let grid = shown.model.materials.ground_truth().map(LoadedMaterial::grid);
     // The pointer was over a texel in the frame before: the materials of this one may be smaller.
     let size = materials.first().map_or([0, 0], |one| one.material().size());

@@ -19,7 +19,7 @@ use svbrdf_files::export::Provenance;
 use svbrdf_files::export::strip::{Column, Crop, Paper, Strip};
 use svbrdf_files::scene_file;
 
-use crate::dataset::rows;
+use crate::dataset::matrix;
 use crate::error::Error;
 use crate::jobs::answers::content::ComparedPair;
 use crate::model::inspection::Region;
@@ -76,7 +76,7 @@ pub fn renderings(displayed: &Displayed<'_>) -> Writing {
 
 /// The materials of a data set that are listed: marks, notes and losses.
 pub fn materials_csv(displayed: &Displayed<'_>) -> Writing {
-    let table = rows::table(displayed.shown());
+    let table = matrix::table(displayed.shown());
     Box::new(move |path, progress| Ok(atomic::write_text(path, &table.csv()?, progress)?))
 }
 

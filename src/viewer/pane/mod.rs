@@ -26,7 +26,7 @@ use svbrdf_core::picture::difference::Difference;
 use svbrdf_core::picture::quantity::Quantity;
 use svbrdf_core::picture::statistics::Distributions;
 
-use crate::dataset::losses as dataset;
+use crate::dataset::matrix;
 use crate::jobs::answers::Answered;
 use crate::jobs::{Jobs, Shown};
 use crate::loss::losses::DrawnLosses;
@@ -60,7 +60,7 @@ impl<'a> Displayed<'a> {
     /// What the panes of the window display.
     pub fn ask(shown: Shown<'a>) -> Self {
         let losses = match shown.model.dataset.open {
-            Some(_) => dataset::of_window(shown),
+            Some(_) => matrix::of_window(shown),
             None => DrawnLosses::ask(shown).of_predictions(),
         };
         let displayed = Self { losses, ..Self::of(shown, replacement::displayed(shown)) };

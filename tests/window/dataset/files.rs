@@ -1,6 +1,6 @@
 //! The files of a data set: they change, cannot be read, are many predictions of one material, or need a registration.
 
-use svbrdf_viewer::dataset::rows::Rows;
+use svbrdf_viewer::dataset::matrix::Matrix;
 
 use super::*;
 
@@ -83,7 +83,7 @@ fn many_predictions_of_one_material_are_a_list_with_panes_for_the_chosen_and_the
     // Worst first.
     let list = ListView { order: ListOrder::Loss(0), ..ListView::default() };
     edit(&mut window, |model| model.dataset.list = list);
-    let listed = Rows::ask(window.shown()).cases;
+    let listed = Matrix::ask(window.shown()).unwrap().rows;
     assert_eq!(listed[..3], [24, 23, 22]);
     let session = folder.path().join("many.svbrdf-session.json");
     save(&mut window, SaveKind::Session, &session);
@@ -107,6 +107,7 @@ fn a_ground_truth_that_cannot_be_read_is_told_in_the_panes() {
     std::fs::write(folders[0].join("b.png"), "no picture").unwrap();
     let dataset = Some(Box::new(dataset(folders, None)));
     let mut window = window(ViewerOptions { dataset, ..ViewerOptions::default() });
+    press(&mut window, egui::Key::Enter);
     press(&mut window, egui::Key::PageDown);
     wait(&mut window, "the problem", |app| !app.parts.model.dataset.missing.is_empty());
     window.run_steps(3);

@@ -140,7 +140,7 @@ pub struct DatasetState {
     pub finds: bool,
     /// Marks and notes, by the name of a material.
     pub marks: BTreeMap<String, SessionMark>,
-    pub sheet: SheetState,
+    pub table: TableState,
 }
 
 /// The materials in sight, as a worker looks at them.
@@ -166,30 +166,24 @@ pub struct Missing {
     pub problem: String,
 }
 
-/// The contact sheet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SheetState {
-    pub is_open: bool,
-    /// Whether the material in the window was opened from the sheet, to which Escape returns.
-    pub is_behind: bool,
-    /// Side of a cell, in points.
-    pub cell: f32,
+/// The table of the data set.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TableState {
+    /// Whether it has pictures, and takes the place of the panes.
+    pub has_pictures: bool,
+    /// Side of a picture, in points; `None` fits all columns into the window.
+    pub cell: Option<f32>,
 }
 
-/// Least and greatest side of a cell, in points.
+/// Least and greatest side of a picture, in points.
 const CELL: std::ops::RangeInclusive<f32> = 32.0..=384.0;
-
-impl Default for SheetState {
-    fn default() -> Self {
-        Self { is_open: false, is_behind: false, cell: 96.0 }
-    }
-}
 
 impl From<OpenDataset> for DatasetState {
     /// A data set that has just been opened.
     fn from(open: OpenDataset) -> Self {
         let versions = Arc::new(vec![0; open.cases.len()]);
-        Self { open: Some(Arc::new(open)), versions, ..Self::default() }
+        let table = TableState { has_pictures: true, ..TableState::default() };
+        Self { open: Some(Arc::new(open)), versions, table, ..Self::default() }
     }
 }
 
@@ -215,20 +209,14 @@ impl DatasetState {
         self.is_stale = true;
     }
 
-    /// Shows a material of the contact sheet, to which Escape returns.
-    pub fn show_from_sheet(&mut self, case: usize, ahead: Vec<usize>) {
-        self.show(case, ahead);
-        (self.sheet.is_open, self.sheet.is_behind) = (false, true);
+    /// Puts the table with pictures in the place of the panes, or the panes in its.
+    pub fn show_table(&mut self, has_pictures: bool) {
+        self.table.has_pictures = has_pictures && self.open.is_some();
     }
 
-    /// Opens or closes the contact sheet.
-    pub fn show_sheet(&mut self, is_open: bool) {
-        (self.sheet.is_open, self.sheet.is_behind) = (is_open && self.open.is_some(), false);
-    }
-
-    /// Sets the side of a cell of the sheet, in points.
-    pub fn set_cell(&mut self, cell: f32) {
-        self.sheet.cell = cell.clamp(*CELL.start(), *CELL.end());
+    /// Sets the side of a picture of the table, in points, and returns it within its range.
+    pub fn set_cell(&mut self, cell: f32) -> f32 {
+        *self.table.cell.insert(cell.clamp(*CELL.start(), *CELL.end()))
     }
 
     /// Marks the material in the window, or removes its mark.
